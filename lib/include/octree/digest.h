@@ -1,0 +1,45 @@
+/* digest.h - one 64-bit digest for trees, scenes and pixels: the same on every machine, not meant against malice.
+ *
+ * Start with OCTREE_DIGEST_START and feed words or bytes; the order counts.
+ */
+#ifndef OCTREE_DIGEST_H
+#define OCTREE_DIGEST_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#define OCTREE_DIGEST_START UINT64_C(0x6f637472656c0001)
+
+/* Stir one word in: the finalizer of splitmix64 over the running state. */
+static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
+{
+    uint64_t x = (digest ^ word) + UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
+
+/* Stir a double in by its value: -0.0 and +0.0 are one value. */
+static inline uint64_t octree_digest_double(uint64_t digest, double value)
+{
+    uint64_t bits;
+    double canonical = value + 0.0;
+    memcpy(&bits, &canonical, sizeof bits);
+    return octree_digest_word(digest, bits);
+}
+
+/* Stir bytes in, eight at a time in little-endian order, then their number. */
+static inline uint64_t octree_digest_bytes(uint64_t digest, const void *bytes, size_t size)
+{
+    const unsigned char *at = (const unsigned char *)bytes;
+    for (size_t i = 0; i < size; i += 8) {
+        uint64_t word = 0;
+        for (size_t j = 0; j < 8 && i + j < size; j++)
+            word |= (uint64_t)at[i + j] << (8 * j);
+        digest = octree_digest_word(digest, word);
+    }
+    return octree_digest_word(digest, size);
+}
+
+#endif

@@ -1,0 +1,161 @@
+/* game.h - the paper's game loop: a player moves through a bounded world of points, tick by tick.
+ *
+ * A session is all that is needed to play; playing it twice gives the same ticks on every machine. Tick 0 is the
+ * state before any key. The order within a tick: edits, points that move by velocity, the player's step, the
+ * collision test, the queries.
+ *
+ * Keys: w/s = +y/-y, d/a = +x/-x, e/f = +z/-z, n names the nearest neighbour, . waits, q ends the session (no tick is
+ * played for it).
+ */
+#ifndef OCTREE_GAME_H
+#define OCTREE_GAME_H
+
+#include "octree/octree.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A point of the game. Velocity is in units a tick; a body that meets the world's bounds bounces. */
+typedef struct octree_body {
+    uint64_t id;
+    double position[3];
+    double velocity[3];
+} octree_body;
+
+/* The player is a point of the tree like the others, inserted first. */
+typedef struct octree_player {
+    uint64_t id;
+    double position[3];
+    double step;     /* distance of one key, >= 0 */
+    double box_size; /* the collision box is position +- box_size, >= 0 */
+} octree_player;
+
+typedef enum octree_edit_kind { OCTREE_EDIT_INSERT, OCTREE_EDIT_REMOVE, OCTREE_EDIT_MOVE } octree_edit_kind;
+
+/* A change to the points at the start of a tick >= 1. Ids name bodies: in a game an id is unique. */
+typedef struct octree_edit {
+    uint64_t tick;
+    octree_edit_kind kind;
+    octree_body body; /* remove reads the id alone; move reads id and position, and keeps the velocity */
+} octree_edit;
+
+typedef enum octree_query_kind { OCTREE_QUERY_RANGE, OCTREE_QUERY_NEAREST } octree_query_kind;
+
+#define OCTREE_EVERY_TICK UINT64_MAX
+
+/* A question asked at the end of a tick. */
+typedef struct octree_query {
+    uint64_t tick; /* or OCTREE_EVERY_TICK */
+    octree_query_kind kind;
+    bool at_player;   /* range: the box is relative to the player; nearest: the target is the player, itself left out */
+    octree_box box;   /* range */
+    double target[3]; /* nearest, unless at_player */
+} octree_query;
+
+/* All that is needed to play. The arrays are borrowed: they must outlive the game. */
+typedef struct octree_session {
+    octree_def tree;
+    octree_player player;
+    const octree_body *bodies;
+    size_t body_count;
+    const char *keys; /* one a tick; null or a string */
+    uint64_t ticks;   /* ticks after tick 0 to play at least; keys that are missing are waits */
+    const octree_edit *edits; /* ascending by tick */
+    size_t edit_count;
+    const octree_query *queries; /* ascending by tick, OCTREE_EVERY_TICK last */
+    size_t query_count;
+} octree_session;
+
+/* The paper's session: world [-1000, 1000]^3, capacity 2, depth 5, eleven points, the player at the origin with step
+ * 50 and box size 30, and a flight that meets everything a game can do. Arrays in static storage. */
+octree_session octree_session_default(void);
+
+/* Ticks after tick 0 that the session plays. */
+uint64_t octree_session_length(const octree_session *session);
+
+/* What a tick did: bits of octree_tick.events. */
+typedef enum octree_event {
+    OCTREE_EVENT_MOVED = 1,    /* the player's step was made */
+    OCTREE_EVENT_REFUSED = 2,  /* the step would leave the world, or a body lay outside it */
+    OCTREE_EVENT_COLLIDED = 4, /* points in the player's box; a step that led there was taken back */
+    OCTREE_EVENT_FULL = 8,     /* a leaf was full: the player's step was taken back, or a body was refused */
+    OCTREE_EVENT_SPLIT = 16,   /* nodes became inner nodes */
+    OCTREE_EVENT_MERGED = 32,  /* nodes ceased to be inner nodes */
+} octree_event;
+
+#define OCTREE_EVENT_KINDS 6
+
+/* The name of event bit 1 << i, such as "moved". Null from OCTREE_EVENT_KINDS on. */
+const char *octree_event_name(unsigned i);
+
+/* A point that the tree did not take: at load, by an edit, by its own motion, or by the player's step (full). */
+typedef struct octree_refusal {
+    uint64_t id;
+    octree_status why;
+    double position[3]; /* where it was to go */
+} octree_refusal;
+
+typedef struct octree_answer {
+    octree_query_kind kind;
+    bool by_key;               /* asked by n */
+    octree_box box;            /* range: as asked, in world coordinates */
+    double target[3];          /* nearest: as asked */
+    bool found;                /* nearest */
+    octree_neighbor neighbor;  /* nearest, when found */
+    const octree_point *points; /* range: the result, by id */
+    size_t count;
+} octree_answer;
+
+/* One tick. The arrays are owned by the game and valid until its next step. */
+typedef struct octree_tick {
+    uint64_t number;
+    char key;            /* 0 at tick 0 */
+    unsigned events;     /* bits of octree_event */
+    double player[3];    /* after the tick */
+    double attempt[3];   /* where the collision test was made: the step's end, taken back or not */
+    const octree_point *hits; /* what the collision test found, by id */
+    size_t hit_count;
+    const octree_refusal *refusals; /* in the order they happened */
+    size_t refusal_count;
+    const octree_address *splits; /* inner now and not at the tick before; in pre-order, none at tick 0 */
+    size_t split_count;
+    const octree_address *merges; /* inner at the tick before and not now; in pre-order */
+    size_t merge_count;
+    const octree_answer *answers; /* n first, then the session's queries in their order */
+    size_t answer_count;
+} octree_tick;
+
+typedef struct octree_game octree_game;
+
+/* Start a session and play tick 0. Bodies that the tree refuses are refusals of tick 0.
+ * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
+ * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; NO_MEMORY. *game is then null.
+ * Cost: one insertion a body. */
+octree_status octree_game_create(const octree_session *session, octree_game **game);
+void octree_game_destroy(octree_game *game);
+
+/* Play one tick with this key, whatever the session's keys say. After an error the game must not be stepped again.
+ * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries; nodes, when the tree changed). */
+octree_status octree_game_step(octree_game *game, char key);
+
+/* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */
+octree_status octree_game_advance(octree_game *game);
+
+/* True when the session has no further tick. */
+bool octree_game_over(const octree_game *game);
+
+/* The tick that was played last. */
+const octree_tick *octree_game_tick(const octree_game *game);
+
+/* The tree as it is after that tick. Owned by the game. */
+const octree *octree_game_tree(const octree_game *game);
+
+/* The session as it was given. */
+const octree_session *octree_game_session(const octree_game *game);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,277 @@
+/* octree.h - a dynamic point octree in double precision.
+ *
+ * The tree stores points (a position and the caller's 64-bit id) in a closed box, the world. A leaf that is full
+ * splits into octants; octants that hold no more than one leaf's worth of points merge again. The nodes are a
+ * function of the contents and the options: same points, same nodes, whatever the order of insertions and removals.
+ *
+ * Sources: the algorithms of "3D Spatial Partitioning and Collision Detection using Octrees", numbered below as
+ * there (Algorithm 1 insert ... 7 nearest helper); D. Meagher, "Geometric Modeling Using Octree Encoding" (1982);
+ * H. Samet, "Foundations of Multidimensional and Metric Data Structures" (2006).
+ *
+ * Conventions
+ *   - Positions are arrays of three doubles in x, y, z order, in the caller's units. All boxes are closed.
+ *   - Every function that can fail returns an octree_status; octree_status_text() gives its sentence. A mutation
+ *     either happens or leaves the tree as it was, OCTREE_NO_MEMORY included.
+ *   - Functions that take `const octree *` touch no shared state and may run from many threads at once. A mutation
+ *     must run alone.
+ *   - D is the depth of the tree (at most 21), M the leaf capacity, n the number of points, k the number of results.
+ *   - -0.0 equals +0.0 in every comparison; the bits that were stored are kept.
+ */
+#ifndef OCTREE_OCTREE_H
+#define OCTREE_OCTREE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One line per status: its name, the word that files use, and its sentence. */
+#define OCTREE_STATUS_MAP(X)                                                                                          \
+    X(OK, "ok", "done")                                                                                               \
+    X(NOT_FOUND, "not_found", "no such point or node is in the tree")                                                 \
+    X(DUPLICATE, "duplicate", "this id is taken: at the same position in a tree, anywhere in a game")                 \
+    X(FULL, "full", "the leaf is full and cannot be split any further")                                               \
+    X(OUTSIDE, "outside", "the position is outside the world")                                                        \
+    X(NOT_FINITE, "not_finite", "a number is NaN or infinite")                                                        \
+    X(NULL_ARGUMENT, "null_argument", "a required pointer is null")                                                   \
+    X(BAD_WORLD, "bad_world", "the world must have finite corners with min below max on every axis")                  \
+    X(BAD_CAPACITY, "bad_capacity", "the leaf capacity must be at least 1")                                           \
+    X(BAD_RANGE, "bad_range", "the box's min is above its max")                                                       \
+    X(BAD_SIZE, "bad_size", "a size must not be negative")                                                            \
+    X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                  \
+    X(BAD_OPTION, "bad_option", "an enumeration has a value that is not listed in the header")                        \
+    X(BAD_ORDER, "bad_order", "edits and queries must be in ascending order of their ticks")                          \
+    X(NO_MEMORY, "no_memory", "the allocator returned null")                                                          \
+    X(TOO_MANY, "too_many", "the tree holds 4294967295 points, which is its limit")
+
+typedef enum octree_status {
+#define OCTREE_STATUS_ENUM(name, word, text) OCTREE_##name,
+    OCTREE_STATUS_MAP(OCTREE_STATUS_ENUM)
+#undef OCTREE_STATUS_ENUM
+        OCTREE_STATUS_COUNT
+} octree_status;
+
+/* The sentence for a status, without a final stop. Never null; static storage. */
+const char *octree_status_text(octree_status status);
+
+/* The status in one word, such as "not_found": for files that programs read. Never null; static storage. */
+const char *octree_status_name(octree_status status);
+
+/* The deepest level of a node. The root is at depth 0; an address of 21 octants fits 64 bits. */
+#define OCTREE_MAX_DEPTH 21
+
+typedef struct octree octree;
+
+/* A closed axis-aligned box. */
+typedef struct octree_box {
+    double min[3];
+    double max[3];
+} octree_box;
+
+/* A stored point. Ids need not be unique; a pair (position, id) is. */
+typedef struct octree_point {
+    double position[3];
+    uint64_t id;
+} octree_point;
+
+/* What happens when a point meets a full leaf that cannot be split: the paper's refusal, or a leaf beyond its capacity. */
+typedef enum octree_full_leaf {
+    OCTREE_REFUSE,
+    OCTREE_GROW,
+} octree_full_leaf;
+
+/* Where a tree takes its memory. `allocate` returns memory aligned as malloc's, or null. `release` is told the size
+ * that was asked for, and is never given null. The context must outlive the tree. */
+typedef struct octree_allocator {
+    void *(*allocate)(size_t size, void *context);
+    void (*release)(void *memory, size_t size, void *context);
+    void *context;
+} octree_allocator;
+
+/* All that defines an empty tree. Start from octree_def_default() and change what you need. */
+typedef struct octree_def {
+    octree_box world;           /* min < max on every axis; any finite doubles, ±DBL_MAX included */
+    size_t leaf_capacity;       /* points a leaf holds before it splits; at least 1, clamped to 2^32 - 1 */
+    size_t max_depth;           /* clamped to OCTREE_MAX_DEPTH; 0 keeps the root a leaf */
+    octree_full_leaf full_leaf; /* what a full leaf at the maximum depth does */
+    octree_allocator allocator; /* null functions mean malloc and free */
+} octree_def;
+
+/* World [-1000, 1000]^3, capacity 16, depth 21, OCTREE_REFUSE, malloc. */
+octree_def octree_def_default(void);
+
+/* Make an empty tree into *tree. The definition is copied.
+ * Errors: NULL_ARGUMENT, BAD_WORLD, BAD_CAPACITY, BAD_OPTION, NO_MEMORY; *tree is then null. Cost: O(1). */
+octree_status octree_create(const octree_def *def, octree **tree);
+
+/* Free the tree and all of its memory. Null is allowed. Cost: O(memory blocks). */
+void octree_destroy(octree *tree);
+
+/* Remove every point; the memory goes back to the allocator. Cost: O(memory blocks). */
+octree_status octree_clear(octree *tree);
+
+/* The definition in force, after clamping. */
+octree_def octree_definition(const octree *tree);
+
+/* ---- Change ------------------------------------------------------------------------------------------------- */
+
+/* Algorithm 1. Insert a point. Cost: O(D + M).
+ * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, DUPLICATE (same position and id), FULL (under OCTREE_REFUSE),
+ * NO_MEMORY, TOO_MANY; the tree is then unchanged. */
+octree_status octree_insert(octree *tree, const double position[3], uint64_t id);
+
+/* Algorithm 2. Remove the point with this position and id; nodes that now fit one leaf merge. Cost: O(D + M).
+ * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND, NO_MEMORY (a merge needs a new leaf); unchanged then. */
+octree_status octree_remove(octree *tree, const double position[3], uint64_t id);
+
+/* Move a point. As if removed and inserted, but it either arrives or stays; within one leaf it always succeeds
+ * (but for DUPLICATE). Cost: O(D + M). Errors: those of insert for `to` and of remove for `from`. */
+octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3]);
+
+/* ---- Ask ---------------------------------------------------------------------------------------------------- */
+
+/* Called with each point that answers a query. The point is owned by the tree and valid during the call. Return
+ * true to go on, false to stop. The visitor must not change the tree. */
+typedef bool (*octree_point_visitor)(const octree_point *point, void *context);
+
+/* Algorithm 3. Find by coordinates: *id (may be null) receives the lowest id stored at exactly this position.
+ * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND. Cost: O(D + M). */
+octree_status octree_find(const octree *tree, const double position[3], uint64_t *id);
+
+/* True when the pair (position, id) is stored. Cost: O(D + M). */
+bool octree_contains(const octree *tree, const double position[3], uint64_t id);
+
+/* Algorithm 4. Visit every point in a closed box, in no stated order. The box may reach beyond the world; infinite
+ * corners are allowed. Errors: NULL_ARGUMENT, NOT_FINITE (a NaN), BAD_RANGE (min > max).
+ * Cost: O(nodes that meet the box + points in those leaves). */
+octree_status octree_range(const octree *tree, const octree_box *box, octree_point_visitor visit, void *context);
+
+/* The number of points in a closed box, into *count. Errors and cost as octree_range; nodes inside the box are
+ * counted without being entered. */
+octree_status octree_range_count(const octree *tree, const octree_box *box, size_t *count);
+
+/* Algorithm 5. Visit every point p with |p - center| <= box_size on each axis, decided by the real numbers and not by
+ * rounded sums. The tree is not changed (the paper inserts the moving point and takes it out again, which fails when
+ * its leaf is full): `self`, which may be null, is the one pair (position, id) to leave out.
+ * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0). Cost: as octree_range. */
+octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
+                             octree_point_visitor visit, void *context);
+
+/* The box that octree_collide asks for: the smallest and largest doubles within box_size of the centre. */
+octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);
+
+/* Which points do not count as neighbours of a target. */
+typedef enum octree_skip {
+    OCTREE_SKIP_NONE,       /* every point counts */
+    OCTREE_SKIP_ID,         /* leave out points with the given id: "not the target itself" */
+    OCTREE_SKIP_COINCIDENT, /* leave out points at the target's coordinates: the paper's rule */
+} octree_skip;
+
+typedef struct octree_neighbor {
+    octree_point point;
+    double distance; /* Euclidean, correctly scaled: no overflow or underflow before the last rounding */
+} octree_neighbor;
+
+/* Algorithms 6 and 7. The nearest point to any finite target, inside the world or not: the true minimum of the real
+ * distance (not of a rounded one), ties to the lowest id. `skip_id` is read under OCTREE_SKIP_ID alone.
+ * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_OPTION, NOT_FOUND (nothing but what is skipped).
+ * Cost: O(D + M) on average for points of bounded density, O(n) at worst. */
+octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
+                             octree_neighbor *nearest);
+
+/* ---- Look --------------------------------------------------------------------------------------------------- */
+
+/* A node's address: a leading 1 bit, then three bits an octant from the root down (Morton order). The root is 1. */
+typedef uint64_t octree_address;
+#define OCTREE_ROOT ((octree_address)1)
+
+/* One node as the tree sees it. `points` holds a leaf's points, in no stated order, and is null for inner nodes; it
+ * is owned by the tree and valid until the next change. */
+typedef struct octree_node {
+    octree_address address;
+    unsigned depth;
+    bool leaf;
+    uint8_t octants;   /* bit i is set when octant i is occupied; 0 for a leaf */
+    octree_box box;    /* its faces are the planes that insertion compares with */
+    size_t count;      /* points in and below this node */
+    const octree_point *points;
+} octree_node;
+
+typedef enum octree_walk_order {
+    OCTREE_WALK_ON,   /* go on, into this node's children first */
+    OCTREE_WALK_SKIP, /* go on, but not into this node */
+    OCTREE_WALK_STOP,
+} octree_walk_order;
+
+typedef octree_walk_order (*octree_node_visitor)(const octree_node *node, void *context);
+
+/* Visit the nodes in pre-order, children by octant: ascending Morton order within a level. Only occupied octants
+ * have nodes; an empty tree has its root. Errors: NULL_ARGUMENT. Cost: O(nodes). */
+octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *context);
+
+/* The node at an address, into *node. Errors: NULL_ARGUMENT, NOT_FOUND. Cost: O(D). */
+octree_status octree_node_at(const octree *tree, octree_address address, octree_node *node);
+
+/* The leaf in whose cell a position lies or would be inserted. When its octant is not occupied, the deepest node on
+ * the way. Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE. Cost: O(D). */
+octree_status octree_locate(const octree *tree, const double position[3], octree_node *node);
+
+typedef struct octree_stats {
+    size_t points;
+    size_t nodes;
+    size_t leaves;
+    unsigned depth;                                     /* of the deepest node */
+    size_t largest_leaf;                                /* points in the fullest leaf */
+    size_t nodes_at_depth[OCTREE_MAX_DEPTH + 1];
+    size_t leaves_at_depth[OCTREE_MAX_DEPTH + 1];
+    size_t memory;                                      /* bytes taken from the allocator and not yet given back */
+} octree_stats;
+
+/* Count the nodes. Errors: NULL_ARGUMENT. Cost: O(nodes). */
+octree_status octree_statistics(const octree *tree, octree_stats *stats);
+
+/* The number of points, in O(1); 0 for null. */
+size_t octree_count(const octree *tree);
+
+/* A number that changes with every change of the contents: to know that nothing happened. 0 for null. */
+uint64_t octree_version(const octree *tree);
+
+/* A digest of the world, the nodes and the points, the same for the same contents and options whatever the order of
+ * changes, on every machine. 0 for null. Cost: O(nodes + n). */
+uint64_t octree_digest(const octree *tree);
+
+/* Walk every invariant: counts add up, leaves hold their points, no leaf is over its capacity that could split, no
+ * inner node would fit a leaf, no pair is stored twice. Null when all hold, else a sentence that names the first one
+ * that does not, in static storage; *where (may be null) is the node. Cost: O(nodes + n * M). */
+const char *octree_check(const octree *tree, octree_address *where);
+
+/* ---- Addresses and planes ----------------------------------------------------------------------------------- */
+
+/* Depth of a valid address: the number of its octants. Cost: O(1). */
+unsigned octree_address_depth(octree_address address);
+
+/* Octant (0..7) that an address takes at level 0..depth-1: (x >= cx ? 4 : 0) + (y >= cy ? 2 : 0) + (z >= cz ? 1 : 0). */
+unsigned octree_address_octant(octree_address address, unsigned level);
+
+/* The longest text of an address, with its final zero. */
+#define OCTREE_ADDRESS_TEXT 48
+
+/* "root" for the root, else the octants from the root down, as in "0/3/7". Returns `text`. */
+char *octree_address_format(octree_address address, char text[OCTREE_ADDRESS_TEXT]);
+
+/* The inverse: "root", "/" or octants with slashes between. False when the text is none of these. */
+bool octree_address_parse(const char *text, octree_address *address);
+
+/* The box of the cell at an address in a world, whether or not a node is there. The plane at k/2^d of an axis is a
+ * closed form that is monotone in k and never overflows; where its steps are exact, as in [-1000, 1000], it is the
+ * paper's (min + max) / 2. Cost: O(D). */
+octree_box octree_cell_box(const octree_box *world, octree_address address);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

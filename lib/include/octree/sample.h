@@ -1,0 +1,45 @@
+/* sample.h - seeded point distributions: one workload for sessions, tests and benches.
+ *
+ * The same kind, seed, box and index give the same point on every machine: integers, additions, products and square
+ * roots alone.
+ */
+#ifndef OCTREE_SAMPLE_H
+#define OCTREE_SAMPLE_H
+
+#include "octree/octree.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum octree_sample_kind {
+    OCTREE_SAMPLE_UNIFORM,   /* independent, uniform in the box */
+    OCTREE_SAMPLE_GAUSSIAN,  /* about the centre; sigma is a sixth of the extent, as a sum of twelve uniforms */
+    OCTREE_SAMPLE_CLUSTERED, /* sixteen small gaussian clusters of unlike size about uniform centres */
+    OCTREE_SAMPLE_SURFACE,   /* on the ellipsoid that fills nine tenths of the box */
+    OCTREE_SAMPLE_LATTICE,   /* a cubic grid of cell centres, x slowest; the seed is not used */
+    OCTREE_SAMPLE_KINDS
+} octree_sample_kind;
+
+/* "uniform", "gaussian", ...; null for a value that is not listed. */
+const char *octree_sample_name(octree_sample_kind kind);
+
+/* The inverse. False when no kind has this name. */
+bool octree_sample_parse(const char *name, octree_sample_kind *kind);
+
+/* Write `count` positions within `box` to `positions`, one row of three doubles each.
+ * Errors: NULL_ARGUMENT, BAD_WORLD (as for octree_create), BAD_OPTION. Cost: O(count). */
+octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count,
+                            double (*positions)[3]);
+
+/* The generator behind it (splitmix64, Steele, Lea and Flood 2014): the next 64 random bits of a state. */
+uint64_t octree_random(uint64_t *state);
+
+/* The next uniform double in [0, 1), with 53 random bits. */
+double octree_random_unit(uint64_t *state);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,44 @@
+/* bodies.h - the points of a game by id, and where their velocities take them. Private. */
+#ifndef OCTREE_BODIES_H
+#define OCTREE_BODIES_H
+
+#include "list.h"
+#include "octree/game.h"
+
+/* A body's place is computed from its origin and the ticks since then, never by adding tick by tick. */
+typedef struct moving_body {
+    uint64_t id;
+    double position[3]; /* as stored in the tree */
+    double origin[3];
+    double velocity[3];
+    uint64_t since;     /* the tick of the origin */
+} moving_body;
+
+typedef struct bodies {
+    arena *memory;
+    list items;     /* moving_body */
+    uint32_t *slots; /* index + 1 by hash of id, or 0; open addressing with linear probing */
+    size_t slot_count; /* a power of two, or 0 */
+    size_t movers;  /* bodies whose velocity is not zero */
+} bodies;
+
+void bodies_release(bodies *b);
+
+static inline moving_body *bodies_items(const bodies *b)
+{
+    return b->items.items;
+}
+
+/* The body with this id, or null. */
+moving_body *bodies_find(const bodies *b, uint64_t id);
+
+/* Add a body that is not there yet, at rest at its position at this tick. False when there is no memory. */
+bool bodies_add(bodies *b, const octree_body *body, uint64_t tick);
+
+/* Take a body out; the last one takes its place. */
+void bodies_remove(bodies *b, moving_body *body);
+
+/* Where the body is at a tick: reflected at the world's faces as often as it must be. */
+void body_position(const moving_body *body, const octree_box *world, uint64_t tick, double position[3]);
+
+#endif

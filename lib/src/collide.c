@@ -1,0 +1,46 @@
+/* collide.c - Algorithm 5: what is within box_size of a centre on every axis. */
+#include "exact.h"
+#include "range.h"
+
+#include <math.h>
+
+octree_status octree_collision_box(const double center[3], double box_size, octree_box *box)
+{
+    if (!center || !box)
+        return OCTREE_NULL_ARGUMENT;
+    if (!isfinite(center[0]) || !isfinite(center[1]) || !isfinite(center[2]) || !isfinite(box_size))
+        return OCTREE_NOT_FINITE;
+    if (box_size < 0)
+        return OCTREE_BAD_SIZE;
+    for (int i = 0; i < 3; i++) {
+        box->min[i] = exact_add_up(center[i], -box_size);
+        box->max[i] = exact_add_down(center[i], box_size);
+    }
+    return OCTREE_OK;
+}
+
+typedef struct collision {
+    const octree_point *self;
+    octree_point_visitor visit;
+    void *context;
+} collision;
+
+static bool visit_others(const octree_point *point, void *context)
+{
+    const collision *c = context;
+    if (c->self && c->self->id == point->id && same_position(c->self->position, point->position))
+        return true;
+    return c->visit(point, c->context);
+}
+
+octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
+                             octree_point_visitor visit, void *context)
+{
+    if (!tree || !visit)
+        return OCTREE_NULL_ARGUMENT;
+    octree_box box;
+    const octree_status status = octree_collision_box(center, box_size, &box);
+    if (status != OCTREE_OK)
+        return status;
+    return octree_range(tree, &box, visit_others, &(collision){self, visit, context});
+}

@@ -1,0 +1,193 @@
+/* game.c - the game loop: one tick after another, in the order that game.h states. */
+#include "bodies.h"
+#include "game_parts.h"
+#include "node_set.h"
+#include "tree.h"
+
+#include <math.h>
+#include <string.h>
+
+static octree_status load_bodies(octree_game *game)
+{
+    const octree_session *session = game->session;
+    for (size_t i = 0; i < session->body_count; i++) {
+        const octree_status status = game_add_body(game, &session->bodies[i]);
+        if (status == OCTREE_DUPLICATE || status == OCTREE_NO_MEMORY)
+            return status;
+    }
+    return OCTREE_OK;
+}
+
+static octree_status check_player(const octree_player *player, const octree *tree)
+{
+    if (!isfinite(player->step) || !isfinite(player->box_size))
+        return OCTREE_NOT_FINITE;
+    if (player->step < 0 || player->box_size < 0)
+        return OCTREE_BAD_SIZE;
+    return check_position(tree, player->position);
+}
+
+static octree_status check_timing(const octree_session *session)
+{
+    for (size_t i = 0; i < session->edit_count; i++) {
+        if ((unsigned)session->edits[i].kind > OCTREE_EDIT_MOVE)
+            return OCTREE_BAD_OPTION;
+        if (session->edits[i].tick == 0 || (i > 0 && session->edits[i].tick < session->edits[i - 1].tick))
+            return OCTREE_BAD_ORDER;
+    }
+    for (size_t i = 0; i < session->query_count; i++) {
+        if ((unsigned)session->queries[i].kind > OCTREE_QUERY_NEAREST)
+            return OCTREE_BAD_OPTION;
+        if (i > 0 && session->queries[i].tick < session->queries[i - 1].tick)
+            return OCTREE_BAD_ORDER;
+    }
+    return OCTREE_OK;
+}
+
+static octree_status check_keys(const octree_session *session)
+{
+    for (const char *key = session->keys; key && *key && *key != 'q'; key++)
+        if (!game_is_key(*key))
+            return OCTREE_BAD_KEY;
+    return OCTREE_OK;
+}
+
+static octree_status start(octree_game *game)
+{
+    const octree_session *session = game->session;
+    octree_status status = check_player(&session->player, game->tree);
+    if (status == OCTREE_OK)
+        status = check_keys(session);
+    if (status == OCTREE_OK)
+        status = check_timing(session);
+    if (status == OCTREE_OK)
+        status = octree_insert(game->tree, session->player.position, session->player.id);
+    memcpy(game->tick.player, session->player.position, sizeof game->tick.player);
+    if (status == OCTREE_OK)
+        status = load_bodies(game);
+    if (status == OCTREE_OK)
+        status = game_finish_tick(game);
+    return status;
+}
+
+octree_status octree_game_create(const octree_session *session, octree_game **game)
+{
+    if (!game)
+        return OCTREE_NULL_ARGUMENT;
+    *game = NULL;
+    if (!session || (!session->bodies && session->body_count) || (!session->edits && session->edit_count) ||
+        (!session->queries && session->query_count))
+        return OCTREE_NULL_ARGUMENT;
+    octree *tree;
+    octree_status status = octree_create(&session->tree, &tree);
+    if (status != OCTREE_OK)
+        return status;
+    arena memory = {.allocator = octree_definition(tree).allocator};
+    octree_game *made = arena_take(&memory, sizeof *made);
+    if (!made) {
+        octree_destroy(tree);
+        return OCTREE_NO_MEMORY;
+    }
+    *made = (octree_game){.session = session, .tree = tree, .memory = memory};
+    made->bodies.memory = &made->memory;
+    status = start(made);
+    if (status == OCTREE_OK)
+        *game = made;
+    else
+        octree_game_destroy(made);
+    return status;
+}
+
+void octree_game_destroy(octree_game *game)
+{
+    if (!game)
+        return;
+    octree_destroy(game->tree);
+    bodies_release(&game->bodies);
+    arena memory = game->memory;
+    list_release(&memory, &game->hits, sizeof(octree_point));
+    list_release(&memory, &game->found, sizeof(octree_point));
+    list_release(&memory, &game->refusals, sizeof(octree_refusal));
+    list_release(&memory, &game->answers, sizeof(octree_answer));
+    list_release(&memory, &game->inner, sizeof(octree_address));
+    list_release(&memory, &game->inner_before, sizeof(octree_address));
+    list_release(&memory, &game->splits, sizeof(octree_address));
+    list_release(&memory, &game->merges, sizeof(octree_address));
+    arena_give(&memory, game, sizeof *game);
+}
+
+static void begin_tick(octree_game *game, char key)
+{
+    game->hits.count = game->found.count = game->refusals.count = game->answers.count = 0;
+    game->splits.count = game->merges.count = 0;
+    game->tick.number++;
+    game->tick.key = key;
+    game->tick.events = 0;
+}
+
+octree_status octree_game_step(octree_game *game, char key)
+{
+    if (!game)
+        return OCTREE_NULL_ARGUMENT;
+    if (key == 'q') {
+        game->quit = true;
+        return OCTREE_OK;
+    }
+    if (!game_is_key(key))
+        return OCTREE_BAD_KEY;
+    begin_tick(game, key);
+    octree_status status = game_apply_edits(game);
+    if (status == OCTREE_OK)
+        status = game_move_bodies(game);
+    if (status == OCTREE_OK)
+        status = game_step_player(game);
+    if (status == OCTREE_OK)
+        status = game_finish_tick(game);
+    return status;
+}
+
+uint64_t octree_session_length(const octree_session *session)
+{
+    if (!session)
+        return 0;
+    const size_t keys = session->keys ? strcspn(session->keys, "q") : 0;
+    const bool quits = session->keys && session->keys[keys] == 'q';
+    return quits || keys > session->ticks ? keys : session->ticks;
+}
+
+bool octree_game_over(const octree_game *game)
+{
+    return !game || game->quit || game->tick.number >= octree_session_length(game->session);
+}
+
+octree_status octree_game_advance(octree_game *game)
+{
+    if (!game)
+        return OCTREE_NULL_ARGUMENT;
+    if (octree_game_over(game))
+        return OCTREE_NOT_FOUND;
+    const char *keys = game->session->keys;
+    const size_t key_count = keys ? strlen(keys) : 0;
+    return octree_game_step(game, game->tick.number < key_count ? keys[game->tick.number] : '.');
+}
+
+const octree_tick *octree_game_tick(const octree_game *game)
+{
+    return game ? &game->tick : NULL;
+}
+
+const octree *octree_game_tree(const octree_game *game)
+{
+    return game ? game->tree : NULL;
+}
+
+const octree_session *octree_game_session(const octree_game *game)
+{
+    return game ? game->session : NULL;
+}
+
+const char *octree_event_name(unsigned i)
+{
+    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full", "split", "merged"};
+    return i < OCTREE_EVENT_KINDS ? names[i] : NULL;
+}

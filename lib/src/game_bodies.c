@@ -1,0 +1,112 @@
+/* game_bodies.c - the first two parts of a tick: edits, and points that move by velocity. */
+#include "game_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
+{
+    octree_refusal *refusal = list_append(&game->memory, &game->refusals, sizeof *refusal);
+    if (!refusal)
+        return OCTREE_NO_MEMORY;
+    *refusal = (octree_refusal){id, why, {position[0], position[1], position[2]}};
+    if (why == OCTREE_FULL)
+        game->tick.events |= OCTREE_EVENT_FULL;
+    if (why == OCTREE_OUTSIDE)
+        game->tick.events |= OCTREE_EVENT_REFUSED;
+    return OCTREE_OK;
+}
+
+/* A refusal by the tree is part of the game; no memory is the end of it. */
+static octree_status note_unless_done(octree_game *game, uint64_t id, octree_status status, const double position[3])
+{
+    if (status == OCTREE_OK || status == OCTREE_NO_MEMORY)
+        return status;
+    const octree_status noted = game_note_refusal(game, id, status, position);
+    return noted == OCTREE_OK ? status : noted;
+}
+
+/* An edit comes before the motion of its own tick: what it places moves on from there at once. */
+static uint64_t origin_tick(const octree_game *game)
+{
+    return game->tick.number ? game->tick.number - 1 : 0;
+}
+
+octree_status game_add_body(octree_game *game, const octree_body *body)
+{
+    octree_status status = OCTREE_OK;
+    if (body->id == game->session->player.id || bodies_find(&game->bodies, body->id))
+        status = OCTREE_DUPLICATE;
+    else if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->velocity[2]))
+        status = OCTREE_NOT_FINITE;
+    else
+        status = octree_insert(game->tree, body->position, body->id);
+    if (status == OCTREE_OK && !bodies_add(&game->bodies, body, origin_tick(game)))
+        return OCTREE_NO_MEMORY;
+    return note_unless_done(game, body->id, status, body->position);
+}
+
+static octree_status remove_body(octree_game *game, const octree_edit *edit)
+{
+    moving_body *body = bodies_find(&game->bodies, edit->body.id);
+    octree_status status = OCTREE_NOT_FOUND;
+    if (body)
+        status = octree_remove(game->tree, body->position, body->id);
+    if (status == OCTREE_OK)
+        bodies_remove(&game->bodies, body);
+    return note_unless_done(game, edit->body.id, status, edit->body.position);
+}
+
+static octree_status move_body(octree_game *game, const octree_edit *edit)
+{
+    moving_body *body = bodies_find(&game->bodies, edit->body.id);
+    octree_status status = OCTREE_NOT_FOUND;
+    if (body)
+        status = octree_move(game->tree, body->position, body->id, edit->body.position);
+    if (status == OCTREE_OK) {
+        memcpy(body->position, edit->body.position, sizeof body->position);
+        memcpy(body->origin, edit->body.position, sizeof body->origin);
+        body->since = origin_tick(game);
+    }
+    return note_unless_done(game, edit->body.id, status, edit->body.position);
+}
+
+static octree_status apply_edit(octree_game *game, const octree_edit *edit)
+{
+    switch (edit->kind) {
+    case OCTREE_EDIT_INSERT:
+        return game_add_body(game, &edit->body);
+    case OCTREE_EDIT_REMOVE:
+        return remove_body(game, edit);
+    default:
+        return move_body(game, edit);
+    }
+}
+
+octree_status game_apply_edits(octree_game *game)
+{
+    const octree_session *session = game->session;
+    while (game->next_edit < session->edit_count && session->edits[game->next_edit].tick <= game->tick.number)
+        if (apply_edit(game, &session->edits[game->next_edit++]) == OCTREE_NO_MEMORY)
+            return OCTREE_NO_MEMORY;
+    return OCTREE_OK;
+}
+
+octree_status game_move_bodies(octree_game *game)
+{
+    if (game->bodies.movers == 0)
+        return OCTREE_OK;
+    for (size_t i = 0; i < game->bodies.items.count; i++) {
+        moving_body *body = &bodies_items(&game->bodies)[i];
+        double to[3];
+        body_position(body, &game->session->tree.world, game->tick.number, to);
+        if (memcmp(to, body->position, sizeof to) == 0)
+            continue;
+        const octree_status status = octree_move(game->tree, body->position, body->id, to);
+        if (status == OCTREE_OK)
+            memcpy(body->position, to, sizeof to);
+        if (note_unless_done(game, body->id, status, to) == OCTREE_NO_MEMORY)
+            return OCTREE_NO_MEMORY;
+    }
+    return OCTREE_OK;
+}

@@ -1,0 +1,49 @@
+/* game_parts.h - a game's insides, and the parts of a tick in their order. Private. */
+#ifndef OCTREE_GAME_PARTS_H
+#define OCTREE_GAME_PARTS_H
+
+#include "bodies.h"
+
+struct octree_game {
+    const octree_session *session;
+    octree *tree;
+    arena memory;
+    bodies bodies;
+    int64_t steps[3];  /* the player's net steps on each axis: its place is computed from them */
+    size_t next_edit;  /* the first edit that is still to come */
+    size_t next_query;
+    bool quit;
+    uint64_t set_version; /* the tree's version that `inner` was filled from */
+    bool has_set;
+    octree_tick tick;
+    list hits;     /* octree_point */
+    list found;    /* octree_point: the range results of all answers, one after the other */
+    list refusals; /* octree_refusal */
+    list answers;  /* octree_answer */
+    list inner, inner_before, splits, merges; /* octree_address */
+};
+
+bool game_is_key(char key);
+
+/* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
+octree_status game_add_body(octree_game *game, const octree_body *body);
+
+octree_status game_apply_edits(octree_game *game);
+octree_status game_move_bodies(octree_game *game);
+
+/* The player's step and the collision test that decides it. */
+octree_status game_step_player(octree_game *game);
+
+/* The queries, the node sets, and the tick's arrays. At tick 0 the collision test too. */
+octree_status game_finish_tick(octree_game *game);
+
+/* Note that the tree did not take a body. NO_MEMORY, or OK. */
+octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
+
+/* Collect what lies within the player's box about a centre into `hits`, by id. */
+octree_status game_collide(octree_game *game, const double center[3]);
+
+/* Sort points by id, then position. */
+void game_sort_points(octree_point *points, size_t count);
+
+#endif

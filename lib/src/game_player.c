@@ -1,0 +1,123 @@
+/* game_player.c - the player's step, and the collision test that may take it back.
+ *
+ * The test asks the tree before the step is made, about the step's end and without the player's own point: what it
+ * finds is what a step that is made and taken back would have met, and nothing has to be undone.
+ */
+#include "game_parts.h"
+#include "tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    char key;
+    int axis; /* -1: no step */
+    int direction;
+} keys[] = {
+    {'w', 1, 1}, {'s', 1, -1}, {'d', 0, 1}, {'a', 0, -1}, {'e', 2, 1}, {'f', 2, -1}, {'n', -1, 0}, {'.', -1, 0},
+};
+
+#define KEY_COUNT (sizeof keys / sizeof keys[0])
+
+static size_t key_index(char key)
+{
+    size_t i = 0;
+    while (i < KEY_COUNT && keys[i].key != key)
+        i++;
+    return i;
+}
+
+bool game_is_key(char key)
+{
+    return key_index(key) < KEY_COUNT;
+}
+
+static int by_id_then_position(const void *a, const void *b)
+{
+    const octree_point *p = a, *q = b;
+    if (p->id != q->id)
+        return p->id < q->id ? -1 : 1;
+    for (int i = 0; i < 3; i++)
+        if (p->position[i] != q->position[i])
+            return p->position[i] < q->position[i] ? -1 : 1;
+    return 0;
+}
+
+void game_sort_points(octree_point *points, size_t count)
+{
+    if (count > 1)
+        qsort(points, count, sizeof *points, by_id_then_position);
+}
+
+typedef struct collecting {
+    octree_game *game;
+    bool failed;
+} collecting;
+
+static bool collect_hit(const octree_point *point, void *context)
+{
+    collecting *c = context;
+    octree_point *hit = list_append(&c->game->memory, &c->game->hits, sizeof *hit);
+    if (hit)
+        *hit = *point;
+    c->failed = !hit;
+    return hit != NULL;
+}
+
+octree_status game_collide(octree_game *game, const double center[3])
+{
+    const octree_player *player = &game->session->player;
+    octree_point self = {.id = player->id};
+    memcpy(self.position, game->tick.player, sizeof self.position);
+    memcpy(game->tick.attempt, center, sizeof game->tick.attempt);
+    collecting c = {game, false};
+    const octree_status status =
+        octree_collide(game->tree, game->tick.attempt, player->box_size, &self, collect_hit, &c);
+    game_sort_points(game->hits.items, game->hits.count);
+    if (game->hits.count)
+        game->tick.events |= OCTREE_EVENT_COLLIDED;
+    return c.failed ? OCTREE_NO_MEMORY : status;
+}
+
+/* The player's place after a net number of steps on each axis. */
+static void place_after(const octree_player *player, const int64_t steps[3], double position[3])
+{
+    for (int i = 0; i < 3; i++)
+        position[i] = player->position[i] + (double)steps[i] * player->step;
+}
+
+/* A step whose end is inside the world and free of hits: it can still meet a full leaf. */
+static octree_status make_step(octree_game *game, const int64_t steps[3], const double to[3])
+{
+    const uint64_t id = game->session->player.id;
+    const octree_status status = octree_move(game->tree, game->tick.player, id, to);
+    if (status == OCTREE_NO_MEMORY)
+        return status;
+    if (status != OCTREE_OK)
+        return game_note_refusal(game, id, status, to);
+    memcpy(game->steps, steps, sizeof game->steps);
+    memcpy(game->tick.player, to, sizeof game->tick.player);
+    game->tick.events |= OCTREE_EVENT_MOVED;
+    return OCTREE_OK;
+}
+
+octree_status game_step_player(octree_game *game)
+{
+    const size_t key = key_index(game->tick.key);
+    if (keys[key].axis < 0)
+        return game_collide(game, game->tick.player);
+    int64_t steps[3];
+    memcpy(steps, game->steps, sizeof steps);
+    steps[keys[key].axis] += keys[key].direction;
+    double to[3];
+    place_after(&game->session->player, steps, to);
+    if (check_position(game->tree, to) != OCTREE_OK) {
+        game->tick.events |= OCTREE_EVENT_REFUSED;
+        return game_collide(game, game->tick.player);
+    }
+    const octree_status status = game_collide(game, to);
+    if (status != OCTREE_OK || game->hits.count)
+        return status;
+    return make_step(game, steps, to);
+}

@@ -1,0 +1,55 @@
+/* metric.h - squared distances in doubles that neither overflow nor underflow in any world, with a proven error.
+ *
+ * Coordinates are first multiplied by a power of two that brings the world's extent near 1. For points of the world
+ * that product is exact, or wrong by less than 2^-1074 where it is subnormal. The computed square s of a real scaled
+ * square S then satisfies |s - S| <= 6u s + 2^-1000 with u = 2^-53: one rounding in each difference, one in each
+ * product, two in the sum. A target far outside the world may give infinity or NaN: nothing is certain then.
+ */
+#ifndef OCTREE_METRIC_H
+#define OCTREE_METRIC_H
+
+#include "float_rules.h"
+#include "octree/octree.h"
+
+typedef struct metric {
+    double target[3]; /* as given */
+    double scaled[3]; /* times scale */
+    double scale;
+} metric;
+
+/* The power of two for a world; between 2^-1020 and 2^1000, so that it is an ordinary double. */
+double metric_scale(const octree_box *world);
+
+metric metric_make(double scale, const double target[3]);
+
+/* The scaled squared distance of a point. */
+static inline double metric_point(const metric *m, const double p[3])
+{
+    const double x = p[0] * m->scale - m->scaled[0];
+    const double y = p[1] * m->scale - m->scaled[1];
+    const double z = p[2] * m->scale - m->scaled[2];
+    return (x * x + y * y) + z * z;
+}
+
+/* The scaled distance along one axis to an interval. */
+static inline double metric_gap(const metric *m, int i, double min, double max)
+{
+    const double below = min * m->scale - m->scaled[i];
+    const double above = m->scaled[i] - max * m->scale;
+    return below > 0 ? below : above > 0 ? above : 0;
+}
+
+/* True only when the real square behind a is less than the real square behind b. The band is 8u of both, for the
+ * two errors of 6u and the rounding of this very comparison; infinity and NaN answer false. */
+static inline bool metric_surely_less(double a, double b)
+{
+    return b - a > (a + b) * 0x1p-50 + 0x1p-999;
+}
+
+/* The sign of |a - target|^2 - |b - target|^2 in real numbers: -1, 0 or 1. Exact for all finite doubles. */
+int metric_compare(const double target[3], const double a[3], const double b[3]);
+
+/* The Euclidean distance, within 4 ulp, scaled by its largest component; infinite only beyond DBL_MAX. */
+double metric_distance(const double a[3], const double b[3]);
+
+#endif

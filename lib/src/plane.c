@@ -1,0 +1,102 @@
+/* plane.c - see plane.h. */
+#include "plane.h"
+
+#include <math.h>
+#include <string.h>
+
+/* sum[0] + sum[1] = a + b, without error (Knuth's TwoSum). */
+static void add_exactly(double a, double b, double sum[2])
+{
+    sum[0] = a + b;
+    const double b_seen = sum[0] - a;
+    sum[1] = (a - (sum[0] - b_seen)) + (b - b_seen);
+}
+
+/* The first 31 bits of a double: their product with a key's 22 is exact. */
+static double first_bits(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    bits &= ~((UINT64_C(1) << 22) - 1);
+    memcpy(&value, &bits, sizeof bits);
+    return value;
+}
+
+axis axis_make(double min, double max)
+{
+    axis a = {.min = min, .max = max, .unit = 1, .keys_per_unit = (double)PLANE_GRID / (max - min)};
+    if (fabs(min) < 0x1p-900 && fabs(max) < 0x1p-900)
+        a.unit = 0x1p-100; /* so that halves are not subnormal */
+    const double low = min / a.unit / 2, high = max / a.unit / 2;
+    double half[2];
+    add_exactly(high, low, a.center);
+    add_exactly(high, -low, half);
+    a.half[0] = first_bits(half[0]);
+    a.half[1] = half[0] - a.half[0];
+    a.half[2] = half[1];
+    a.plain = a.unit == 1 && a.center[1] == 0 && a.half[1] == 0 && a.half[2] == 0;
+    return a;
+}
+
+double plane_precise(const axis *a, double t)
+{
+    double sum[2];
+    add_exactly(a->center[0], a->half[0] * t, sum);
+    const double rest = sum[1] + (a->center[1] + (a->half[1] * t + a->half[2] * t));
+    return (sum[0] + rest) * a->unit;
+}
+
+static bool key_fits(const axis *a, uint32_t key, double x)
+{
+    return plane_at(a, key) <= x && (key + 1 == PLANE_GRID || x < plane_at(a, key + 1));
+}
+
+/* Binary search for the largest key whose plane is at most x. */
+static uint32_t key_search(const axis *a, double x)
+{
+    uint32_t key = 0;
+    for (uint32_t half = PLANE_GRID / 2; half > 0; half /= 2)
+        if (plane_at(a, key + half) <= x)
+            key += half;
+    return key;
+}
+
+/* A division gives the key up to rounding; planes decide. Where the guess is wild (worlds a few ulps wide, extents
+ * that overflow) the search is the answer. */
+uint32_t plane_key(const axis *a, double x)
+{
+    const double guess = (x - a->min) * a->keys_per_unit;
+    if (!(guess >= 0 && guess < (double)PLANE_GRID))
+        return key_search(a, x);
+    const uint32_t key = (uint32_t)guess;
+    if (key_fits(a, key, x))
+        return key;
+    if (key > 0 && key_fits(a, key - 1, x))
+        return key - 1;
+    if (key + 1 < PLANE_GRID && key_fits(a, key + 1, x))
+        return key + 1;
+    return key_search(a, x);
+}
+
+octree_box cell_bounds(const axis axes[3], cell c)
+{
+    octree_box box;
+    for (int i = 0; i < 3; i++) {
+        box.min[i] = plane_at(&axes[i], c.low[i]);
+        box.max[i] = plane_at(&axes[i], c.low[i] + cell_size(c.depth));
+    }
+    return box;
+}
+
+bool cell_divisible(const axis axes[3], cell c)
+{
+    if (c.depth >= OCTREE_MAX_DEPTH)
+        return false;
+    const uint32_t half = cell_size(c.depth + 1);
+    for (int i = 0; i < 3; i++) {
+        const double middle = plane_at(&axes[i], c.low[i] + half);
+        if (plane_at(&axes[i], c.low[i]) < middle && middle < plane_at(&axes[i], c.low[i] + 2 * half))
+            return true;
+    }
+    return false;
+}

@@ -1,0 +1,95 @@
+/* plane.h - where the cells of a world lie: one closed form for insertion, queries and drawing.
+ *
+ * Each axis of the world is cut by 2^21 + 1 grid planes. A cell of depth d spans 2^(21-d) of their gaps an axis. The
+ * key of a coordinate is the gap that it lies in: the largest k with plane(k) <= x. Three keys interleaved are a
+ * point's Morton code, whose octants from the top are the point's way down the tree.
+ */
+#ifndef OCTREE_PLANE_H
+#define OCTREE_PLANE_H
+
+#include "float_rules.h"
+#include "bits.h"
+#include "octree/octree.h"
+
+#define PLANE_GRID (1u << OCTREE_MAX_DEPTH)
+
+typedef struct axis {
+    double min, max;
+    double unit;          /* a power of two: the terms below are in its multiples */
+    double center[2];     /* (min + max) / 2 as an unevaluated sum */
+    double half[3];       /* (max - min) / 2 as another, whose first term has 31 bits */
+    bool plain;           /* two terms and one rounding are enough */
+    double keys_per_unit; /* a guess only: may be 0 or infinite in extreme worlds */
+} axis;
+
+axis axis_make(double min, double max);
+
+/* Any plane inside the world, at t = -1 .. 1 from its centre, from all the terms. */
+double plane_precise(const axis *a, double t);
+
+/* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with t = k / 2^20 - 1, which is exact. The terms are
+ * summed to some 80 bits before the one rounding that shows. So a plane is the paper's (min + max) / 2 of (min + max) / 2
+ * wherever those are doubles; planes are monotone, since neighbours are 2^-21 of the extent apart; nothing overflows. */
+static inline double plane_at(const axis *a, uint32_t k)
+{
+    const double t = (double)k * 0x1p-20 - 1;
+    const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_precise(a, t);
+    if (k == PLANE_GRID || !(plane < a->max))
+        return a->max;
+    return k > 0 && plane > a->min ? plane : a->min;
+}
+
+/* The key of a coordinate of the world, 0 <= key < PLANE_GRID. */
+uint32_t plane_key(const axis *a, double x);
+
+/* A cell: its lowest grid plane on each axis, and its depth. */
+typedef struct cell {
+    uint32_t low[3];
+    unsigned depth;
+} cell;
+
+static inline uint32_t cell_size(unsigned depth)
+{
+    return PLANE_GRID >> depth;
+}
+
+static inline cell cell_child(cell parent, unsigned octant)
+{
+    const uint32_t half = cell_size(parent.depth + 1);
+    for (int i = 0; i < 3; i++)
+        parent.low[i] += octant & (4u >> i) ? half : 0;
+    parent.depth++;
+    return parent;
+}
+
+octree_box cell_bounds(const axis axes[3], cell c);
+
+/* True when at least one of the cell's three planes lies strictly inside it: some octants would differ. */
+bool cell_divisible(const axis axes[3], cell c);
+
+/* The Morton code of a position in the world: 63 bits, x in the highest of each three. */
+static inline uint64_t morton_code(const axis axes[3], const double position[3])
+{
+    return bits_spread(plane_key(&axes[0], position[0])) << 2 | bits_spread(plane_key(&axes[1], position[1])) << 1 |
+           bits_spread(plane_key(&axes[2], position[2]));
+}
+
+/* The octant that a code takes from a node of this depth. */
+static inline unsigned morton_octant(uint64_t code, unsigned depth)
+{
+    return (unsigned)(code >> (3 * (OCTREE_MAX_DEPTH - 1 - depth))) & 7;
+}
+
+/* The address of the cell of this depth that a code lies in. */
+static inline octree_address morton_address(uint64_t code, unsigned depth)
+{
+    return (UINT64_C(1) << 3 * depth) | code >> (3 * (OCTREE_MAX_DEPTH - depth));
+}
+
+static inline octree_address cell_address(cell c)
+{
+    const uint64_t code = bits_spread(c.low[0]) << 2 | bits_spread(c.low[1]) << 1 | bits_spread(c.low[2]);
+    return morton_address(code, c.depth);
+}
+
+#endif

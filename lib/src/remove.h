@@ -1,0 +1,28 @@
+/* remove.h - removal in two steps, so that a move can make sure of the second before it does the first. Private. */
+#ifndef OCTREE_REMOVE_H
+#define OCTREE_REMOVE_H
+
+#include "tree.h"
+
+/* Where a pair lies: its way from the root, and its index in the leaf. */
+typedef struct found_point {
+    path way;
+    uint32_t index;
+} found_point;
+
+/* False when the pair is not in the tree. */
+bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);
+
+/* The leaf that a removal would merge points into, made ahead; empty when no node would merge. */
+typedef struct merge_room {
+    node leaf;
+    bool wanted;
+} merge_room;
+
+/* Take the memory that removing this point now needs. False when there is none. */
+bool reserve_merge(octree *tree, const found_point *found, merge_room *room);
+
+/* Remove the point. Cannot fail; uses the room up or gives it back. */
+void remove_found(octree *tree, const found_point *found, merge_room *room);
+
+#endif

@@ -1,0 +1,111 @@
+/* tree.h - the tree's insides: nodes, and the way from the root to a leaf. Private to the library.
+ *
+ * Shape rule (canonical form): a node is an inner node exactly when it holds more points than the capacity and its
+ * cell can be divided further. So the nodes follow from the contents, whatever the order of changes.
+ */
+#ifndef OCTREE_TREE_H
+#define OCTREE_TREE_H
+
+#include "plane.h"
+#include "pool.h"
+
+typedef struct node {
+    void *below;     /* inner: its children, struct node[], occupied octants only; leaf: its octree_point[]; may be null */
+    uint32_t count;  /* points in and below */
+    uint8_t octants; /* the occupied ones; 0 for a leaf */
+    uint8_t room;    /* leaf: points that its block has room for; LEAF_CROWD when it is a crowd (leaf.h) */
+} node;
+
+struct octree {
+    octree_def def;   /* as in force */
+    axis axes[3];
+    double scale;     /* the power of two that brings the world's extent near 1 (metric.h) */
+    uint64_t version;
+    node root;
+    arena memory;
+    pool nodes;
+    pool points;
+};
+
+static inline node *children_of(const node *n)
+{
+    return n->below;
+}
+
+static inline unsigned child_index(const node *n, unsigned octant)
+{
+    return bits_count8(n->octants & ((1u << octant) - 1));
+}
+
+/* The child in an octant, or null when the octant is not occupied. */
+static inline node *child_at(const node *n, unsigned octant)
+{
+    return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
+}
+
+static inline cell root_cell(void)
+{
+    return (cell){{0, 0, 0}, 0};
+}
+
+/* True when a full leaf in this cell splits rather than refuses or grows. */
+static inline bool may_split(const octree *tree, cell c)
+{
+    return c.depth < tree->def.max_depth && cell_divisible(tree->axes, c);
+}
+
+/* The nodes from the root towards a code: as deep as they exist. The last one is a leaf, or an inner node whose octant
+ * for this code is not occupied. */
+typedef struct path {
+    node *nodes[OCTREE_MAX_DEPTH + 1];
+    unsigned depth; /* of the last node */
+} path;
+
+path path_to(const octree *tree, uint64_t code);
+
+static inline node *path_end(const path *way)
+{
+    return way->nodes[way->depth];
+}
+
+/* The cell of the given depth on the way to a code. */
+cell path_cell(uint64_t code, unsigned depth);
+
+/* OK, NULL_ARGUMENT, NOT_FINITE or OUTSIDE. */
+octree_status check_position(const octree *tree, const double position[3]);
+
+static inline bool same_position(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* Nodes still to be visited, with their cells: a stack that no input can make deeper than D levels of 8 children. */
+#define STACK_ROOM (7 * OCTREE_MAX_DEPTH + 8)
+
+typedef struct stacked {
+    const node *node;
+    cell cell;
+} stacked;
+
+typedef struct node_stack {
+    size_t size;
+    stacked items[STACK_ROOM];
+} node_stack;
+
+static inline void stack_push(node_stack *stack, const node *n, cell c)
+{
+    stack->items[stack->size++] = (stacked){n, c};
+}
+
+static inline stacked stack_pop(node_stack *stack)
+{
+    return stack->items[--stack->size];
+}
+
+/* Push the children so that they are popped in ascending order of octants. */
+void stack_push_children(node_stack *stack, stacked parent);
+
+/* Free a node's children or points, and all below; the node itself is the caller's. */
+void node_release(octree *tree, node *n);
+
+#endif

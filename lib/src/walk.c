@@ -1,0 +1,87 @@
+/* walk.c - looking at the nodes: one by one, by address, by position, and in numbers. */
+#include "leaf.h"
+
+static octree_node describe(const octree *tree, const node *n, cell c, octree_address address)
+{
+    return (octree_node){
+        .address = address,
+        .depth = c.depth,
+        .leaf = n->octants == 0,
+        .octants = n->octants,
+        .box = cell_bounds(tree->axes, c),
+        .count = n->count,
+        .points = n->octants ? NULL : leaf_points(n),
+    };
+}
+
+octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *context)
+{
+    if (!tree || !visit)
+        return OCTREE_NULL_ARGUMENT;
+    node_stack stack = {.size = 0};
+    stack_push(&stack, &tree->root, root_cell());
+    while (stack.size > 0) {
+        const stacked next = stack_pop(&stack);
+        const octree_node seen = describe(tree, next.node, next.cell, cell_address(next.cell));
+        const octree_walk_order order = visit(&seen, context);
+        if (order == OCTREE_WALK_STOP)
+            break;
+        if (order == OCTREE_WALK_ON && next.node->octants)
+            stack_push_children(&stack, next);
+    }
+    return OCTREE_OK;
+}
+
+octree_status octree_node_at(const octree *tree, octree_address address, octree_node *result)
+{
+    if (!tree || !result)
+        return OCTREE_NULL_ARGUMENT;
+    char text[OCTREE_ADDRESS_TEXT];
+    octree_address canonical;
+    if (!octree_address_parse(octree_address_format(address, text), &canonical) || canonical != address)
+        return OCTREE_NOT_FOUND;
+    const node *n = &tree->root;
+    cell c = root_cell();
+    while (c.depth < octree_address_depth(address)) {
+        const unsigned octant = octree_address_octant(address, c.depth);
+        n = child_at(n, octant);
+        if (!n)
+            return OCTREE_NOT_FOUND;
+        c = cell_child(c, octant);
+    }
+    *result = describe(tree, n, c, address);
+    return OCTREE_OK;
+}
+
+octree_status octree_locate(const octree *tree, const double position[3], octree_node *result)
+{
+    const octree_status status = result ? check_position(tree, position) : OCTREE_NULL_ARGUMENT;
+    if (status != OCTREE_OK)
+        return status;
+    const uint64_t code = morton_code(tree->axes, position);
+    const path way = path_to(tree, code);
+    *result = describe(tree, path_end(&way), path_cell(code, way.depth), morton_address(code, way.depth));
+    return OCTREE_OK;
+}
+
+static octree_walk_order count_node(const octree_node *seen, void *context)
+{
+    octree_stats *stats = context;
+    stats->nodes++;
+    stats->nodes_at_depth[seen->depth]++;
+    stats->depth = seen->depth > stats->depth ? seen->depth : stats->depth;
+    if (seen->leaf) {
+        stats->leaves++;
+        stats->leaves_at_depth[seen->depth]++;
+        stats->largest_leaf = seen->count > stats->largest_leaf ? seen->count : stats->largest_leaf;
+    }
+    return OCTREE_WALK_ON;
+}
+
+octree_status octree_statistics(const octree *tree, octree_stats *stats)
+{
+    if (!tree || !stats)
+        return OCTREE_NULL_ARGUMENT;
+    *stats = (octree_stats){.points = tree->root.count, .memory = tree->memory.bytes};
+    return octree_walk(tree, count_node, stats);
+}

@@ -1,0 +1,280 @@
+/* test_game_ticks.c - what every tick of every session promises, on random sessions with moving bodies, edits and
+ * queries; and that playing twice is playing the same. */
+#include "fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "brute.h"
+#include "game_fixture.h"
+#include "octree/digest.h"
+#include "random_session.h"
+
+enum { nodes_at_most = 4096 };
+
+/* The inner nodes of a tree, in pre-order. */
+typedef struct inner_nodes {
+    octree_address addresses[nodes_at_most];
+    size_t count;
+} inner_nodes;
+
+static octree_walk_order list_inner(const octree_node *node, void *context)
+{
+    inner_nodes *inner = context;
+    assert_true(inner->count < nodes_at_most);
+    if (!node->leaf)
+        inner->addresses[inner->count++] = node->address;
+    return OCTREE_WALK_ON;
+}
+
+static void look_at_inner(const octree *tree, inner_nodes *inner)
+{
+    inner->count = 0;
+    assert_int_equal(octree_walk(tree, list_inner, inner), OCTREE_OK);
+}
+
+static bool has(const inner_nodes *inner, octree_address address)
+{
+    for (size_t i = 0; i < inner->count; i++)
+        if (inner->addresses[i] == address)
+            return true;
+    return false;
+}
+
+/* The test fails unless `listed` is what is in `a` and not in `b`, in pre-order. */
+static void assert_difference(const inner_nodes *a, const inner_nodes *b, const octree_address *listed, size_t count)
+{
+    size_t at = 0;
+    for (size_t i = 0; i < a->count; i++) {
+        if (has(b, a->addresses[i]))
+            continue;
+        assert_true(at < count && listed[at] == a->addresses[i]);
+        at++;
+    }
+    assert_int_equal(at, count);
+}
+
+static void check_nodes(const octree_tick *tick, const octree *tree, inner_nodes *before)
+{
+    inner_nodes now;
+    look_at_inner(tree, &now);
+    assert_difference(&now, before, tick->splits, tick->split_count);
+    assert_difference(before, &now, tick->merges, tick->merge_count);
+    assert_true(((tick->events & OCTREE_EVENT_SPLIT) != 0) == (tick->split_count > 0));
+    assert_true(((tick->events & OCTREE_EVENT_MERGED) != 0) == (tick->merge_count > 0));
+    *before = now;
+}
+
+static void assert_same_points(const octree_point *points, size_t count, brute *expected)
+{
+    brute given = {0};
+    for (size_t i = 0; i < count; i++) {
+        brute_insert(&given, points[i].position, points[i].id);
+        assert_true(i == 0 || points[i].id > points[i - 1].id); /* by id, and ids are unique */
+    }
+    assert_true(brute_equal(&given, expected));
+    brute_free(&given);
+}
+
+static void check_hits(const octree_tick *tick, const octree_player *player, brute *all)
+{
+    brute others = {0}, expected = {0};
+    for (size_t i = 0; i < all->count; i++)
+        if (all->points[i].id != player->id)
+            brute_collect(&all->points[i], &others);
+    brute_collide(&others, tick->attempt, player->box_size, NULL, &expected);
+    assert_same_points(tick->hits, tick->hit_count, &expected);
+    assert_true(((tick->events & OCTREE_EVENT_COLLIDED) != 0) == (tick->hit_count > 0));
+    brute_free(&others);
+    brute_free(&expected);
+}
+
+static void check_answer(const octree_answer *answer, const octree_tick *tick, const octree_player *player, brute *all)
+{
+    if (answer->kind == OCTREE_QUERY_RANGE) {
+        brute expected = {0};
+        brute_range(all, &answer->box, &expected);
+        assert_same_points(answer->points, answer->count, &expected);
+        brute_free(&expected);
+        return;
+    }
+    octree_neighbor expected;
+    bool of_player = answer->by_key || same_position(answer->target, tick->player);
+    bool found =
+        brute_nearest(all, answer->target, of_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE, player->id, &expected);
+    assert_true(answer->found == found);
+    if (found)
+        assert_true(answer->neighbor.point.id == expected.point.id && answer->neighbor.distance == expected.distance);
+}
+
+static int direction_on(char key, int axis)
+{
+    static const char up[] = "dwe", down[] = "asf";
+    return (key == up[axis]) - (key == down[axis]);
+}
+
+/* The step was made, or the player is where it was; position = start + net steps * step. */
+static void check_player(const octree_tick *tick, const octree_session *session, int64_t steps[3])
+{
+    static const unsigned back = OCTREE_EVENT_REFUSED | OCTREE_EVENT_COLLIDED;
+    bool stepped = tick->key != 0 && strchr("wasdef", tick->key) != NULL;
+    bool moved = (tick->events & OCTREE_EVENT_MOVED) != 0;
+    assert_false(moved && (!stepped || tick->events & back));
+    assert_true(moved || !stepped || tick->events & (back | OCTREE_EVENT_FULL));
+    for (int axis = 0; axis < 3; axis++) {
+        steps[axis] += moved ? direction_on(tick->key, axis) : 0;
+        double expected = session->player.position[axis] + (double)steps[axis] * session->player.step;
+        assert_true(tick->player[axis] == expected);
+    }
+}
+
+static void check_tick(const octree_game *game, inner_nodes *before, int64_t steps[3])
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const octree_session *session = octree_game_session(game);
+    const octree *tree = octree_game_tree(game);
+    const octree_box everywhere = cube(-INFINITY, INFINITY);
+    brute all = {0};
+    assert_int_equal(octree_range(tree, &everywhere, brute_collect, &all), OCTREE_OK);
+    assert_int_equal(octree_count(tree), all.count);
+    assert_true(brute_contains(&all, tick->player, session->player.id));
+    assert_valid(tree);
+    check_player(tick, session, steps);
+    check_nodes(tick, tree, before);
+    check_hits(tick, &session->player, &all);
+    for (size_t i = 0; i < tick->answer_count; i++)
+        check_answer(&tick->answers[i], tick, &session->player, &all);
+    brute_free(&all);
+}
+
+/* The number of answers that a session asks for at a tick. */
+static size_t answers_due(const octree_session *session, uint64_t tick, char key)
+{
+    size_t due = key == 'n' ? 1 : 0;
+    for (size_t i = 0; i < session->query_count; i++)
+        due += session->queries[i].tick == tick || session->queries[i].tick == OCTREE_EVERY_TICK ? 1 : 0;
+    return due;
+}
+
+static void play_and_check(const octree_session *session)
+{
+    octree_game *game = start_game(session);
+    inner_nodes before; /* of tick 0 itself: nothing came before it, so it has no splits */
+    look_at_inner(octree_game_tree(game), &before);
+    int64_t steps[3] = {0, 0, 0};
+    for (uint64_t number = 0;; number++) {
+        const octree_tick *tick = octree_game_tick(game);
+        assert_int_equal(tick->number, number);
+        assert_int_equal(tick->answer_count, answers_due(session, number, tick->key));
+        check_tick(game, &before, steps);
+        if (octree_game_over(game))
+            break;
+        assert_int_equal(octree_game_advance(game), OCTREE_OK);
+    }
+    assert_int_equal(octree_game_tick(game)->number, octree_session_length(session));
+    octree_game_destroy(game);
+}
+
+static void every_tick_of_random_sessions_keeps_its_promises(void **state)
+{
+    (void)state;
+    static random_session made;
+    for (uint64_t seed = 1; seed <= 60; seed++) {
+        random_session_full(&made, seed);
+        made.session.tree.full_leaf = seed % 3 == 0 ? OCTREE_GROW : OCTREE_REFUSE;
+        play_and_check(&made.session);
+    }
+}
+
+static void every_tick_of_the_default_session_keeps_its_promises(void **state)
+{
+    (void)state;
+    octree_session session = octree_session_default();
+    play_and_check(&session);
+}
+
+static uint64_t digest_points(uint64_t digest, const octree_point *points, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        digest = octree_digest_word(digest, points[i].id);
+        for (int axis = 0; axis < 3; axis++)
+            digest = octree_digest_double(digest, points[i].position[axis]);
+    }
+    return octree_digest_word(digest, count);
+}
+
+static uint64_t digest_tick(uint64_t digest, const octree_tick *tick)
+{
+    digest = octree_digest_word(digest, tick->number);
+    digest = octree_digest_word(digest, tick->events);
+    digest = octree_digest_bytes(digest, tick->player, sizeof tick->player);
+    digest = octree_digest_bytes(digest, tick->attempt, sizeof tick->attempt);
+    digest = digest_points(digest, tick->hits, tick->hit_count);
+    digest = octree_digest_bytes(digest, tick->splits, tick->split_count * sizeof(octree_address));
+    digest = octree_digest_bytes(digest, tick->merges, tick->merge_count * sizeof(octree_address));
+    for (size_t i = 0; i < tick->refusal_count; i++)
+        digest = octree_digest_word(digest, tick->refusals[i].id ^ (uint64_t)tick->refusals[i].why << 32);
+    for (size_t i = 0; i < tick->answer_count; i++) {
+        const octree_answer *answer = &tick->answers[i];
+        digest = answer->kind == OCTREE_QUERY_RANGE ? digest_points(digest, answer->points, answer->count)
+                                                    : octree_digest_word(digest, answer->found);
+        if (answer->kind == OCTREE_QUERY_NEAREST && answer->found)
+            digest = octree_digest_double(digest, answer->neighbor.distance);
+    }
+    return digest;
+}
+
+static uint64_t digest_of_playing(const octree_session *session)
+{
+    octree_game *game = start_game(session);
+    uint64_t digest = digest_tick(OCTREE_DIGEST_START, octree_game_tick(game));
+    while (!octree_game_over(game)) {
+        assert_int_equal(octree_game_advance(game), OCTREE_OK);
+        digest = digest_tick(digest, octree_game_tick(game));
+        digest = octree_digest_word(digest, octree_digest(octree_game_tree(game)));
+    }
+    octree_game_destroy(game);
+    return digest;
+}
+
+static void playing_twice_gives_the_same_ticks(void **state)
+{
+    (void)state;
+    static random_session made;
+    octree_session session = octree_session_default();
+    assert_true(digest_of_playing(&session) == digest_of_playing(&session));
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        random_session_full(&made, seed);
+        assert_true(digest_of_playing(&made.session) == digest_of_playing(&made.session));
+    }
+}
+
+static void stepping_by_hand_is_advancing(void **state)
+{
+    (void)state;
+    static random_session made;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        random_session_full(&made, seed);
+        octree_game *by_hand = start_game(&made.session), *played = start_game(&made.session);
+        while (!octree_game_over(played)) {
+            assert_int_equal(octree_game_advance(played), OCTREE_OK);
+            const octree_tick *tick = octree_game_tick(played);
+            assert_int_equal(octree_game_step(by_hand, tick->key), OCTREE_OK);
+            assert_true(digest_tick(0, tick) == digest_tick(0, octree_game_tick(by_hand)));
+        }
+        octree_game_destroy(by_hand);
+        octree_game_destroy(played);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_tick_of_random_sessions_keeps_its_promises),
+        cmocka_unit_test(every_tick_of_the_default_session_keeps_its_promises),
+        cmocka_unit_test(playing_twice_gives_the_same_ticks),
+        cmocka_unit_test(stepping_by_hand_is_advancing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

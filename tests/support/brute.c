@@ -1,0 +1,160 @@
+/* brute.c - see brute.h. */
+#include "brute.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "fixture.h"
+
+void brute_free(brute *all)
+{
+    free(all->points);
+    *all = (brute){0};
+}
+
+void brute_insert(brute *all, const double position[3], uint64_t id)
+{
+    if (all->count == all->capacity) {
+        all->capacity = all->capacity == 0 ? 64 : 2 * all->capacity;
+        octree_point *points = realloc(all->points, all->capacity * sizeof *points);
+        assert_non_null(points);
+        all->points = points;
+    }
+    all->points[all->count++] = (octree_point){{position[0], position[1], position[2]}, id};
+}
+
+static size_t index_of(const brute *all, const double position[3], uint64_t id)
+{
+    size_t i = 0;
+    while (i < all->count && !(all->points[i].id == id && same_position(all->points[i].position, position)))
+        i++;
+    return i;
+}
+
+bool brute_remove(brute *all, const double position[3], uint64_t id)
+{
+    size_t i = index_of(all, position, id);
+    if (i == all->count)
+        return false;
+    all->points[i] = all->points[--all->count];
+    return true;
+}
+
+bool brute_contains(const brute *all, const double position[3], uint64_t id)
+{
+    return index_of(all, position, id) < all->count;
+}
+
+bool brute_find(const brute *all, const double position[3], uint64_t *id)
+{
+    bool found = false;
+    for (size_t i = 0; i < all->count; i++) {
+        const octree_point *point = &all->points[i];
+        if (!same_position(point->position, position) || (found && point->id > *id))
+            continue;
+        *id = point->id;
+        found = true;
+    }
+    return found;
+}
+
+void brute_range(const brute *all, const octree_box *box, brute *found)
+{
+    for (size_t i = 0; i < all->count; i++)
+        if (box_holds(box, all->points[i].position))
+            brute_collect(&all->points[i], found);
+}
+
+bool brute_within(double center, double size, double p)
+{
+    double high = fmax(center, p);
+    double low = fmin(center, p);
+    double distance = high - low;
+    if (distance != size)
+        return distance < size;    /* rounding is monotone, so it cannot carry the distance past a double */
+    double back = distance - high; /* Knuth's TwoSum: the part that rounding took off the distance */
+    double lost = (high - (distance - back)) - (low + back);
+    return lost <= 0;
+}
+
+void brute_collide(const brute *all, const double center[3], double size, const octree_point *self, brute *found)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        const octree_point *point = &all->points[i];
+        if (self != NULL && self->id == point->id && same_position(self->position, point->position))
+            continue;
+        bool within = true;
+        for (int axis = 0; axis < 3; axis++)
+            within = within && brute_within(center[axis], size, point->position[axis]);
+        if (within)
+            brute_collect(point, found);
+    }
+}
+
+bool brute_skips(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id)
+{
+    return (skip == OCTREE_SKIP_ID && point->id == skip_id) ||
+           (skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, target));
+}
+
+static double squared_distance(const double a[3], const double b[3])
+{
+    double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+bool brute_nearest(const brute *all, const double target[3], octree_skip skip, uint64_t skip_id,
+                   octree_neighbor *nearest)
+{
+    const octree_point *best = NULL;
+    double least = INFINITY;
+    for (size_t i = 0; i < all->count; i++) {
+        const octree_point *point = &all->points[i];
+        if (brute_skips(point, target, skip, skip_id))
+            continue;
+        double squared = squared_distance(point->position, target);
+        if (best == NULL || squared < least || (squared == least && point->id < best->id)) {
+            best = point;
+            least = squared;
+        }
+    }
+    if (best != NULL)
+        *nearest = (octree_neighbor){*best, sqrt(least)};
+    return best != NULL;
+}
+
+bool brute_collect(const octree_point *point, void *context)
+{
+    brute_insert(context, point->position, point->id);
+    return true;
+}
+
+static int by_id_then_position(const void *left, const void *right)
+{
+    const octree_point *a = left;
+    const octree_point *b = right;
+    if (a->id != b->id)
+        return a->id < b->id ? -1 : 1;
+    for (int axis = 0; axis < 3; axis++)
+        if (a->position[axis] != b->position[axis])
+            return a->position[axis] < b->position[axis] ? -1 : 1;
+    return 0;
+}
+
+static void sort(brute *all)
+{
+    if (all->count > 1)
+        qsort(all->points, all->count, sizeof *all->points, by_id_then_position);
+}
+
+bool brute_equal(brute *a, brute *b)
+{
+    if (a->count != b->count)
+        return false;
+    sort(a);
+    sort(b);
+    for (size_t i = 0; i < a->count; i++)
+        if (by_id_then_position(&a->points[i], &b->points[i]) != 0)
+            return false;
+    return true;
+}

@@ -1,0 +1,155 @@
+/* exact_oracle.c - see exact_oracle.h. */
+#include "exact_oracle.h"
+
+#include <float.h>
+#include <gmp.h>
+#include <math.h>
+
+#include "brute.h"
+
+/* value * 2^1074, exactly. */
+static void set_scaled(mpz_t number, double value)
+{
+    int exponent;
+    double mantissa = frexp(value, &exponent); /* value = mantissa * 2^exponent, mantissa in [0.5, 1) */
+    mpz_set_d(number, ldexp(mantissa, 53));    /* a whole number */
+    int shift = exponent - 53 + 1074;
+    if (shift >= 0)
+        mpz_mul_2exp(number, number, (mp_bitcnt_t)shift);
+    else
+        mpz_tdiv_q_2exp(number, number, (mp_bitcnt_t)-shift); /* the bits of a subnormal that are zero */
+}
+
+static void set_squared_distance(mpz_t sum, const double a[3], const double b[3])
+{
+    mpz_t p, q;
+    mpz_inits(p, q, NULL);
+    mpz_set_ui(sum, 0);
+    for (int axis = 0; axis < 3; axis++) {
+        set_scaled(p, a[axis]);
+        set_scaled(q, b[axis]);
+        mpz_sub(p, p, q);
+        mpz_addmul(sum, p, p);
+    }
+    mpz_clears(p, q, NULL);
+}
+
+int exact_compare(const double target[3], const double a[3], const double b[3])
+{
+    mpz_t to_a, to_b;
+    mpz_inits(to_a, to_b, NULL);
+    set_squared_distance(to_a, target, a);
+    set_squared_distance(to_b, target, b);
+    int order = mpz_cmp(to_a, to_b);
+    mpz_clears(to_a, to_b, NULL);
+    return (order > 0) - (order < 0);
+}
+
+const octree_point *exact_nearest(const octree_point *points, size_t count, const double target[3], octree_skip skip,
+                                  uint64_t skip_id)
+{
+    const octree_point *best = NULL;
+    for (size_t i = 0; i < count; i++) {
+        const octree_point *point = &points[i];
+        if (brute_skips(point, target, skip, skip_id))
+            continue;
+        int order = best == NULL ? -1 : exact_compare(target, point->position, best->position);
+        if (order < 0 || (order == 0 && point->id < best->id))
+            best = point;
+    }
+    return best;
+}
+
+/* The sign of distance^2 - squared, where an infinite distance stands for all reals from DBL_MAX + half an ulp. */
+static int compare_square(double distance, const mpz_t squared)
+{
+    if (isinf(distance))
+        return 1;
+    mpz_t square;
+    mpz_init(square);
+    set_scaled(square, distance);
+    mpz_mul(square, square, square);
+    int order = mpz_cmp(square, squared);
+    mpz_clear(square);
+    return order;
+}
+
+bool exact_distance_is(double distance, unsigned steps, const double a[3], const double b[3])
+{
+    double low = distance, high = distance;
+    for (unsigned i = 0; i < steps; i++) {
+        low = fmax(nextafter(low, -INFINITY), 0);
+        high = nextafter(high, INFINITY);
+    }
+    mpz_t squared;
+    mpz_init(squared);
+    set_squared_distance(squared, a, b);
+    bool above = isinf(low) ? compare_square(DBL_MAX, squared) < 0 : compare_square(low, squared) <= 0;
+    bool near = distance >= 0 && above && compare_square(high, squared) >= 0;
+    mpz_clear(squared);
+    return near;
+}
+
+bool exact_within(double center, double size, double p)
+{
+    mpz_t a, b, r;
+    mpz_inits(a, b, r, NULL);
+    set_scaled(a, center);
+    set_scaled(b, p);
+    set_scaled(r, size);
+    mpz_sub(a, a, b);
+    bool within = mpz_cmpabs(a, r) <= 0;
+    mpz_clears(a, b, r, NULL);
+    return within;
+}
+
+/* (low * (2^depth - k) + high * k) * 2^1074, which is the plane times 2^(1074 + depth). */
+static void set_plane(mpz_t plane, double low, double high, uint32_t k, unsigned depth)
+{
+    mpz_t other;
+    mpz_init(other);
+    set_scaled(plane, low);
+    mpz_mul_ui(plane, plane, (1UL << depth) - k);
+    set_scaled(other, high);
+    mpz_addmul_ui(plane, other, k);
+    mpz_clear(other);
+}
+
+/* A whole number times 2^-1074, towards zero; every such number here is below 2^1024. */
+static double get_scaled(const mpz_t number)
+{
+    long exponent;
+    double mantissa = mpz_get_d_2exp(&exponent, number); /* truncates to 53 bits */
+    return ldexp(mantissa, (int)(exponent - 1074));
+}
+
+bool exact_plane(double low, double high, uint32_t k, unsigned depth, double *plane)
+{
+    mpz_t real, back;
+    mpz_inits(real, back, NULL);
+    set_plane(real, low, high, k, depth);
+    bool whole = mpz_divisible_2exp_p(real, depth) != 0;
+    mpz_tdiv_q_2exp(real, real, depth);
+    *plane = get_scaled(real);
+    set_scaled(back, *plane);
+    bool exact = whole && mpz_cmp(real, back) == 0;
+    mpz_clears(real, back, NULL);
+    return exact;
+}
+
+bool exact_plane_is_near(double low, double high, uint32_t k, unsigned depth, unsigned steps, double plane)
+{
+    double largest = fmax(fabs(low), fabs(high));
+    mpz_t real, given, spacing;
+    mpz_inits(real, given, spacing, NULL);
+    set_plane(real, low, high, k, depth);
+    set_scaled(given, plane);
+    mpz_mul_2exp(given, given, depth);
+    mpz_sub(given, given, real);
+    set_scaled(spacing, largest - nextafter(largest, 0));
+    mpz_mul_2exp(spacing, spacing, depth);
+    mpz_mul_ui(spacing, spacing, steps);
+    bool near = mpz_cmpabs(given, spacing) <= 0;
+    mpz_clears(real, given, spacing, NULL);
+    return near;
+}

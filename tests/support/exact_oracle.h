@@ -1,0 +1,29 @@
+/* exact_oracle.h - real squared distances as whole numbers of GMP: the truth about near ties and extreme scales.
+ *
+ * Every finite double is a whole multiple of 2^-1074; scaled by that, sums and squares are exact.
+ */
+#ifndef EXACT_ORACLE_H
+#define EXACT_ORACLE_H
+
+#include "octree/octree.h"
+
+/* The sign of |a - target|^2 - |b - target|^2. */
+int exact_compare(const double target[3], const double a[3], const double b[3]);
+
+/* The nearest point by the real distance, ties to the lowest id. Null when all are skipped. */
+const octree_point *exact_nearest(const octree_point *points, size_t count, const double target[3], octree_skip skip,
+                                  uint64_t skip_id);
+
+/* Whether `distance` is within `steps` doubles of the real distance from a to b. */
+bool exact_distance_is(double distance, unsigned steps, const double a[3], const double b[3]);
+
+/* Whether |p - center| <= size. */
+bool exact_within(double center, double size, double p);
+
+/* Whether the plane k/2^depth of [low, high] is a double; then *plane is that double. */
+bool exact_plane(double low, double high, uint32_t k, unsigned depth, double *plane);
+
+/* Whether `plane` is within `steps` doubles of max(|low|, |high|)'s spacing from the real plane k/2^depth. */
+bool exact_plane_is_near(double low, double high, uint32_t k, unsigned depth, unsigned steps, double plane);
+
+#endif

@@ -1,0 +1,46 @@
+/* fixture.h - what every test program of the library needs: cmocka, small trees, random numbers, neighbours of a
+ * double.
+ */
+#ifndef FIXTURE_H
+#define FIXTURE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "octree/octree.h"
+
+/* The box [low, high] on every axis. */
+octree_box cube(double low, double high);
+
+/* A definition with malloc for its memory. */
+octree_def define(octree_box world, size_t capacity, size_t depth, octree_full_leaf full_leaf);
+
+/* A new tree; the test fails when there is none. */
+octree *make_tree(octree_box world, size_t capacity, size_t depth, octree_full_leaf full_leaf);
+
+/* Insert points (x, y, z), numbered from 1; the test fails when one is refused. */
+void insert_all(octree *tree, const double (*positions)[3], size_t count);
+
+/* The test fails, with the validator's sentence, when an invariant does not hold. */
+void assert_valid(const octree *tree);
+
+/* The number of nodes of a tree. */
+size_t node_count(const octree *tree);
+
+/* The next double above and below. */
+double next_up(double value);
+double next_down(double value);
+
+/* A random whole number below `limit`, and a random double in [low, high]; the range may be wider than DBL_MAX. */
+uint64_t random_below(uint64_t *state, uint64_t limit);
+double random_between(uint64_t *state, double low, double high);
+
+/* Whether coordinates are equal as numbers (-0.0 is +0.0), and whether a closed box holds a position. */
+bool same_position(const double a[3], const double b[3]);
+bool box_holds(const octree_box *box, const double position[3]);
+
+#endif

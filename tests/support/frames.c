@@ -1,0 +1,54 @@
+/* frames.c - see frames.h. */
+#include "frames.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+renderer *open_renderer(int width, int height)
+{
+    draw_error error = {""};
+    renderer *r = renderer_open(width, height, &error);
+    if (!r)
+        fail_msg("%s", error.text);
+    return r;
+}
+
+static size_t pixels_of(const scene *s)
+{
+    return (size_t)s->view.width * (size_t)s->view.height;
+}
+
+uint8_t *draw(renderer *r, const scene *s)
+{
+    draw_error error = {""};
+    uint8_t *frame = malloc(pixels_of(s));
+    assert_non_null(frame);
+    memset(frame, 255, pixels_of(s));
+    if (!renderer_draw(r, s, frame, &error))
+        fail_msg("%s", error.text);
+    for (size_t i = 0; i < pixels_of(s); i++)
+        if (frame[i] >= THEME_COLORS)
+            fail_msg("pixel %zu has the index %d of no role", i, frame[i]);
+    return frame;
+}
+
+uint8_t *draw_once(const scene *s)
+{
+    renderer *r = open_renderer(s->view.width, s->view.height);
+    uint8_t *frame = draw(r, s);
+    renderer_close(r);
+    return frame;
+}
+
+size_t lit_pixels(const uint8_t *frame, const scene *s)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < pixels_of(s); i++)
+        count += frame[i] != 0;
+    return count;
+}
+
+void assert_same_frame(const uint8_t *a, const uint8_t *b, const scene *s)
+{
+    assert_memory_equal(a, b, pixels_of(s));
+}

@@ -1,0 +1,30 @@
+/* images.h - pictures for the tests of viz/image. */
+#ifndef IMAGES_H
+#define IMAGES_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "image.h"
+
+/* An indexed picture and its RGB twin. */
+typedef struct image_twins {
+    image indexed; /* four colours, the last two of them equal */
+    image rgb;
+} image_twins;
+
+image_twins make_twins(int width, int height);
+void release_twins(image_twins *twins);
+
+/* The test fails, with the sentence, when the file cannot be written or read. */
+void assert_written(const image *image, const char *path);
+image assert_read(const char *path);
+
+/* An error must be one sentence: the path, then a reason that contains `reason`. */
+void assert_sentence(const image_error *error, const char *path, const char *reason);
+
+#endif

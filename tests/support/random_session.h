@@ -1,0 +1,30 @@
+/* random_session.h - sessions made of random numbers, the same for the same seed.
+ *
+ * All coordinates are multiples of 1/4 of modest size, so that plain double arithmetic on them is exact.
+ */
+#ifndef RANDOM_SESSION_H
+#define RANDOM_SESSION_H
+
+#include "octree/game.h"
+
+#define RANDOM_SESSION_BODIES 64
+#define RANDOM_SESSION_KEYS 160
+#define RANDOM_SESSION_EDITS 80
+#define RANDOM_SESSION_QUERIES 40
+
+/* A session and the arrays it borrows: it must stay where it was made. */
+typedef struct random_session {
+    octree_session session;
+    octree_body bodies[RANDOM_SESSION_BODIES];
+    char keys[RANDOM_SESSION_KEYS + 1];
+    octree_edit edits[RANDOM_SESSION_EDITS];
+    octree_query queries[RANDOM_SESSION_QUERIES];
+} random_session;
+
+/* What the paper can play: resting bodies, no edits; the one query is the player's nearest neighbour, every tick. */
+void random_session_plain(random_session *made, uint64_t seed);
+
+/* The same with velocities, edits (some of them of ids that are taken or unknown) and queries of both kinds. */
+void random_session_full(random_session *made, uint64_t seed);
+
+#endif

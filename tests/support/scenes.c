@@ -1,0 +1,82 @@
+/* scenes.c - see scenes.h. */
+#include "scenes.h"
+
+#include <string.h>
+
+view view_of(int width, int height, view_camera camera, unsigned layers)
+{
+    return (view){.width = width, .height = height, .camera = camera, .layers = layers};
+}
+
+scene empty_scene(const view *v, const octree_box *world)
+{
+    scene s = {.view = *v, .unit = view_unit(v)};
+    double center[3];
+    for (int axis = 0; axis < 3; axis++)
+        center[axis] = world->min[axis] / 2 + world->max[axis] / 2;
+    s.camera = camera_make(v, (camera_window){0, 0, v->width, v->height}, world, center, 0);
+    return s;
+}
+
+static void scale_positions(double (*positions)[3], size_t count, double scale, double offset)
+{
+    for (size_t i = 0; i < count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            positions[i][axis] = positions[i][axis] * scale + offset;
+}
+
+void scale_session(scaled_session *made, double scale, double offset)
+{
+    made->session = octree_session_default();
+    octree_session *session = &made->session;
+    assert_true(session->body_count <= SCALED_SESSION_ROOM && session->query_count <= SCALED_SESSION_ROOM);
+    memcpy(made->bodies, session->bodies, session->body_count * sizeof *session->bodies);
+    memcpy(made->queries, session->queries, session->query_count * sizeof *session->queries);
+    session->bodies = made->bodies;
+    session->queries = made->queries;
+    for (size_t i = 0; i < session->body_count; i++)
+        scale_positions(&made->bodies[i].position, 1, scale, offset);
+    for (size_t i = 0; i < session->query_count; i++) {
+        octree_query *query = &made->queries[i];
+        const double base = query->at_player ? 0 : offset;
+        scale_positions(&query->box.min, 1, scale, base);
+        scale_positions(&query->box.max, 1, scale, base);
+        scale_positions(&query->target, 1, scale, offset);
+    }
+    scale_positions(&session->tree.world.min, 1, scale, offset);
+    scale_positions(&session->tree.world.max, 1, scale, offset);
+    scale_positions(&session->player.position, 1, scale, offset);
+    session->player.step *= scale;
+    session->player.box_size *= scale;
+}
+
+octree_game *start_game(const octree_session *session)
+{
+    octree_game *game = NULL;
+    assert_int_equal(octree_game_create(session, &game), OCTREE_OK);
+    return game;
+}
+
+void play_tick(octree_game *game)
+{
+    assert_int_equal(octree_game_advance(game), OCTREE_OK);
+}
+
+void build_tick(scene *s, const view *v, const octree_game *game)
+{
+    assert_true(tick_scene_build(s, v, game));
+    assert_int_equal(s->refused, 0);
+}
+
+void box_corner(const octree_box *box, unsigned corner, double position[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        position[axis] = corner >> axis & 1 ? box->max[axis] : box->min[axis];
+}
+
+void pixel_of(const scene *s, const double position[3], double pixel[2])
+{
+    double seen[3];
+    camera_transform(&s->camera, position, seen);
+    camera_project(&s->camera, seen, pixel);
+}

@@ -1,0 +1,42 @@
+/* scenes.h - scenes for tests: by hand, of games, and of games that are moved and scaled.
+ */
+#ifndef SCENES_H
+#define SCENES_H
+
+#include "fixture.h"
+#include "octree/game.h"
+#include "tick_scene.h"
+
+/* A view with these layers. */
+view view_of(int width, int height, view_camera camera, unsigned layers);
+
+/* An empty scene of a world, without a panel; the camera that follows looks at the world's centre. */
+scene empty_scene(const view *v, const octree_box *world);
+
+/* The default session with every coordinate and length times `scale`, then moved by `offset`. It must stay where it
+ * was made. */
+#define SCALED_SESSION_ROOM 16
+typedef struct scaled_session {
+    octree_session session;
+    octree_body bodies[SCALED_SESSION_ROOM];
+    octree_query queries[SCALED_SESSION_ROOM];
+} scaled_session;
+
+void scale_session(scaled_session *made, double scale, double offset);
+
+/* A new game; the test fails when there is none. */
+octree_game *start_game(const octree_session *session);
+
+/* Play the session's next tick; the test fails when that fails. */
+void play_tick(octree_game *game);
+
+/* Fill a scene with a game's tick, or the test fails. */
+void build_tick(scene *s, const view *v, const octree_game *game);
+
+/* Corner 0..7 of a box: bit 0 takes x from its maximum, bit 1 y, bit 2 z. */
+void box_corner(const octree_box *box, unsigned corner, double position[3]);
+
+/* The pixel of a position that is before the camera. */
+void pixel_of(const scene *s, const double position[3], double pixel[2]);
+
+#endif

@@ -1,0 +1,235 @@
+/* test_camera.c - the cameras: turns, bases, what they hold in view, and that neither place nor scale matters. */
+#include "scenes.h"
+
+#include <float.h>
+#include <math.h>
+
+static const camera_window window = {40, 10, 400, 300};
+
+static camera camera_of(view_camera kind, const octree_box *world, const double player[3], uint64_t tick)
+{
+    const view v = view_of(440, 320, kind, VIEW_ALL_LAYERS);
+    return camera_make(&v, window, world, player, tick);
+}
+
+static void turns_agree_with_the_sine_and_cosine_of_libm(void **state)
+{
+    (void)state;
+    const long double pi = acosl(-1);
+    uint64_t random = 3;
+    for (int i = 0; i < 20000; i++) {
+        const double turns = i < 4800 ? (i - 2400) / 480.0 : random_between(&random, -3, 3);
+        double cosine, sine;
+        camera_turn(turns, &cosine, &sine);
+        assert_true(fabsl(cosine - cosl(2 * pi * turns)) < 1e-15L);
+        assert_true(fabsl(sine - sinl(2 * pi * turns)) < 1e-15L);
+    }
+}
+
+static void quarter_turns_are_exact(void **state)
+{
+    (void)state;
+    static const double exact[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    for (int quarter = -9; quarter <= 9; quarter++) {
+        double cosine, sine;
+        camera_turn(quarter / 4.0, &cosine, &sine);
+        assert_true(cosine == exact[quarter & 3][0] && sine == exact[quarter & 3][1]);
+    }
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void every_basis_is_orthonormal_and_right_handed(void **state)
+{
+    (void)state;
+    const octree_box world = cube(-1000, 1000);
+    const double player[3] = {50, -150, 300};
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        for (uint64_t tick = 0; tick < 1000; tick += 7) {
+            const camera c = camera_of((view_camera)kind, &world, player, tick);
+            const double *axes[3] = {c.right, c.up, c.forward};
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++)
+                    assert_true(fabs(dot(axes[i], axes[j]) - (i == j)) < 1e-15);
+            for (int i = 0; i < 3; i++) { /* right x up points towards the eye */
+                const int j = (i + 1) % 3, k = (i + 2) % 3;
+                assert_true(fabs(c.right[j] * c.up[k] - c.right[k] * c.up[j] + c.forward[i]) < 1e-15);
+            }
+        }
+    }
+}
+
+/* Worlds of every shape that a tree takes. */
+static const octree_box worlds[] = {
+    {{-1000, -1000, -1000}, {1000, 1000, 1000}},
+    {{0, 0, 0}, {1, 2, 3}},
+    {{-1, -1, -1e-3}, {1, 1, 1e-3}},
+    {{-1e-3, -1e-3, -1}, {1e-3, 1e-3, 1}},
+    {{1e15, 0, 0}, {1e15 + 1, 1000, 1000}},
+    {{1e15, 1e15, 1e15}, {1e15 + 1, 1e15 + 1, 1e15 + 1}},
+    {{-1e200, -1e200, -1e200}, {1e200, 1e200, 1e200}},
+    {{-1, -1e-300, -1e-300}, {1, 1e-300, 1e-300}},
+    {{-1e300, -1, -1}, {1e300, 1, 1}},
+    {{1e-300, 1e-300, 1e-300}, {2e-300, 2e-300, 2e-300}},
+    {{0, 0, 0}, {DBL_MAX, DBL_MAX, DBL_MAX}},
+    {{-DBL_MAX, -DBL_MAX, -DBL_MAX}, {DBL_MAX, DBL_MAX, DBL_MAX}},
+    {{5e-324, 5e-324, 5e-324}, {1e-310, 1e-310, 1e-310}},
+    {{0, 0, 0}, {5e-324, 5e-324, 5e-324}},
+    {{-1, -1e-308, -1e-308}, {1, 1e-308, 1e-308}},
+};
+
+static void assert_in_window(const double pixel[2])
+{
+    assert_true(pixel[0] >= window.x && pixel[0] <= window.x + window.width);
+    assert_true(pixel[1] >= window.y && pixel[1] <= window.y + window.height);
+}
+
+static void the_corners_of_any_world_are_in_the_window_and_before_the_camera(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof worlds / sizeof worlds[0]; i++) {
+        for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+            for (uint64_t tick = 0; kind != CAMERA_FOLLOW && tick < 480; tick += 37) {
+                const camera c = camera_of((view_camera)kind, &worlds[i], worlds[i].min, tick);
+                for (unsigned corner = 0; corner < 8; corner++) {
+                    double position[3], seen[3], pixel[2];
+                    box_corner(&worlds[i], corner, position);
+                    camera_transform(&c, position, seen);
+                    camera_project(&c, seen, pixel);
+                    assert_in_window(pixel);
+                    assert_true(seen[2] > c.near);
+                    assert_true(seen[2] > c.near_depth - 1e-9 && seen[2] < c.far_depth + 1e-9);
+                }
+            }
+        }
+    }
+}
+
+static void an_orthographic_world_fills_most_of_the_window(void **state)
+{
+    (void)state;
+    const octree_box world = cube(-1, 1);
+    for (int kind = CAMERA_ISO; kind <= CAMERA_SIDE; kind++) {
+        const camera c = camera_of((view_camera)kind, &world, world.min, 0);
+        double low = window.height, high = 0;
+        for (unsigned corner = 0; corner < 8; corner++) {
+            double position[3], seen[3], pixel[2];
+            box_corner(&world, corner, position);
+            camera_transform(&c, position, seen);
+            camera_project(&c, seen, pixel);
+            low = fmin(low, pixel[1]);
+            high = fmax(high, pixel[1]);
+        }
+        assert_true(high - low > 0.7 * window.height);
+    }
+}
+
+static void the_axes_point_where_the_names_of_the_cameras_say(void **state)
+{
+    (void)state;
+    static const struct {
+        view_camera kind;
+        double right[3], up[3], forward[3];
+    } rows[] = {
+        {CAMERA_TOP, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+        {CAMERA_FRONT, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
+        {CAMERA_SIDE, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}},
+    };
+    const octree_box world = cube(-1, 1);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const camera c = camera_of(rows[i].kind, &world, world.min, 11);
+        assert_true(same_position(c.right, rows[i].right));
+        assert_true(same_position(c.up, rows[i].up));
+        assert_true(same_position(c.forward, rows[i].forward));
+    }
+}
+
+static void the_camera_that_follows_looks_at_the_player(void **state)
+{
+    (void)state;
+    const octree_box world = {{-10, 0, 5}, {30, 80, 9}};
+    uint64_t random = 5;
+    for (int i = 0; i < 200; i++) {
+        double player[3], seen[3], pixel[2];
+        for (int axis = 0; axis < 3; axis++)
+            player[axis] = random_between(&random, world.min[axis], world.max[axis]);
+        const camera c = camera_of(CAMERA_FOLLOW, &world, player, (uint64_t)i);
+        camera_transform(&c, player, seen);
+        camera_project(&c, seen, pixel);
+        assert_true(seen[2] > c.near);
+        assert_true(fabs(pixel[0] - (window.x + window.width / 2)) < 1e-9);
+        assert_true(fabs(pixel[1] - (window.y + window.height / 2)) < 1e-9);
+    }
+}
+
+static void only_the_orbit_turns_and_only_the_follower_moves(void **state)
+{
+    (void)state;
+    const octree_box world = cube(-1, 1);
+    const double here[3] = {0, 0, 0}, there[3] = {0.5, -0.25, 0.125};
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        const camera first = camera_of((view_camera)kind, &world, here, 0);
+        const camera later = camera_of((view_camera)kind, &world, here, 100);
+        const camera moved = camera_of((view_camera)kind, &world, there, 0);
+        assert_int_equal(same_position(first.forward, later.forward), kind != CAMERA_ORBIT);
+        assert_int_equal(same_position(first.eye, moved.eye), kind != CAMERA_FOLLOW);
+    }
+}
+
+/* Multiples of 1/8 stay exact at 1e15, whose neighbours are 1/8 apart, and under any power of two. */
+static void assert_same_pixels_elsewhere(view_camera kind, double scale, double offset)
+{
+    octree_box world = cube(-1000, 1000), elsewhere = cube(-1000 * scale + offset, 1000 * scale + offset);
+    uint64_t random = 9;
+    double player[3], there[3];
+    for (int axis = 0; axis < 3; axis++) {
+        player[axis] = (double)random_below(&random, 16000) / 8 - 1000;
+        there[axis] = player[axis] * scale + offset;
+    }
+    const camera a = camera_of(kind, &world, player, 123), b = camera_of(kind, &elsewhere, there, 123);
+    for (int i = 0; i < 200; i++) {
+        double position[3], moved[3], seen[2][3], pixels[2][2];
+        for (int axis = 0; axis < 3; axis++) {
+            position[axis] = (double)random_below(&random, 16000) / 8 - 1000;
+            moved[axis] = position[axis] * scale + offset;
+        }
+        camera_transform(&a, position, seen[0]);
+        camera_transform(&b, moved, seen[1]);
+        assert_true(same_position(seen[0], seen[1]));
+        camera_project(&a, seen[0], pixels[0]);
+        camera_project(&b, seen[1], pixels[1]);
+        assert_true(pixels[0][0] == pixels[1][0] && pixels[0][1] == pixels[1][1]);
+    }
+}
+
+static void neither_place_nor_scale_changes_a_bit_of_a_pixel(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        assert_same_pixels_elsewhere((view_camera)kind, 1, 1e15);
+        assert_same_pixels_elsewhere((view_camera)kind, 1, -1e15);
+        assert_same_pixels_elsewhere((view_camera)kind, ldexp(1, 600), 0);
+        assert_same_pixels_elsewhere((view_camera)kind, ldexp(1, -600), 0);
+        assert_same_pixels_elsewhere((view_camera)kind, ldexp(1, -1000), 0);
+        assert_same_pixels_elsewhere((view_camera)kind, ldexp(1, 600), ldexp(1e15, 600));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(turns_agree_with_the_sine_and_cosine_of_libm),
+        cmocka_unit_test(quarter_turns_are_exact),
+        cmocka_unit_test(every_basis_is_orthonormal_and_right_handed),
+        cmocka_unit_test(the_corners_of_any_world_are_in_the_window_and_before_the_camera),
+        cmocka_unit_test(an_orthographic_world_fills_most_of_the_window),
+        cmocka_unit_test(the_axes_point_where_the_names_of_the_cameras_say),
+        cmocka_unit_test(the_camera_that_follows_looks_at_the_player),
+        cmocka_unit_test(only_the_orbit_turns_and_only_the_follower_moves),
+        cmocka_unit_test(neither_place_nor_scale_changes_a_bit_of_a_pixel),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,298 @@
+/* test_edges.c - the merged edges of boxes against every unit stretch of a small grid, and against counting. */
+#include "scenes.h"
+#include "edges.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Random boxes have whole corners in 0..GRID. */
+#define GRID 5
+#define BOXES 24
+#define KINDS 3
+
+/* Boxes that do not share a layer, style and width have nothing to do with each other. */
+static const scene_look kinds[KINDS] = {
+    {.layer = LAYER_NODES, .width = 1},
+    {.layer = LAYER_RANGE, .style = STYLE_DASHED, .width = 1},
+    {.layer = LAYER_NODES, .width = 2},
+};
+
+static scene random_boxes(uint64_t seed, size_t count)
+{
+    scene s = {.view = view_default()};
+    for (size_t i = 0; i < count; i++) {
+        scene_box box = {.id = i + 1, .depth = (uint8_t)random_below(&seed, 4)};
+        box.look = kinds[random_below(&seed, KINDS)];
+        box.look.role = (uint8_t)(ROLE_NODE + box.depth);
+        for (int axis = 0; axis < 3; axis++) {
+            box.box.min[axis] = (double)random_below(&seed, GRID);
+            box.box.max[axis] = box.box.min[axis] + 1 +
+                                (double)random_below(&seed, (uint64_t)(GRID - box.box.min[axis]));
+        }
+        scene_add_box(&s, box);
+    }
+    return s;
+}
+
+/* The unit stretch of a line along `axis` that begins at `from`; u and v are its place on the next two axes. */
+typedef struct unit_stretch {
+    int axis;
+    double from, u, v;
+} unit_stretch;
+
+static bool same_kind(scene_look a, scene_look b)
+{
+    return a.layer == b.layer && a.style == b.style && a.width == b.width;
+}
+
+static bool box_covers(const octree_box *box, const unit_stretch *of)
+{
+    const int second = (of->axis + 1) % 3, third = (of->axis + 2) % 3;
+    return (of->u == box->min[second] || of->u == box->max[second]) &&
+           (of->v == box->min[third] || of->v == box->max[third]) && box->min[of->axis] <= of->from &&
+           box->max[of->axis] >= of->from + 1;
+}
+
+/* The depth of the shallowest box whose edge covers a stretch; -1 for none. */
+static int shallowest_depth(const scene *s, scene_look kind, const unit_stretch *of)
+{
+    int best = -1;
+    for (size_t i = 0; i < s->boxes.count; i++) {
+        const scene_box *box = &s->boxes.items[i];
+        if (same_kind(box->look, kind) && box_covers(&box->box, of) && (best < 0 || box->depth < best))
+            best = box->depth;
+    }
+    return best;
+}
+
+static int axis_of(const edge *e)
+{
+    int axis = -1;
+    for (int i = 0; i < 3; i++) {
+        if (e->ends[0][i] == e->ends[1][i])
+            continue;
+        assert_int_equal(axis, -1);
+        axis = i;
+    }
+    assert_true(axis >= 0 && e->ends[0][axis] < e->ends[1][axis]);
+    return axis;
+}
+
+static bool edge_covers(const edge *e, const unit_stretch *of)
+{
+    return axis_of(e) == of->axis && e->ends[0][(of->axis + 1) % 3] == of->u &&
+           e->ends[0][(of->axis + 2) % 3] == of->v && e->ends[0][of->axis] <= of->from &&
+           e->ends[1][of->axis] >= of->from + 1;
+}
+
+static void check_stretch(const edge_list *list, const scene *s, scene_look kind, const unit_stretch *of)
+{
+    const int expected = shallowest_depth(s, kind, of);
+    size_t found = 0;
+    for (size_t i = 0; i < list->count; i++) {
+        const edge *e = &list->items[i];
+        if (!same_kind(e->look, kind) || !edge_covers(e, of))
+            continue;
+        assert_int_equal(e->depth, expected);
+        assert_int_equal(e->look.role, ROLE_NODE + expected);
+        found++;
+    }
+    assert_int_equal(found, expected >= 0);
+}
+
+static void every_stretch_is_covered_once_in_the_colour_of_the_shallowest_box(void **state)
+{
+    (void)state;
+    edge_list list = {0};
+    for (uint64_t seed = 1; seed <= 25; seed++) {
+        scene s = random_boxes(seed, 1 + seed % BOXES);
+        assert_true(edges_merge(&list, &s));
+        for (int stretch = 0; stretch < 3 * GRID * (GRID + 1) * (GRID + 1); stretch++) {
+            const unit_stretch of = {stretch % 3, stretch / 3 % GRID, stretch / (3 * GRID) % (GRID + 1),
+                                     stretch / (3 * GRID * (GRID + 1))};
+            for (int kind = 0; kind < KINDS; kind++)
+                check_stretch(&list, &s, kinds[kind], &of);
+        }
+        scene_release(&s);
+    }
+    edges_release(&list);
+}
+
+static bool go_on(const edge *a, const edge *b)
+{
+    return memcmp(a->ends[1], b->ends[0], sizeof a->ends[1]) == 0 && axis_of(a) == axis_of(b) &&
+           same_kind(a->look, b->look) && a->look.role == b->look.role && a->depth == b->depth;
+}
+
+static void assert_maximal(const edge_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        for (size_t j = 0; j < list->count; j++)
+            assert_false(i != j && go_on(&list->items[i], &list->items[j]));
+}
+
+static void no_two_edges_of_one_look_and_depth_meet_end_to_end(void **state)
+{
+    (void)state;
+    edge_list list = {0};
+    for (uint64_t seed = 1; seed <= 100; seed++) {
+        scene s = random_boxes(seed, BOXES);
+        assert_true(edges_merge(&list, &s));
+        assert_maximal(&list);
+        scene_release(&s);
+    }
+    edges_release(&list);
+}
+
+static void ids_are_of_boxes_that_the_edge_belongs_to(void **state)
+{
+    (void)state;
+    edge_list list = {0};
+    for (uint64_t seed = 1; seed <= 50; seed++) {
+        scene s = random_boxes(seed, BOXES);
+        assert_true(edges_merge(&list, &s));
+        for (size_t i = 0; i < list.count; i++) {
+            const edge *e = &list.items[i];
+            const scene_box *box = &s.boxes.items[e->id - 1]; /* random_boxes numbers them so */
+            const int axis = axis_of(e);
+            const unit_stretch start = {axis, e->ends[0][axis], e->ends[0][(axis + 1) % 3],
+                                        e->ends[0][(axis + 2) % 3]};
+            assert_true(box_covers(&box->box, &start));
+            assert_int_equal(box->depth, e->depth);
+            assert_true(same_kind(box->look, e->look));
+        }
+        scene_release(&s);
+    }
+    edges_release(&list);
+}
+
+static void assert_same_edges(const edge_list *a, const edge_list *b)
+{
+    assert_int_equal(a->count, b->count);
+    for (size_t i = 0; i < a->count; i++) {
+        const edge *p = &a->items[i], *q = &b->items[i];
+        assert_memory_equal(p->ends, q->ends, sizeof p->ends);
+        assert_memory_equal(&p->look, &q->look, sizeof p->look);
+        assert_true(p->id == q->id && p->depth == q->depth);
+    }
+}
+
+static void shuffle(scene *s, uint64_t *random)
+{
+    for (size_t i = s->boxes.count; i > 1; i--) {
+        const size_t j = random_below(random, i);
+        const scene_box swapped = s->boxes.items[i - 1];
+        s->boxes.items[i - 1] = s->boxes.items[j];
+        s->boxes.items[j] = swapped;
+    }
+}
+
+static void the_order_of_the_boxes_does_not_matter(void **state)
+{
+    (void)state;
+    edge_list first = {0}, other = {0};
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        scene s = random_boxes(seed, BOXES);
+        for (size_t i = 0; i < s.boxes.count; i++) /* colours that do not follow from the depth */
+            s.boxes.items[i].look.role = (uint8_t)(i % 3);
+        assert_true(edges_merge(&first, &s));
+        for (int round = 0; round < 10; round++) {
+            shuffle(&s, &seed);
+            assert_true(edges_merge(&other, &s));
+            assert_same_edges(&first, &other);
+        }
+        scene_release(&s);
+    }
+    edges_release(&first);
+    edges_release(&other);
+}
+
+static void add_nodes(scene *s, const octree_box *world, octree_address address, unsigned depth, unsigned deepest)
+{
+    const octree_box box = octree_cell_box(world, address);
+    const scene_look look = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1};
+    scene_add_box(s, (scene_box){.id = address, .box = box, .look = look, .depth = (uint8_t)depth});
+    for (unsigned octant = 0; depth < deepest && octant < 8; octant++)
+        add_nodes(s, world, address << 3 | octant, depth + 1, deepest);
+}
+
+/* All stretches of one line of the grid are as deep as the line: 3 (2^d + 1)^2 edges, however many boxes share them. */
+static void a_full_subdivision_has_one_edge_a_line_of_its_grid(void **state)
+{
+    (void)state;
+    static const octree_box worlds[] = {
+        {{-1000, -1000, -1000}, {1000, 1000, 1000}}, {{0.1, -0.3, 1e-3}, {0.7, 1e9, 2e-3}}, {{1e15, 0, 0}, {1e15 + 8, 1, 1}}};
+    edge_list list = {0};
+    for (size_t world = 0; world < sizeof worlds / sizeof worlds[0]; world++) {
+        for (unsigned deepest = 0; deepest <= 4; deepest++) {
+            scene s = {.view = view_default()};
+            add_nodes(&s, &worlds[world], OCTREE_ROOT, 0, deepest);
+            const size_t lines = ((size_t)1 << deepest) + 1;
+            assert_true(edges_merge(&list, &s));
+            assert_int_equal(list.count, 3 * lines * lines);
+            for (size_t i = 0; i < list.count; i++) {
+                const int axis = axis_of(&list.items[i]);
+                assert_true(list.items[i].ends[0][axis] == worlds[world].min[axis]);
+                assert_true(list.items[i].ends[1][axis] == worlds[world].max[axis]);
+            }
+            scene_release(&s);
+        }
+    }
+    edges_release(&list);
+}
+
+static void a_gap_between_two_boxes_stays_a_gap(void **state)
+{
+    (void)state;
+    scene s = {.view = view_default()};
+    edge_list list = {0};
+    scene_add_box(&s, (scene_box){.id = 1, .box = {{0, 0, 0}, {1, 1, 1}}});
+    scene_add_box(&s, (scene_box){.id = 2, .box = {{2, 0, 0}, {3, 1, 1}}});
+    assert_true(edges_merge(&list, &s));
+    assert_int_equal(list.count, 24);
+    scene_release(&s);
+    edges_release(&list);
+}
+
+static void no_boxes_have_no_edges(void **state)
+{
+    (void)state;
+    scene s = {.view = view_default()};
+    edge_list list = {0};
+    assert_true(edges_merge(&list, &s));
+    assert_int_equal(list.count, 0);
+    edges_release(&list);
+}
+
+/* A box of no extent is a point, and a point that is asked for is to be seen. */
+static void a_box_without_extent_keeps_an_edge(void **state)
+{
+    (void)state;
+    edge_list list = {0};
+    for (unsigned flat = 1; flat < 8; flat++) {
+        scene s = {.view = view_default()};
+        octree_box box = cube(1, 2);
+        for (int axis = 0; axis < 3; axis++)
+            box.max[axis] = flat >> axis & 1 ? box.min[axis] : box.max[axis];
+        scene_add_box(&s, (scene_box){.id = 1, .box = box});
+        assert_true(edges_merge(&list, &s));
+        assert_true(list.count >= 1);
+        scene_release(&s);
+    }
+    edges_release(&list);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_stretch_is_covered_once_in_the_colour_of_the_shallowest_box),
+        cmocka_unit_test(no_two_edges_of_one_look_and_depth_meet_end_to_end),
+        cmocka_unit_test(ids_are_of_boxes_that_the_edge_belongs_to),
+        cmocka_unit_test(the_order_of_the_boxes_does_not_matter),
+        cmocka_unit_test(a_full_subdivision_has_one_edge_a_line_of_its_grid),
+        cmocka_unit_test(a_gap_between_two_boxes_stays_a_gap),
+        cmocka_unit_test(no_boxes_have_no_edges),
+        cmocka_unit_test(a_box_without_extent_keeps_an_edge),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

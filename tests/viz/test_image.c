@@ -1,0 +1,145 @@
+/* test_image.c - images in memory: creation, digests, counted and drawn differences. */
+#include "images.h"
+
+static void create_refuses_sides_and_channels_out_of_range(void **state)
+{
+    (void)state;
+    static const int refused[][3] = {{0, 1, 1}, {1, 0, 1}, {-1, 5, 3}, {16385, 1, 1}, {1, 16385, 3}, {4, 4, 2}};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        image image;
+        assert_false(image_create(&image, refused[i][0], refused[i][1], refused[i][2]));
+        assert_null(image.pixels);
+        image_release(&image);
+    }
+}
+
+static void created_image_is_all_zero_and_release_empties_it(void **state)
+{
+    (void)state;
+    image image;
+    assert_true(image_create(&image, 7, 5, 3));
+    for (int n = 0; n < 7 * 5 * 3; n++)
+        assert_int_equal(image.pixels[n], 0);
+    image_release(&image);
+    assert_null(image.pixels);
+    image_release(&image);
+}
+
+static void digest_is_of_size_and_colours_alone(void **state)
+{
+    (void)state;
+    image_twins twins = make_twins(37, 11);
+    uint64_t digest = image_digest(&twins.rgb);
+    assert_true(image_digest(&twins.indexed) == digest);
+    twins.rgb.width = 11;
+    twins.rgb.height = 37;
+    assert_true(image_digest(&twins.rgb) != digest);
+    release_twins(&twins);
+}
+
+static void digest_changes_with_any_channel_of_any_pixel(void **state)
+{
+    (void)state;
+    image blank;
+    assert_true(image_create(&blank, 23, 9, 3));
+    uint64_t digest = image_digest(&blank);
+    uint64_t before = digest;
+    for (size_t i = 0; i < 23 * 9 * 3; i++) {
+        blank.pixels[i] = 1;
+        uint64_t changed = image_digest(&blank);
+        assert_true(changed != digest && changed != before);
+        before = changed;
+        blank.pixels[i] = 0;
+    }
+    image_release(&blank);
+}
+
+static void compare_counts_places_and_measures(void **state)
+{
+    (void)state;
+    image_twins twins = make_twins(600, 20);
+    image_difference none = image_compare(&twins.indexed, &twins.rgb);
+    assert_true(image_same(&none));
+    assert_true(none.first_x == -1 && none.first_y == -1 && none.min_x == -1 && none.max_y == -1);
+    static const int unlike[][3] = {{599, 3, 1}, {256, 4, 100}, {2, 9, 7}}; /* x, y, delta */
+    for (int i = 0; i < 3; i++) {
+        uint8_t *at = twins.rgb.pixels + 3 * (unlike[i][1] * 600 + unlike[i][0]) + i;
+        *at = (uint8_t)(*at < 128 ? *at + unlike[i][2] : *at - unlike[i][2]);
+    }
+    const image *sides[][2] = {{&twins.indexed, &twins.rgb}, {&twins.rgb, &twins.indexed}};
+    for (int i = 0; i < 2; i++) {
+        image_difference found = image_compare(sides[i][0], sides[i][1]);
+        assert_false(image_same(&found));
+        assert_int_equal(found.pixels, 3);
+        assert_int_equal(found.largest_delta, 100);
+        assert_true(found.first_x == 599 && found.first_y == 3);
+        assert_true(found.min_x == 2 && found.max_x == 599 && found.min_y == 3 && found.max_y == 9);
+    }
+    release_twins(&twins);
+}
+
+static void compare_sees_through_palettes(void **state)
+{
+    (void)state;
+    image_twins a = make_twins(30, 30);
+    image_twins b = make_twins(30, 30);
+    for (int n = 0; n < 900; n++)
+        b.indexed.pixels[n] = b.indexed.pixels[n] == 3 ? 2 : b.indexed.pixels[n]; /* the same colour, another index */
+    image_difference difference = image_compare(&a.indexed, &b.indexed);
+    assert_true(image_same(&difference));
+    b.indexed.palette.colors[0].g ^= 2; /* the same index, another colour */
+    difference = image_compare(&a.indexed, &b.indexed);
+    assert_int_equal(difference.largest_delta, 2);
+    release_twins(&a);
+    release_twins(&b);
+}
+
+static void images_of_unlike_size_are_not_the_same(void **state)
+{
+    (void)state;
+    image a, b;
+    assert_true(image_create(&a, 4, 6, 3));
+    assert_true(image_create(&b, 6, 4, 3));
+    image_difference difference = image_compare(&a, &b);
+    assert_false(difference.same_size);
+    assert_false(image_same(&difference));
+    assert_int_equal(difference.pixels, 0);
+    image_release(&a);
+    image_release(&b);
+}
+
+static void difference_is_drawn_red_over_grey(void **state)
+{
+    (void)state;
+    image_twins twins = make_twins(9, 7);
+    image drawn;
+    int unlike = 9 * 2 + 5;
+    twins.rgb.pixels[3 * unlike] ^= 1;
+    twins.rgb.height = 6; /* the last row has no partner */
+    assert_true(image_draw_difference(&twins.indexed, &twins.rgb, &drawn));
+    assert_true(drawn.width == 9 && drawn.height == 6 && drawn.channels == 3);
+    for (int n = 0; n < 9 * 6; n++) {
+        image_color color = image_color_at(&drawn, n % 9, n / 9);
+        if (n == unlike)
+            assert_true(color.r == 255 && color.g == 0 && color.b == 0);
+        else
+            assert_true(color.r == color.g && color.g == color.b && color.r >= 191);
+    }
+    image_release(&drawn);
+    release_twins(&twins);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(create_refuses_sides_and_channels_out_of_range),
+        cmocka_unit_test(created_image_is_all_zero_and_release_empties_it),
+        cmocka_unit_test(digest_is_of_size_and_colours_alone),
+        cmocka_unit_test(digest_changes_with_any_channel_of_any_pixel),
+        cmocka_unit_test(compare_counts_places_and_measures),
+        cmocka_unit_test(compare_sees_through_palettes),
+        cmocka_unit_test(images_of_unlike_size_are_not_the_same),
+        cmocka_unit_test(difference_is_drawn_red_over_grey),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

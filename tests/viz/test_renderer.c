@@ -1,0 +1,288 @@
+/* test_renderer.c - renderers: which sizes and drivers they take, and that the same scene is the same frame. */
+#include "frames.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* The default session's tick 30, with everything on. */
+static scene busy_scene(int width, int height, view_camera camera)
+{
+    const octree_session session = octree_session_default();
+    const view v = view_of(width, height, camera, VIEW_ALL_LAYERS);
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    for (int tick = 0; tick < 30; tick++)
+        play_tick(game);
+    build_tick(&s, &v, game);
+    octree_game_destroy(game);
+    return s;
+}
+
+/* What a child process says, which may change its environment: 0 to 3. */
+typedef int (*child_check)(void);
+
+static int run_child(child_check check)
+{
+    int status = 0;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        _exit(check());
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+enum { REFUSED_WITH_REASON = 0, REFUSED_WITHOUT = 1, DRAWN_BY_LLVMPIPE = 2, DRAWN_BY_ANOTHER = 3 };
+
+static int ask_for_softpipe(void)
+{
+    draw_error error = {""};
+    setenv("GALLIUM_DRIVER", "softpipe", 1);
+    renderer *r = renderer_open(16, 16, &error);
+    if (!r)
+        return strstr(error.text, "softpipe") && strstr(error.text, "llvmpipe") ? REFUSED_WITH_REASON : REFUSED_WITHOUT;
+    const char *driver = renderer_about(r).renderer;
+    return driver && strncmp(driver, "llvmpipe", 8) == 0 ? DRAWN_BY_LLVMPIPE : DRAWN_BY_ANOTHER;
+}
+
+static void a_driver_that_is_not_llvmpipe_is_refused_by_name(void **state)
+{
+    (void)state;
+    const int said = run_child(ask_for_softpipe);
+    assert_true(said == REFUSED_WITH_REASON || said == DRAWN_BY_LLVMPIPE); /* a Mesa may have no softpipe */
+}
+
+/* With a driver that would be refused for itself, a sentence about the size shows that no context was opened. */
+static int ask_for_a_size_too_large(void)
+{
+    draw_error error = {""};
+    setenv("GALLIUM_DRIVER", "softpipe", 1);
+    if (renderer_open(16385, 1, &error))
+        return DRAWN_BY_ANOTHER;
+    return strstr(error.text, "16385 x 1") ? REFUSED_WITH_REASON : REFUSED_WITHOUT;
+}
+
+static void a_size_is_refused_before_a_context_is_opened(void **state)
+{
+    (void)state;
+    assert_int_equal(run_child(ask_for_a_size_too_large), REFUSED_WITH_REASON);
+}
+
+static void sizes_out_of_range_are_refused_with_a_sentence_that_names_them(void **state)
+{
+    (void)state;
+    static const struct {
+        int width, height;
+        const char *named;
+    } rows[] = {
+        {0, 0, "0 x 0"},         {0, 720, "0 x 720"},         {1280, 0, "1280 x 0"},
+        {-1, 5, "-1 x 5"},       {5, INT_MIN, "5 x -2147"},   {16385, 1, "16385 x 1"},
+        {1, 16385, "1 x 16385"}, {INT_MAX, INT_MAX, "2147483647 x 2147483647"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        draw_error error = {""};
+        assert_null(renderer_open(rows[i].width, rows[i].height, &error));
+        assert_non_null(strstr(error.text, rows[i].named));
+        assert_non_null(strstr(error.text, "16384"));
+    }
+}
+
+static void the_renderer_says_who_draws(void **state)
+{
+    (void)state;
+    renderer *r = open_renderer(16, 16);
+    const renderer_info about = renderer_about(r);
+    assert_string_equal(about.context, "osmesa");
+    assert_non_null(about.vendor);
+    assert_non_null(about.version);
+    assert_int_equal(strncmp(about.renderer, "llvmpipe", 8), 0);
+    renderer_close(r);
+    renderer_close(NULL);
+}
+
+static void extreme_sizes_are_drawn_to_their_edges(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {2, 1}, {1, 16384}, {16384, 1}, {16384, 3}, {7, 4099}, {255, 257}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        const int width = sizes[i][0], height = sizes[i][1];
+        const view v = view_of(width, height, CAMERA_ISO, VIEW_ALL_LAYERS);
+        const octree_box world = cube(-1, 1);
+        const scene_look look = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
+        scene s = empty_scene(&v, &world);
+        renderer *r = open_renderer(width, height);
+        uint8_t *blank = draw(r, &s);
+        assert_int_equal(lit_pixels(blank, &s), 0);
+        scene_add_panel(&s, (scene_panel){.x = 0, .y = 0, .width = 1, .height = 1, .look = look});
+        scene_add_panel(&s, (scene_panel){.x = width - 1, .y = height - 1, .width = 1, .height = 1, .look = look});
+        uint8_t *corners = draw(r, &s);
+        assert_int_equal(lit_pixels(corners, &s), width * height == 1 ? 1 : 2);
+        assert_int_equal(corners[0], theme_index(ROLE_TEXT, 0));
+        assert_int_equal(corners[(size_t)width * (size_t)height - 1], theme_index(ROLE_TEXT, 0));
+        free(blank);
+        free(corners);
+        scene_release(&s);
+        s = busy_scene(width, height, CAMERA_ORBIT);
+        uint8_t *busy = draw(r, &s);
+        assert_true(lit_pixels(busy, &s) > 0);
+        free(busy);
+        scene_release(&s);
+        renderer_close(r);
+    }
+}
+
+static void a_scene_of_another_size_is_refused(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{32, 31}, {31, 32}, {33, 32}, {32, 33}, {16, 64}, {64, 16}};
+    renderer *r = open_renderer(32, 32);
+    uint8_t frame[64 * 64] = {0};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        draw_error error = {""};
+        scene s = busy_scene(sizes[i][0], sizes[i][1], CAMERA_ISO);
+        assert_false(renderer_draw(r, &s, frame, &error));
+        assert_non_null(strstr(error.text, "size"));
+        for (size_t pixel = 0; pixel < sizeof frame; pixel++)
+            assert_int_equal(frame[pixel], 0);
+        scene_release(&s);
+    }
+    renderer_close(r);
+}
+
+static void a_frame_is_the_same_again_after_others_and_by_another_renderer(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        scene s = busy_scene(320, 180, (view_camera)kind);
+        scene other = busy_scene(320, 180, (view_camera)((kind + 1) % CAMERA_COUNT));
+        renderer *first = open_renderer(320, 180);
+        uint8_t *a = draw(first, &s), *between = draw(first, &other), *b = draw(first, &s);
+        renderer_close(first);
+        renderer *second = open_renderer(320, 180);
+        uint8_t *c = draw(second, &s);
+        renderer_close(second);
+        assert_true(lit_pixels(a, &s) > 1000);
+        assert_same_frame(a, b, &s);
+        assert_same_frame(a, c, &s);
+        assert_memory_not_equal(a, between, 320 * 180);
+        free(a);
+        free(between);
+        free(b);
+        free(c);
+        scene_release(&s);
+        scene_release(&other);
+    }
+}
+
+static void two_renderers_at_once_do_not_disturb_each_other(void **state)
+{
+    (void)state;
+    scene small = busy_scene(160, 90, CAMERA_ISO), large = busy_scene(320, 180, CAMERA_ORBIT);
+    renderer *first = open_renderer(160, 90);
+    uint8_t *alone = draw(first, &small);
+    renderer *second = open_renderer(320, 180);
+    uint8_t *a = draw(first, &small), *b = draw(second, &large);
+    assert_same_frame(alone, a, &small);
+    renderer_close(second);
+    uint8_t *after = draw(first, &small);
+    assert_same_frame(alone, after, &small);
+    renderer_close(first);
+    second = open_renderer(320, 180);
+    uint8_t *c = draw(second, &large);
+    assert_same_frame(b, c, &large);
+    renderer_close(second);
+    free(alone);
+    free(a);
+    free(b);
+    free(after);
+    free(c);
+    scene_release(&small);
+    scene_release(&large);
+}
+
+/* Frames of several ticks of the default session, moved and scaled; text apart, which tells the true numbers. */
+static void assert_same_frames_elsewhere(renderer *r, view_camera camera, double scale, double offset)
+{
+    const view v = view_of(320, 180, camera, VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT));
+    const octree_session session = octree_session_default();
+    scaled_session made;
+    scene a = {0}, b = {0};
+    scale_session(&made, scale, offset);
+    octree_game *here = start_game(&session), *there = start_game(&made.session);
+    for (int tick = 0; !octree_game_over(here); tick++, play_tick(here), play_tick(there)) {
+        if (tick % 43 != 0)
+            continue;
+        build_tick(&a, &v, here);
+        build_tick(&b, &v, there);
+        uint8_t *first = draw(r, &a), *second = draw(r, &b);
+        assert_true(lit_pixels(first, &a) > 500);
+        assert_same_frame(first, second, &a);
+        free(first);
+        free(second);
+    }
+    octree_game_destroy(here);
+    octree_game_destroy(there);
+    scene_release(&a);
+    scene_release(&b);
+}
+
+static void neither_place_nor_scale_changes_a_byte_of_a_frame(void **state)
+{
+    (void)state;
+    renderer *r = open_renderer(320, 180);
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        assert_same_frames_elsewhere(r, (view_camera)kind, 1, 1e15);
+        assert_same_frames_elsewhere(r, (view_camera)kind, ldexp(1, -1000), 0);
+        assert_same_frames_elsewhere(r, (view_camera)kind, ldexp(1, 620), ldexp(-1e15, 620));
+    }
+    renderer_close(r);
+}
+
+/* Far ends, ends behind the eye, everything at once: the frame is made, of colours of the theme. */
+static void segments_to_far_off_are_drawn_without_harm(void **state)
+{
+    (void)state;
+    static const double sizes[] = {0, 1, 1e16, 1e100, 1e300, 1.7e308};
+    uint64_t random = 3;
+    renderer *r = open_renderer(64, 64);
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        const octree_box world = cube(-1, 1);
+        const view v = view_of(64, 64, (view_camera)kind, VIEW_ALL_LAYERS);
+        scene s = empty_scene(&v, &world);
+        for (uint64_t i = 0; i < 2000; i++) {
+            scene_segment segment = {.id = i, .look = {.role = ROLE_RANGE, .style = (uint8_t)(i % 2), .width = 1}};
+            for (int j = 0; j < 6; j++)
+                segment.ends[j / 3][j % 3] =
+                    sizes[random_below(&random, sizeof sizes / sizeof sizes[0])] * (random_below(&random, 2) ? 1 : -1);
+            scene_add_segment(&s, segment);
+        }
+        uint8_t *frame = draw(r, &s);
+        assert_true(lit_pixels(frame, &s) > 0);
+        free(frame);
+        scene_release(&s);
+    }
+    renderer_close(r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        /* Those with child processes come first: Mesa's threads do not survive a fork. */
+        cmocka_unit_test(a_driver_that_is_not_llvmpipe_is_refused_by_name),
+        cmocka_unit_test(a_size_is_refused_before_a_context_is_opened),
+        cmocka_unit_test(sizes_out_of_range_are_refused_with_a_sentence_that_names_them),
+        cmocka_unit_test(the_renderer_says_who_draws),
+        cmocka_unit_test(extreme_sizes_are_drawn_to_their_edges),
+        cmocka_unit_test(a_scene_of_another_size_is_refused),
+        cmocka_unit_test(a_frame_is_the_same_again_after_others_and_by_another_renderer),
+        cmocka_unit_test(two_renderers_at_once_do_not_disturb_each_other),
+        cmocka_unit_test(neither_place_nor_scale_changes_a_byte_of_a_frame),
+        cmocka_unit_test(segments_to_far_off_are_drawn_without_harm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,418 @@
+/* test_scene.c - the draw list of a tick, without any picture: what is in it, how often, and where. */
+#include "scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "random_session.h"
+
+/* What a walk over the nodes is compared with. */
+typedef struct node_check {
+    const scene *scene;
+    size_t nodes, points;
+} node_check;
+
+/* The one box of a layer with this id; the test fails when there is another number of them. */
+static const scene_box *only_box(const scene *s, unsigned layer, uint64_t id)
+{
+    const scene_box *found = NULL;
+    for (size_t i = 0; i < s->boxes.count; i++) {
+        const scene_box *box = &s->boxes.items[i];
+        if (box->look.layer != layer || box->id != id)
+            continue;
+        assert_null(found);
+        found = box;
+    }
+    assert_non_null(found);
+    return found;
+}
+
+static size_t markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->markers.count; i++) {
+        const scene_marker *marker = &s->markers.items[i];
+        count += marker->look.layer == layer && marker->id == id && same_position(marker->at, at);
+    }
+    return count;
+}
+
+/* The elements of a layer, by kind. */
+typedef struct layer_counts {
+    size_t boxes, segments, markers, labels, panels;
+} layer_counts;
+
+static layer_counts count_layer(const scene *s, unsigned layer)
+{
+    layer_counts found = {0};
+    for (size_t i = 0; i < s->boxes.count; i++)
+        found.boxes += s->boxes.items[i].look.layer == layer;
+    for (size_t i = 0; i < s->segments.count; i++)
+        found.segments += s->segments.items[i].look.layer == layer;
+    for (size_t i = 0; i < s->markers.count; i++)
+        found.markers += s->markers.items[i].look.layer == layer;
+    for (size_t i = 0; i < s->labels.count; i++)
+        found.labels += s->labels.items[i].look.layer == layer;
+    for (size_t i = 0; i < s->panels.count; i++)
+        found.panels += s->panels.items[i].look.layer == layer;
+    return found;
+}
+
+static bool same_box(const octree_box *a, const octree_box *b)
+{
+    return same_position(a->min, b->min) && same_position(a->max, b->max);
+}
+
+static octree_walk_order check_node(const octree_node *node, void *context)
+{
+    node_check *check = context;
+    const scene_box *box = only_box(check->scene, LAYER_NODES, node->address);
+    assert_true(same_box(&box->box, &node->box));
+    assert_int_equal(box->depth, node->depth);
+    assert_int_equal(box->look.role, theme_node_role(node->depth));
+    for (size_t i = 0; node->leaf && i < node->count; i++) {
+        assert_int_equal(markers_at(check->scene, LAYER_POINTS, node->points[i].id, node->points[i].position), 1);
+        assert_true(box_holds(&box->box, node->points[i].position));
+        check->points++;
+    }
+    check->nodes++;
+    return OCTREE_WALK_ON;
+}
+
+static void check_tree(const scene *s, const octree *tree)
+{
+    node_check check = {.scene = s};
+    assert_int_equal(octree_walk(tree, check_node, &check), OCTREE_OK);
+    assert_int_equal(count_layer(s, LAYER_NODES).boxes, check.nodes);
+    assert_int_equal(count_layer(s, LAYER_POINTS).markers, check.points);
+    assert_int_equal(check.points, octree_count(tree));
+    const octree_box world = octree_definition(tree).world;
+    assert_true(same_box(&only_box(s, LAYER_WORLD, 0)->box, &world));
+}
+
+static void check_box_about(const octree_box *box, const double center[3], double size)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        assert_true(box->min[axis] == center[axis] - size);
+        assert_true(box->max[axis] == center[axis] + size);
+    }
+}
+
+static void check_player(const scene *s, const octree_tick *tick, const octree_player *player)
+{
+    const scene_box *box = only_box(s, LAYER_BOX, player->id);
+    assert_int_equal(box->look.role, ROLE_PLAYER);
+    check_box_about(&box->box, tick->player, player->box_size);
+    assert_int_equal(count_layer(s, LAYER_PLAYER).markers, 1);
+    assert_int_equal(markers_at(s, LAYER_PLAYER, player->id, tick->player), 1);
+}
+
+static void check_collision(const scene *s, const octree_tick *tick, const octree_player *player)
+{
+    const layer_counts found = count_layer(s, LAYER_BOX);
+    assert_int_equal(found.markers, tick->hit_count);
+    assert_int_equal(found.boxes, tick->hit_count ? 2 : 1);
+    assert_int_equal(found.segments != 0, tick->hit_count != 0);
+    for (size_t i = 0; i < tick->hit_count; i++)
+        assert_int_equal(markers_at(s, LAYER_BOX, tick->hits[i].id, tick->hits[i].position), 1);
+    if (tick->hit_count == 0)
+        return;
+    const scene_box *box = only_box(s, LAYER_BOX, UINT64_MAX);
+    assert_int_equal(box->look.role, ROLE_COLLISION);
+    check_box_about(&box->box, tick->attempt, player->box_size);
+}
+
+static void check_nearest(const scene *s, const octree_answer *answer, uint64_t id)
+{
+    size_t lines = 0;
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *line = &s->segments.items[i];
+        if (line->look.layer != LAYER_NEAREST || line->id != id)
+            continue;
+        assert_true(same_position(line->ends[0], answer->target));
+        assert_true(same_position(line->ends[1], answer->neighbor.point.position));
+        lines++;
+    }
+    assert_int_equal(lines, 1);
+    assert_true(markers_at(s, LAYER_NEAREST, answer->neighbor.point.id, answer->neighbor.point.position) >= 1);
+}
+
+static void check_answers(const scene *s, const octree_tick *tick)
+{
+    size_t ranges = 0, in_range = 0, nearest = 0;
+    for (size_t i = 0; i < tick->answer_count; i++) {
+        const octree_answer *answer = &tick->answers[i];
+        if (answer->kind == OCTREE_QUERY_RANGE) {
+            assert_true(same_box(&only_box(s, LAYER_RANGE, i)->box, &answer->box));
+            for (size_t j = 0; j < answer->count; j++)
+                assert_true(markers_at(s, LAYER_RANGE, answer->points[j].id, answer->points[j].position) >= 1);
+            ranges++;
+            in_range += answer->count;
+        } else if (answer->found) {
+            check_nearest(s, answer, i);
+            nearest++;
+        }
+    }
+    assert_int_equal(count_layer(s, LAYER_RANGE).boxes, ranges);
+    assert_int_equal(count_layer(s, LAYER_RANGE).markers, in_range);
+    assert_int_equal(count_layer(s, LAYER_NEAREST).segments, nearest);
+    assert_int_equal(count_layer(s, LAYER_NEAREST).markers, nearest);
+}
+
+static void collision_is_red_and_nothing_else_is(const scene *s, const octree_tick *tick)
+{
+    size_t red = 0;
+    for (size_t i = 0; i < s->boxes.count; i++)
+        red += s->boxes.items[i].look.role == ROLE_COLLISION;
+    assert_int_equal(red, tick->hit_count != 0);
+    for (size_t i = 0; i < s->markers.count; i++)
+        assert_int_equal(s->markers.items[i].look.role == ROLE_COLLISION, s->markers.items[i].look.layer == LAYER_BOX);
+    for (size_t i = 0; i < s->segments.count; i++)
+        assert_int_equal(s->segments.items[i].look.role == ROLE_COLLISION,
+                         s->segments.items[i].look.layer == LAYER_BOX);
+}
+
+static void check_tick(const scene *s, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const octree_player *player = &octree_game_session(game)->player;
+    check_tree(s, octree_game_tree(game));
+    check_player(s, tick, player);
+    check_collision(s, tick, player);
+    check_answers(s, tick);
+    collision_is_red_and_nothing_else_is(s, tick);
+}
+
+static void check_session(const octree_session *session, view_camera camera)
+{
+    const view v = view_of(320, 180, camera, VIEW_ALL_LAYERS);
+    octree_game *game = start_game(session);
+    scene s = {0};
+    for (;;) {
+        build_tick(&s, &v, game);
+        check_tick(&s, game);
+        if (octree_game_over(game))
+            break;
+        play_tick(game);
+    }
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
+static void every_tick_of_the_default_session_shows_what_happened_and_no_more(void **state)
+{
+    (void)state;
+    const octree_session session = octree_session_default();
+    check_session(&session, CAMERA_ISO);
+}
+
+static void every_tick_of_random_sessions_shows_what_happened_and_no_more(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 12; seed++) {
+        random_session made;
+        random_session_full(&made, seed);
+        check_session(&made.session, (view_camera)(seed % CAMERA_COUNT));
+    }
+}
+
+static size_t elements(layer_counts of)
+{
+    return of.boxes + of.segments + of.markers + of.labels + of.panels;
+}
+
+/* Elements are compared by the digest of a scene that holds them and nothing else. */
+static uint64_t layer_digest(const scene *s, unsigned layer)
+{
+    scene alone = {.view = {.layers = 1u << layer}};
+    for (size_t i = 0; i < s->boxes.count; i++)
+        scene_add_box(&alone, s->boxes.items[i]);
+    for (size_t i = 0; i < s->segments.count; i++)
+        scene_add_segment(&alone, s->segments.items[i]);
+    for (size_t i = 0; i < s->markers.count; i++)
+        scene_add_marker(&alone, s->markers.items[i]);
+    for (size_t i = 0; i < s->labels.count; i++)
+        scene_add_label(&alone, s->labels.items[i]);
+    for (size_t i = 0; i < s->panels.count; i++)
+        scene_add_panel(&alone, s->panels.items[i]);
+    assert_int_equal(elements(count_layer(&alone, layer)), elements(count_layer(s, layer)));
+    const uint64_t digest = scene_digest(&alone);
+    scene_release(&alone);
+    return digest;
+}
+
+/* The text tells what the other layers show: it alone may change with them. */
+static void check_without_layer(const scene *all, const octree_game *game, unsigned off)
+{
+    const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS & ~(1u << off));
+    scene s = {0};
+    build_tick(&s, &v, game);
+    assert_int_equal(elements(count_layer(&s, off)), 0);
+    for (unsigned layer = 0; layer < LAYER_TEXT; layer++)
+        if (layer != off)
+            assert_true(layer_digest(&s, layer) == layer_digest(all, layer));
+    scene_release(&s);
+}
+
+static void a_layer_that_is_off_is_absent_and_the_others_stay_as_they_are(void **state)
+{
+    (void)state;
+    const octree_session session = octree_session_default();
+    const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS);
+    octree_game *game = start_game(&session);
+    scene all = {0};
+    bool shown[LAYER_COUNT] = {false};
+    while (!octree_game_over(game)) {
+        play_tick(game);
+        build_tick(&all, &v, game);
+        for (unsigned layer = 0; layer < LAYER_COUNT; layer++)
+            shown[layer] |= elements(count_layer(&all, layer)) != 0;
+        for (unsigned layer = 0; octree_game_tick(game)->number % 5 == 0 && layer < LAYER_COUNT; layer++)
+            check_without_layer(&all, game, layer);
+    }
+    for (unsigned layer = 0; layer < LAYER_COUNT; layer++)
+        assert_true(shown[layer]);
+    scene_release(&all);
+    octree_game_destroy(game);
+}
+
+static void shuffle(octree_body *bodies, size_t count, uint64_t *state)
+{
+    for (size_t i = count; i > 1; i--) {
+        const size_t j = random_below(state, i);
+        const octree_body swapped = bodies[i - 1];
+        bodies[i - 1] = bodies[j];
+        bodies[j] = swapped;
+    }
+}
+
+static void a_tick_is_the_same_scene_whatever_the_order_of_its_bodies(void **state)
+{
+    (void)state;
+    const view v = view_of(320, 180, CAMERA_FOLLOW, VIEW_ALL_LAYERS);
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        random_session made, other;
+        scene a = {0}, b = {0};
+        random_session_plain(&made, seed);
+        random_session_plain(&other, seed);
+        made.session.tree.full_leaf = other.session.tree.full_leaf = OCTREE_GROW;
+        shuffle(other.bodies, other.session.body_count, &(uint64_t){seed});
+        octree_game *first = start_game(&made.session), *second = start_game(&other.session);
+        for (; !octree_game_over(first); play_tick(first), play_tick(second)) {
+            build_tick(&a, &v, first);
+            build_tick(&b, &v, second);
+            assert_true(scene_digest(&a) == scene_digest(&b));
+        }
+        octree_game_destroy(first);
+        octree_game_destroy(second);
+        scene_release(&a);
+        scene_release(&b);
+    }
+}
+
+#define POINTS 300
+
+/* Half of the points share coordinates, and some share an id. Before `first` and after it round to it again. */
+static octree *tree_from(const octree_body *bodies, size_t first)
+{
+    octree *tree = make_tree(cube(-8, 8), 3, 5, OCTREE_GROW);
+    for (size_t i = 0; i < POINTS; i++) {
+        const octree_body *body = &bodies[(first + i) % POINTS];
+        const octree_status status = octree_insert(tree, body->position, body->id);
+        assert_true(status == OCTREE_OK || status == OCTREE_DUPLICATE);
+    }
+    return tree;
+}
+
+static void a_tree_is_the_same_scene_whatever_its_history(void **state)
+{
+    (void)state;
+    const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
+    octree_body bodies[POINTS];
+    uint64_t random = 7;
+    for (size_t i = 0; i < POINTS; i++)
+        bodies[i] = (octree_body){
+            .id = random_below(&random, POINTS / 2),
+            .position = {(double)random_below(&random, 8), (double)random_below(&random, 4) / 8, 1},
+        };
+    scene s = {0};
+    uint64_t expected = 0;
+    for (int round = 0; round < 20; round++) {
+        octree *tree = tree_from(bodies, random_below(&random, POINTS));
+        const double passer_by[3] = {-7, -7, -7};
+        for (uint64_t id = 0; id < 50; id++)
+            assert_int_equal(octree_insert(tree, passer_by, id), OCTREE_OK);
+        for (uint64_t id = 0; id < 50; id++)
+            assert_int_equal(octree_remove(tree, passer_by, id), OCTREE_OK);
+        assert_true(tree_scene_build(&s, &v, tree, "history"));
+        check_tree(&s, tree);
+        expected = round ? expected : scene_digest(&s);
+        assert_true(scene_digest(&s) == expected);
+        octree_destroy(tree);
+        shuffle(bodies, POINTS, &random);
+    }
+    scene_release(&s);
+}
+
+static void an_empty_tree_shows_its_world_and_its_root(void **state)
+{
+    (void)state;
+    const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
+    octree *tree = make_tree(cube(-1, 1), 2, 5, OCTREE_REFUSE);
+    scene s = {0};
+    assert_true(tree_scene_build(&s, &v, tree, "empty"));
+    check_tree(&s, tree);
+    assert_int_equal(s.boxes.count, 2);
+    assert_int_equal(s.markers.count, 0);
+    octree_destroy(tree);
+    scene_release(&s);
+}
+
+static void elements_that_are_not_finite_are_counted_and_left_out(void **state)
+{
+    (void)state;
+    static const double wrong[] = {NAN, INFINITY, -INFINITY};
+    scene s = {.view = view_default()};
+    size_t refused = 0;
+    for (size_t w = 0; w < 3; w++) {
+        for (int i = 0; i < 6; i++) {
+            scene_box box = {0};
+            scene_segment segment = {0};
+            *(i < 3 ? &box.box.min[i] : &box.box.max[i - 3]) = wrong[w];
+            segment.ends[i / 3][i % 3] = wrong[w];
+            scene_add_box(&s, box);
+            scene_add_segment(&s, segment);
+            refused += 2;
+        }
+        for (int i = 0; i < 3; i++) {
+            scene_marker marker = {0};
+            scene_label label = {.in_world = i > 0};
+            marker.at[i] = label.at[i] = wrong[w];
+            scene_add_marker(&s, marker);
+            scene_add_label(&s, label);
+            refused += 2;
+        }
+    }
+    assert_int_equal(s.refused, refused);
+    assert_int_equal(s.boxes.count + s.segments.count + s.markers.count + s.labels.count, 0);
+    scene_add_box(&s, (scene_box){.box = cube(-1.7e308, 1.7e308)});
+    assert_int_equal(s.boxes.count, 1);
+    scene_clear(&s);
+    assert_int_equal(s.refused, 0);
+    scene_release(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_tick_of_the_default_session_shows_what_happened_and_no_more),
+        cmocka_unit_test(every_tick_of_random_sessions_shows_what_happened_and_no_more),
+        cmocka_unit_test(a_layer_that_is_off_is_absent_and_the_others_stay_as_they_are),
+        cmocka_unit_test(a_tick_is_the_same_scene_whatever_the_order_of_its_bodies),
+        cmocka_unit_test(a_tree_is_the_same_scene_whatever_its_history),
+        cmocka_unit_test(an_empty_tree_shows_its_world_and_its_root),
+        cmocka_unit_test(elements_that_are_not_finite_are_counted_and_left_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

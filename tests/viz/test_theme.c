@@ -1,0 +1,182 @@
+/* test_theme.c - what the colours may mean, how they fade, and what is left of them without red, green or any hue. */
+#include "fixture.h"
+#include "theme.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Hue in degrees from red, 0 to 180 either way, and how far a colour is from grey (chroma), 0 to 255. */
+static double degrees_from_red(theme_color c, double *chroma)
+{
+    const double y = sqrt(3) / 2 * (c.g - c.b), x = c.r - (c.g + c.b) / 2.0;
+    *chroma = hypot(x, y);
+    return fabs(atan2(y, x)) * 180 / acos(-1);
+}
+
+static void only_collision_is_red(void **state)
+{
+    (void)state;
+    for (unsigned role = 0; role < ROLE_COUNT; role++) {
+        for (unsigned shade = 0; shade < THEME_SHADES; shade++) {
+            double chroma;
+            const double away = degrees_from_red(theme_color_at(theme_index(role, shade)), &chroma);
+            if (role == ROLE_COLLISION)
+                assert_true(away < 15 && chroma > 60);
+            else
+                assert_true(away > 25 || chroma < 12);
+        }
+    }
+}
+
+/* Linear light of a channel (sRGB, IEC 61966-2-1). */
+static double linear(uint8_t channel)
+{
+    const double c = channel / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static double luminance(theme_color c)
+{
+    return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+}
+
+static void deeper_nodes_are_lighter_so_that_depth_survives_grey(void **state)
+{
+    (void)state;
+    for (unsigned shade = 0; shade < THEME_SHADES; shade++)
+        for (unsigned depth = 1; depth < THEME_NODE_DEPTHS; depth++)
+            assert_true(luminance(theme_color_at(theme_index(theme_node_role(depth), shade))) >
+                        luminance(theme_color_at(theme_index(theme_node_role(depth - 1), shade))));
+}
+
+static void nodes_beyond_the_ramp_share_its_end(void **state)
+{
+    (void)state;
+    assert_int_equal(theme_node_role(0), ROLE_NODE);
+    for (unsigned depth = THEME_NODE_DEPTHS - 1; depth < 1000; depth++)
+        assert_int_equal(theme_node_role(depth), ROLE_COUNT - 1);
+}
+
+static int distance_to_ground(theme_color c)
+{
+    const theme_color ground = theme_color_at(theme_index(ROLE_BACKGROUND, 0));
+    return abs(c.r - ground.r) + abs(c.g - ground.g) + abs(c.b - ground.b);
+}
+
+static void farther_shades_come_nearer_to_the_background_and_stay_apart_from_it(void **state)
+{
+    (void)state;
+    for (unsigned role = ROLE_BACKGROUND + 1; role < ROLE_COUNT; role++) {
+        int last = distance_to_ground(theme_color_at(theme_index(role, 0)));
+        for (unsigned shade = 1; shade < THEME_SHADES; shade++) {
+            const int now = distance_to_ground(theme_color_at(theme_index(role, shade)));
+            assert_true(now < last);
+            last = now;
+        }
+        assert_true(role == ROLE_PANEL || last >= 64);
+    }
+}
+
+static void the_background_has_no_shades_and_is_index_0(void **state)
+{
+    (void)state;
+    assert_int_equal(theme_index(ROLE_BACKGROUND, 0), 0);
+    for (unsigned shade = 0; shade < THEME_SHADES; shade++)
+        assert_int_equal(distance_to_ground(theme_color_at(theme_index(ROLE_BACKGROUND, shade))), 0);
+}
+
+static void every_index_fits_a_byte_and_is_used_once(void **state)
+{
+    (void)state;
+    bool used[256] = {false};
+    assert_true(THEME_COLORS <= 256);
+    for (unsigned role = 0; role < ROLE_COUNT; role++) {
+        for (unsigned shade = 0; shade < THEME_SHADES; shade++) {
+            assert_true(theme_index(role, shade) < THEME_COLORS);
+            assert_false(used[theme_index(role, shade)]);
+            used[theme_index(role, shade)] = true;
+        }
+    }
+    for (unsigned index = THEME_COLORS; index < 256; index++)
+        assert_int_equal(distance_to_ground(theme_color_at((uint8_t)index)), 0);
+}
+
+/* Severity 1.0 of Machado, Oliveira and Fernandes (2009), on linear light; and the eye that sees all. */
+static const double eyes[][3][3] = {
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+    {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}},
+    {{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}},
+};
+
+/* A colour as an eye sees it, in CIE L*a*b* (D65). */
+static void to_lab(theme_color c, const double eye[3][3], double lab[3])
+{
+    static const double xyz_of[3][3] = {{0.4124564 / 0.95047, 0.3575761 / 0.95047, 0.1804375 / 0.95047},
+                                        {0.2126729, 0.7151522, 0.0721750},
+                                        {0.0193339 / 1.08883, 0.1191920 / 1.08883, 0.9503041 / 1.08883}};
+    const double light[3] = {linear(c.r), linear(c.g), linear(c.b)};
+    double seen[3], f[3];
+    for (int i = 0; i < 3; i++) {
+        const double sum = eye[i][0] * light[0] + eye[i][1] * light[1] + eye[i][2] * light[2];
+        seen[i] = fmin(fmax(sum, 0), 1);
+    }
+    for (int i = 0; i < 3; i++) {
+        const double t = xyz_of[i][0] * seen[0] + xyz_of[i][1] * seen[1] + xyz_of[i][2] * seen[2];
+        f[i] = t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116;
+    }
+    lab[0] = 116 * f[1] - 16;
+    lab[1] = 500 * (f[0] - f[1]);
+    lab[2] = 200 * (f[1] - f[2]);
+}
+
+static double apart(theme_role a, theme_role b, const double eye[3][3])
+{
+    double p[3], q[3];
+    to_lab(theme_color_at(theme_index(a, 0)), eye, p);
+    to_lab(theme_color_at(theme_index(b, 0)), eye, q);
+    return sqrt(pow(p[0] - q[0], 2) + pow(p[1] - q[1], 2) + pow(p[2] - q[2], 2));
+}
+
+/* Where a difference of 2 or 3 is just seen side by side. */
+#define CLEARLY_APART 12
+
+static const theme_role meanings[] = {ROLE_POINT, ROLE_PLAYER, ROLE_COLLISION, ROLE_RANGE, ROLE_NEAREST};
+#define MEANINGS (sizeof meanings / sizeof meanings[0])
+#define EYES (sizeof eyes / sizeof eyes[0])
+
+static void meanings_stay_apart_without_red_or_green(void **state)
+{
+    (void)state;
+    for (size_t eye = 0; eye < EYES; eye++) {
+        for (size_t i = 0; i < MEANINGS; i++) {
+            for (size_t j = i + 1; j < MEANINGS; j++)
+                assert_true(apart(meanings[i], meanings[j], eyes[eye]) > CLEARLY_APART);
+            assert_true(apart(meanings[i], ROLE_BACKGROUND, eyes[eye]) > 3 * CLEARLY_APART);
+        }
+    }
+}
+
+/* The line to the nearest neighbour is told from nodes by its dashes: all else here is drawn as solid as they are. */
+static void meanings_stay_apart_from_nodes_unless_they_are_dashed(void **state)
+{
+    (void)state;
+    for (size_t eye = 0; eye < EYES; eye++)
+        for (size_t i = 0; i < MEANINGS; i++)
+            for (unsigned depth = 0; depth < THEME_NODE_DEPTHS && meanings[i] != ROLE_NEAREST; depth++)
+                assert_true(apart(meanings[i], theme_node_role(depth), eyes[eye]) > CLEARLY_APART);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(only_collision_is_red),
+        cmocka_unit_test(deeper_nodes_are_lighter_so_that_depth_survives_grey),
+        cmocka_unit_test(nodes_beyond_the_ramp_share_its_end),
+        cmocka_unit_test(farther_shades_come_nearer_to_the_background_and_stay_apart_from_it),
+        cmocka_unit_test(the_background_has_no_shades_and_is_index_0),
+        cmocka_unit_test(every_index_fits_a_byte_and_is_used_once),
+        cmocka_unit_test(meanings_stay_apart_without_red_or_green),
+        cmocka_unit_test(meanings_stay_apart_from_nodes_unless_they_are_dashed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

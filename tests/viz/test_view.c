@@ -1,0 +1,124 @@
+/* test_view.c - names of cameras and layers, lists of layers, and the unit of lines and text. */
+#include "scenes.h"
+
+#include <string.h>
+
+static void every_camera_is_found_by_its_name(void **state)
+{
+    (void)state;
+    for (int i = 0; i < CAMERA_COUNT; i++) {
+        view_camera found = CAMERA_COUNT;
+        assert_non_null(view_camera_name((view_camera)i));
+        assert_true(view_camera_parse(view_camera_name((view_camera)i), &found));
+        assert_int_equal(found, i);
+    }
+    assert_null(view_camera_name(CAMERA_COUNT));
+    assert_null(view_layer_name(LAYER_COUNT));
+}
+
+static void unknown_cameras_are_refused(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"", "is", "isometric", "ISO", " iso", "iso ", "0", "iso,top"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        view_camera found = CAMERA_SIDE;
+        assert_false(view_camera_parse(names[i], &found));
+        assert_int_equal(found, CAMERA_SIDE);
+    }
+}
+
+static void every_layer_is_found_by_its_name(void **state)
+{
+    (void)state;
+    for (int i = 0; i < LAYER_COUNT; i++) {
+        unsigned layers = 0;
+        const char *bad;
+        assert_non_null(view_layer_name((view_layer)i));
+        assert_true(view_layers_parse(view_layer_name((view_layer)i), &layers, &bad));
+        assert_int_equal(layers, 1u << i);
+    }
+}
+
+static void lists_of_layers_are_read_from_left_to_right(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *list;
+        unsigned layers;
+    } rows[] = {
+        {"all", VIEW_ALL_LAYERS},
+        {"none", 0},
+        {"nodes,points", 1u << LAYER_NODES | 1u << LAYER_POINTS},
+        {"points,nodes,points", 1u << LAYER_NODES | 1u << LAYER_POINTS},
+        {"-text", VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT)},
+        {"-text,-nodes", VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT | 1u << LAYER_NODES)},
+        {"all,-box", VIEW_ALL_LAYERS & ~(1u << LAYER_BOX)},
+        {"-box,box", VIEW_ALL_LAYERS},
+        {"nodes,-nodes", 0},
+        {"none,world", 1u << LAYER_WORLD},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        unsigned layers = 12345;
+        const char *bad;
+        assert_true(view_layers_parse(rows[i].list, &layers, &bad));
+        assert_int_equal(layers, rows[i].layers);
+    }
+}
+
+static void unknown_layers_are_pointed_at_and_change_nothing(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *list, *rest;
+    } rows[] = {
+        {"", ""},           {",", ","},          {"nodes,", ""},         {"nodes,,points", ",points"},
+        {"node", "node"},   {"nodess", "nodess"}, {"points,Nodes", "Nodes"}, {"-", "-"},
+        {"-al", "-al"},     {"all,-x,text", "-x,text"}, {"nodes points", "nodes points"}, {"--text", "--text"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        unsigned layers = 12345;
+        const char *bad = NULL;
+        assert_false(view_layers_parse(rows[i].list, &layers, &bad));
+        assert_string_equal(bad, rows[i].rest);
+        assert_int_equal(layers, 12345);
+    }
+}
+
+static void the_default_view_shows_everything_in_even_sides(void **state)
+{
+    (void)state;
+    const view v = view_default();
+    assert_true(v.width == 1280 && v.height == 720);
+    assert_int_equal(v.camera, CAMERA_ISO);
+    for (int i = 0; i < LAYER_COUNT; i++)
+        assert_true(view_shows(&v, (view_layer)i));
+}
+
+static void unit_is_a_whole_pixel_at_least_and_grows_with_the_picture(void **state)
+{
+    (void)state;
+    int last = 1;
+    for (int height = 1; height <= 16384; height++) {
+        const view wide = view_of(16384, height, CAMERA_ISO, 0), slit = view_of(1, height, CAMERA_ISO, 0);
+        assert_true(view_unit(&wide) >= last);
+        assert_int_equal(view_unit(&slit), 1);
+        last = view_unit(&wide);
+    }
+    const view usual = view_default(), film = view_of(3840, 2160, CAMERA_ISO, 0);
+    assert_int_equal(view_unit(&usual), 2);
+    assert_int_equal(view_unit(&film), 6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_camera_is_found_by_its_name),
+        cmocka_unit_test(unknown_cameras_are_refused),
+        cmocka_unit_test(every_layer_is_found_by_its_name),
+        cmocka_unit_test(lists_of_layers_are_read_from_left_to_right),
+        cmocka_unit_test(unknown_layers_are_pointed_at_and_change_nothing),
+        cmocka_unit_test(the_default_view_shows_everything_in_even_sides),
+        cmocka_unit_test(unit_is_a_whole_pixel_at_least_and_grows_with_the_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

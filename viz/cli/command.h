@@ -1,0 +1,48 @@
+/* command.h - the commands of octreel, and what their command lines share. */
+#ifndef CLI_COMMAND_H
+#define CLI_COMMAND_H
+
+#include "view.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Exit statuses. */
+enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
+
+typedef struct command {
+    const char *name;
+    int (*run)(int argc, char **argv); /* argv[0] is the command's name */
+    const char *line;                  /* what it does, in one line */
+} command;
+
+int cmd_record(int argc, char **argv);
+int cmd_inspect(int argc, char **argv);
+
+/* "octreel: " and a sentence on stderr; EXIT_TROUBLE. */
+int trouble(const char *format, ...);
+
+/* Values of options: each says what is wrong with `text` on stderr and returns false when it does not fit. */
+bool read_size(const char *text, view *v);
+bool read_camera(const char *text, view *v);
+bool read_layers(const char *text, view *v);
+bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
+
+/* The part of a --help text that those options share. */
+extern const char view_options_help[];
+
+/* A bar on stderr when that is a terminal, nothing otherwise. `done` of `total` items of this name. */
+typedef struct progress {
+    const char *unit;
+    double started, shown; /* seconds of the monotonic clock; 0: not yet */
+    bool visible;
+} progress;
+
+progress progress_start(const char *unit);
+void progress_show(progress *p, uint64_t done, uint64_t total);
+void progress_end(progress *p);
+
+/* Seconds since it was started. */
+double progress_seconds(const progress *p);
+
+#endif

@@ -1,0 +1,54 @@
+/* main.c - octreel's command line: a table of commands. */
+#include "command.h"
+#include "draw.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const command commands[] = {
+    {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
+    {"inspect", cmd_inspect, "build a tree from a point cloud, draw its subdivision, print its statistics"},
+};
+
+#define COMMANDS (sizeof commands / sizeof commands[0])
+
+static int print_help(FILE *out)
+{
+    fputs("octreel - an octree you can watch\n\nusage: octreel COMMAND [OPTION ...]\n\n", out);
+    for (size_t i = 0; i < COMMANDS; i++)
+        fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].line);
+    fputs("\n  octreel COMMAND --help   what a command takes\n"
+          "  octreel --version        the version, and who would draw\n\n"
+          "Exit status: 0 done, 1 finding, 2 trouble.\n",
+          out);
+    return out == stdout ? EXIT_DONE : EXIT_TROUBLE;
+}
+
+static int print_version(void)
+{
+    draw_error error;
+    renderer *r = renderer_open(16, 16, &error);
+    printf("octreel %s\n", OCTREEL_VERSION);
+    if (!r) {
+        printf("no renderer: %s\n", error.text);
+        return EXIT_TROUBLE;
+    }
+    const renderer_info info = renderer_about(r);
+    printf("%s: %s, %s\n", info.context, info.renderer, info.version);
+    renderer_close(r);
+    return EXIT_DONE;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2)
+        return print_help(stderr);
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
+        return print_help(stdout);
+    if (strcmp(argv[1], "--version") == 0)
+        return print_version();
+    for (size_t i = 0; i < COMMANDS; i++)
+        if (strcmp(argv[1], commands[i].name) == 0)
+            return commands[i].run(argc - 1, argv + 1);
+    return trouble("there is no command \"%s\"; octreel --help lists them", argv[1]);
+}

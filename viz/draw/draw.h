@@ -1,0 +1,35 @@
+/* draw.h - a scene becomes pixels: the public face of this folder.
+ *
+ * A renderer holds one off-screen context and draws scenes of one size into indices of the theme's table. Use it from
+ * the thread that opened it.
+ */
+#ifndef DRAW_DRAW_H
+#define DRAW_DRAW_H
+
+#include "scene.h"
+
+#define DRAW_MAX_SIDE 16384
+
+typedef struct renderer renderer;
+
+typedef struct draw_error {
+    char text[256]; /* one sentence */
+} draw_error;
+
+/* Who draws: static while the renderer lives. */
+typedef struct renderer_info {
+    const char *context; /* "osmesa" */
+    const char *vendor, *renderer, *version; /* GL's own strings */
+} renderer_info;
+
+/* Open a context and a framebuffer of this size. Null, and a sentence, when there is no usable context or the size is
+ * outside 1..DRAW_MAX_SIDE. Cost: some 10 ms and 85 MB. */
+renderer *renderer_open(int width, int height, draw_error *error);
+void renderer_close(renderer *r);
+
+renderer_info renderer_about(const renderer *r);
+
+/* Draw a scene of the renderer's size into width * height indices, rows from the top. */
+bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error);
+
+#endif

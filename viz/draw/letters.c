@@ -1,0 +1,52 @@
+/* letters.c - see letters.h. */
+#include "letters.h"
+#include "project.h"
+#include "stroke.h"
+
+#include <math.h>
+#include <stb_easy_font.h>
+#include <string.h>
+
+#define QUADS_A_LABEL (SCENE_TEXT * 16) /* the font needs about 11 quads a letter at most */
+
+/* What stb_easy_font writes for a corner. */
+typedef struct corner {
+    float x, y, z;
+    unsigned char color[4];
+} corner;
+
+/* The pixel of the text's top left corner; false when its place is out of sight. */
+static bool place(const scene *s, const scene_label *label, int *x, int *y)
+{
+    double pixel[2] = {label->at[0], label->at[1]};
+    unsigned band;
+    if (label->in_world) {
+        if (!project_point(s, label->at, pixel, &band))
+            return false;
+        pixel[0] += 3 * s->unit;
+        pixel[1] -= 4 * s->unit;
+    }
+    *x = (int)floor(pixel[0]);
+    *y = (int)floor(pixel[1]);
+    return true;
+}
+
+void letters_add(quad_list *list, const scene *s, const scene_label *label)
+{
+    corner corners[QUADS_A_LABEL * 4];
+    char text[SCENE_TEXT];
+    int left, top;
+    if (!place(s, label, &left, &top))
+        return;
+    memcpy(text, label->text, sizeof text);
+    const int count = stb_easy_font_print(0, 0, text, NULL, corners, sizeof corners);
+    const int scale = s->unit * label->look.width * QUAD_SUBPIXELS;
+    quad q = {.color = theme_index(label->look.role, 0), .order = quad_order(label->look.layer, 0, 0)};
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < 4; j++) {
+            q.x[j] = left * QUAD_SUBPIXELS + (int)corners[4 * i + j].x * scale;
+            q.y[j] = top * QUAD_SUBPIXELS + (int)corners[4 * i + j].y * scale;
+        }
+        quads_add(list, &q);
+    }
+}

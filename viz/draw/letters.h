@@ -1,0 +1,10 @@
+/* letters.h - text as quads, by stb_easy_font. Private. */
+#ifndef DRAW_LETTERS_H
+#define DRAW_LETTERS_H
+
+#include "quads.h"
+
+/* A label at its pixel, or beside the place where its position is drawn. */
+void letters_add(quad_list *list, const scene *s, const scene_label *label);
+
+#endif

@@ -1,0 +1,22 @@
+/* project.h - world geometry through the camera: clipped, cut into bands of depth, in pixels; all in doubles. Private. */
+#ifndef DRAW_PROJECT_H
+#define DRAW_PROJECT_H
+
+#include "quads.h"
+
+/* A piece of a segment within one band, in pixels. */
+typedef struct piece {
+    double from[2], to[2];
+    unsigned band;
+} piece;
+
+/* Clip a segment to what is before the camera and to the picture (with a margin), and cut it at the band planes.
+ * Returns the number of pieces, 0 to QUAD_BANDS, from the first end to the second. Ends whose camera coordinates
+ * overflow a double give none: *overflowed is then set. */
+unsigned project_segment(const scene *s, const double from[3], const double to[3], piece pieces[QUAD_BANDS],
+                         bool *overflowed);
+
+/* A point's pixel and band; false when it lies behind the camera or outside the picture. */
+bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band);
+
+#endif

@@ -1,0 +1,54 @@
+/* quads.c - see quads.h. */
+#include "quads.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define DEPTHS 32
+#define ORDERS (LAYER_COUNT * QUAD_BANDS * DEPTHS)
+
+uint16_t quad_order(unsigned layer, unsigned band, unsigned depth)
+{
+    return (uint16_t)((layer * QUAD_BANDS + (QUAD_BANDS - 1 - band)) * DEPTHS + (DEPTHS - 1 - depth));
+}
+
+void quads_release(quad_list *list)
+{
+    free(list->items);
+    memset(list, 0, sizeof *list);
+}
+
+void quads_add(quad_list *list, const quad *q)
+{
+    if (list->count == list->room) {
+        const size_t room = list->room ? 2 * list->room : 1024;
+        quad *items = room <= SIZE_MAX / sizeof *items ? realloc(list->items, room * sizeof *items) : NULL;
+        if (!items) {
+            list->out_of_memory = true;
+            return;
+        }
+        list->items = items;
+        list->room = room;
+    }
+    list->items[list->count++] = *q;
+}
+
+bool quads_sort(quad_list *list)
+{
+    size_t starts[ORDERS] = {0};
+    for (size_t i = 0; i < list->count; i++)
+        starts[list->items[i].order]++;
+    for (size_t order = 0, next = 0; order < ORDERS; order++) {
+        const size_t here = starts[order];
+        starts[order] = next;
+        next += here;
+    }
+    quad *sorted = malloc((list->room ? list->room : 1) * sizeof *sorted);
+    if (!sorted)
+        return false;
+    for (size_t i = 0; i < list->count; i++)
+        sorted[starts[list->items[i].order]++] = list->items[i];
+    free(list->items);
+    list->items = sorted;
+    return true;
+}

@@ -1,0 +1,36 @@
+/* quads.h - the flat quads that a scene is painted with, in painter's order. No GL. Private.
+ *
+ * Coordinates are in 1/256 pixel, y down, snapped. What covers what is decided here and in doubles: layers in their
+ * order; within a layer eight bands of view depth, far to near; within a band deeper nodes first.
+ */
+#ifndef DRAW_QUADS_H
+#define DRAW_QUADS_H
+
+#include "scene.h"
+
+#define QUAD_SUBPIXELS 256
+
+typedef struct quad {
+    int32_t x[4], y[4];
+    uint8_t color;  /* an index of the theme's table */
+    uint16_t order; /* smaller is painted first */
+} quad;
+
+typedef struct quad_list {
+    quad *items;
+    size_t count, room;
+    bool out_of_memory;
+} quad_list;
+
+void quads_release(quad_list *list);
+void quads_add(quad_list *list, const quad *q);
+
+/* Stable, by order. False when there is no memory. */
+bool quads_sort(quad_list *list);
+
+/* The order of a layer's element in a band (0 is nearest) and at a node's depth. */
+uint16_t quad_order(unsigned layer, unsigned band, unsigned depth);
+
+#define QUAD_BANDS THEME_SHADES
+
+#endif

@@ -1,0 +1,179 @@
+/* renderer.c - quads into a framebuffer object, and its pixels back. GL rasterises and decides nothing else.
+ *
+ * The framebuffer has one channel, which holds the index of a colour: a frame is read back as it is written to a file.
+ * The viewport is a square whose side is a power of two, so that every step from a snapped pixel to clip space and
+ * back is exact in single precision: no CPU can round it differently, with FMA or without.
+ */
+#include "draw.h"
+#include "gl.h"
+#include "paint.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BATCH 8192 /* quads a draw call */
+
+typedef struct vertex {
+    GLfloat x, y;
+    GLubyte color[4];
+} vertex;
+
+struct renderer {
+    context *context;
+    gl gl;
+    int width, height;
+    int side; /* of the viewport */
+    painter painter;
+    vertex vertices[BATCH * 4];
+    GLuint indices[BATCH * 6];
+};
+
+/* Only llvmpipe is known to give the same pixels everywhere. */
+static bool check_driver(renderer *r, draw_error *error)
+{
+    const char *name = (const char *)r->gl.GetString(GL_RENDERER);
+    if (name && strncmp(name, "llvmpipe", 8) == 0)
+        return true;
+    snprintf(error->text, sizeof error->text,
+             "the %s context draws with \"%.60s\"; frames are the same everywhere with llvmpipe alone (is "
+             "GALLIUM_DRIVER set?)",
+             context_name(r->context), name ? name : "nothing");
+    return false;
+}
+
+static bool check_size(int width, int height, draw_error *error)
+{
+    if (width >= 1 && height >= 1 && width <= DRAW_MAX_SIDE && height <= DRAW_MAX_SIDE)
+        return true;
+    snprintf(error->text, sizeof error->text, "a picture of %d x %d pixels cannot be drawn: each side must be 1 to %d",
+             width, height, DRAW_MAX_SIDE);
+    return false;
+}
+
+static bool make_framebuffer(renderer *r, draw_error *error)
+{
+    const gl *gl = &r->gl;
+    GLint limits[2] = {0, 0}, largest = 0;
+    GLuint frame, color;
+    gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, limits);
+    gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    gl->GenFramebuffers(1, &frame);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
+    gl->GenRenderbuffers(1, &color);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, color);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_R8, r->width, r->height);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+    if (r->side <= limits[0] && r->side <= limits[1] && r->width <= largest && r->height <= largest &&
+        gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && gl->GetError() == GL_NO_ERROR)
+        return true;
+    snprintf(error->text, sizeof error->text, "the %s context gives no framebuffer of %d x %d pixels",
+             context_name(r->context), r->width, r->height);
+    return false;
+}
+
+/* All state that a frame depends on; nothing changes it later. */
+static void set_state(renderer *r)
+{
+    const gl *gl = &r->gl;
+    gl->DrawBuffer(GL_COLOR_ATTACHMENT0);
+    gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl->Viewport(0, 0, r->side, r->side);
+    gl->Disable(GL_DITHER);
+    gl->Disable(GL_BLEND);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Disable(GL_MULTISAMPLE);
+    gl->ShadeModel(GL_FLAT);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl->ClearColor(0, 0, 0, 0); /* index 0 is the background */
+    gl->MatrixMode(GL_PROJECTION);
+    gl->LoadIdentity();
+    gl->MatrixMode(GL_MODELVIEW);
+    gl->LoadIdentity();
+    gl->EnableClientState(GL_VERTEX_ARRAY);
+    gl->EnableClientState(GL_COLOR_ARRAY);
+    gl->VertexPointer(2, GL_FLOAT, sizeof(vertex), &r->vertices[0].x);
+    gl->ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(vertex), r->vertices[0].color);
+}
+
+/* Each quad is two triangles that share the diagonal from corner 0 to corner 2. */
+static void make_indices(renderer *r)
+{
+    static const GLuint corners[6] = {0, 1, 2, 0, 2, 3};
+    for (GLuint i = 0; i < BATCH * 6; i++)
+        r->indices[i] = i / 6 * 4 + corners[i % 6];
+}
+
+renderer *renderer_open(int width, int height, draw_error *error)
+{
+    if (!check_size(width, height, error))
+        return NULL;
+    renderer *r = calloc(1, sizeof *r);
+    if (!r) {
+        snprintf(error->text, sizeof error->text, "there is no memory for a renderer");
+        return NULL;
+    }
+    r->width = width;
+    r->height = height;
+    for (r->side = 1; r->side < width || r->side < height;)
+        r->side *= 2;
+    r->context = context_open(error);
+    if (!r->context || !gl_load(&r->gl, r->context, error) || !check_driver(r, error) ||
+        !make_framebuffer(r, error)) {
+        renderer_close(r);
+        return NULL;
+    }
+    make_indices(r);
+    set_state(r);
+    return r;
+}
+
+void renderer_close(renderer *r)
+{
+    if (!r)
+        return;
+    painter_release(&r->painter);
+    context_close(r->context);
+    free(r);
+}
+
+renderer_info renderer_about(const renderer *r)
+{
+    return (renderer_info){
+        .context = context_name(r->context),
+        .vendor = (const char *)r->gl.GetString(GL_VENDOR),
+        .renderer = (const char *)r->gl.GetString(GL_RENDERER),
+        .version = (const char *)r->gl.GetString(GL_VERSION),
+    };
+}
+
+/* From 1/256 pixel to clip space: exact, since coordinates have at most 23 bits and the side is a power of two. */
+static void put_vertices(renderer *r, const quad *quads, size_t count)
+{
+    const float scale = 2.0f / ((float)r->side * QUAD_SUBPIXELS);
+    for (size_t i = 0; i < count; i++)
+        for (int j = 0; j < 4; j++)
+            r->vertices[4 * i + (size_t)j] = (vertex){
+                (float)quads[i].x[j] * scale - 1, (float)quads[i].y[j] * scale - 1, {quads[i].color, 0, 0, 255}};
+}
+
+bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error)
+{
+    if (s->view.width != r->width || s->view.height != r->height || !paint(&r->painter, s)) {
+        snprintf(error->text, sizeof error->text, "there is no memory for a frame, or it is not of the renderer's size");
+        return false;
+    }
+    const gl *gl = &r->gl;
+    const quad_list *quads = &r->painter.quads;
+    gl->Clear(GL_COLOR_BUFFER_BIT);
+    for (size_t start = 0; start < quads->count; start += BATCH) {
+        const size_t count = quads->count - start < BATCH ? quads->count - start : BATCH;
+        put_vertices(r, quads->items + start, count);
+        gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * count), GL_UNSIGNED_INT, r->indices);
+    }
+    gl->ReadPixels(0, 0, r->width, r->height, GL_RED, GL_UNSIGNED_BYTE, indices);
+    const GLenum failure = gl->GetError();
+    if (failure != GL_NO_ERROR)
+        snprintf(error->text, sizeof error->text, "GL reports error 0x%04x", failure);
+    return failure == GL_NO_ERROR;
+}

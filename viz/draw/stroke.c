@@ -1,0 +1,150 @@
+/* stroke.c - see stroke.h. */
+#include "stroke.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Half units of a dash and of the gap after it. */
+#define DASH 6
+#define GAP 4
+
+pencil pencil_make(const scene *s, scene_look look, unsigned depth)
+{
+    const int width = look.width * s->unit / 2;
+    return (pencil){.look = look, .width = width > 1 ? width : 1, .unit = s->unit, .depth = depth};
+}
+
+static quad blank(const pencil *with, unsigned band)
+{
+    return (quad){
+        .color = theme_index(with->look.role, band),
+        .order = quad_order(with->look.layer, band, with->depth),
+    };
+}
+
+static int32_t snap(double pixel)
+{
+    return (int32_t)floor(pixel * QUAD_SUBPIXELS + 0.5);
+}
+
+/* A parallelogram, shifted by half the width along the minor axis: a line of one pixel lights one pixel a step. */
+static void add_line(quad_list *list, const pencil *with, unsigned band, const double from[2], const double to[2])
+{
+    quad q = blank(with, band);
+    const int32_t x0 = snap(from[0]), y0 = snap(from[1]), x1 = snap(to[0]), y1 = snap(to[1]);
+    const bool flat = abs(x1 - x0) >= abs(y1 - y0);
+    const int32_t half = with->width * QUAD_SUBPIXELS / 2;
+    const int32_t dx = flat ? 0 : half, dy = flat ? half : 0;
+    const int32_t x[4] = {x0 - dx, x1 - dx, x1 + dx, x0 + dx}, y[4] = {y0 - dy, y1 - dy, y1 + dy, y0 + dy};
+    for (int i = 0; i < 4; i++) {
+        q.x[i] = x[i];
+        q.y[i] = y[i];
+    }
+    quads_add(list, &q);
+}
+
+/* A filled rectangle of whole pixels. */
+static void add_rectangle(quad_list *list, quad q, int x, int y, int width, int height)
+{
+    const int32_t left = x * QUAD_SUBPIXELS, right = (x + width) * QUAD_SUBPIXELS;
+    const int32_t top = y * QUAD_SUBPIXELS, bottom = (y + height) * QUAD_SUBPIXELS;
+    for (int i = 0; i < 4; i++) {
+        q.x[i] = i == 1 || i == 2 ? right : left;
+        q.y[i] = i < 2 ? top : bottom;
+    }
+    quads_add(list, &q);
+}
+
+/* True when all of a segment lies within about a pixel, where a parallelogram may light nothing. */
+static bool is_speck(const piece *pieces, unsigned count)
+{
+    const piece *first = &pieces[0], *last = &pieces[count - 1];
+    return fabs(first->from[0] - last->to[0]) < 1 && fabs(first->from[1] - last->to[1]) < 1;
+}
+
+void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+{
+    if (count && is_speck(pieces, count)) {
+        add_rectangle(list, blank(with, pieces[0].band), (int)floor(pieces[0].from[0]), (int)floor(pieces[0].from[1]),
+                      with->width, with->width);
+        return;
+    }
+    for (unsigned i = 0; i < count; i++)
+        add_line(list, with, pieces[i].band, pieces[i].from, pieces[i].to);
+}
+
+/* Dashes run on from piece to piece: `phase` is how far into dash and gap the line is. */
+void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+{
+    const double dash = DASH * with->unit / 2.0, period = dash + GAP * with->unit / 2.0;
+    double phase = 0;
+    for (unsigned i = 0; i < count; i++) {
+        const double dx = pieces[i].to[0] - pieces[i].from[0], dy = pieces[i].to[1] - pieces[i].from[1];
+        const double length = sqrt(dx * dx + dy * dy);
+        for (double start = -phase; start < length; start += period) {
+            const double a = start > 0 ? start : 0, b = start + dash < length ? start + dash : length;
+            if (a >= b)
+                continue;
+            const double from[2] = {pieces[i].from[0] + dx * a / length, pieces[i].from[1] + dy * a / length};
+            const double to[2] = {pieces[i].from[0] + dx * b / length, pieces[i].from[1] + dy * b / length};
+            add_line(list, with, pieces[i].band, from, to);
+        }
+        phase = fmod(phase + length, period);
+    }
+}
+
+static void add_frame(quad_list *list, quad q, int x, int y, int half, int line)
+{
+    const int side = 2 * half + 1;
+    add_rectangle(list, q, x - half, y - half, side, line);
+    add_rectangle(list, q, x - half, y + half + 1 - line, side, line);
+    add_rectangle(list, q, x - half, y - half, line, side);
+    add_rectangle(list, q, x + half + 1 - line, y - half, line, side);
+}
+
+static void add_diamond(quad_list *list, quad q, int x, int y, int half)
+{
+    const int32_t cx = x * QUAD_SUBPIXELS + QUAD_SUBPIXELS / 2, cy = y * QUAD_SUBPIXELS + QUAD_SUBPIXELS / 2;
+    const int32_t reach = half * QUAD_SUBPIXELS + QUAD_SUBPIXELS / 2;
+    for (int i = 0; i < 4; i++) {
+        q.x[i] = cx + (i == 0 ? -reach : i == 2 ? reach : 0);
+        q.y[i] = cy + (i == 1 ? -reach : i == 3 ? reach : 0);
+    }
+    quads_add(list, &q);
+}
+
+static void add_cross(quad_list *list, const pencil *with, unsigned band, int x, int y, int half)
+{
+    pencil thick = *with;
+    thick.width = with->unit;
+    const double left = x - half, right = x + half + 1, top = y - half, bottom = y + half + 1;
+    add_line(list, &thick, band, (double[2]){left, top}, (double[2]){right, bottom});
+    add_line(list, &thick, band, (double[2]){left, bottom}, (double[2]){right, top});
+}
+
+void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
+{
+    const int x = (int)floor(pixel[0]), y = (int)floor(pixel[1]), half = with->look.width * with->unit / 2;
+    const int line = with->unit / 2 > 1 ? with->unit / 2 : 1;
+    const quad q = blank(with, band);
+    switch (shape) {
+    case SHAPE_SQUARE:
+        add_rectangle(list, q, x - half, y - half, 2 * half + 1, 2 * half + 1);
+        break;
+    case SHAPE_DIAMOND:
+        add_diamond(list, q, x, y, half);
+        break;
+    case SHAPE_FRAME:
+        add_frame(list, q, x, y, half, line);
+        break;
+    case SHAPE_CROSS:
+        add_cross(list, with, band, x, y, half);
+        break;
+    }
+}
+
+void stroke_panel(quad_list *list, const scene_panel *panel)
+{
+    const quad q = {.color = theme_index(panel->look.role, 0), .order = quad_order(panel->look.layer, 0, 0)};
+    add_rectangle(list, q, panel->x, panel->y, panel->width, panel->height);
+}

@@ -1,0 +1,24 @@
+/* stroke.h - lines, marks and letters as quads of whole 1/256 pixels. Private. */
+#ifndef DRAW_STROKE_H
+#define DRAW_STROKE_H
+
+#include "project.h"
+
+/* What a line is drawn with. */
+typedef struct pencil {
+    scene_look look;
+    int width;      /* pixels */
+    int unit;       /* view_unit of the scene */
+    unsigned depth; /* of the node that the line belongs to */
+} pencil;
+
+pencil pencil_make(const scene *s, scene_look look, unsigned depth);
+
+/* The pieces of one segment. However short, it leaves a mark of at least one pixel. */
+void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
+void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
+
+void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
+void stroke_panel(quad_list *list, const scene_panel *panel);
+
+#endif

@@ -1,0 +1,154 @@
+/* png_write.c - an image to a PNG file: whole, or not at all. */
+#include "fault.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zlib.h>
+
+/* Large enough for the whole of a usual frame: one IDAT chunk, which stdio passes on without copying. */
+#define COMPRESSED_BUFFER_SIZE ((size_t)1 << 16)
+
+/* What goes into the file. */
+typedef struct content {
+    const image *image;
+    const image_text *texts;
+    size_t text_count;
+} content;
+
+static uint8_t largest_byte(const uint8_t *bytes, size_t size)
+{
+    uint8_t largest = 0;
+    for (size_t i = 0; i < size; i++)
+        largest = bytes[i] > largest ? bytes[i] : largest;
+    return largest;
+}
+
+/* Why this image cannot be written, or NULL. */
+static const char *refusal(const image *image)
+{
+    if (image->pixels == NULL || image->width < 1 || image->height < 1)
+        return "the image has no pixels";
+    if (image->channels == 3)
+        return NULL;
+    if (image->channels != 1)
+        return "the image has neither one channel nor three";
+    if (image->palette.count < 1 || image->palette.count > 256)
+        return "the palette has not 1 to 256 colours";
+    if (largest_byte(image->pixels, (size_t)image->width * (size_t)image->height) >= image->palette.count)
+        return "a pixel's index lies beyond the palette";
+    return NULL;
+}
+
+static void write_bytes(png_structp png, png_bytep bytes, size_t size)
+{
+    FILE *file = (FILE *)png_get_io_ptr(png);
+    if (fwrite(bytes, 1, size, file) != size)
+        png_error(png, strerror(errno));
+}
+
+static void set_header(png_structp png, png_infop info, const image *image)
+{
+    bool indexed = image->channels == 1;
+    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
+                 indexed ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE,
+                 PNG_FILTER_TYPE_BASE);
+    if (indexed) {
+        png_color colors[256];
+        for (int i = 0; i < image->palette.count; i++) {
+            image_color color = image->palette.colors[i];
+            colors[i] = (png_color){color.r, color.g, color.b};
+        }
+        png_set_PLTE(png, info, colors, image->palette.count);
+    }
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_set_compression_level(png, 1);
+    png_set_compression_strategy(png, indexed ? Z_RLE : Z_DEFAULT_STRATEGY);
+    png_set_compression_buffer_size(png, COMPRESSED_BUFFER_SIZE);
+    png_set_check_for_invalid_index(png, 0); /* done, faster, by refusal() */
+}
+
+static void set_texts(png_structp png, png_infop info, const image_text *texts, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        /* libpng copies both, but takes them without const. */
+        png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
+                         .key = (png_charp)texts[i].keyword,
+                         .text = (png_charp)texts[i].text};
+        png_set_text(png, info, &text, 1);
+    }
+}
+
+static void write_rows(png_structp png, const image *image)
+{
+    size_t row_size = (size_t)image->width * (size_t)image->channels;
+    for (int y = 0; y < image->height; y++)
+        png_write_row(png, image->pixels + (size_t)y * row_size);
+}
+
+/* The function that libpng's errors jump back to; nothing in it changes between setjmp and jump. */
+static bool write_chunks(png_structp png, png_infop info, const content *content, FILE *file)
+{
+    if (setjmp(png_jmpbuf(png)) != 0)
+        return false;
+    png_set_write_fn(png, file, write_bytes, NULL);
+    set_header(png, info, content->image);
+    set_texts(png, info, content->texts, content->text_count);
+    png_write_info(png, info);
+    write_rows(png, content->image);
+    png_write_end(png, NULL);
+    return true;
+}
+
+/* Warnings are errors here: libpng warns where it would write something else than it was given, a keyword say. */
+static bool encode(const content *content, FILE *file, image_fault *fault)
+{
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, fault, image_fault_raise, image_fault_raise);
+    png_infop info = png == NULL ? NULL : png_create_info_struct(png);
+    bool whole = info == NULL ? image_fault_report(fault, "libpng does not start: ", strerror(ENOMEM))
+                              : write_chunks(png, info, content, file);
+    png_destroy_write_struct(&png, &info);
+    return whole;
+}
+
+/* A full disk may show as late as in fclose, when stdio hands over its last bytes. */
+static bool write_by_rename(const content *content, const char *part, image_fault *fault)
+{
+    FILE *file = fopen(part, "wb");
+    if (file == NULL)
+        return image_fault_report(fault, "cannot create its .part file: ", strerror(errno));
+    bool whole = encode(content, file, fault);
+    if (fclose(file) != 0 && whole)
+        whole = image_fault_report(fault, "", strerror(errno));
+    if (whole && rename(part, fault->path) != 0)
+        whole = image_fault_report(fault, "cannot rename its .part file: ", strerror(errno));
+    if (!whole)
+        unlink(part);
+    return whole;
+}
+
+bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
+                     image_error *error)
+{
+    image_fault fault = {path, error};
+    const char *reason = refusal(image);
+    if (reason != NULL)
+        return image_fault_report(&fault, "", reason);
+    size_t part_size = strlen(path) + sizeof ".part";
+    char *part = malloc(part_size);
+    if (part == NULL)
+        return image_fault_report(&fault, "", strerror(ENOMEM));
+    snprintf(part, part_size, "%s.part", path);
+    content content = {image, texts, text_count};
+    bool written = write_by_rename(&content, part, &fault);
+    free(part);
+    return written;
+}
+
+char *image_library(char text[IMAGE_LIBRARY_TEXT])
+{
+    snprintf(text, IMAGE_LIBRARY_TEXT, "libpng %s, zlib %s", png_get_libpng_ver(NULL), zlibVersion());
+    return text;
+}

@@ -1,0 +1,40 @@
+/* cloud.h - the points of a file: `x y z` text, PLY and PCD, in double precision.
+ *
+ * Text: one point a line, its first three columns; columns are separated by blanks and tabs, by commas or by
+ *   semicolons, the same throughout a line. Further columns, blank lines, comments (# and //) and a first line of
+ *   column names are skipped.
+ * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
+ * PCD: 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
+ *
+ * The contents decide which of them a file is, and the ending .ply or .pcd where the contents do not. A file that is
+ * cut off or whose counts do not fit what it holds is an error: no point is lost in silence.
+ */
+#ifndef OCTREEL_CLOUD_H
+#define OCTREEL_CLOUD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct cloud {
+    double (*positions)[3]; /* `count` rows of x, y, z, in the file's order and units; all finite; owned */
+    size_t count;           /* at least 1 in a cloud that was read */
+    size_t skipped;         /* points of a PLY or PCD file with a NaN or an infinity, its sign for "no return" */
+} cloud;
+
+/* A failed operation writes one sentence here: "<file>:<line>: <reason>", "<file>:byte <offset>: <reason>" in binary
+ * data, or "<file>: <reason>". */
+typedef struct cloud_error {
+    char text[512];
+} cloud_error;
+
+/* Read a regular file into *out. False with the reason in *error; *out is then empty. A file without any point is an
+ * error. Cost: O(size) in time and memory; a compressed PCD is bounded by 88 times its size, before its points. */
+bool cloud_read(const char *path, cloud *out, cloud_error *error);
+
+/* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */
+bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, cloud_error *error);
+
+/* Free the positions and empty the cloud; a zeroed cloud is allowed. */
+void cloud_release(cloud *cloud);
+
+#endif

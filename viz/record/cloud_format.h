@@ -1,0 +1,105 @@
+/* cloud_format.h - what the readers of the point-cloud formats share: the file in memory, its lines and words, its
+ * binary scalars, the growing result and the sentence of an error. Nobody else includes this.
+ */
+#ifndef OCTREEL_CLOUD_FORMAT_H
+#define OCTREEL_CLOUD_FORMAT_H
+
+#include "cloud.h"
+
+#include <stdint.h>
+
+/* A file being read, where its points go and where its error goes. */
+typedef struct cloud_file {
+    const char *name;
+    const unsigned char *bytes;
+    size_t size; /* at least 1 */
+    cloud *out;
+    cloud_error *error;
+} cloud_file;
+
+/* The formats: each reads the whole file into file->out. False with the error written. */
+bool cloud_parse_text(cloud_file *file);
+bool cloud_parse_ply(cloud_file *file);
+bool cloud_parse_pcd(cloud_file *file);
+
+/* True when the contents say that this is the format. */
+bool cloud_is_ply(const cloud_file *file);
+bool cloud_is_pcd(const cloud_file *file);
+
+/* ---- Result and errors -------------------------------------------------------------------------------------- */
+
+/* Append a point; one that is not finite is counted as skipped instead. False when there is no memory. */
+bool cloud_add(cloud_file *file, const double position[3]);
+
+/* Write the error's sentence, a printf format, and return false: for the file, a line from 1 on, a byte from 0 on. */
+bool cloud_fail(const cloud_file *file, const char *format, ...);
+bool cloud_fail_line(const cloud_file *file, size_t line, const char *format, ...);
+bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, ...);
+
+/* ---- Lines and words ---------------------------------------------------------------------------------------- */
+
+/* Characters of the file, from begin up to limit. */
+typedef struct cloud_span {
+    const char *begin, *limit;
+} cloud_span;
+
+/* A cursor over the lines of a file. Lines end as the first one does: \n, \r\n, or \r alone. */
+typedef struct cloud_lines {
+    const char *at, *limit;
+    char terminator;
+    size_t number; /* of the line given last, from 1 on */
+} cloud_lines;
+
+cloud_lines cloud_lines_of(const cloud_file *file);
+
+/* The next line without its end. False at the end of the file. */
+bool cloud_next_line(cloud_lines *lines, cloud_span *line);
+
+/* The next line with a word in it. */
+bool cloud_next_filled_line(cloud_lines *lines, cloud_span *line);
+
+bool cloud_is_blank(char c);
+
+/* Cut the next word, between blanks and tabs, off the front of a line. False when there is none. */
+bool cloud_next_word(cloud_span *line, cloud_span *word);
+
+bool cloud_word_is(cloud_span word, const char *text);
+
+/* 0, 1, 2 for the words x, y, z; -1 for any other. */
+int cloud_word_axis(cloud_span word);
+
+/* Read a whole word as a count, 0 to 2^64 - 1. */
+bool cloud_word_count(cloud_span word, uint64_t *count);
+
+/* Read a whole word as a coordinate; "nan" and "inf" give NaN. False with an error for the line. */
+bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word, double *coordinate);
+
+/* Room for a quoted word. */
+#define CLOUD_QUOTE 48
+
+/* A word fit for an error's sentence: printable, in quotes, and cut when it is long. Returns `text`. */
+const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE]);
+
+/* False with an error when the file holds a NUL byte: it is then no text. */
+bool cloud_check_text(const cloud_file *file);
+
+/* False with an error when a line with words follows. */
+bool cloud_check_no_lines(const cloud_file *file, cloud_lines *lines);
+
+/* ---- Binary data -------------------------------------------------------------------------------------------- */
+
+typedef enum cloud_scalar_kind { CLOUD_SIGNED, CLOUD_UNSIGNED, CLOUD_FLOAT } cloud_scalar_kind;
+
+/* A type of binary numbers. */
+typedef struct cloud_scalar {
+    cloud_scalar_kind kind;
+    unsigned size; /* 1, 2, 4 or 8 bytes; floats are of 4 or 8 */
+} cloud_scalar;
+
+/* The number at `bytes`; integers beyond 2^53 are rounded. */
+double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char *bytes);
+
+/* False with an error when anything but zero bytes follows from `offset` on: some writers pad to a whole page. */
+bool cloud_check_padding(const cloud_file *file, size_t offset);
+
+#endif

@@ -1,0 +1,426 @@
+/* cloud_pcd.c - the points of a PCD file, version 0.5 to 0.7, the format of the Point Cloud Library. */
+#include "cloud_format.h"
+#include "number.h"
+
+#include <inttypes.h>
+#include <lzf.h>
+#include <stdlib.h>
+
+enum {
+    MAX_FIELDS = 1024,
+    LZF_RATIO = 88, /* the longest match of LZF makes 264 bytes of 3 */
+};
+
+typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding;
+
+typedef struct pcd_field {
+    cloud_scalar type;
+    uint64_t count; /* values in each point */
+    int axis;       /* 0, 1, 2 for x, y, z; else -1 */
+} pcd_field;
+
+/* Where a coordinate is in a point. */
+typedef struct pcd_axis {
+    cloud_scalar type;
+    uint64_t column; /* values before it */
+    uint64_t offset; /* bytes before it */
+} pcd_axis;
+
+typedef struct pcd_reader {
+    cloud_file *file;
+    cloud_lines lines;
+    unsigned seen; /* bit i is set when keyword i was read */
+    size_t field_count;
+    pcd_field fields[MAX_FIELDS];
+    uint64_t width, height, points;
+    pcd_encoding encoding;
+    pcd_axis axes[3];
+    uint64_t columns, stride; /* values and bytes of a point */
+} pcd_reader;
+
+/* ---- Header lines ------------------------------------------------------------------------------------------- */
+
+static bool fail_header(const pcd_reader *reader, const char *reason, cloud_span word)
+{
+    char quote[CLOUD_QUOTE];
+    return cloud_fail_line(reader->file, reader->lines.number, "%s %s", cloud_quote(word, quote), reason);
+}
+
+static bool read_version(pcd_reader *reader, cloud_span rest)
+{
+    cloud_span word;
+    const char *end;
+    double version;
+    cloud_next_word(&rest, &word);
+    bool known =
+        number_parse(word.begin, word.limit, &end, &version) && end == word.limit && version >= 0.5 && version <= 0.7;
+    return known || fail_header(reader, "is not a known version of PCD: 0.5 to 0.7", word);
+}
+
+static bool read_fields(pcd_reader *reader, cloud_span rest)
+{
+    cloud_span word;
+    unsigned axes = 0;
+    while (cloud_next_word(&rest, &word)) {
+        int axis = cloud_word_axis(word);
+        if (reader->field_count == MAX_FIELDS)
+            return cloud_fail_line(reader->file, reader->lines.number, "more than %d fields", MAX_FIELDS);
+        if (axis >= 0 && axes >> axis & 1)
+            return fail_header(reader, "is a second field of this name", word);
+        if (axis >= 0)
+            axes |= 1U << axis;
+        reader->fields[reader->field_count++] = (pcd_field){.axis = axis, .count = 1};
+    }
+    for (int axis = 0; axis < 3; axis++)
+        if (!(axes >> axis & 1))
+            return cloud_fail_line(reader->file, reader->lines.number, "there is no field %c", "xyz"[axis]);
+    return true;
+}
+
+static bool set_size(pcd_field *field, cloud_span word)
+{
+    uint64_t size;
+    if (!cloud_word_count(word, &size) || (size != 1 && size != 2 && size != 4 && size != 8))
+        return false;
+    field->type.size = (unsigned)size;
+    return true;
+}
+
+static bool set_type(pcd_field *field, cloud_span word)
+{
+    static const char *const names[] = {[CLOUD_SIGNED] = "I", [CLOUD_UNSIGNED] = "U", [CLOUD_FLOAT] = "F"};
+    for (int i = 0; i < 3; i++) {
+        if (!cloud_word_is(word, names[i]))
+            continue;
+        field->type.kind = (cloud_scalar_kind)i;
+        return true;
+    }
+    return false;
+}
+
+/* A point of so many values is absurd; and sums of MAX_FIELDS times 8 times this do not overflow. */
+static bool set_count(pcd_field *field, cloud_span word)
+{
+    return cloud_word_count(word, &field->count) && field->count > 0 && field->count <= UINT32_MAX;
+}
+
+/* Read a line that says something of each field. */
+static bool read_each(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field *, cloud_span), const char *reason)
+{
+    cloud_span word;
+    for (size_t i = 0; i < reader->field_count; i++) {
+        if (!cloud_next_word(&rest, &word))
+            return cloud_fail_line(reader->file, reader->lines.number, "%zu words for %zu fields", i,
+                                   reader->field_count);
+        if (!set(&reader->fields[i], word))
+            return fail_header(reader, reason, word);
+    }
+    return !cloud_next_word(&rest, &word) || fail_header(reader, "is more than there are fields before it", word);
+}
+
+static bool read_sizes(pcd_reader *reader, cloud_span rest)
+{
+    return read_each(reader, rest, set_size, "is not the size of a field: 1, 2, 4 or 8");
+}
+
+static bool read_types(pcd_reader *reader, cloud_span rest)
+{
+    return read_each(reader, rest, set_type, "is not the type of a field: I, U or F");
+}
+
+static bool read_counts(pcd_reader *reader, cloud_span rest)
+{
+    return read_each(reader, rest, set_count, "is not the count of a field: 1 to 4294967295");
+}
+
+static bool read_number(const pcd_reader *reader, cloud_span rest, uint64_t *number)
+{
+    cloud_span word;
+    cloud_next_word(&rest, &word);
+    return cloud_word_count(word, number) || fail_header(reader, "is not a number of points", word);
+}
+
+static bool read_width(pcd_reader *reader, cloud_span rest)
+{
+    return read_number(reader, rest, &reader->width);
+}
+
+static bool read_height(pcd_reader *reader, cloud_span rest)
+{
+    return read_number(reader, rest, &reader->height);
+}
+
+static bool read_points(pcd_reader *reader, cloud_span rest)
+{
+    return read_number(reader, rest, &reader->points);
+}
+
+static bool skip_line(pcd_reader *reader, cloud_span rest)
+{
+    (void)reader, (void)rest;
+    return true;
+}
+
+static bool read_encoding(pcd_reader *reader, cloud_span rest)
+{
+    static const char *const names[] = {
+        [PCD_ASCII] = "ascii", [PCD_BINARY] = "binary", [PCD_COMPRESSED] = "binary_compressed"};
+    cloud_span word;
+    cloud_next_word(&rest, &word);
+    for (int i = PCD_ASCII; i <= PCD_COMPRESSED; i++) {
+        if (!cloud_word_is(word, names[i]))
+            continue;
+        reader->encoding = (pcd_encoding)i;
+        return true;
+    }
+    return fail_header(reader, "is not how PCD keeps data: ascii, binary or binary_compressed", word);
+}
+
+typedef enum pcd_key {
+    KEY_VERSION,
+    KEY_FIELDS,
+    KEY_SIZE,
+    KEY_TYPE,
+    KEY_COUNT,
+    KEY_WIDTH,
+    KEY_HEIGHT,
+    KEY_VIEWPOINT,
+    KEY_POINTS,
+    KEY_DATA,
+    KEYS
+} pcd_key;
+
+typedef struct pcd_keyword {
+    const char *name;
+    bool (*read)(pcd_reader *reader, cloud_span rest);
+    bool required;
+} pcd_keyword;
+
+static const pcd_keyword keywords[KEYS] = {
+    [KEY_VERSION] = {"VERSION", read_version, false}, [KEY_FIELDS] = {"FIELDS", read_fields, true},
+    [KEY_SIZE] = {"SIZE", read_sizes, true},          [KEY_TYPE] = {"TYPE", read_types, true},
+    [KEY_COUNT] = {"COUNT", read_counts, false},      [KEY_WIDTH] = {"WIDTH", read_width, false},
+    [KEY_HEIGHT] = {"HEIGHT", read_height, false},    [KEY_VIEWPOINT] = {"VIEWPOINT", skip_line, false},
+    [KEY_POINTS] = {"POINTS", read_points, false},    [KEY_DATA] = {"DATA", read_encoding, true},
+};
+
+static bool has_seen(const pcd_reader *reader, pcd_key key)
+{
+    return reader->seen >> key & 1;
+}
+
+static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span rest)
+{
+    for (int i = 0; i < KEYS; i++) {
+        if (!cloud_word_is(word, keywords[i].name))
+            continue;
+        if (has_seen(reader, (pcd_key)i))
+            return fail_header(reader, "is there twice", word);
+        reader->seen |= 1U << i;
+        return keywords[i].read(reader, rest);
+    }
+    return fail_header(reader, "does not belong in a PCD header", word);
+}
+
+/* The next line of the header that is no comment, without its first word. */
+static bool next_header_line(cloud_lines *lines, cloud_span *word, cloud_span *rest)
+{
+    while (cloud_next_filled_line(lines, rest))
+        if (cloud_next_word(rest, word) && *word->begin != '#')
+            return true;
+    return false;
+}
+
+bool cloud_is_pcd(const cloud_file *file)
+{
+    cloud_lines lines = cloud_lines_of(file);
+    cloud_span word, rest;
+    return next_header_line(&lines, &word, &rest) && (cloud_word_is(word, "VERSION") || cloud_word_is(word, "FIELDS"));
+}
+
+/* ---- The header as a whole ---------------------------------------------------------------------------------- */
+
+/* WIDTH times HEIGHT and POINTS are the same number; either may be missing, and HEIGHT is then 1. */
+static bool agree_on_points(pcd_reader *reader)
+{
+    size_t line = reader->lines.number;
+    if (!has_seen(reader, KEY_WIDTH) && !has_seen(reader, KEY_POINTS))
+        return cloud_fail_line(reader->file, line, "the header has neither WIDTH nor POINTS");
+    if (!has_seen(reader, KEY_WIDTH))
+        reader->width = reader->points;
+    if (!has_seen(reader, KEY_HEIGHT))
+        reader->height = 1;
+    bool overflows = reader->height > 0 && reader->width > UINT64_MAX / reader->height;
+    if (!has_seen(reader, KEY_POINTS) && !overflows)
+        reader->points = reader->width * reader->height;
+    if (overflows || reader->points != reader->width * reader->height)
+        return cloud_fail_line(reader->file, line, "WIDTH %" PRIu64 " times HEIGHT %" PRIu64 " is not POINTS %" PRIu64,
+                               reader->width, reader->height, reader->points);
+    return true;
+}
+
+static bool lay_out(pcd_reader *reader)
+{
+    for (size_t i = 0; i < reader->field_count; i++) {
+        const pcd_field *field = &reader->fields[i];
+        if (field->type.kind == CLOUD_FLOAT && field->type.size < 4)
+            return cloud_fail_line(reader->file, reader->lines.number, "field %zu is a float of %u bytes", i + 1,
+                                   field->type.size);
+        if (field->axis >= 0 && field->count != 1)
+            return cloud_fail_line(reader->file, reader->lines.number, "%c has a COUNT of %" PRIu64 ", which must be 1",
+                                   "xyz"[field->axis], field -> count);
+        if (field->axis >= 0)
+            reader->axes[field->axis] = (pcd_axis){field->type, reader->columns, reader->stride};
+        reader->columns += field->count;
+        reader->stride += field->count * field->type.size;
+    }
+    return true;
+}
+
+static bool check_header(pcd_reader *reader)
+{
+    for (int i = 0; i < KEYS; i++)
+        if (keywords[i].required && !has_seen(reader, (pcd_key)i))
+            return cloud_fail_line(reader->file, reader->lines.number, "the header has no %s", keywords[i].name);
+    return agree_on_points(reader) && lay_out(reader);
+}
+
+static bool read_header(pcd_reader *reader)
+{
+    cloud_span word, rest;
+    while (!has_seen(reader, KEY_DATA)) {
+        if (!next_header_line(&reader->lines, &word, &rest))
+            return cloud_fail_line(reader->file, reader->lines.number, "the file ends in its header");
+        if (!read_header_line(reader, word, rest))
+            return false;
+    }
+    return check_header(reader);
+}
+
+/* ---- Ascii data --------------------------------------------------------------------------------------------- */
+
+static bool read_line(const pcd_reader *reader, cloud_span line, double position[3])
+{
+    cloud_span word;
+    uint64_t column = 0;
+    for (; cloud_next_word(&line, &word); column++)
+        for (int axis = 0; axis < 3; axis++)
+            if (reader->axes[axis].column == column &&
+                !cloud_word_coordinate(reader->file, reader->lines.number, word, &position[axis]))
+                return false;
+    return column == reader->columns ||
+           cloud_fail_line(reader->file, reader->lines.number, "has %" PRIu64 " values instead of %" PRIu64, column,
+                           reader->columns);
+}
+
+static bool read_ascii(pcd_reader *reader)
+{
+    if (!cloud_check_text(reader->file))
+        return false;
+    for (uint64_t i = 0; i < reader->points; i++) {
+        cloud_span line;
+        double position[3];
+        if (!cloud_next_filled_line(&reader->lines, &line))
+            return cloud_fail_line(reader->file, reader->lines.number,
+                                   "the file ends after %" PRIu64 " of %" PRIu64 " points", i, reader->points);
+        if (!read_line(reader, line, position) || !cloud_add(reader->file, position))
+            return false;
+    }
+    return cloud_check_no_lines(reader->file, &reader->lines);
+}
+
+/* ---- Binary data -------------------------------------------------------------------------------------------- */
+
+/* Read the points from packed bytes: coordinate k of point i at first[k] + i * step[k]. */
+static bool add_points(const pcd_reader *reader, const unsigned char *bytes, const size_t first[3],
+                       const size_t step[3])
+{
+    for (size_t i = 0; i < reader->points; i++) {
+        double position[3];
+        for (int axis = 0; axis < 3; axis++)
+            position[axis] = cloud_scalar_read(reader->axes[axis].type, false, bytes + first[axis] + i * step[axis]);
+        if (!cloud_add(reader->file, position))
+            return false;
+    }
+    return true;
+}
+
+/* Point after point. */
+static bool read_binary(pcd_reader *reader, size_t offset)
+{
+    size_t left = reader->file->size - offset;
+    size_t first[3], step[3];
+    if (reader->points > left / reader->stride)
+        return cloud_fail_byte(reader->file, offset,
+                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, and %zu bytes follow",
+                               reader->points, reader->stride, left);
+    for (int axis = 0; axis < 3; axis++) {
+        first[axis] = (size_t)reader->axes[axis].offset;
+        step[axis] = (size_t)reader->stride;
+    }
+    return add_points(reader, reader->file->bytes + offset, first, step) &&
+           cloud_check_padding(reader->file, offset + (size_t)(reader->points * reader->stride));
+}
+
+/* Field after field. */
+static bool add_unpacked(const pcd_reader *reader, const unsigned char *bytes)
+{
+    size_t first[3], step[3];
+    for (int axis = 0; axis < 3; axis++) {
+        first[axis] = (size_t)(reader->axes[axis].offset * reader->points);
+        step[axis] = reader->axes[axis].type.size;
+    }
+    return add_points(reader, bytes, first, step);
+}
+
+static bool unpack(const pcd_reader *reader, size_t offset, uint32_t packed, uint32_t size)
+{
+    unsigned char *bytes = malloc(size);
+    if (!bytes)
+        return cloud_fail_byte(reader->file, offset, "out of memory for %" PRIu32 " bytes of points", size);
+    bool whole = lzf_decompress(reader->file->bytes + offset, packed, bytes, size) == size;
+    bool done =
+        whole ? add_unpacked(reader, bytes) : cloud_fail_byte(reader->file, offset, "the compressed data is damaged");
+    free(bytes);
+    return done;
+}
+
+static bool read_compressed(pcd_reader *reader, size_t offset)
+{
+    enum { SIZES = 8 };
+    static const cloud_scalar size_type = {CLOUD_UNSIGNED, 4};
+    const cloud_file *file = reader->file;
+    if (file->size - offset < SIZES)
+        return cloud_fail_byte(file, file->size, "the file ends before its compressed data");
+    uint32_t packed = (uint32_t)cloud_scalar_read(size_type, false, file->bytes + offset);
+    uint32_t size = (uint32_t)cloud_scalar_read(size_type, false, file->bytes + offset + 4);
+    if (reader->points > UINT32_MAX / reader->stride || reader->points * reader->stride != size)
+        return cloud_fail_byte(file, offset,
+                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, and %" PRIu32 " bytes follow",
+                               reader->points, reader->stride, size);
+    offset += SIZES;
+    if (packed > file->size - offset)
+        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes are announced, and %zu follow", packed,
+                               file->size - offset);
+    if (size > (uint64_t)packed * LZF_RATIO)
+        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes cannot hold %" PRIu32 " bytes", packed,
+                               size);
+    return size == 0 || (unpack(reader, offset, packed, size) && cloud_check_padding(file, offset + packed));
+}
+
+bool cloud_parse_pcd(cloud_file *file)
+{
+    pcd_reader reader = {.file = file, .lines = cloud_lines_of(file)};
+    if (!read_header(&reader))
+        return false;
+    size_t offset = (size_t)(reader.lines.at - (const char *)file->bytes);
+    switch (reader.encoding) {
+    case PCD_ASCII:
+        return read_ascii(&reader);
+    case PCD_BINARY:
+        return read_binary(&reader, offset);
+    case PCD_COMPRESSED:
+        break;
+    }
+    return read_compressed(&reader, offset);
+}

@@ -1,0 +1,320 @@
+/* cloud_ply.c - the vertices of a PLY file (Greg Turk, "The PLY Polygon File Format", 1994), ascii or binary. */
+#include "cloud_format.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+enum {
+    MAX_ELEMENTS = 64,
+    MAX_PROPERTIES = 1024, /* of all elements together */
+};
+
+typedef enum ply_encoding { PLY_NO_ENCODING, PLY_ASCII, PLY_LITTLE_ENDIAN, PLY_BIG_ENDIAN } ply_encoding;
+
+typedef struct ply_property {
+    cloud_scalar type;   /* of the value, or of each item of a list */
+    cloud_scalar length; /* of a list's length; size 0 when the property is no list */
+    int axis;            /* 0, 1, 2 for a vertex' x, y, z; else -1 */
+} ply_property;
+
+typedef struct ply_element {
+    cloud_span name;
+    uint64_t count;
+    size_t first_property, property_count;
+    unsigned axes; /* bit i is set when it has coordinate i of the points */
+} ply_element;
+
+typedef struct ply_reader {
+    cloud_file *file;
+    cloud_lines lines;
+    size_t offset; /* of the next byte, in binary data */
+    ply_encoding encoding;
+    ply_element elements[MAX_ELEMENTS];
+    size_t element_count;
+    ply_property properties[MAX_PROPERTIES];
+    size_t property_count;
+} ply_reader;
+
+bool cloud_is_ply(const cloud_file *file)
+{
+    cloud_lines lines = cloud_lines_of(file);
+    cloud_span line, word, more;
+    return cloud_next_line(&lines, &line) && cloud_next_word(&line, &word) && cloud_word_is(word, "ply") &&
+           !cloud_next_word(&line, &more);
+}
+
+/* ---- Header ------------------------------------------------------------------------------------------------- */
+
+typedef struct ply_type {
+    const char *name, *alias;
+    cloud_scalar scalar;
+} ply_type;
+
+static const ply_type types[] = {
+    {"char", "int8", {CLOUD_SIGNED, 1}},    {"uchar", "uint8", {CLOUD_UNSIGNED, 1}},
+    {"short", "int16", {CLOUD_SIGNED, 2}},  {"ushort", "uint16", {CLOUD_UNSIGNED, 2}},
+    {"int", "int32", {CLOUD_SIGNED, 4}},    {"uint", "uint32", {CLOUD_UNSIGNED, 4}},
+    {"float", "float32", {CLOUD_FLOAT, 4}}, {"double", "float64", {CLOUD_FLOAT, 8}},
+};
+
+static bool find_type(cloud_span word, cloud_scalar *scalar)
+{
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        if (!cloud_word_is(word, types[i].name) && !cloud_word_is(word, types[i].alias))
+            continue;
+        *scalar = types[i].scalar;
+        return true;
+    }
+    return false;
+}
+
+static bool fail_header(const ply_reader *reader, const char *reason, cloud_span word)
+{
+    char quote[CLOUD_QUOTE];
+    return cloud_fail_line(reader->file, reader->lines.number, "%s %s", cloud_quote(word, quote), reason);
+}
+
+static bool read_format(ply_reader *reader, cloud_span rest)
+{
+    static const char *const names[] = {NULL, "ascii", "binary_little_endian", "binary_big_endian"};
+    cloud_span name, version;
+    cloud_next_word(&rest, &name);
+    cloud_next_word(&rest, &version);
+    if (reader->encoding != PLY_NO_ENCODING)
+        return fail_header(reader, "is a second format", name);
+    for (int i = PLY_ASCII; i <= PLY_BIG_ENDIAN; i++)
+        if (cloud_word_is(name, names[i]))
+            reader->encoding = (ply_encoding)i;
+    if (reader->encoding == PLY_NO_ENCODING)
+        return fail_header(reader, "is not a PLY format: ascii, binary_little_endian or binary_big_endian", name);
+    return cloud_word_is(version, "1.0") || fail_header(reader, "is not the PLY version 1.0", version);
+}
+
+static bool skip_line(ply_reader *reader, cloud_span rest)
+{
+    (void)reader, (void)rest;
+    return true;
+}
+
+static bool read_element(ply_reader *reader, cloud_span rest)
+{
+    cloud_span name, number;
+    uint64_t count;
+    if (reader->element_count == MAX_ELEMENTS)
+        return cloud_fail_line(reader->file, reader->lines.number, "more than %d elements", MAX_ELEMENTS);
+    cloud_next_word(&rest, &name);
+    cloud_next_word(&rest, &number);
+    if (!cloud_word_count(number, &count))
+        return fail_header(reader, "is not a number of elements", number);
+    for (size_t i = 0; i < reader->element_count; i++)
+        if (cloud_word_is(name, "vertex") && cloud_word_is(reader->elements[i].name, "vertex"))
+            return fail_header(reader, "is a second element of this name", name);
+    reader->elements[reader->element_count++] = (ply_element){name, count, reader->property_count, 0, 0};
+    return true;
+}
+
+/* Read a property's type, of a value or of a list. */
+static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *property)
+{
+    cloud_span word;
+    cloud_next_word(rest, &word);
+    if (cloud_word_is(word, "list")) {
+        cloud_next_word(rest, &word);
+        if (!find_type(word, &property->length) || property->length.kind == CLOUD_FLOAT)
+            return fail_header(reader, "is not an integer type for a list's length", word);
+        cloud_next_word(rest, &word);
+    }
+    return find_type(word, &property->type) || fail_header(reader, "is not a PLY type", word);
+}
+
+static bool read_property(ply_reader *reader, cloud_span rest)
+{
+    ply_property property = {.axis = -1};
+    cloud_span name;
+    if (reader->element_count == 0)
+        return cloud_fail_line(reader->file, reader->lines.number, "a property before any element");
+    if (reader->property_count == MAX_PROPERTIES)
+        return cloud_fail_line(reader->file, reader->lines.number, "more than %d properties", MAX_PROPERTIES);
+    ply_element *element = &reader->elements[reader->element_count - 1];
+    if (!read_type(reader, &rest, &property))
+        return false;
+    if (!cloud_next_word(&rest, &name))
+        return cloud_fail_line(reader->file, reader->lines.number, "a property without a name");
+    if (cloud_word_is(element->name, "vertex"))
+        property.axis = cloud_word_axis(name);
+    if (property.axis >= 0) {
+        unsigned bit = 1U << property.axis;
+        if (element->axes & bit)
+            return fail_header(reader, "is a second property of this name", name);
+        if (property.length.size > 0)
+            return fail_header(reader, "is a list, where a coordinate must be a number", name);
+        element->axes |= bit;
+    }
+    reader->properties[reader->property_count++] = property;
+    element->property_count++;
+    return true;
+}
+
+typedef struct ply_keyword {
+    const char *name;
+    bool (*read)(ply_reader *reader, cloud_span rest);
+} ply_keyword;
+
+static const ply_keyword keywords[] = {
+    {"format", read_format},   {"comment", skip_line},      {"obj_info", skip_line},
+    {"element", read_element}, {"property", read_property},
+};
+
+static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span rest)
+{
+    for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++)
+        if (cloud_word_is(keyword, keywords[i].name))
+            return keywords[i].read(reader, rest);
+    return fail_header(reader, "does not belong in a PLY header", keyword);
+}
+
+/* What the header as a whole must have. */
+static bool check_header(const ply_reader *reader)
+{
+    unsigned axes = 0;
+    bool has_vertex = false;
+    if (reader->encoding == PLY_NO_ENCODING)
+        return cloud_fail_line(reader->file, reader->lines.number, "the header has no format");
+    for (size_t i = 0; i < reader->element_count; i++) {
+        axes |= reader->elements[i].axes;
+        has_vertex = has_vertex || cloud_word_is(reader->elements[i].name, "vertex");
+    }
+    if (!has_vertex)
+        return cloud_fail_line(reader->file, reader->lines.number, "the header has no element vertex");
+    for (int axis = 0; axis < 3; axis++)
+        if (!(axes >> axis & 1))
+            return cloud_fail_line(reader->file, reader->lines.number, "vertex has no property %c", "xyz"[axis]);
+    return true;
+}
+
+static bool read_header(ply_reader *reader)
+{
+    cloud_span line, keyword;
+    cloud_next_line(&reader->lines, &line);
+    while (cloud_next_line(&reader->lines, &line)) {
+        if (!cloud_next_word(&line, &keyword))
+            continue;
+        if (cloud_word_is(keyword, "end_header"))
+            return check_header(reader);
+        if (!read_header_line(reader, keyword, line))
+            return false;
+    }
+    return cloud_fail_line(reader->file, reader->lines.number, "the file ends in its header");
+}
+
+/* ---- Ascii data --------------------------------------------------------------------------------------------- */
+
+/* Take the words of one property off a line. */
+static bool read_words(ply_reader *reader, const ply_property *property, cloud_span *line, double position[3])
+{
+    cloud_span word;
+    size_t number = reader->lines.number;
+    uint64_t count = 1;
+    bool enough = cloud_next_word(line, &word);
+    if (enough && property->axis >= 0)
+        return cloud_word_coordinate(reader->file, number, word, &position[property->axis]);
+    if (enough && property->length.size > 0) {
+        if (!cloud_word_count(word, &count))
+            return fail_header(reader, "is not the length of a list", word);
+        for (uint64_t i = 0; enough && i < count; i++)
+            enough = cloud_next_word(line, &word);
+    }
+    return enough || cloud_fail_line(reader->file, number, "the line ends before the last of its properties");
+}
+
+static bool read_line(ply_reader *reader, const ply_element *element, uint64_t row, double position[3])
+{
+    cloud_span line, word;
+    if (!cloud_next_filled_line(&reader->lines, &line)) {
+        char quote[CLOUD_QUOTE];
+        return cloud_fail_line(reader->file, reader->lines.number, "the file ends after %" PRIu64 " of %" PRIu64 " %s",
+                               row, element->count, cloud_quote(element->name, quote));
+    }
+    for (size_t i = 0; i < element->property_count; i++)
+        if (!read_words(reader, &reader->properties[element->first_property + i], &line, position))
+            return false;
+    return !cloud_next_word(&line, &word) || fail_header(reader, "is more than the properties of the line", word);
+}
+
+/* ---- Binary data -------------------------------------------------------------------------------------------- */
+
+/* Take `count` items of a type; returns where they are, or null when the file ends before. */
+static const unsigned char *take(ply_reader *reader, cloud_scalar type, uint64_t count)
+{
+    const unsigned char *at = reader->file->bytes + reader->offset;
+    if (count > (reader->file->size - reader->offset) / type.size)
+        return NULL;
+    reader->offset += (size_t)count * type.size;
+    return at;
+}
+
+static bool fail_end(const ply_reader *reader, const ply_element *element, uint64_t row)
+{
+    char quote[CLOUD_QUOTE];
+    return cloud_fail_byte(reader->file, reader->offset, "the file ends within row %" PRIu64 " of %" PRIu64 " %s",
+                           row + 1, element->count, cloud_quote(element->name, quote));
+}
+
+static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t row, double position[3])
+{
+    bool big_endian = reader->encoding == PLY_BIG_ENDIAN;
+    for (size_t i = 0; i < element->property_count; i++) {
+        const ply_property *property = &reader->properties[element->first_property + i];
+        double count = 1;
+        if (property->length.size > 0) {
+            const unsigned char *length = take(reader, property->length, 1);
+            if (!length)
+                return fail_end(reader, element, row);
+            count = cloud_scalar_read(property->length, big_endian, length);
+        }
+        if (count < 0)
+            return cloud_fail_byte(reader->file, reader->offset - property->length.size, "a list of negative length");
+        const unsigned char *value = take(reader, property->type, (uint64_t)count);
+        if (!value)
+            return fail_end(reader, element, row);
+        if (property->axis >= 0)
+            position[property->axis] = cloud_scalar_read(property->type, big_endian, value);
+    }
+    return true;
+}
+
+/* ---- Elements ----------------------------------------------------------------------------------------------- */
+
+static bool read_rows(ply_reader *reader, const ply_element *element)
+{
+    bool (*read_row)(ply_reader *, const ply_element *, uint64_t, double[3]) =
+        reader->encoding == PLY_ASCII ? read_line : read_bytes;
+    bool has_points = element->axes != 0;
+    double position[3];
+    if (element->property_count == 0)
+        return true;
+    for (uint64_t row = 0; row < element->count; row++) {
+        if (!read_row(reader, element, row, position))
+            return false;
+        if (has_points && !cloud_add(reader->file, position))
+            return false;
+    }
+    return true;
+}
+
+bool cloud_parse_ply(cloud_file *file)
+{
+    ply_reader reader = {.file = file, .lines = cloud_lines_of(file)};
+    if (!cloud_is_ply(file))
+        return cloud_fail_line(file, 1, "is not a PLY file: its first line is not \"ply\"");
+    if (!read_header(&reader))
+        return false;
+    bool ascii = reader.encoding == PLY_ASCII;
+    if (ascii && !cloud_check_text(file))
+        return false;
+    reader.offset = (size_t)(reader.lines.at - (const char *)file->bytes);
+    for (size_t i = 0; i < reader.element_count; i++)
+        if (!read_rows(&reader, &reader.elements[i]))
+            return false;
+    return ascii ? cloud_check_no_lines(file, &reader.lines) : cloud_check_padding(file, reader.offset);
+}

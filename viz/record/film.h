@@ -1,0 +1,31 @@
+/* film.h - a session becomes a recording: every tick played, drawn and written. */
+#ifndef RECORD_FILM_H
+#define RECORD_FILM_H
+
+#include "folder.h"
+#include "octree/game.h"
+#include "view.h"
+
+typedef struct film_options {
+    const char *folder;
+    view view;
+    uint64_t every; /* film ticks 0, every, 2 * every ...; at least 1. ticks.jsonl has all ticks */
+    void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
+    void *context;
+} film_options;
+
+typedef struct film_summary {
+    uint64_t ticks;  /* tick 0 included */
+    uint64_t frames;
+    uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
+} film_summary;
+
+/* Film a session into a folder. On failure what is there is whole: frames are written by rename, and ticks.jsonl ends
+ * with the last tick that was finished. Nothing is made where the session or the size is refused. */
+bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
+                  record_error *error);
+
+/* Draw one tree and write it as a PNG. */
+bool film_tree(const octree *tree, const char *title, const view *v, const char *path, record_error *error);
+
+#endif

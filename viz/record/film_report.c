@@ -1,0 +1,49 @@
+/* film_report.c - see film_report.h. */
+#include "film_report.h"
+#include "json_write.h"
+
+#include <inttypes.h>
+
+static double rate_of(const film_summary *summary, double seconds)
+{
+    return seconds > 0 ? (double)summary->frames / seconds : 0;
+}
+
+static void report_json(FILE *out, const film_summary *summary, const char *folder, double seconds)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    json_write_begin_object(w);
+    json_write_key(w, "folder");
+    json_write_string(w, folder);
+    json_write_key(w, "ticks");
+    json_write_integer(w, summary->ticks);
+    json_write_key(w, "frames");
+    json_write_integer(w, summary->frames);
+    json_write_key(w, "seconds");
+    json_write_number(w, seconds);
+    json_write_key(w, "frames_per_second");
+    json_write_number(w, rate_of(summary, seconds));
+    json_write_key(w, "events");
+    json_write_begin_object(w);
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
+        json_write_key(w, octree_event_name(i));
+        json_write_integer(w, summary->events[i]);
+    }
+    json_write_end_object(w);
+    json_write_end_object(w);
+    json_write_end_line(w);
+}
+
+void film_report(FILE *out, const film_summary *summary, const char *folder, double seconds, bool json)
+{
+    if (json) {
+        report_json(out, summary, folder, seconds);
+        return;
+    }
+    fprintf(out, "%s: %" PRIu64 " ticks, %" PRIu64 " frames, %.1f s, %.0f frames a second\n", folder, summary->ticks,
+            summary->frames, seconds, rate_of(summary, seconds));
+    fputs("ticks that", out);
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(i), summary->events[i]);
+    fputc('\n', out);
+}

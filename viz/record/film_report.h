@@ -1,0 +1,12 @@
+/* film_report.h - what was filmed, said when it is done. */
+#ifndef RECORD_FILM_REPORT_H
+#define RECORD_FILM_REPORT_H
+
+#include "film.h"
+
+#include <stdio.h>
+
+/* A few lines for people, or one JSON object on one line. */
+void film_report(FILE *out, const film_summary *summary, const char *folder, double seconds, bool json);
+
+#endif

@@ -1,0 +1,107 @@
+/* folder_files.c - see folder_files.h. */
+#include "folder_files.h"
+#include "image.h"
+#include "json_write.h"
+#include "octree/digest.h"
+#include "session_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* A stream into memory that becomes a file of the folder. */
+typedef struct memory_file {
+    FILE *stream;
+    char *bytes;
+    size_t size;
+} memory_file;
+
+static bool begin_file(memory_file *file, record_error *error)
+{
+    *file = (memory_file){0};
+    file->stream = open_memstream(&file->bytes, &file->size);
+    return file->stream || record_fail(error, "there is no memory");
+}
+
+static bool end_file(memory_file *file, const char *folder, const char *name, record_error *error)
+{
+    const bool whole = !ferror(file->stream);
+    const bool closed = fclose(file->stream) == 0;
+    const bool ok = whole && closed ? folder_write(folder, name, file->bytes, file->size, error)
+                                    : record_fail(error, "there is no memory for %s", name);
+    free(file->bytes);
+    return ok;
+}
+
+bool write_session_file(const char *folder, const octree_session *session, uint64_t *digest, record_error *error)
+{
+    memory_file file;
+    if (!begin_file(&file, error))
+        return false;
+    session_write(session, file.stream);
+    fflush(file.stream);
+    *digest = octree_digest_bytes(OCTREE_DIGEST_START, file.bytes, file.size);
+    return end_file(&file, folder, "session.json", error);
+}
+
+static void write_text(json_writer *w, const char *key, const char *text)
+{
+    json_write_newline(w);
+    json_write_key(w, key);
+    json_write_string(w, text);
+}
+
+static void write_count(json_writer *w, const char *key, uint64_t value)
+{
+    json_write_newline(w);
+    json_write_key(w, key);
+    json_write_integer(w, value);
+}
+
+static void end_object(json_writer *w)
+{
+    json_write_newline(w);
+    json_write_end_object(w);
+    json_write_end_line(w);
+}
+
+bool write_recording_file(const char *folder, const view *v, uint64_t every, record_error *error)
+{
+    memory_file file;
+    if (!begin_file(&file, error))
+        return false;
+    json_writer writer = {.out = file.stream}, *w = &writer;
+    json_write_begin_object(w);
+    write_text(w, "octreel", "recording");
+    write_count(w, "version", 1);
+    write_count(w, "width", (uint64_t)v->width);
+    write_count(w, "height", (uint64_t)v->height);
+    write_text(w, "camera", view_camera_name(v->camera));
+    json_write_newline(w);
+    json_write_key(w, "layers");
+    json_write_begin_array(w);
+    for (int i = 0; i < LAYER_COUNT; i++)
+        if (view_shows(v, (view_layer)i))
+            json_write_string(w, view_layer_name((view_layer)i));
+    json_write_end_array(w);
+    write_text(w, "theme", theme_name());
+    write_count(w, "every", every);
+    end_object(w);
+    return end_file(&file, folder, "recording.json", error);
+}
+
+bool write_renderer_file(const char *folder, const renderer_info *info, record_error *error)
+{
+    char library[IMAGE_LIBRARY_TEXT];
+    memory_file file;
+    if (!begin_file(&file, error))
+        return false;
+    json_writer writer = {.out = file.stream}, *w = &writer;
+    json_write_begin_object(w);
+    write_text(w, "context", info->context);
+    write_text(w, "vendor", info->vendor);
+    write_text(w, "renderer", info->renderer);
+    write_text(w, "version", info->version);
+    write_text(w, "png", image_library(library));
+    end_object(w);
+    return end_file(&file, folder, "renderer.json", error);
+}

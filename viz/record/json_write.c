@@ -1,0 +1,190 @@
+/* json_write.c - see json_write.h. */
+#include "json_write.h"
+#include "number.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+static void break_line(json_writer *writer)
+{
+    if (writer->newline)
+        putc('\n', writer->out);
+    writer->newline = false;
+}
+
+/* What stands between the last value and the next value or key. */
+static void separate(json_writer *writer)
+{
+    if (writer->comma)
+        fputs(writer->newline ? "," : ", ", writer->out);
+    writer->comma = false;
+    break_line(writer);
+}
+
+static void begin(json_writer *writer, char bracket)
+{
+    separate(writer);
+    putc(bracket, writer->out);
+}
+
+static void end(json_writer *writer, char bracket)
+{
+    break_line(writer);
+    putc(bracket, writer->out);
+    writer->comma = true;
+}
+
+void json_write_begin_object(json_writer *writer)
+{
+    begin(writer, '{');
+}
+
+void json_write_end_object(json_writer *writer)
+{
+    end(writer, '}');
+}
+
+void json_write_begin_array(json_writer *writer)
+{
+    begin(writer, '[');
+}
+
+void json_write_end_array(json_writer *writer)
+{
+    end(writer, ']');
+}
+
+/* A value that is one piece of text. */
+static void write_word(json_writer *writer, const char *word)
+{
+    separate(writer);
+    fputs(word, writer->out);
+    writer->comma = true;
+}
+
+/* ---- Strings ------------------------------------------------------------------------------------------------ */
+
+/* Well-formed UTF-8 beyond ASCII (table 3-7 of the Unicode standard): what the first byte says about the second and
+ * about the length. */
+static const struct {
+    unsigned char first, last, second_min, second_max;
+    size_t length;
+} sequences[] = {
+    {0xc2, 0xdf, 0x80, 0xbf, 2}, {0xe0, 0xe0, 0xa0, 0xbf, 3}, {0xe1, 0xec, 0x80, 0xbf, 3}, {0xed, 0xed, 0x80, 0x9f, 3},
+    {0xee, 0xef, 0x80, 0xbf, 3}, {0xf0, 0xf0, 0x90, 0xbf, 4}, {0xf1, 0xf3, 0x80, 0xbf, 4}, {0xf4, 0xf4, 0x80, 0x8f, 4},
+};
+
+/* The length of the character at `at`, 0 when there is none. The final zero ends every sequence. */
+static size_t sequence_length(const unsigned char *at)
+{
+    for (size_t i = 0; i < sizeof sequences / sizeof *sequences; i++) {
+        if (at[0] < sequences[i].first || at[0] > sequences[i].last)
+            continue;
+        if (at[1] < sequences[i].second_min || at[1] > sequences[i].second_max)
+            return 0;
+        for (size_t j = 2; j < sequences[i].length; j++)
+            if (at[j] < 0x80 || at[j] > 0xbf)
+                return 0;
+        return sequences[i].length;
+    }
+    return 0;
+}
+
+static void write_ascii(FILE *out, unsigned char c)
+{
+    if (c == '"' || c == '\\')
+        putc('\\', out);
+    if (c >= ' ')
+        putc(c, out);
+    else if (c == '\n')
+        fputs("\\n", out);
+    else if (c == '\t')
+        fputs("\\t", out);
+    else
+        fprintf(out, "\\u%04x", (unsigned)c);
+}
+
+static void write_quoted(FILE *out, const char *text)
+{
+    const unsigned char *at = (const unsigned char *)text;
+    putc('"', out);
+    while (*at) {
+        if (*at < 0x80) {
+            write_ascii(out, *at++);
+            continue;
+        }
+        size_t length = sequence_length(at);
+        if (length > 0)
+            fwrite(at, 1, length, out);
+        else
+            fputs("\xef\xbf\xbd", out);
+        at += length > 0 ? length : 1;
+    }
+    putc('"', out);
+}
+
+void json_write_key(json_writer *writer, const char *key)
+{
+    separate(writer);
+    write_quoted(writer->out, key);
+    fputs(": ", writer->out);
+}
+
+void json_write_string(json_writer *writer, const char *text)
+{
+    separate(writer);
+    write_quoted(writer->out, text);
+    writer->comma = true;
+}
+
+/* ---- Other values ------------------------------------------------------------------------------------------- */
+
+void json_write_number(json_writer *writer, double value)
+{
+    char text[NUMBER_TEXT];
+    if (!isfinite(value)) {
+        json_write_null(writer);
+        return;
+    }
+    number_print(value, text);
+    write_word(writer, text);
+}
+
+void json_write_integer(json_writer *writer, uint64_t value)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%" PRIu64, value);
+    write_word(writer, text);
+}
+
+void json_write_bool(json_writer *writer, bool value)
+{
+    write_word(writer, value ? "true" : "false");
+}
+
+void json_write_null(json_writer *writer)
+{
+    write_word(writer, "null");
+}
+
+void json_write_numbers(json_writer *writer, const double *values, size_t count)
+{
+    json_write_begin_array(writer);
+    for (size_t i = 0; i < count; i++)
+        json_write_number(writer, values[i]);
+    json_write_end_array(writer);
+}
+
+/* ---- Layout ------------------------------------------------------------------------------------------------- */
+
+void json_write_newline(json_writer *writer)
+{
+    writer->newline = true;
+}
+
+void json_write_end_line(json_writer *writer)
+{
+    putc('\n', writer->out);
+    writer->comma = false;
+    writer->newline = false;
+}

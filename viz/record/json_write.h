@@ -1,0 +1,48 @@
+/* json_write.h - JSON onto a stream, value after value; commas are put where they belong.
+ *
+ * Numbers are the shortest that read back to the same double, whatever the locale. Everything stays on one line but
+ * where json_write_newline() is called. Errors stay with the stream: ask ferror() or fclose() at the end. For text in
+ * memory give it a stream of open_memstream().
+ */
+#ifndef OCTREEL_JSON_WRITE_H
+#define OCTREEL_JSON_WRITE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Start as {.out = stream}. The caller pairs begin with end, and in an object each value with a key. */
+typedef struct json_writer {
+    FILE *out;
+    bool comma;   /* one is due before the next value or key */
+    bool newline; /* one is due before the next value, key or end */
+} json_writer;
+
+void json_write_begin_object(json_writer *writer);
+void json_write_end_object(json_writer *writer);
+void json_write_begin_array(json_writer *writer);
+void json_write_end_array(json_writer *writer);
+
+/* The name of an object's next value: text as for json_write_string(). */
+void json_write_key(json_writer *writer, const char *key);
+
+/* UTF-8 is passed through; a byte that belongs to none becomes U+FFFD. */
+void json_write_string(json_writer *writer, const char *text);
+
+/* A NaN or an infinity, for which JSON has no word, is written as null. */
+void json_write_number(json_writer *writer, double value);
+void json_write_integer(json_writer *writer, uint64_t value);
+void json_write_bool(json_writer *writer, bool value);
+void json_write_null(json_writer *writer);
+
+/* An array of numbers. */
+void json_write_numbers(json_writer *writer, const double *values, size_t count);
+
+/* What comes next, the end of an array or object too, begins a new line. */
+void json_write_newline(json_writer *writer);
+
+/* End the line behind a value that stands alone, as the objects of a stream do; the next one starts afresh. */
+void json_write_end_line(json_writer *writer);
+
+#endif

@@ -1,0 +1,28 @@
+/* number.h - doubles as decimal text and back, whatever the locale.
+ *
+ * Reading is correctly rounded; what number_print() wrote reads back to the same bits.
+ */
+#ifndef OCTREEL_NUMBER_H
+#define OCTREEL_NUMBER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Read the decimal number that starts at begin, no blanks before it, and never look at limit or beyond: a sign or
+ * none, digits with a point or none, an exponent or none ("1", "-.5", "+2.", "1e-3"). *end is the first character
+ * that is not part of it. False when there is none (*end is then begin: so for "nan", "inf" and the like; of "0x10"
+ * it reads the 0) or when it is beyond the largest double (*end is then behind it); *value is then untouched. */
+bool number_parse(const char *begin, const char *limit, const char **end, double *value);
+
+/* True when begin starts with what C prints for a NaN or an infinity, in any case: "nan", "-nan(ind)", "inf",
+ * "Infinity". *end is the first character behind it, or begin. */
+bool number_parse_nonfinite(const char *begin, const char *limit, const char **end);
+
+/* Room for any number's text, with its final zero. */
+#define NUMBER_TEXT 32
+
+/* Write a finite double as the shortest of %.15g, %.16g and %.17g that reads back to the same bits: a '.' for the
+ * point, no point in integers, "-0" for minus zero. Returns the length. */
+size_t number_print(double value, char text[NUMBER_TEXT]);
+
+#endif

@@ -1,0 +1,23 @@
+/* picture.h - one scene becomes one PNG: a renderer, the frame's pixels and the theme's palette. */
+#ifndef RECORD_PICTURE_H
+#define RECORD_PICTURE_H
+
+#include "draw.h"
+#include "folder.h"
+#include "image.h"
+
+typedef struct picture {
+    renderer *renderer;
+    image frame; /* the scene that was drawn last, as indices of the theme's table */
+} picture;
+
+bool picture_open(picture *p, int width, int height, record_error *error);
+void picture_close(picture *p);
+
+/* Draw a scene into p->frame. */
+bool picture_draw(picture *p, const scene *s, record_error *error);
+
+/* Write p->frame, with what traces it to its origin. */
+bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, record_error *error);
+
+#endif

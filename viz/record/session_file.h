@@ -1,0 +1,81 @@
+/* session_file.h - sessions as files: a stream of JSON objects, the header and then objects of one tick each.
+ *
+ * The header; all but its first two members may be left out:
+ *   {"octreel": "session", "version": 1,
+ *    "world": {"min": [-1000, -1000, -1000], "max": [1000, 1000, 1000]},
+ *    "tree": {"capacity": 8, "depth": 21, "full": "refuse" or "grow"},
+ *    "player": {"id": 0, "position": [0, 0, 0], "step": 50, "box_size": 30},
+ *    "points": a list of [x, y, z], [x, y, z, id] and {"id": 7, "position": [x, y, z], "velocity": [vx, vy, vz]},
+ *              or {"file": "cloud.pcd"}, or {"sample": "clustered", "count": 2000, "seed": 1},
+ *    "velocities": [[id, vx, vy, vz], ...], or {"speed": 5, "seed": 1} for random ones within +-speed on each axis,
+ *    "keys": "wwdn.", "ticks": 100, "queries": asked at every tick}
+ * What is shown for world, tree and player is what they have when they are left out; but position is the world's
+ * centre, step a fortieth of its longest side, and box_size three fifths of step.
+ *
+ * Then, where there are any, the ticks in ascending order:
+ *   {"tick": 3, "edits": [{"insert": {"id": 9, "position": [x, y, z], "velocity": [vx, vy, vz]}}, {"remove": 9},
+ *                         {"move": {"id": 9, "position": [x, y, z]}}], "queries": [...]}
+ *
+ * A query is {"range": {"min": [...], "max": [...]}} with "at": "player" when it is relative to the player, or
+ * {"nearest": [x, y, z]}, or {"nearest": "player"}.
+ *
+ * A point without an id has its place in the list for an id, counted from 1 and passing over the player's. Ids are
+ * unique, the player's included. "velocities" replace those of the points. Points may lie outside the world: the game
+ * refuses them at tick 0.
+ */
+#ifndef OCTREEL_SESSION_FILE_H
+#define OCTREEL_SESSION_FILE_H
+
+#include "octree/game.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Ids and seeds in files are below this: every JSON reader keeps them exactly. */
+#define SESSION_ID_LIMIT (UINT64_C(1) << 53)
+
+/* The last tick that a file can name. */
+#define SESSION_LAST_TICK 1000000000
+
+/* The most points that "sample" makes. */
+#define SESSION_MOST_SAMPLES 100000000
+
+/* A session that owns its arrays and its keys. */
+typedef struct session_file {
+    octree_session session;
+} session_file;
+
+/* A failed operation writes one sentence here: "<file>:<line>: <where>: <reason>", shorter where there is no place or
+ * no file; for a file of points that cannot be read it is that of cloud_read(). */
+typedef struct session_error {
+    char text[512];
+} session_error;
+
+/* Read a session file into *out; files of points are looked for in its folder. False with the reason in *error; *out
+ * is then empty. Cost: O(size) in time; memory about ten times the size for points and never beyond 130 times, plus
+ * what files of points and samples need. A file has at most 2 GiB. */
+bool session_read(const char *path, session_file *out, session_error *error);
+
+/* The same for text in memory. `name` is for errors; `folder` is where files of points are looked for, "" the current
+ * one. */
+bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
+                   session_error *error);
+
+/* Copy a session with all of its arrays. False when there is no memory or a key is unknown; *out is then empty. */
+bool session_copy(const octree_session *from, session_file *out, session_error *error);
+
+/* Give the session a copy of these keys instead of its own. False when there is no memory or a key is unknown; the
+ * session is then as it was. */
+bool session_set_keys(session_file *file, const char *keys, session_error *error);
+
+/* Free the arrays and empty the session; a zeroed one is allowed. */
+void session_release(session_file *file);
+
+/* Write the whole session inline, so that it plays anywhere: what is read back is equal to the bit, and the same
+ * session makes the same bytes. The session must be one that a game accepts, with ids below SESSION_ID_LIMIT, finite
+ * numbers and no tick beyond SESSION_LAST_TICK. The stream is flushed; false on an I/O error. Cost: O(size). */
+bool session_write(const octree_session *session, FILE *out);
+
+#endif

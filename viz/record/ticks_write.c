@@ -1,0 +1,157 @@
+/* ticks_write.c - see ticks_write.h. */
+#include "ticks_write.h"
+#include "json_write.h"
+
+#include <inttypes.h>
+
+char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
+{
+    snprintf(text, DIGEST_TEXT, "%016" PRIx64, digest);
+    return text;
+}
+
+static void write_digest(json_writer *w, const char *key, uint64_t digest)
+{
+    char text[DIGEST_TEXT];
+    json_write_key(w, key);
+    json_write_string(w, digest_print(digest, text));
+}
+
+static void write_events(json_writer *w, unsigned events)
+{
+    json_write_key(w, "events");
+    json_write_begin_array(w);
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        if (events >> i & 1)
+            json_write_string(w, octree_event_name(i));
+    json_write_end_array(w);
+}
+
+static void write_position(json_writer *w, const char *key, const double position[3])
+{
+    json_write_key(w, key);
+    json_write_numbers(w, position, 3);
+}
+
+static void write_ids(json_writer *w, const char *key, const octree_point *points, size_t count)
+{
+    json_write_key(w, key);
+    json_write_begin_array(w);
+    for (size_t i = 0; i < count; i++)
+        json_write_integer(w, points[i].id);
+    json_write_end_array(w);
+}
+
+static void write_addresses(json_writer *w, const char *key, const octree_address *addresses, size_t count)
+{
+    char text[OCTREE_ADDRESS_TEXT];
+    json_write_key(w, key);
+    json_write_begin_array(w);
+    for (size_t i = 0; i < count; i++)
+        json_write_string(w, octree_address_format(addresses[i], text));
+    json_write_end_array(w);
+}
+
+static void write_refusals(json_writer *w, const octree_tick *tick)
+{
+    json_write_key(w, "refusals");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < tick->refusal_count; i++) {
+        json_write_begin_object(w);
+        json_write_key(w, "id");
+        json_write_integer(w, tick->refusals[i].id);
+        json_write_key(w, "why");
+        json_write_string(w, octree_status_name(tick->refusals[i].why));
+        write_position(w, "position", tick->refusals[i].position);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+static void write_nearest(json_writer *w, const octree_answer *answer)
+{
+    json_write_key(w, "nearest");
+    json_write_begin_object(w);
+    write_position(w, "target", answer->target);
+    json_write_key(w, "id");
+    if (answer->found) {
+        json_write_integer(w, answer->neighbor.point.id);
+        write_position(w, "position", answer->neighbor.point.position);
+        json_write_key(w, "distance");
+        json_write_number(w, answer->neighbor.distance);
+    } else {
+        json_write_null(w);
+    }
+    json_write_end_object(w);
+}
+
+static void write_range(json_writer *w, const octree_answer *answer)
+{
+    json_write_key(w, "range");
+    json_write_begin_object(w);
+    write_position(w, "min", answer->box.min);
+    write_position(w, "max", answer->box.max);
+    write_ids(w, "ids", answer->points, answer->count);
+    json_write_end_object(w);
+}
+
+static void write_answers(json_writer *w, const octree_tick *tick)
+{
+    json_write_key(w, "answers");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < tick->answer_count; i++) {
+        json_write_begin_object(w);
+        if (tick->answers[i].kind == OCTREE_QUERY_RANGE)
+            write_range(w, &tick->answers[i]);
+        else
+            write_nearest(w, &tick->answers[i]);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+static void write_tree(json_writer *w, const tick_extras *extras)
+{
+    json_write_key(w, "tree");
+    json_write_begin_object(w);
+    json_write_key(w, "points");
+    json_write_integer(w, extras->stats.points);
+    json_write_key(w, "nodes");
+    json_write_integer(w, extras->stats.nodes);
+    json_write_key(w, "leaves");
+    json_write_integer(w, extras->stats.leaves);
+    json_write_key(w, "depth");
+    json_write_integer(w, extras->stats.depth);
+    write_digest(w, "digest", extras->tree_digest);
+    json_write_end_object(w);
+}
+
+void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    const char key[2] = {tick->key, 0};
+    json_write_begin_object(w);
+    json_write_key(w, "tick");
+    json_write_integer(w, tick->number);
+    json_write_key(w, "key");
+    if (tick->key)
+        json_write_string(w, key);
+    else
+        json_write_null(w);
+    write_position(w, "player", tick->player);
+    write_events(w, tick->events);
+    write_position(w, "attempt", tick->attempt);
+    write_ids(w, "hits", tick->hits, tick->hit_count);
+    write_answers(w, tick);
+    write_refusals(w, tick);
+    write_addresses(w, "splits", tick->splits, tick->split_count);
+    write_addresses(w, "merges", tick->merges, tick->merge_count);
+    write_tree(w, extras);
+    if (extras->frame) {
+        json_write_key(w, "frame");
+        json_write_string(w, extras->frame);
+        write_digest(w, "scene", extras->scene_digest);
+    }
+    json_write_end_object(w);
+    json_write_end_line(w);
+}

@@ -1,0 +1,24 @@
+/* ticks_write.h - a tick as one line of ticks.jsonl. */
+#ifndef RECORD_TICKS_WRITE_H
+#define RECORD_TICKS_WRITE_H
+
+#include "octree/game.h"
+
+#include <stdio.h>
+
+/* What a line says beyond the tick itself. */
+typedef struct tick_extras {
+    uint64_t tree_digest;
+    octree_stats stats;
+    const char *frame;     /* the file's name, or null for a tick that was not filmed */
+    uint64_t scene_digest; /* of that frame */
+} tick_extras;
+
+/* One JSON object and a newline. Errors stay with the stream. */
+void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
+
+/* A digest as files have it: sixteen hexadecimal digits. Returns `text`. */
+#define DIGEST_TEXT 17
+char *digest_print(uint64_t digest, char text[DIGEST_TEXT]);
+
+#endif

@@ -1,0 +1,146 @@
+/* camera.c - see camera.h. No libm beyond sqrt, fabs and floor: the same camera on every machine. */
+#include "camera.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A unit that is not quite the frame's, so that labels fit around the world. */
+#define MARGIN 1.1
+#define ORBIT_TICKS 480 /* ticks for a full turn */
+#define FOCAL 1.6       /* of the camera that follows: half the window is seen at this distance a unit */
+
+/* Taylor series on [0, pi/4], where eight terms are beyond a double's precision. */
+static void turn_octant(double angle, double *cosine, double *sine)
+{
+    const double square = angle * angle;
+    double c = 1, s = 1;
+    for (int k = 16; k >= 2; k -= 2) {
+        c = 1 - square / (k * (k - 1)) * c;
+        s = 1 - square / (k * (k + 1)) * s;
+    }
+    *cosine = c;
+    *sine = angle * s;
+}
+
+void camera_turn(double turns, double *cosine, double *sine)
+{
+    const double whole = floor(turns * 4 + 0.5); /* quarter turns */
+    double c, s;
+    turn_octant(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
+    s = turns * 4 < whole ? -s : s;
+    const int quarter = (int)fmod(whole, 4);
+    switch (quarter < 0 ? quarter + 4 : quarter) {
+    case 0:
+        *cosine = c, *sine = s;
+        break;
+    case 1:
+        *cosine = -s, *sine = c;
+        break;
+    case 2:
+        *cosine = -c, *sine = -s;
+        break;
+    default:
+        *cosine = s, *sine = -c;
+    }
+}
+
+/* Look along a direction given by azimuth (0: along +y, growing to the left of it) and elevation of the eye, in turns. */
+static void look(camera *c, double azimuth, double elevation)
+{
+    double ca, sa, ce, se;
+    camera_turn(azimuth, &ca, &sa);
+    camera_turn(elevation, &ce, &se);
+    memcpy(c->right, (double[3]){ca, sa, 0}, sizeof c->right);
+    memcpy(c->up, (double[3]){-sa * se, ca * se, ce}, sizeof c->up);
+    memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+/* Stand back from a point, in unit coordinates. */
+static void stand(camera *c, const double target[3], double distance)
+{
+    for (int i = 0; i < 3; i++)
+        c->eye[i] = target[i] - distance * c->forward[i];
+}
+
+/* Half the extent of the world in unit coordinates, as seen along an axis of the camera. */
+static double half_span(const double axis[3], const double half[3])
+{
+    return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
+}
+
+static const struct {
+    double azimuth, elevation; /* in turns */
+    bool perspective;
+} cameras[CAMERA_COUNT] = {
+    /* Not the true isometric view, in which a cube's nearest corner hides its farthest. */
+    [CAMERA_ISO] = {30.0 / 360, 22.0 / 360, false},
+    [CAMERA_TOP] = {0, 0.25, false},
+    [CAMERA_FRONT] = {0, 0, false},
+    [CAMERA_SIDE] = {0.25, 0, false},
+    [CAMERA_FOLLOW] = {30.0 / 360, 22.0 / 360, true},
+    [CAMERA_ORBIT] = {30.0 / 360, 22.0 / 360, true},
+};
+
+/* Fit the world into the window: orthographic by its outline, perspective by the ball around it. */
+static double fit(const camera *c, camera_window window, const double half[3], double distance)
+{
+    const double across = half_span(c->right, half), along = half_span(c->up, half);
+    const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
+    const double smaller = window.width < window.height ? window.width : window.height;
+    const double square = dot(half, half);
+    if (c->perspective)
+        return smaller / 2 * sqrt(distance * distance / square - 1);
+    return x < y ? x : y;
+}
+
+camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3],
+                   uint64_t tick)
+{
+    camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
+    double half[3];
+    for (int i = 0; i < 3; i++) {
+        half[i] = world->max[i] / 2 - world->min[i] / 2;
+        c.center[i] = world->min[i] / 2 + world->max[i] / 2;
+        c.size = half[i] > c.size ? half[i] : c.size;
+    }
+    double target[3] = {0, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        half[i] /= c.size;
+        if (v->camera == CAMERA_FOLLOW)
+            target[i] = (player[i] - c.center[i]) / c.size;
+    }
+    const double distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
+    const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
+    look(&c, cameras[v->camera].azimuth + orbit, cameras[v->camera].elevation);
+    const double smaller = window.width < window.height ? window.width : window.height;
+    c.zoom = v->camera == CAMERA_FOLLOW ? FOCAL * smaller / 2 : fit(&c, window, half, distance);
+    stand(&c, target, distance);
+    c.middle[0] = window.x + window.width / 2;
+    c.middle[1] = window.y + window.height / 2;
+    const double middle = -dot(c.eye, c.forward), span = half_span(c.forward, half);
+    c.near_depth = middle - span > c.near ? middle - span : c.near;
+    c.far_depth = middle + span;
+    return c;
+}
+
+void camera_transform(const camera *c, const double position[3], double result[3])
+{
+    double from_eye[3];
+    for (int i = 0; i < 3; i++)
+        from_eye[i] = (position[i] - c->center[i]) / c->size - c->eye[i];
+    result[0] = dot(from_eye, c->right);
+    result[1] = dot(from_eye, c->up);
+    result[2] = dot(from_eye, c->forward);
+}
+
+void camera_project(const camera *c, const double seen[3], double pixel[2])
+{
+    const double scale = c->perspective ? c->zoom / seen[2] : c->zoom;
+    pixel[0] = c->middle[0] + seen[0] * scale;
+    pixel[1] = c->middle[1] - seen[1] * scale;
+}

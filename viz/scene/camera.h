@@ -1,0 +1,41 @@
+/* camera.h - from world coordinates to pixels, in doubles.
+ *
+ * Positions are first taken relative to a centre and divided by a size, so that a scene at 1e15 or of extent 1e-300
+ * looks like the same scene about 0. In those units the world lies within [-1, 1] on every axis.
+ */
+#ifndef SCENE_CAMERA_H
+#define SCENE_CAMERA_H
+
+#include "octree/octree.h"
+#include "view.h"
+
+/* The part of the frame that the world is drawn in; pixels, y down. */
+typedef struct camera_window {
+    double x, y, width, height;
+} camera_window;
+
+typedef struct camera {
+    double center[3], size;             /* world to unit coordinates: (p - center) / size */
+    double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */
+    double eye[3];                      /* in unit coordinates */
+    bool perspective;
+    double zoom;                        /* pixels a unit; under perspective, at distance 1 */
+    double middle[2];                   /* the pixel that the axis of view passes through */
+    double near;                        /* what is nearer than this (along forward, from the eye) is clipped */
+    double near_depth, far_depth;       /* the world's span of view depth: the bands divide it */
+} camera;
+
+/* The camera of a tick: it depends on nothing but the view, the world, the player and the number of the tick. */
+camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3],
+                   uint64_t tick);
+
+/* To camera coordinates: right, up, and depth along forward, from the eye; unit lengths. */
+void camera_transform(const camera *c, const double position[3], double result[3]);
+
+/* Camera coordinates to pixels, y down. The depth must be at least `near` under perspective. */
+void camera_project(const camera *c, const double seen[3], double pixel[2]);
+
+/* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */
+void camera_turn(double turns, double *cosine, double *sine);
+
+#endif

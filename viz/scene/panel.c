@@ -1,0 +1,283 @@
+/* panel.c - see panel.h. */
+#include "panel.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* In units (view_unit). */
+#define COLUMN 166 /* the panel's width */
+#define MARGIN 8
+#define LINE 13
+#define VALUE 54 /* where a row's value begins */
+#define SWATCH 20
+
+int panel_width(const view *v)
+{
+    const int width = COLUMN * view_unit(v);
+    return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
+}
+
+/* Where the next line of text goes, in units. */
+typedef struct pen {
+    scene *scene;
+    int y;
+    uint64_t next_id;
+} pen;
+
+static void write_text(pen *p, int x, theme_role role, int size, const char *text)
+{
+    const scene *s = p->scene;
+    scene_label label = {.id = p->next_id++, .look = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
+    label.at[0] = x * s->unit;
+    label.at[1] = p->y * s->unit;
+    snprintf(label.text, SCENE_TEXT, "%.*s", SCENE_TEXT - 1, text);
+    scene_add_label(p->scene, label);
+}
+
+/* A line of a faint name and a value. */
+static void write_row(pen *p, const char *name, const char *format, ...)
+{
+    char value[SCENE_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(value, sizeof value, format, arguments);
+    va_end(arguments);
+    write_text(p, MARGIN, ROLE_FAINT, 1, name);
+    write_text(p, VALUE, ROLE_TEXT, 1, value);
+    p->y += LINE;
+}
+
+static void fill(pen *p, int x, int y, int width, int height, unsigned role)
+{
+    const int unit = p->scene->unit;
+    scene_add_panel(p->scene, (scene_panel){.id = p->next_id++,
+                                            .x = x * unit,
+                                            .y = y * unit,
+                                            .width = width * unit,
+                                            .height = height * unit,
+                                            .look = {.layer = LAYER_TEXT, .role = (uint8_t)role}});
+}
+
+/* Six digits with a point, whatever the locale. */
+static const char *number_text(double value, char text[32])
+{
+    snprintf(text, 32, "%.6g", value);
+    for (char *at = text; *at; at++)
+        if (*at == ',')
+            *at = '.';
+    return text;
+}
+
+static void write_position(pen *p, const char *name, const double position[3])
+{
+    char x[32], y[32], z[32];
+    write_row(p, name, "%s  %s  %s", number_text(position[0], x), number_text(position[1], y),
+              number_text(position[2], z));
+}
+
+static void write_statistics(pen *p, const octree *tree)
+{
+    octree_stats stats;
+    octree_statistics(tree, &stats);
+    write_row(p, "points", "%zu", stats.points);
+    write_row(p, "nodes", "%zu", stats.nodes);
+    write_row(p, "leaves", "%zu", stats.leaves);
+    write_row(p, "depth", "%u of %zu", stats.depth, octree_definition(tree).max_depth);
+    write_row(p, "leaf", "up to %zu", octree_definition(tree).leaf_capacity);
+}
+
+static const char *key_meaning(char key)
+{
+    static const char *const meanings[] = {"w+y", "s-y", "d+x", "a-x", "e+z", "f-z", "nnearest", ".wait"};
+    for (size_t i = 0; i < sizeof meanings / sizeof meanings[0]; i++)
+        if (meanings[i][0] == key)
+            return meanings[i] + 1;
+    return "";
+}
+
+/* What the tick did, in words; the most urgent gives the colour. */
+static void write_events(pen *p, const octree_tick *tick)
+{
+    char words[SCENE_TEXT] = "";
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
+        if (tick->events >> i & 1) {
+            strncat(words, words[0] ? ", " : "", sizeof words - strlen(words) - 1);
+            strncat(words, octree_event_name(i), sizeof words - strlen(words) - 1);
+        }
+    }
+    const bool stopped = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL);
+    const theme_role role = tick->hit_count ? ROLE_COLLISION : stopped ? ROLE_WARNING : ROLE_TEXT;
+    write_text(p, MARGIN, role, 1, words[0] ? words : tick->number ? "waited" : "start");
+    p->y += LINE;
+}
+
+/* "name  count: first, second ..." of ids. */
+static void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
+{
+    char text[SCENE_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "%zu%s", count, count ? ":" : "");
+    for (size_t i = 0; i < count && i < 3 && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, " %llu", (unsigned long long)points[i].id);
+    write_row(p, name, "%s%s", text, count > 3 ? " .." : "");
+}
+
+static void write_addresses(pen *p, const char *name, const octree_address *addresses, size_t count)
+{
+    char text[OCTREE_ADDRESS_TEXT];
+    if (count == 0)
+        return;
+    write_row(p, name, "%s%s", octree_address_format(addresses[count - 1], text), count > 1 ? " .." : "");
+}
+
+static void write_answers(pen *p, const octree_tick *tick)
+{
+    for (size_t i = 0; i < tick->answer_count; i++) {
+        const octree_answer *answer = &tick->answers[i];
+        char distance[32];
+        if (answer->kind == OCTREE_QUERY_RANGE)
+            write_ids(p, "in range", answer->points, answer->count);
+        else if (answer->found)
+            write_row(p, "nearest", "%llu at %s", (unsigned long long)answer->neighbor.point.id,
+                      number_text(answer->neighbor.distance, distance));
+        else
+            write_row(p, "nearest", "none");
+    }
+}
+
+static void write_refusals(pen *p, const octree_tick *tick)
+{
+    for (size_t i = 0; i < tick->refusal_count && i < 2; i++)
+        write_row(p, i ? "" : "refused", "%llu: %s", (unsigned long long)tick->refusals[i].id,
+                  octree_status_name(tick->refusals[i].why));
+    if (tick->refusal_count > 2)
+        write_row(p, "", "and %zu more", tick->refusal_count - 2);
+}
+
+/* A few keys before and after this tick's, which stands in brackets. */
+static void write_keys(pen *p, const octree_game *game)
+{
+    const octree_session *session = octree_game_session(game);
+    const uint64_t now = octree_game_tick(game)->number;
+    const size_t count = session->keys ? strlen(session->keys) : 0;
+    char text[SCENE_TEXT];
+    size_t used = 0;
+    for (uint64_t tick = now > 5 ? now - 5 : 1; tick <= now + 6 && tick <= count; tick++)
+        used += (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ",
+                                 session->keys[tick - 1]);
+    if (used) {
+        write_text(p, MARGIN, ROLE_FAINT, 1, text);
+        p->y += LINE;
+    }
+}
+
+typedef struct legend_entry {
+    unsigned layer;
+    theme_role role;
+    int height; /* of the swatch: 1 is a dashed line, more a square */
+    const char *text;
+} legend_entry;
+
+static const legend_entry legend[] = {
+    {LAYER_POINTS, ROLE_POINT, 2, "point"},
+    {LAYER_PLAYER, ROLE_PLAYER, 5, "player and its box"},
+    {LAYER_BOX, ROLE_COLLISION, 5, "collision: crossed out"},
+    {LAYER_RANGE, ROLE_RANGE, 1, "range query, dashed"},
+    {LAYER_NEAREST, ROLE_NEAREST, 1, "nearest point, dashed"},
+};
+
+static void fill_dashes(pen *p, theme_role role)
+{
+    for (int x = 0; x < SWATCH; x += 8)
+        fill(p, MARGIN + x, p->y + 4, 5, 1, role);
+}
+
+/* One strip of a colour a depth, down to the deepest that the tree allows. */
+static void write_depth_ramp(pen *p, size_t max_depth)
+{
+    const int steps = max_depth + 1 < THEME_NODE_DEPTHS ? (int)max_depth + 1 : THEME_NODE_DEPTHS;
+    for (int depth = 0; depth < steps; depth++)
+        fill(p, MARGIN + depth * SWATCH / steps, p->y + 1, SWATCH / steps + 1, 6, theme_node_role((unsigned)depth));
+    write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, "node, shallow to deep");
+    p->y += LINE;
+}
+
+static void write_legend(pen *p, size_t max_depth, bool with_game)
+{
+    const scene *s = p->scene;
+    int lines = view_shows(&s->view, LAYER_NODES);
+    const size_t entries = with_game ? sizeof legend / sizeof legend[0] : 1;
+    for (size_t i = 0; i < entries; i++)
+        lines += view_shows(&s->view, legend[i].layer);
+    p->y = s->view.height / s->unit - MARGIN - lines * LINE;
+    if (view_shows(&s->view, LAYER_NODES))
+        write_depth_ramp(p, max_depth);
+    for (size_t i = 0; i < entries; i++) {
+        if (!view_shows(&s->view, legend[i].layer))
+            continue;
+        const int height = legend[i].height;
+        if (height == 1)
+            fill_dashes(p, legend[i].role);
+        else
+            fill(p, MARGIN + (SWATCH - height) / 2, p->y + 4 - height / 2, height, height, legend[i].role);
+        write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, legend[i].text);
+        p->y += LINE;
+    }
+}
+
+static void write_title(pen *p, const char *text)
+{
+    write_text(p, MARGIN, ROLE_TEXT, 2, text);
+    p->y += 2 * LINE;
+}
+
+static pen begin_panel(scene *s)
+{
+    pen p = {.scene = s, .y = MARGIN};
+    fill(&p, 0, 0, COLUMN, s->view.height / s->unit + 1, ROLE_PANEL);
+    return p;
+}
+
+void add_tick_panel(scene *s, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const octree_session *session = octree_game_session(game);
+    char title[SCENE_TEXT];
+    snprintf(title, sizeof title, "tick %llu", (unsigned long long)tick->number);
+    if (panel_width(&s->view) == 0) {
+        pen line = {.scene = s, .y = 4};
+        write_text(&line, 4, ROLE_TEXT, 1, title);
+        line.y += LINE;
+        write_events(&line, tick);
+        return;
+    }
+    pen p = begin_panel(s);
+    write_title(&p, title);
+    write_events(&p, tick);
+    p.y += LINE / 2;
+    if (tick->key)
+        write_row(&p, "key", "%c  %s", tick->key, key_meaning(tick->key));
+    write_keys(&p, game);
+    write_position(&p, "player", tick->player);
+    p.y += LINE / 2;
+    write_statistics(&p, octree_game_tree(game));
+    p.y += LINE / 2;
+    write_ids(&p, "hits", tick->hits, tick->hit_count);
+    write_answers(&p, tick);
+    write_refusals(&p, tick);
+    write_addresses(&p, "split", tick->splits, tick->split_count);
+    write_addresses(&p, "merged", tick->merges, tick->merge_count);
+    write_legend(&p, session->tree.max_depth, true);
+}
+
+void add_tree_panel(scene *s, const octree *tree, const char *title)
+{
+    if (panel_width(&s->view) == 0)
+        return;
+    pen p = begin_panel(s);
+    write_title(&p, title);
+    write_statistics(&p, tree);
+    write_position(&p, "from", octree_definition(tree).world.min);
+    write_position(&p, "to", octree_definition(tree).world.max);
+    write_legend(&p, octree_definition(tree).max_depth, false);
+}

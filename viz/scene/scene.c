@@ -1,0 +1,160 @@
+/* scene.c - see scene.h. */
+#include "scene.h"
+#include "octree/digest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void scene_clear(scene *s)
+{
+    s->boxes.count = s->segments.count = s->markers.count = s->labels.count = s->panels.count = 0;
+    s->refused = 0;
+    s->out_of_memory = false;
+}
+
+void scene_release(scene *s)
+{
+    free(s->boxes.items);
+    free(s->segments.items);
+    free(s->markers.items);
+    free(s->labels.items);
+    free(s->panels.items);
+    memset(s, 0, sizeof *s);
+}
+
+/* Room for one more item, or null: then the scene says so. */
+static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
+{
+    if (count < *room)
+        return items;
+    const size_t wanted = *room ? 2 * *room : 64;
+    void *grown = wanted <= SIZE_MAX / size ? realloc(items, wanted * size) : NULL;
+    if (grown)
+        *room = wanted;
+    else
+        s->out_of_memory = true;
+    return grown;
+}
+
+/* The body of every scene_add: `array` is one of the scene's. */
+#define APPEND(s, array, item)                                                                                        \
+    do {                                                                                                              \
+        void *grown = grow(s, (array).items, (array).count, &(array).room, sizeof *(array).items);                    \
+        if (grown) {                                                                                                  \
+            (array).items = grown;                                                                                    \
+            (array).items[(array).count++] = (item);                                                                  \
+        }                                                                                                             \
+    } while (0)
+
+static bool all_finite(const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            return false;
+    return true;
+}
+
+/* True when an element is to be drawn at all. */
+static bool admits(scene *s, scene_look look, bool finite)
+{
+    if (!view_shows(&s->view, look.layer))
+        return false;
+    s->refused += !finite;
+    return finite;
+}
+
+void scene_add_box(scene *s, scene_box box)
+{
+    if (admits(s, box.look, all_finite(box.box.min, 3) && all_finite(box.box.max, 3)))
+        APPEND(s, s->boxes, box);
+}
+
+void scene_add_segment(scene *s, scene_segment segment)
+{
+    if (admits(s, segment.look, all_finite(segment.ends[0], 3) && all_finite(segment.ends[1], 3)))
+        APPEND(s, s->segments, segment);
+}
+
+void scene_add_marker(scene *s, scene_marker marker)
+{
+    if (admits(s, marker.look, all_finite(marker.at, 3)))
+        APPEND(s, s->markers, marker);
+}
+
+void scene_add_label(scene *s, scene_label label)
+{
+    if (admits(s, label.look, all_finite(label.at, 3)))
+        APPEND(s, s->labels, label);
+}
+
+void scene_add_panel(scene *s, scene_panel panel)
+{
+    if (admits(s, panel.look, true))
+        APPEND(s, s->panels, panel);
+}
+
+static uint64_t digest_doubles(uint64_t digest, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        digest = octree_digest_double(digest, values[i]);
+    return digest;
+}
+
+static uint64_t digest_look(uint64_t digest, uint64_t id, scene_look look, unsigned extra)
+{
+    digest = octree_digest_word(digest, id);
+    return octree_digest_word(digest, (uint64_t)look.layer | (uint64_t)look.role << 8 | (uint64_t)look.style << 16 |
+                                          (uint64_t)look.width << 24 | (uint64_t)extra << 32);
+}
+
+static uint64_t digest_view(const scene *s)
+{
+    const camera *c = &s->camera;
+    uint64_t digest = OCTREE_DIGEST_START;
+    digest = octree_digest_word(digest, (uint64_t)s->view.width << 32 | (uint64_t)s->view.height);
+    digest = octree_digest_word(digest, (uint64_t)s->unit << 32 | s->view.layers);
+    digest = digest_doubles(digest, c->center, 3);
+    digest = digest_doubles(digest, &c->size, 1);
+    digest = digest_doubles(digest, c->right, 3);
+    digest = digest_doubles(digest, c->up, 3);
+    digest = digest_doubles(digest, c->forward, 3);
+    digest = digest_doubles(digest, c->eye, 3);
+    digest = digest_doubles(digest, (double[]){c->perspective, c->zoom, c->near, c->near_depth, c->far_depth}, 5);
+    return digest_doubles(digest, c->middle, 2);
+}
+
+uint64_t scene_digest(const scene *s)
+{
+    uint64_t digest = digest_view(s);
+    for (size_t i = 0; i < s->boxes.count; i++) {
+        const scene_box *box = &s->boxes.items[i];
+        digest = digest_look(digest, box->id, box->look, box->depth);
+        digest = digest_doubles(digest, box->box.min, 3);
+        digest = digest_doubles(digest, box->box.max, 3);
+    }
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *segment = &s->segments.items[i];
+        digest = digest_look(digest, segment->id, segment->look, 0);
+        digest = digest_doubles(digest, segment->ends[0], 3);
+        digest = digest_doubles(digest, segment->ends[1], 3);
+    }
+    for (size_t i = 0; i < s->markers.count; i++) {
+        const scene_marker *marker = &s->markers.items[i];
+        digest = digest_look(digest, marker->id, marker->look, marker->shape);
+        digest = digest_doubles(digest, marker->at, 3);
+    }
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label *label = &s->labels.items[i];
+        digest = digest_look(digest, label->id, label->look, label->in_world);
+        digest = digest_doubles(digest, label->at, 3);
+        digest = octree_digest_bytes(digest, label->text, strlen(label->text));
+    }
+    for (size_t i = 0; i < s->panels.count; i++) {
+        const scene_panel *panel = &s->panels.items[i];
+        digest = digest_look(digest, panel->id, panel->look, 0);
+        digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
+        digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
+    }
+    return digest;
+}

@@ -1,0 +1,99 @@
+/* scene.h - the draw list of one tick: what a frame shows, as plain arrays, without any GPU.
+ *
+ * World geometry (boxes, segments, markers, letters) is in world coordinates and is drawn through the camera; panels
+ * and labels are in pixels. Every element has a layer, a role (its colour) and a stable id, unique within its kind and
+ * layer.
+ */
+#ifndef SCENE_SCENE_H
+#define SCENE_SCENE_H
+
+#include "camera.h"
+#include "octree/octree.h"
+#include "theme.h"
+#include "view.h"
+
+typedef enum scene_style { STYLE_SOLID, STYLE_DASHED } scene_style;
+
+/* How an element looks. Width is in half units of the frame (view_unit): at 1280 x 720 a pixel. */
+typedef struct scene_look {
+    uint8_t layer; /* view_layer */
+    uint8_t role;  /* theme_role */
+    uint8_t style; /* scene_style */
+    uint8_t width; /* of lines, half the size of markers, and the size of text: 1 is 12 units a line */
+} scene_look;
+
+typedef struct scene_box {
+    uint64_t id; /* a node's address in LAYER_NODES */
+    octree_box box;
+    scene_look look;
+    uint8_t depth; /* a node's; of two boxes that share an edge the shallower gives it its colour */
+} scene_box;
+
+typedef struct scene_segment {
+    uint64_t id;
+    double ends[2][3];
+    scene_look look;
+} scene_segment;
+
+typedef enum scene_shape { SHAPE_SQUARE, SHAPE_DIAMOND, SHAPE_FRAME, SHAPE_CROSS } scene_shape;
+
+typedef struct scene_marker {
+    uint64_t id; /* a point's in LAYER_POINTS */
+    double at[3];
+    scene_look look;
+    uint8_t shape;
+} scene_marker;
+
+#define SCENE_TEXT 48
+
+/* Text at a pixel, or beside the place where a world position is drawn. */
+typedef struct scene_label {
+    uint64_t id;
+    bool in_world;
+    double at[3];       /* a world position, or x and y in pixels of the text's top left corner */
+    char text[SCENE_TEXT];
+    scene_look look;
+} scene_label;
+
+/* A filled rectangle of the picture, in pixels. */
+typedef struct scene_panel {
+    uint64_t id;
+    int x, y, width, height;
+    scene_look look;
+} scene_panel;
+
+/* A growing array; see scene_add_*. */
+#define SCENE_ARRAY(type)                                                                                             \
+    struct {                                                                                                          \
+        type *items;                                                                                                  \
+        size_t count, room;                                                                                           \
+    }
+
+typedef struct scene {
+    view view;
+    camera camera;
+    int unit; /* whole pixels a unit of width and text */
+    SCENE_ARRAY(scene_box) boxes;
+    SCENE_ARRAY(scene_segment) segments;
+    SCENE_ARRAY(scene_marker) markers;
+    SCENE_ARRAY(scene_label) labels;
+    SCENE_ARRAY(scene_panel) panels;
+    size_t refused;   /* elements with NaN or infinite geometry: counted, never drawn */
+    bool out_of_memory; /* set by scene_add_*: the scene is not whole */
+} scene;
+
+/* Empty a scene for its next tick; the memory is kept. A zeroed scene is an empty one. */
+void scene_clear(scene *s);
+void scene_release(scene *s);
+
+/* Append an element. Those of layers that the view does not show are left out here, and nowhere else. */
+void scene_add_box(scene *s, scene_box box);
+void scene_add_segment(scene *s, scene_segment segment);
+void scene_add_marker(scene *s, scene_marker marker);
+void scene_add_label(scene *s, scene_label label);
+void scene_add_panel(scene *s, scene_panel panel);
+
+/* A digest of the whole draw list, camera and size included: the same on every machine. */
+uint64_t scene_digest(const scene *s);
+
+#endif

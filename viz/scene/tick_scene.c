@@ -1,0 +1,135 @@
+/* tick_scene.c - a tick of a game as a scene: the tree, and on top of it what the tick asked and met. */
+#include "tick_scene.h"
+#include "panel.h"
+#include "tree_layers.h"
+
+#include <string.h>
+
+static void add_range(scene *s, const octree_answer *answer, uint64_t id)
+{
+    const scene_look look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = STYLE_DASHED, .width = 1};
+    scene_add_box(s, (scene_box){.id = id, .box = answer->box, .look = look});
+    for (size_t i = 0; i < answer->count; i++) {
+        scene_marker marker = {.id = answer->points[i].id, .look = look, .shape = SHAPE_FRAME};
+        marker.look.width = 5;
+        memcpy(marker.at, answer->points[i].position, sizeof marker.at);
+        scene_add_marker(s, marker);
+    }
+}
+
+static void add_nearest(scene *s, const octree_answer *answer, uint64_t id)
+{
+    if (!answer->found)
+        return;
+    const scene_look look = {.layer = LAYER_NEAREST, .role = ROLE_NEAREST, .style = STYLE_DASHED, .width = 1};
+    scene_segment line = {.id = id, .look = look};
+    memcpy(line.ends[0], answer->target, sizeof line.ends[0]);
+    memcpy(line.ends[1], answer->neighbor.point.position, sizeof line.ends[1]);
+    scene_add_segment(s, line);
+    scene_marker marker = {.id = answer->neighbor.point.id, .look = look, .shape = SHAPE_FRAME};
+    marker.look.width = 7;
+    memcpy(marker.at, answer->neighbor.point.position, sizeof marker.at);
+    scene_add_marker(s, marker);
+}
+
+static octree_box box_about(const double center[3], double size)
+{
+    octree_box box;
+    for (int i = 0; i < 3; i++) {
+        box.min[i] = center[i] - size;
+        box.max[i] = center[i] + size;
+    }
+    return box;
+}
+
+/* A line from the middle of the player's box straight down to the world's floor tells where it is in space. */
+static void add_plumb_line(scene *s, const octree_tick *tick, const octree_box *world)
+{
+    scene_segment plumb = {.id = 0, .look = {.layer = LAYER_PLAYER, .role = ROLE_FAINT, .style = STYLE_DASHED, .width = 1}};
+    memcpy(plumb.ends[0], tick->player, sizeof plumb.ends[0]);
+    memcpy(plumb.ends[1], tick->player, sizeof plumb.ends[1]);
+    plumb.ends[1][2] = world->min[2];
+    scene_add_segment(s, plumb);
+}
+
+static void add_player(scene *s, const octree_tick *tick, const octree_session *session)
+{
+    add_plumb_line(s, tick, &session->tree.world);
+    scene_marker marker = {
+        .id = session->player.id, .look = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 4}, .shape = SHAPE_DIAMOND};
+    memcpy(marker.at, tick->player, sizeof marker.at);
+    scene_add_marker(s, marker);
+    scene_add_box(s, (scene_box){
+                         .id = session->player.id,
+                         .box = box_about(tick->player, session->player.box_size),
+                         .look = {.layer = LAYER_BOX, .role = ROLE_PLAYER, .width = 1},
+                     });
+}
+
+/* The diagonals of a box's six faces: what is crossed out is told apart without its colour. */
+static void add_crossed_faces(scene *s, const octree_box *box, scene_look look)
+{
+    for (unsigned face = 0; face < 6; face++) {
+        for (unsigned diagonal = 0; diagonal < 2; diagonal++) {
+            scene_segment line = {.id = face * 2 + diagonal, .look = look};
+            const unsigned fixed = face / 2, across = (fixed + 1) % 3, along = (fixed + 2) % 3;
+            for (unsigned end = 0; end < 2; end++) {
+                line.ends[end][fixed] = face % 2 ? box->max[fixed] : box->min[fixed];
+                line.ends[end][across] = end ? box->max[across] : box->min[across];
+                line.ends[end][along] = end != diagonal ? box->max[along] : box->min[along];
+            }
+            scene_add_segment(s, line);
+        }
+    }
+}
+
+/* The box that was tested, crossed out, and a cross on everything in it. */
+static void add_collision(scene *s, const octree_tick *tick, const octree_session *session)
+{
+    if (tick->hit_count == 0)
+        return;
+    const scene_look look = {.layer = LAYER_BOX, .role = ROLE_COLLISION, .width = 1};
+    const octree_box box = box_about(tick->attempt, session->player.box_size);
+    scene_box outline = {.id = UINT64_MAX, .box = box, .look = look};
+    outline.look.width = 2;
+    scene_add_box(s, outline);
+    add_crossed_faces(s, &box, look);
+    for (size_t i = 0; i < tick->hit_count; i++) {
+        scene_marker marker = {.id = tick->hits[i].id, .look = look, .shape = SHAPE_CROSS};
+        marker.look.width = 6;
+        memcpy(marker.at, tick->hits[i].position, sizeof marker.at);
+        scene_add_marker(s, marker);
+    }
+}
+
+bool tick_scene_build(scene *s, const view *v, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const octree_session *session = octree_game_session(game);
+    begin_scene(s, v, &session->tree.world, tick->player, tick->number, panel_width(v));
+    add_world(s, &session->tree.world);
+    add_tree(s, octree_game_tree(game), session->body_count);
+    for (size_t i = 0; i < tick->answer_count; i++) {
+        if (tick->answers[i].kind == OCTREE_QUERY_RANGE)
+            add_range(s, &tick->answers[i], i);
+        else
+            add_nearest(s, &tick->answers[i], i);
+    }
+    add_player(s, tick, session);
+    add_collision(s, tick, session);
+    add_tick_panel(s, game);
+    return !s->out_of_memory;
+}
+
+bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title)
+{
+    const octree_box world = octree_definition(tree).world;
+    double center[3];
+    for (int i = 0; i < 3; i++)
+        center[i] = world.min[i] / 2 + world.max[i] / 2;
+    begin_scene(s, v, &world, center, 0, panel_width(v));
+    add_world(s, &world);
+    add_tree(s, tree, octree_count(tree));
+    add_tree_panel(s, tree, title);
+    return !s->out_of_memory;
+}

@@ -1,0 +1,14 @@
+/* tick_scene.h - what a tree, or a tick of a game, looks like. */
+#ifndef SCENE_TICK_SCENE_H
+#define SCENE_TICK_SCENE_H
+
+#include "octree/game.h"
+#include "scene.h"
+
+/* Fill a scene with one tick of a game, as seen by a view. False when there is no memory. */
+bool tick_scene_build(scene *s, const view *v, const octree_game *game);
+
+/* Fill a scene with a tree alone: its nodes, its points, and a line that names it. False when there is no memory. */
+bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title);
+
+#endif

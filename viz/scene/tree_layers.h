@@ -1,0 +1,17 @@
+/* tree_layers.h - the layers that every scene of a tree has: its world, its nodes, its points. Private. */
+#ifndef SCENE_TREE_LAYERS_H
+#define SCENE_TREE_LAYERS_H
+
+#include "scene.h"
+
+void add_world(scene *s, const octree_box *world);
+
+/* Every node's box once, in pre-order, with its address as id; every point of every leaf once, by id within its leaf. Points are
+ * drawn smaller where there are many: `expected` is their number, for a game the session's, so that it does not change
+ * from tick to tick. */
+void add_tree(scene *s, const octree *tree, size_t expected);
+
+/* Empty the scene and set its view, unit and camera. `panel` pixels at the left are kept free of the world. */
+void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick, int panel);
+
+#endif

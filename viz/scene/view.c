@@ -1,0 +1,76 @@
+/* view.c - see view.h. */
+#include "view.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static const char *const camera_names[CAMERA_COUNT] = {"iso", "top", "front", "side", "follow", "orbit"};
+static const char *const layer_names[LAYER_COUNT] = {"world",   "nodes",  "points", "range",
+                                                     "nearest", "player", "box",    "text"};
+
+view view_default(void)
+{
+    return (view){.width = 1280, .height = 720, .camera = CAMERA_ISO, .layers = VIEW_ALL_LAYERS};
+}
+
+int view_unit(const view *v)
+{
+    const int wide = v->width / 16 * 9;
+    const int height = v->height < wide ? v->height : wide;
+    return height < 540 ? 1 : (height + 180) / 360;
+}
+
+const char *view_camera_name(view_camera camera)
+{
+    return (unsigned)camera < CAMERA_COUNT ? camera_names[camera] : NULL;
+}
+
+const char *view_layer_name(view_layer layer)
+{
+    return (unsigned)layer < LAYER_COUNT ? layer_names[layer] : NULL;
+}
+
+bool view_camera_parse(const char *name, view_camera *camera)
+{
+    for (int i = 0; i < CAMERA_COUNT; i++) {
+        if (strcmp(name, camera_names[i]) == 0) {
+            *camera = (view_camera)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The bits that a name of this length stands for; 0 when it is unknown, unless it is "none". */
+static bool find_layers(const char *name, size_t length, unsigned *bits)
+{
+    if (length == 3 && strncmp(name, "all", 3) == 0) {
+        *bits = VIEW_ALL_LAYERS;
+        return true;
+    }
+    *bits = 0;
+    for (int i = 0; i < LAYER_COUNT; i++)
+        if (strlen(layer_names[i]) == length && strncmp(name, layer_names[i], length) == 0)
+            *bits = 1u << i;
+    return *bits != 0 || (length == 4 && strncmp(name, "none", 4) == 0);
+}
+
+bool view_layers_parse(const char *list, unsigned *layers, const char **bad)
+{
+    unsigned result = list[0] == '-' ? VIEW_ALL_LAYERS : 0;
+    for (const char *at = list;; at++) {
+        const bool without = *at == '-';
+        *bad = at;
+        at += without;
+        const size_t length = strcspn(at, ",");
+        unsigned bits;
+        if (!find_layers(at, length, &bits))
+            return false;
+        result = without ? result & ~bits : result | bits;
+        at += length;
+        if (*at == 0)
+            break;
+    }
+    *layers = result;
+    return true;
+}

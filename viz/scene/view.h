@@ -1,0 +1,61 @@
+/* view.h - how a scene is looked at: size, camera, layers. What recording.json keeps. */
+#ifndef SCENE_VIEW_H
+#define SCENE_VIEW_H
+
+#include <stdbool.h>
+
+typedef enum view_camera {
+    CAMERA_ISO,    /* orthographic, three-quarter view from above */
+    CAMERA_TOP,    /* orthographic, along -z; x to the right, y up */
+    CAMERA_FRONT,  /* orthographic, along +y; x to the right, z up */
+    CAMERA_SIDE,   /* orthographic, along -x; y to the right, z up */
+    CAMERA_FOLLOW, /* perspective, behind and above the player */
+    CAMERA_ORBIT,  /* perspective, round the world by a fixed angle a tick */
+    CAMERA_COUNT
+} view_camera;
+
+/* In painter's order: later layers lie on top. */
+typedef enum view_layer {
+    LAYER_WORLD,
+    LAYER_NODES,
+    LAYER_POINTS,
+    LAYER_RANGE,
+    LAYER_NEAREST,
+    LAYER_PLAYER,
+    LAYER_BOX, /* the player's collision box, and what is in it */
+    LAYER_TEXT,
+    LAYER_COUNT
+} view_layer;
+
+typedef struct view {
+    int width, height; /* pixels */
+    view_camera camera;
+    unsigned layers;   /* bit 1 << view_layer */
+} view;
+
+#define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
+
+/* 1280 x 720, iso, all layers. */
+view view_default(void);
+
+/* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 540, 2 from there, 6 at
+ * 2160; a narrow picture counts as its 16:9 part. */
+int view_unit(const view *v);
+
+static inline bool view_shows(const view *v, view_layer layer)
+{
+    return v->layers >> layer & 1;
+}
+
+/* Names, and null beyond the last. */
+const char *view_camera_name(view_camera camera);
+const char *view_layer_name(view_layer layer);
+
+/* The inverse; false when there is no such name. */
+bool view_camera_parse(const char *name, view_camera *camera);
+
+/* Layers by a list of names with commas between, or "all" or "none"; "-text" leaves one out, and a list that begins so
+ * starts from all. On failure *bad points at the name that is unknown. */
+bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
+
+#endif
