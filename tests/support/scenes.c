@@ -50,13 +50,6 @@ void scale_session(scaled_session *made, double scale, double offset)
     session->player.box_size *= scale;
 }
 
-octree_game *start_game(const octree_session *session)
-{
-    octree_game *game = NULL;
-    assert_int_equal(octree_game_create(session, &game), OCTREE_OK);
-    return game;
-}
-
 void play_tick(octree_game *game)
 {
     assert_int_equal(octree_game_advance(game), OCTREE_OK);

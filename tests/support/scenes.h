@@ -4,7 +4,7 @@
 #define SCENES_H
 
 #include "fixture.h"
-#include "octree/game.h"
+#include "game_fixture.h"
 #include "tick_scene.h"
 
 /* A view with these layers. */
@@ -23,9 +23,6 @@ typedef struct scaled_session {
 } scaled_session;
 
 void scale_session(scaled_session *made, double scale, double offset);
-
-/* A new game; the test fails when there is none. */
-octree_game *start_game(const octree_session *session);
 
 /* Play the session's next tick; the test fails when that fails. */
 void play_tick(octree_game *game);

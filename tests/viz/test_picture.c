@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define WIDTH 320
 #define HEIGHT 240
@@ -258,24 +257,65 @@ static void a_line_of_exactly_45_degrees_has_no_gap(void **state)
     }
 }
 
-/* Boxes from nothing to three pixels, one at a time; flat and long ones too. */
-static void a_box_of_any_size_leaves_a_mark_at_its_place(void **state)
+/* The inverse of camera_unit on one axis, for worlds of modest size. */
+static double world_at(const camera *c, int axis, double unit)
 {
-    (void)state;
+    return c->origin[axis] + (unit + c->half[axis]) / 2 * c->size;
+}
+
+/* Boxes from nothing to some pixels, one at a time; flat and long ones too. */
+static void assert_boxes_leave_a_mark(scene_style style)
+{
     static const double sizes[] = {0, 1e-300, 1e-9, 0.01, 0.3, 0.7, 0.99, 1, 1.01, 1.5, 3, 40};
     const size_t count = sizeof sizes / sizeof sizes[0];
     renderer *r = open_renderer(WIDTH, HEIGHT);
     uint64_t random = 6;
-    for (int i = 0; i < 600; i++) {
-        scene s = blank_scene((view_camera)(i % CAMERA_COUNT));
-        scene_box box = {.look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = (uint8_t)(i % 2), .width = 1}};
+    for (size_t i = 0; i < 400; i++) {
+        scene s = blank_scene((view_camera)(i / count % CAMERA_COUNT));
+        scene_box box = {.look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = (uint8_t)style, .width = 1}};
         double pixel[2];
         for (int axis = 0; axis < 3; axis++) {
             box.box.min[axis] = random_between(&random, -60, 20);
-            box.box.max[axis] = box.box.min[axis] + sizes[i % 4 ? (size_t)i % count : random_below(&random, count)];
+            box.box.max[axis] = box.box.min[axis] + sizes[i < 200 ? i % count : random_below(&random, count)];
         }
         pixel_of(&s, box.box.min, pixel);
         scene_add_box(&s, box);
+        uint8_t *frame = draw(r, &s);
+        assert_true(role_near(frame, pixel, ROLE_RANGE, ROLE_RANGE));
+        free(frame);
+        scene_release(&s);
+    }
+    renderer_close(r);
+}
+
+static void a_box_of_any_size_leaves_a_mark_at_its_place(void **state)
+{
+    (void)state;
+    assert_boxes_leave_a_mark(STYLE_SOLID);
+}
+
+static void a_dashed_box_of_any_size_leaves_a_mark_at_its_place(void **state)
+{
+    (void)state;
+    assert_boxes_leave_a_mark(STYLE_DASHED);
+}
+
+/* The line to a neighbour that is very near, too. */
+static void a_segment_of_any_length_leaves_a_mark_at_its_place(void **state)
+{
+    (void)state;
+    static const double lengths[] = {0, 1e-9, 0.1, 0.3, 0.5, 0.8, 1, 1.2, 2};
+    const size_t count = sizeof lengths / sizeof lengths[0];
+    renderer *r = open_renderer(WIDTH, HEIGHT);
+    uint64_t random = 7;
+    for (size_t i = 0; i < 300; i++) {
+        scene s = blank_scene((view_camera)(i / 2 / count % CAMERA_COUNT));
+        const double x = random_between(&random, -50, 50), length = lengths[i / 2 % count];
+        scene_segment line = line_of(x, x / 2, -x / 3, x + length, x / 2 + length / 2, -x / 3 - length / 3);
+        double pixel[2];
+        line.look.style = (uint8_t)(i % 2);
+        pixel_of(&s, line.ends[0], pixel);
+        scene_add_segment(&s, line);
         uint8_t *frame = draw(r, &s);
         assert_true(role_near(frame, pixel, ROLE_RANGE, ROLE_RANGE));
         free(frame);
@@ -312,8 +352,9 @@ static void a_thousand_points_on_a_pixel_look_like_one(void **state)
 static void panels_and_marks_are_cut_off_at_the_edge_of_the_picture(void **state)
 {
     (void)state;
-    static const int places[][4] = {{-5, -5, 10, 10},          {WIDTH - 5, HEIGHT - 5, 10, 10}, {-5, 100, 10, 10},
-                                    {100, HEIGHT - 5, 10, 10}, {-20, 0, 10, 10},                {0, HEIGHT, 10, 10},
+    static const int places[][4] = {{-5, -5, 10, 10},        {WIDTH - 5, HEIGHT - 5, 10, 10},
+                                    {-5, 100, 10, 10},       {100, HEIGHT - 5, 10, 10},
+                                    {-20, 0, 10, 10},        {0, HEIGHT, 10, 10},
                                     {-900, -900, 9000, 9000}};
     static const size_t lit[] = {25, 25, 50, 50, 0, 0, WIDTH * HEIGHT};
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
@@ -331,7 +372,7 @@ static void panels_and_marks_are_cut_off_at_the_edge_of_the_picture(void **state
     for (unsigned shape = SHAPE_SQUARE; shape <= SHAPE_CROSS; shape++) {
         scene s = blank_scene(CAMERA_FRONT);
         const camera *c = &s.camera;
-        const double left = c->center[0] - c->middle[0] / c->zoom * c->size; /* the picture's left edge */
+        const double left = world_at(c, 0, -c->middle[0] / c->zoom); /* the picture's left edge */
         const scene_look look = {.layer = LAYER_BOX, .role = ROLE_COLLISION, .width = 20};
         scene_add_marker(&s, (scene_marker){.at = {left, 0, 0}, .look = look, .shape = (uint8_t)shape});
         uint8_t *frame = draw_once(&s);
@@ -357,8 +398,8 @@ static void a_hundred_thousand_segments_are_all_drawn(void **state)
         scene_segment line = line_of(0, 0, 0, 0, 0, 0);
         line.id = i;
         for (int end = 0; end < 2; end++) {
-            line.ends[end][0] = c->center[0] + (x + 4 * end - c->middle[0]) / c->zoom * c->size;
-            line.ends[end][2] = c->center[2] - (y - c->middle[1]) / c->zoom * c->size;
+            line.ends[end][0] = world_at(c, 0, (x + 4 * end - c->middle[0]) / c->zoom);
+            line.ends[end][2] = world_at(c, 2, -(y - c->middle[1]) / c->zoom);
         }
         scene_add_segment(&s, line);
     }
@@ -372,6 +413,7 @@ static void a_hundred_thousand_segments_are_all_drawn(void **state)
 static void later_layers_lie_on_top(void **state)
 {
     (void)state;
+    renderer *r = open_renderer(WIDTH, HEIGHT);
     for (uint8_t low = 0; low < LAYER_COUNT; low++) {
         for (uint8_t high = (uint8_t)(low + 1); high < LAYER_COUNT; high++) {
             scene s = blank_scene(CAMERA_TOP);
@@ -383,13 +425,14 @@ static void later_layers_lie_on_top(void **state)
             pixel_of(&s, (double[3]){0, 1, 0}, pixel);
             scene_add_segment(&s, below);
             scene_add_segment(&s, above);
-            uint8_t *frame = draw_once(&s);
+            uint8_t *frame = draw(r, &s);
             assert_true(role_near(frame, pixel, ROLE_NEAREST, ROLE_NEAREST));
             assert_false(role_near(frame, pixel, ROLE_RANGE, ROLE_RANGE));
             free(frame);
             scene_release(&s);
         }
     }
+    renderer_close(r);
 }
 
 int main(void)
@@ -401,6 +444,8 @@ int main(void)
         cmocka_unit_test(a_one_pixel_line_lights_one_pixel_a_step),
         cmocka_unit_test(a_line_of_exactly_45_degrees_has_no_gap),
         cmocka_unit_test(a_box_of_any_size_leaves_a_mark_at_its_place),
+        cmocka_unit_test(a_dashed_box_of_any_size_leaves_a_mark_at_its_place),
+        cmocka_unit_test(a_segment_of_any_length_leaves_a_mark_at_its_place),
         cmocka_unit_test(a_thousand_points_on_a_pixel_look_like_one),
         cmocka_unit_test(panels_and_marks_are_cut_off_at_the_edge_of_the_picture),
         cmocka_unit_test(a_hundred_thousand_segments_are_all_drawn),

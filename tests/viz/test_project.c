@@ -34,7 +34,7 @@ static sight look_at(const camera *c, const long double position[3])
     sight result = {0};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            result.seen[i] += ((position[j] - c->center[j]) / c->size - c->eye[j]) * axes[i][j];
+            result.seen[i] += (2 * ((position[j] - c->origin[j]) / c->size) - c->half[j] - c->eye[j]) * axes[i][j];
     const long double scale = c->perspective ? c->zoom / result.seen[2] : c->zoom;
     result.pixel[0] = c->middle[0] + result.seen[0] * scale;
     result.pixel[1] = c->middle[1] - result.seen[1] * scale;
@@ -65,8 +65,8 @@ static bool band_agrees(const camera *c, long double depth, unsigned band)
 
 static bool in_picture(const sight *s, const camera *c)
 {
-    return (!c->perspective || s->seen[2] >= c->near) && s->pixel[0] >= 0 && s->pixel[0] <= WIDTH &&
-           s->pixel[1] >= 0 && s->pixel[1] <= HEIGHT;
+    return (!c->perspective || s->seen[2] >= c->near) && s->pixel[0] >= 0 && s->pixel[0] <= WIDTH && s->pixel[1] >= 0 &&
+           s->pixel[1] <= HEIGHT;
 }
 
 /* Whatever the segment, the pieces are numbers near the picture, of bands that go one way. */

@@ -108,7 +108,8 @@ static void points_on_one_pixel_are_one_quad_of_the_nearest_band(void **state)
     (void)state;
     painter p = {0};
     scene s = point_scene(CAMERA_TOP);
-    for (int i = 0; i < 1000; i++) /* in a column of one pixel, seen from above; the nearest is neither first nor last */
+    for (int i = 0; i < 1000;
+         i++) /* in a column of one pixel, seen from above; the nearest is neither first nor last */
         add_point(&s, (uint64_t)i, 0.001, -0.001, (i * 7 % 1000) / 500.0 - 1);
     assert_true(paint(&p, &s));
     assert_int_equal(p.quads.count, 1);
@@ -127,7 +128,7 @@ static void the_order_of_points_does_not_change_the_quads(void **state)
     (void)state;
     painter forth = {0}, back = {0};
     scene a = point_scene(CAMERA_ISO), b = point_scene(CAMERA_ISO);
-    double (*at)[3] = malloc(5000 * sizeof *at);
+    double(*at)[3] = malloc(5000 * sizeof *at);
     assert_non_null(at);
     uint64_t random = 2;
     for (int i = 0; i < 5000; i++)

@@ -80,9 +80,10 @@ static void sizes_out_of_range_are_refused_with_a_sentence_that_names_them(void 
         int width, height;
         const char *named;
     } rows[] = {
-        {0, 0, "0 x 0"},         {0, 720, "0 x 720"},         {1280, 0, "1280 x 0"},
-        {-1, 5, "-1 x 5"},       {5, INT_MIN, "5 x -2147"},   {16385, 1, "16385 x 1"},
-        {1, 16385, "1 x 16385"}, {INT_MAX, INT_MAX, "2147483647 x 2147483647"},
+        {0, 0, "0 x 0"},           {0, 720, "0 x 720"},
+        {1280, 0, "1280 x 0"},     {-1, 5, "-1 x 5"},
+        {5, INT_MIN, "5 x -2147"}, {16385, 1, "16385 x 1"},
+        {1, 16385, "1 x 16385"},   {INT_MAX, INT_MAX, "2147483647 x 2147483647"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         draw_error error = {""};

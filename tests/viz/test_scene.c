@@ -2,8 +2,6 @@
 #include "scenes.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "random_session.h"
 
@@ -160,7 +158,7 @@ static void check_answers(const scene *s, const octree_tick *tick)
     assert_int_equal(count_layer(s, LAYER_NEAREST).markers, nearest);
 }
 
-static void collision_is_red_and_nothing_else_is(const scene *s, const octree_tick *tick)
+static void check_red(const scene *s, const octree_tick *tick)
 {
     size_t red = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
@@ -181,7 +179,7 @@ static void check_tick(const scene *s, const octree_game *game)
     check_player(s, tick, player);
     check_collision(s, tick, player);
     check_answers(s, tick);
-    collision_is_red_and_nothing_else_is(s, tick);
+    check_red(s, tick);
 }
 
 static void check_session(const octree_session *session, view_camera camera)

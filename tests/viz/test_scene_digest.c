@@ -97,7 +97,9 @@ static void every_number_of_the_camera_and_the_size_count(void **state)
     (void)state;
     scene s = one_of_each();
     camera *c = &s.camera;
-    assert_doubles_count(&s, c->center, 3);
+    assert_doubles_count(&s, c->origin, 3);
+    assert_doubles_count(&s, c->half, 3);
+    assert_doubles_count(&s, &c->scale, 1);
     assert_doubles_count(&s, &c->size, 1);
     assert_doubles_count(&s, c->right, 3);
     assert_doubles_count(&s, c->up, 3);

@@ -1,8 +1,6 @@
 /* test_view.c - names of cameras and layers, lists of layers, and the unit of lines and text. */
 #include "scenes.h"
 
-#include <string.h>
-
 static void every_camera_is_found_by_its_name(void **state)
 {
     (void)state;
@@ -71,9 +69,18 @@ static void unknown_layers_are_pointed_at_and_change_nothing(void **state)
     static const struct {
         const char *list, *rest;
     } rows[] = {
-        {"", ""},           {",", ","},          {"nodes,", ""},         {"nodes,,points", ",points"},
-        {"node", "node"},   {"nodess", "nodess"}, {"points,Nodes", "Nodes"}, {"-", "-"},
-        {"-al", "-al"},     {"all,-x,text", "-x,text"}, {"nodes points", "nodes points"}, {"--text", "--text"},
+        {"", ""},
+        {",", ","},
+        {"nodes,", ""},
+        {"nodes,,points", ",points"},
+        {"node", "node"},
+        {"nodess", "nodess"},
+        {"points,Nodes", "Nodes"},
+        {"-", "-"},
+        {"-al", "-al"},
+        {"all,-x,text", "-x,text"},
+        {"nodes points", "nodes points"},
+        {"--text", "--text"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         unsigned layers = 12345;

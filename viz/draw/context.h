@@ -11,6 +11,9 @@ typedef void (*context_function)(void);
 context *context_open(draw_error *error);
 void context_close(context *c);
 
+/* Make it current again, where another one is. */
+bool context_use(context *c);
+
 const char *context_name(const context *c);
 
 /* A GL function of this very context: two GL libraries in one process have the same symbols. Null when unknown. */

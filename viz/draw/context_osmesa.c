@@ -14,6 +14,8 @@
 struct context {
     void *library;
     OSMesaContext mesa;
+    GLboolean (*make_current)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
+    OSMesaContext (*current)(void);
     void (*destroy)(OSMesaContext);
     OSMESAproc (*find)(const char *);
     unsigned char own[OWN_SIDE * OWN_SIDE * 4];
@@ -43,15 +45,20 @@ static bool find_symbol(void *library, const char *name, void *function, size_t 
 static bool open_mesa(context *c)
 {
     OSMesaContext (*create)(const int *, OSMesaContext);
-    GLboolean (*make_current)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
     if (!find_symbol(c->library, "OSMesaCreateContextAttribs", &create, sizeof create) ||
-        !find_symbol(c->library, "OSMesaMakeCurrent", &make_current, sizeof make_current) ||
+        !find_symbol(c->library, "OSMesaMakeCurrent", &c->make_current, sizeof c->make_current) ||
+        !find_symbol(c->library, "OSMesaGetCurrentContext", &c->current, sizeof c->current) ||
         !find_symbol(c->library, "OSMesaDestroyContext", &c->destroy, sizeof c->destroy) ||
         !find_symbol(c->library, "OSMesaGetProcAddress", &c->find, sizeof c->find))
         return false;
     const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, OSMESA_DEPTH_BITS, 0, 0, 0};
     c->mesa = create(wanted, NULL);
-    return c->mesa && make_current(c->mesa, c->own, GL_UNSIGNED_BYTE, OWN_SIDE, OWN_SIDE);
+    return c->mesa && context_use(c);
+}
+
+bool context_use(context *c)
+{
+    return c->current() == c->mesa || c->make_current(c->mesa, c->own, GL_UNSIGNED_BYTE, OWN_SIDE, OWN_SIDE);
 }
 
 context *context_open(draw_error *error)

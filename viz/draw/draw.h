@@ -32,4 +32,7 @@ renderer_info renderer_about(const renderer *r);
 /* Draw a scene of the renderer's size into width * height indices, rows from the top. */
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error);
 
+/* Elements of the last scene that are not in its frame: NaN or infinite, or too far off for doubles. */
+size_t renderer_left_out(const renderer *r);
+
 #endif

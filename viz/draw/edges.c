@@ -135,6 +135,10 @@ static bool sweep_line(edge_list *list, const stretch *line, size_t count)
             begun++;
         const stretch *now = shallowest(line + first, begun - first, at);
         if (!now) {
+            const bool covered = same_line && list->items[list->count - 1].ends[1][line->axis] == at;
+            if (!covered && !emit(list, &line[first], at, at, false))
+                return false; /* a box of no extent is a dot */
+            same_line = true;
             first = begun;
             at = begun < count ? line[begun].from : at;
             continue;
@@ -150,13 +154,23 @@ static bool sweep_line(edge_list *list, const stretch *line, size_t count)
     return true;
 }
 
+/* Edges along axes of no extent are dots on others, but for a box that is a dot itself. */
+static size_t collect_box(stretch *all, const scene_box *box)
+{
+    size_t count = 0;
+    for (int axis = 0; axis < 3; axis++)
+        for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
+            all[count++] = stretch_of(box, axis, corner);
+    if (count == 0)
+        all[count++] = stretch_of(box, 0, 0);
+    return count;
+}
+
 static size_t collect(stretch *all, const scene *s)
 {
     size_t count = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            for (unsigned corner = 0; corner < 4; corner++)
-                all[count++] = stretch_of(&s->boxes.items[i], axis, corner);
+        count += collect_box(all + count, &s->boxes.items[i]);
     return count;
 }
 

@@ -2,9 +2,13 @@
 #include "project.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Pixels that a clipped line may reach beyond the picture, so that its ends are not seen. */
 #define CLIP_MARGIN 64.0
+
+/* Camera coordinates beyond this could overflow on their way to pixels. */
+#define FARTHEST 1e301
 
 /* A depth in bands from the near side of the world, not yet rounded: a real number in 0..QUAD_BANDS for what is in it. */
 static double band_position(const camera *c, double depth)
@@ -20,40 +24,43 @@ static unsigned band_of(double position)
     return position < QUAD_BANDS ? (unsigned)position : QUAD_BANDS - 1;
 }
 
-/* The part [*from, *to] of a segment on which start + t * slope >= 0. */
-static void clip(double start, double slope, double *from, double *to)
+/* The point of a segment where a linear function that is `at_a` and `at_b` at its ends, of unlike sign, is zero. Both
+ * ends are weighed, so that one at 1e300 does not cost the other its digits. */
+static void zero_of(const double a[3], const double b[3], double at_a, double at_b, double result[3])
 {
-    if (slope == 0) {
-        if (start < 0)
-            *to = -1;
-        return;
+    const double whole = at_b / 2 - at_a / 2;
+    const double of_a = at_b / 2 / whole, of_b = -(at_a / 2) / whole;
+    for (int i = 0; i < 3; i++)
+        result[i] = a[i] * of_a + b[i] * of_b;
+}
+
+/* Keep what is at least (side 1) or at most (side -1) a bound on one axis. False when nothing is left. */
+static bool keep_side(double a[3], double b[3], int axis, double side, double bound)
+{
+    const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
+    if (at_a < 0 && at_b < 0)
+        return false;
+    if (at_a < 0 || at_b < 0) {
+        double *outer = at_a < 0 ? a : b, crossing[3];
+        zero_of(a, b, at_a, at_b, crossing);
+        crossing[axis] = bound; /* not the rounded zero */
+        memcpy(outer, crossing, sizeof crossing);
     }
-    const double t = -start / slope;
-    if (slope > 0)
-        *from = t > *from ? t : *from;
-    else
-        *to = t < *to ? t : *to;
+    return true;
 }
 
-static void interpolate(const double a[], const double b[], double t, int count, double result[])
-{
-    for (int i = 0; i < count; i++)
-        result[i] = t == 1 ? b[i] : a[i] + t * (b[i] - a[i]);
-}
-
-/* Clip a projected piece to the picture. False when nothing is left. */
+/* Clip a projected piece to the picture and its margin. False when nothing is left. */
 static bool clip_to_picture(const view *v, piece *p)
 {
-    double from = 0, to = 1;
-    const double size[2] = {v->width, v->height}, a[2] = {p->from[0], p->from[1]}, b[2] = {p->to[0], p->to[1]};
-    for (int i = 0; i < 2; i++) {
-        clip(a[i] + CLIP_MARGIN, b[i] - a[i], &from, &to);
-        clip(size[i] + CLIP_MARGIN - a[i], a[i] - b[i], &from, &to);
+    double a[3] = {p->from[0], p->from[1], 0}, b[3] = {p->to[0], p->to[1], 0};
+    const double size[2] = {v->width, v->height};
+    for (int axis = 0; axis < 2; axis++)
+        if (!keep_side(a, b, axis, 1, -CLIP_MARGIN) || !keep_side(a, b, axis, -1, size[axis] + CLIP_MARGIN))
+            return false;
+    for (int axis = 0; axis < 2; axis++) { /* a mean of two numbers may leave their interval by its last bit */
+        p->from[axis] = fmin(fmax(a[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
+        p->to[axis] = fmin(fmax(b[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
     }
-    if (!(from <= to))
-        return false;
-    interpolate(a, b, from, 2, p->from);
-    interpolate(a, b, to, 2, p->to);
     return true;
 }
 
@@ -61,31 +68,31 @@ static bool clip_to_picture(const view *v, piece *p)
 static unsigned cut(const scene *s, const double a[3], const double b[3], piece pieces[QUAD_BANDS])
 {
     const double first = band_position(&s->camera, a[2]), last = band_position(&s->camera, b[2]);
-    const int step = first < last ? 1 : -1;
+    const int step = first < last ? 1 : -1, last_band = (int)band_of(last);
     unsigned count = 0;
-    double at = 0;
+    double from[3], to[3];
+    memcpy(from, a, sizeof from);
     for (int band = (int)band_of(first);; band += step) {
         const double plane = step > 0 ? band + 1 : band;
-        const bool ends_here = band == (int)band_of(last);
-        const double next = ends_here ? 1 : (plane - first) / (last - first);
-        double from[3], to[3];
-        interpolate(a, b, at, 3, from);
-        interpolate(a, b, next, 3, to);
+        if (band == last_band)
+            memcpy(to, b, sizeof to);
+        else
+            zero_of(a, b, first - plane, last - plane, to);
         piece *p = &pieces[count];
         p->band = (unsigned)band;
         camera_project(&s->camera, from, p->from);
         camera_project(&s->camera, to, p->to);
         count += clip_to_picture(&s->view, p);
-        if (ends_here)
+        if (band == last_band)
             return count;
-        at = next;
+        memcpy(from, to, sizeof from);
     }
 }
 
 static bool see(const scene *s, const double position[3], double seen[3])
 {
     camera_transform(&s->camera, position, seen);
-    return isfinite(seen[0]) && isfinite(seen[1]) && isfinite(seen[2]);
+    return fabs(seen[0]) < FARTHEST && fabs(seen[1]) < FARTHEST && fabs(seen[2]) < FARTHEST;
 }
 
 unsigned project_segment(const scene *s, const double first[3], const double second[3], piece pieces[QUAD_BANDS],
@@ -97,16 +104,9 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
         return 0;
     if (!s->camera.perspective)
         return cut(s, a, b, pieces);
-    double from = 0, to = 1, clipped[2][3];
-    clip(a[2] - s->camera.near, b[2] - a[2], &from, &to);
-    if (!(from <= to))
+    if (!keep_side(a, b, 2, 1, s->camera.near))
         return 0;
-    interpolate(a, b, from, 3, clipped[0]);
-    interpolate(a, b, to, 3, clipped[1]);
-    for (int end = 0; end < 2; end++) /* rounding must not leave an end behind the plane */
-        if (clipped[end][2] < s->camera.near)
-            clipped[end][2] = s->camera.near;
-    return cut(s, clipped[0], clipped[1], pieces);
+    return cut(s, a, b, pieces);
 }
 
 bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band)

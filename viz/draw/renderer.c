@@ -25,6 +25,7 @@ struct renderer {
     int width, height;
     int side; /* of the viewport */
     painter painter;
+    size_t left_out;
     vertex vertices[BATCH * 4];
     GLuint indices[BATCH * 6];
 };
@@ -157,12 +158,21 @@ static void put_vertices(renderer *r, const quad *quads, size_t count)
                 (float)quads[i].x[j] * scale - 1, (float)quads[i].y[j] * scale - 1, {quads[i].color, 0, 0, 255}};
 }
 
+static bool fail(draw_error *error, const char *sentence)
+{
+    snprintf(error->text, sizeof error->text, "%s", sentence);
+    return false;
+}
+
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error)
 {
-    if (s->view.width != r->width || s->view.height != r->height || !paint(&r->painter, s)) {
-        snprintf(error->text, sizeof error->text, "there is no memory for a frame, or it is not of the renderer's size");
-        return false;
-    }
+    if (s->view.width != r->width || s->view.height != r->height)
+        return fail(error, "the scene is not of the renderer's size");
+    if (!paint(&r->painter, s))
+        return fail(error, "there is no memory for a frame");
+    if (!context_use(r->context))
+        return fail(error, "the renderer's context cannot be made current");
+    r->left_out = s->refused + r->painter.overflowed;
     const gl *gl = &r->gl;
     const quad_list *quads = &r->painter.quads;
     gl->Clear(GL_COLOR_BUFFER_BIT);
@@ -176,4 +186,9 @@ bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *er
     if (failure != GL_NO_ERROR)
         snprintf(error->text, sizeof error->text, "GL reports error 0x%04x", failure);
     return failure == GL_NO_ERROR;
+}
+
+size_t renderer_left_out(const renderer *r)
+{
+    return r->left_out;
 }

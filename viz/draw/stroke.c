@@ -62,11 +62,16 @@ static bool is_speck(const piece *pieces, unsigned count)
     return fabs(first->from[0] - last->to[0]) < 1 && fabs(first->from[1] - last->to[1]) < 1;
 }
 
+static void add_speck(quad_list *list, const pencil *with, const piece *at)
+{
+    add_rectangle(list, blank(with, at->band), (int)floor(at->from[0]), (int)floor(at->from[1]), with->width,
+                  with->width);
+}
+
 void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     if (count && is_speck(pieces, count)) {
-        add_rectangle(list, blank(with, pieces[0].band), (int)floor(pieces[0].from[0]), (int)floor(pieces[0].from[1]),
-                      with->width, with->width);
+        add_speck(list, with, &pieces[0]);
         return;
     }
     for (unsigned i = 0; i < count; i++)
@@ -78,6 +83,10 @@ void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, uns
 {
     const double dash = DASH * with->unit / 2.0, period = dash + GAP * with->unit / 2.0;
     double phase = 0;
+    if (count && is_speck(pieces, count)) {
+        add_speck(list, with, &pieces[0]);
+        return;
+    }
     for (unsigned i = 0; i < count; i++) {
         const double dx = pieces[i].to[0] - pieces[i].from[0], dy = pieces[i].to[1] - pieces[i].from[1];
         const double length = sqrt(dx * dx + dy * dy);

@@ -109,6 +109,7 @@ static bool film_tick(filming *f, film_summary *summary, record_error *error)
         return false;
     summary->ticks++;
     summary->frames += filmed;
+    summary->left_out += filmed ? renderer_left_out(f->picture.renderer) : 0;
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         summary->events[i] += tick->events >> i & 1;
     return true;

@@ -19,6 +19,8 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_write_integer(w, summary->ticks);
     json_write_key(w, "frames");
     json_write_integer(w, summary->frames);
+    json_write_key(w, "left_out");
+    json_write_integer(w, summary->left_out);
     json_write_key(w, "seconds");
     json_write_number(w, seconds);
     json_write_key(w, "frames_per_second");
@@ -42,6 +44,8 @@ void film_report(FILE *out, const film_summary *summary, const char *folder, dou
     }
     fprintf(out, "%s: %" PRIu64 " ticks, %" PRIu64 " frames, %.1f s, %.0f frames a second\n", folder, summary->ticks,
             summary->frames, seconds, rate_of(summary, seconds));
+    if (summary->left_out)
+        fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n", summary->left_out);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(i), summary->events[i]);

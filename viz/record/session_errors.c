@@ -13,15 +13,20 @@ static void make_printable(char *text)
             *text = '?';
 }
 
-bool session_fail_line(session_reader *reader, size_t line, const char *where, const char *reason)
+const char *session_name_end(const char *name)
 {
     enum { LONGEST_NAME = 160 };
+    size_t length = strlen(name);
+    return length > LONGEST_NAME ? name + (length - LONGEST_NAME) : name;
+}
+
+bool session_fail_line(session_reader *reader, size_t line, const char *where, const char *reason)
+{
     char printable[340];
-    size_t length = strlen(reader->name);
-    const char *name = length > LONGEST_NAME ? reader->name + (length - LONGEST_NAME) : reader->name;
     snprintf(printable, sizeof printable, "%s%s%s", where, *where ? ": " : "", reason);
     make_printable(printable);
-    snprintf(reader->error->text, sizeof reader->error->text, "%s:%zu: %s", name, line, printable);
+    snprintf(reader->error->text, sizeof reader->error->text, "%s:%zu: %s", session_name_end(reader->name), line,
+             printable);
     return false;
 }
 

@@ -173,8 +173,7 @@ static bool read_sample(session_reader *reader, json_t *value, const json_place 
     double(*positions)[3] = malloc((count > 0 ? count : 1) * sizeof *positions);
     if (!positions)
         return session_fail(reader, at, "out of memory for %zu points", count);
-    octree_status status =
-        octree_sample(wanted.kind, wanted.seed, &reader->session->tree.world, count, positions);
+    octree_status status = octree_sample(wanted.kind, wanted.seed, &reader->session->tree.world, count, positions);
     bool done = status == OCTREE_OK ? take_positions(reader, at, positions, count)
                                     : session_fail(reader, at, "%s", octree_status_text(status));
     free(positions);
@@ -192,6 +191,6 @@ bool session_read_points(session_reader *reader, json_t *value, const json_place
         return session_read_members(reader, value, at, file_members, into);
     if (json_object_get(value, "sample"))
         return read_sample(reader, value, at);
-    return session_fail(reader, at,
-                        "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
+    return session_fail(
+        reader, at, "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
 }

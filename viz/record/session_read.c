@@ -133,13 +133,13 @@ bool session_read(const char *path, session_file *out, session_error *error)
     size_t size;
     *out = (session_file){0};
     if (!whole_file_read(path, &text, &size, reason)) {
-        snprintf(error->text, sizeof error->text, "%s: %s", path, reason);
+        snprintf(error->text, sizeof error->text, "%s: %s", session_name_end(path), reason);
         return false;
     }
     char *folder = folder_of(path);
     bool done = folder && session_parse(path, folder, text, size, out, error);
     if (!folder)
-        snprintf(error->text, sizeof error->text, "%s: out of memory", path);
+        snprintf(error->text, sizeof error->text, "%s: out of memory", session_name_end(path));
     free(folder);
     free(text);
     return done;

@@ -84,6 +84,9 @@ bool session_fail(session_reader *reader, const json_place *at, const char *form
 /* Write "expected <what>, found <the value>" and return false. */
 bool session_expected(session_reader *reader, const json_t *value, const json_place *at, const char *what);
 
+/* The end of a file's name that leaves room for a reason. */
+const char *session_name_end(const char *name);
+
 /* The line where a place begins. */
 size_t session_line(const session_reader *reader, const json_place *at);
 

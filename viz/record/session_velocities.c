@@ -33,8 +33,7 @@ static bool read_row(session_reader *reader, json_t *row, const json_place *at, 
     points->given[point->place] = true;
     for (size_t i = 0; i < 3; i++) {
         json_place place = {at, NULL, i + 1};
-        if (!session_read_number(reader, json_array_get(row, i + 1), &place,
-                                 &reader->bodies[point->place].velocity[i]))
+        if (!session_read_number(reader, json_array_get(row, i + 1), &place, &reader->bodies[point->place].velocity[i]))
             return false;
     }
     return true;

@@ -1,4 +1,4 @@
-/* camera.c - see camera.h. No libm beyond sqrt, fabs and floor: the same camera on every machine. */
+/* camera.c - see camera.h. No libm beyond sqrt, fabs, floor, fmod and fmax: the same camera on every machine. */
 #include "camera.h"
 
 #include <math.h>
@@ -6,6 +6,8 @@
 
 /* A unit that is not quite the frame's, so that labels fit around the world. */
 #define MARGIN 1.1
+#define MARGIN_OF_BALL 1.01
+#define THINNEST 1e-3 /* a world that is seen as less, end on, is not enlarged to fill the window */
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* of the camera that follows: half the window is seen at this distance a unit */
 
@@ -87,42 +89,56 @@ static const struct {
 };
 
 /* Fit the world into the window: orthographic by its outline, perspective by the ball around it. */
-static double fit(const camera *c, camera_window window, const double half[3], double distance)
+static double fit(const camera *c, camera_window window, double distance)
 {
-    const double across = half_span(c->right, half), along = half_span(c->up, half);
+    const double across = fmax(half_span(c->right, c->half), THINNEST), along = fmax(half_span(c->up, c->half), THINNEST);
     const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
     const double smaller = window.width < window.height ? window.width : window.height;
-    const double square = dot(half, half);
+    const double square = dot(c->half, c->half);
     if (c->perspective)
-        return smaller / 2 * sqrt(distance * distance / square - 1);
+        return smaller / (2 * MARGIN_OF_BALL) * sqrt(distance * distance / square - 1);
     return x < y ? x : y;
+}
+
+static void measure(camera *c, const octree_box *world)
+{
+    double extent[3];
+    c->scale = 1;
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(world->max[i] - world->min[i]))
+            c->scale = 0.5;
+    for (int i = 0; i < 3; i++) {
+        c->origin[i] = world->min[i] * c->scale;
+        extent[i] = world->max[i] * c->scale - c->origin[i];
+        c->size = extent[i] > c->size ? extent[i] : c->size;
+    }
+    for (int i = 0; i < 3; i++)
+        c->half[i] = extent[i] / c->size;
+}
+
+void camera_unit(const camera *c, const double position[3], double result[3])
+{
+    for (int i = 0; i < 3; i++)
+        result[i] = 2 * ((position[i] * c->scale - c->origin[i]) / c->size) - c->half[i];
 }
 
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3],
                    uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
-    double half[3];
-    for (int i = 0; i < 3; i++) {
-        half[i] = world->max[i] / 2 - world->min[i] / 2;
-        c.center[i] = world->min[i] / 2 + world->max[i] / 2;
-        c.size = half[i] > c.size ? half[i] : c.size;
-    }
+    measure(&c, world);
     double target[3] = {0, 0, 0};
-    for (int i = 0; i < 3; i++) {
-        half[i] /= c.size;
-        if (v->camera == CAMERA_FOLLOW)
-            target[i] = (player[i] - c.center[i]) / c.size;
-    }
+    if (v->camera == CAMERA_FOLLOW)
+        camera_unit(&c, player, target);
     const double distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
     look(&c, cameras[v->camera].azimuth + orbit, cameras[v->camera].elevation);
     const double smaller = window.width < window.height ? window.width : window.height;
-    c.zoom = v->camera == CAMERA_FOLLOW ? FOCAL * smaller / 2 : fit(&c, window, half, distance);
+    c.zoom = v->camera == CAMERA_FOLLOW ? FOCAL * smaller / 2 : fit(&c, window, distance);
     stand(&c, target, distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2;
-    const double middle = -dot(c.eye, c.forward), span = half_span(c.forward, half);
+    const double middle = -dot(c.eye, c.forward), span = half_span(c.forward, c.half);
     c.near_depth = middle - span > c.near ? middle - span : c.near;
     c.far_depth = middle + span;
     return c;
@@ -131,8 +147,9 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
 void camera_transform(const camera *c, const double position[3], double result[3])
 {
     double from_eye[3];
+    camera_unit(c, position, from_eye);
     for (int i = 0; i < 3; i++)
-        from_eye[i] = (position[i] - c->center[i]) / c->size - c->eye[i];
+        from_eye[i] -= c->eye[i];
     result[0] = dot(from_eye, c->right);
     result[1] = dot(from_eye, c->up);
     result[2] = dot(from_eye, c->forward);

@@ -1,7 +1,7 @@
 /* camera.h - from world coordinates to pixels, in doubles.
  *
- * Positions are first taken relative to a centre and divided by a size, so that a scene at 1e15 or of extent 1e-300
- * looks like the same scene about 0. In those units the world lies within [-1, 1] on every axis.
+ * Positions are first taken relative to the world's lowest corner and divided by its size, so that a scene at 1e15 or
+ * of extent 1e-300 looks like the same scene about 0. In those units the world lies within [-1, 1] on every axis.
  */
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
@@ -15,7 +15,10 @@ typedef struct camera_window {
 } camera_window;
 
 typedef struct camera {
-    double center[3], size;             /* world to unit coordinates: (p - center) / size */
+    double origin[3];                   /* the world's lowest corner, times scale */
+    double scale;                       /* 1, or 1/2 where the world's extent overflows */
+    double size;                        /* the world's largest extent, times scale */
+    double half[3];                     /* half the world's extents, in unit coordinates: 1 on the longest axis */
     double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */
     double eye[3];                      /* in unit coordinates */
     bool perspective;
@@ -28,6 +31,9 @@ typedef struct camera {
 /* The camera of a tick: it depends on nothing but the view, the world, the player and the number of the tick. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3],
                    uint64_t tick);
+
+/* To unit coordinates: 2 (p - origin) / size - half. */
+void camera_unit(const camera *c, const double position[3], double result[3]);
 
 /* To camera coordinates: right, up, and depth along forward, from the eye; unit lengths. */
 void camera_transform(const camera *c, const double position[3], double result[3]);

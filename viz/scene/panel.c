@@ -6,11 +6,12 @@
 #include <string.h>
 
 /* In units (view_unit). */
-#define COLUMN 166 /* the panel's width */
+#define COLUMN 160 /* the panel's width */
 #define MARGIN 8
 #define LINE 13
 #define VALUE 54 /* where a row's value begins */
 #define SWATCH 20
+#define LETTER 6 /* the widest that most letters are; a row of text is cut to fit the panel by it */
 
 int panel_width(const view *v)
 {
@@ -31,7 +32,8 @@ static void write_text(pen *p, int x, theme_role role, int size, const char *tex
     scene_label label = {.id = p->next_id++, .look = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
     label.at[0] = x * s->unit;
     label.at[1] = p->y * s->unit;
-    snprintf(label.text, SCENE_TEXT, "%.*s", SCENE_TEXT - 1, text);
+    const int fits = (COLUMN - x) / (LETTER * size) < SCENE_TEXT ? (COLUMN - x) / (LETTER * size) : SCENE_TEXT - 1;
+    snprintf(label.text, SCENE_TEXT, "%.*s", fits, text);
     scene_add_label(p->scene, label);
 }
 
@@ -59,21 +61,39 @@ static void fill(pen *p, int x, int y, int width, int height, unsigned role)
                                             .look = {.layer = LAYER_TEXT, .role = (uint8_t)role}});
 }
 
-/* Six digits with a point, whatever the locale. */
-static const char *number_text(double value, char text[32])
+/* Digits with a point, whatever the locale. */
+static const char *number_text(double value, int digits, char text[32])
 {
-    snprintf(text, 32, "%.6g", value);
+    snprintf(text, 32, "%.*g", digits, value);
     for (char *at = text; *at; at++)
         if (*at == ',')
             *at = '.';
     return text;
 }
 
+/* On one line where it fits, else on three. */
 static void write_position(pen *p, const char *name, const double position[3])
 {
-    char x[32], y[32], z[32];
-    write_row(p, name, "%s  %s  %s", number_text(position[0], x), number_text(position[1], y),
-              number_text(position[2], z));
+    char axes[3][32], line[SCENE_TEXT * 2];
+    for (int i = 0; i < 3; i++)
+        number_text(position[i], 6, axes[i]);
+    snprintf(line, sizeof line, "%s %s %s", axes[0], axes[1], axes[2]);
+    if (strlen(line) <= (COLUMN - VALUE) / LETTER) {
+        write_row(p, name, "%s", line);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        write_row(p, i ? "" : name, "%s", axes[i]);
+}
+
+static void write_world(pen *p, const octree_box *world)
+{
+    for (int i = 0; i < 3; i++) {
+        const char name[2] = {(char)('x' + i), 0};
+        char from[32], to[32];
+        write_row(p, name, "%s", number_text(world->min[i], 9, from));
+        write_row(p, "  to", "%s", number_text(world->max[i], 9, to));
+    }
 }
 
 static void write_statistics(pen *p, const octree *tree)
@@ -108,7 +128,7 @@ static void write_events(pen *p, const octree_tick *tick)
     }
     const bool stopped = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL);
     const theme_role role = tick->hit_count ? ROLE_COLLISION : stopped ? ROLE_WARNING : ROLE_TEXT;
-    write_text(p, MARGIN, role, 1, words[0] ? words : tick->number ? "waited" : "start");
+    write_text(p, MARGIN, role, 1, words[0] ? words : tick->key == 'n' ? "asked" : tick->number ? "waited" : "start");
     p->y += LINE;
 }
 
@@ -136,10 +156,10 @@ static void write_answers(pen *p, const octree_tick *tick)
         const octree_answer *answer = &tick->answers[i];
         char distance[32];
         if (answer->kind == OCTREE_QUERY_RANGE)
-            write_ids(p, "in range", answer->points, answer->count);
+            write_ids(p, "range", answer->points, answer->count);
         else if (answer->found)
             write_row(p, "nearest", "%llu at %s", (unsigned long long)answer->neighbor.point.id,
-                      number_text(answer->neighbor.distance, distance));
+                      number_text(answer->neighbor.distance, 6, distance));
         else
             write_row(p, "nearest", "none");
     }
@@ -181,7 +201,7 @@ typedef struct legend_entry {
 static const legend_entry legend[] = {
     {LAYER_POINTS, ROLE_POINT, 2, "point"},
     {LAYER_PLAYER, ROLE_PLAYER, 5, "player and its box"},
-    {LAYER_BOX, ROLE_COLLISION, 5, "collision: crossed out"},
+    {LAYER_BOX, ROLE_COLLISION, 5, "collision, crossed"},
     {LAYER_RANGE, ROLE_RANGE, 1, "range query, dashed"},
     {LAYER_NEAREST, ROLE_NEAREST, 1, "nearest point, dashed"},
 };
@@ -209,7 +229,10 @@ static void write_legend(pen *p, size_t max_depth, bool with_game)
     const size_t entries = with_game ? sizeof legend / sizeof legend[0] : 1;
     for (size_t i = 0; i < entries; i++)
         lines += view_shows(&s->view, legend[i].layer);
-    p->y = s->view.height / s->unit - MARGIN - lines * LINE;
+    const int top = s->view.height / s->unit - MARGIN - lines * LINE;
+    if (top < p->y + LINE / 2)
+        return; /* a low picture has no room for it */
+    p->y = top;
     if (view_shows(&s->view, LAYER_NODES))
         write_depth_ramp(p, max_depth);
     for (size_t i = 0; i < entries; i++) {
@@ -227,7 +250,8 @@ static void write_legend(pen *p, size_t max_depth, bool with_game)
 
 static void write_title(pen *p, const char *text)
 {
-    write_text(p, MARGIN, ROLE_TEXT, 2, text);
+    const bool fits = strlen(text) <= (COLUMN - MARGIN) / (2 * LETTER);
+    write_text(p, MARGIN, ROLE_TEXT, fits ? 2 : 1, text);
     p->y += 2 * LINE;
 }
 
@@ -277,7 +301,8 @@ void add_tree_panel(scene *s, const octree *tree, const char *title)
     pen p = begin_panel(s);
     write_title(&p, title);
     write_statistics(&p, tree);
-    write_position(&p, "from", octree_definition(tree).world.min);
-    write_position(&p, "to", octree_definition(tree).world.max);
+    p.y += LINE / 2;
+    const octree_box world = octree_definition(tree).world;
+    write_world(&p, &world);
     write_legend(&p, octree_definition(tree).max_depth, false);
 }

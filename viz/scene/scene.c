@@ -114,8 +114,9 @@ static uint64_t digest_view(const scene *s)
     uint64_t digest = OCTREE_DIGEST_START;
     digest = octree_digest_word(digest, (uint64_t)s->view.width << 32 | (uint64_t)s->view.height);
     digest = octree_digest_word(digest, (uint64_t)s->unit << 32 | s->view.layers);
-    digest = digest_doubles(digest, c->center, 3);
-    digest = digest_doubles(digest, &c->size, 1);
+    digest = digest_doubles(digest, c->origin, 3);
+    digest = digest_doubles(digest, c->half, 3);
+    digest = digest_doubles(digest, (double[]){c->scale, c->size}, 2);
     digest = digest_doubles(digest, c->right, 3);
     digest = digest_doubles(digest, c->up, 3);
     digest = digest_doubles(digest, c->forward, 3);
@@ -127,6 +128,9 @@ static uint64_t digest_view(const scene *s)
 uint64_t scene_digest(const scene *s)
 {
     uint64_t digest = digest_view(s);
+    const size_t counts[] = {s->boxes.count, s->segments.count, s->markers.count, s->labels.count, s->panels.count};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
+        digest = octree_digest_word(digest, counts[i]);
     for (size_t i = 0; i < s->boxes.count; i++) {
         const scene_box *box = &s->boxes.items[i];
         digest = digest_look(digest, box->id, box->look, box->depth);

@@ -17,7 +17,7 @@ int view_unit(const view *v)
 {
     const int wide = v->width / 16 * 9;
     const int height = v->height < wide ? v->height : wide;
-    return height < 540 ? 1 : (height + 180) / 360;
+    return height < 640 ? 1 : (height + 180) / 360;
 }
 
 const char *view_camera_name(view_camera camera)

@@ -38,7 +38,7 @@ typedef struct view {
 /* 1280 x 720, iso, all layers. */
 view view_default(void);
 
-/* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 540, 2 from there, 6 at
+/* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6 at
  * 2160; a narrow picture counts as its 16:9 part. */
 int view_unit(const view *v);
 

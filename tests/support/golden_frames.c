@@ -1,0 +1,102 @@
+/* golden_frames.c - see golden_frames.h. */
+#include "golden_frames.h"
+#include "picture.h"
+#include "octree/sample.h"
+#include "tick_scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define SHAPES "world,nodes,points,range,nearest,player,box"
+
+const golden_frame golden_frames[] = {
+    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},
+    {"first_split", "iso", SHAPES, 0, "three", 0, 0},
+    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},
+    {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
+    {"collision", "follow", SHAPES, 193, NULL, 0, 0},
+    {"refused_step", "iso", "all", 74, NULL, 0, 0},
+    {"full_leaf", "follow", "all", 214, NULL, 0, 0},
+    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
+    {"range", "side", SHAPES, 219, NULL, 0, 0},
+    {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
+    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0},
+    {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
+    {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
+};
+
+const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
+
+static const octree_body few[] = {
+    {.id = 1, .position = {500, 500, 500}}, {.id = 2, .position = {-500, -500, -500}}};
+
+static const octree_query around[] = {{.tick = OCTREE_EVERY_TICK,
+                                       .kind = OCTREE_QUERY_RANGE,
+                                       .box = {{-900, -400, -300}, {100, 600, 300}}}};
+
+/* 400 clustered points, and a region that some of them are in. */
+static octree_session clustered_session(octree_body *bodies, size_t count)
+{
+    octree_session session = octree_session_default();
+    double positions[400][3];
+    octree_sample(OCTREE_SAMPLE_CLUSTERED, 5, &session.tree.world, count, positions);
+    for (size_t i = 0; i < count; i++)
+        bodies[i] = (octree_body){.id = i + 100, .position = {positions[i][0], positions[i][1], positions[i][2]}};
+    session.tree.leaf_capacity = 4;
+    session.tree.max_depth = OCTREE_MAX_DEPTH;
+    session.bodies = bodies;
+    session.body_count = count;
+    session.queries = around;
+    session.query_count = 1;
+    return session;
+}
+
+static octree_session session_of(const golden_frame *frame, octree_body bodies[400])
+{
+    octree_session session = octree_session_default();
+    if (!frame->points)
+        return session;
+    if (frame->points[0] == 'c')
+        return clustered_session(bodies, 400);
+    session.bodies = few;
+    session.body_count = frame->points[1] == 'w' ? 1 : 2; /* the player is a point too */
+    session.queries = NULL;
+    session.query_count = 0;
+    return session;
+}
+
+static bool draw_game(const octree_game *game, const view *v, image *drawn, char *renderer, size_t size,
+                      record_error *error)
+{
+    picture p;
+    scene s = {0};
+    if (!picture_open(&p, v->width, v->height, error))
+        return false;
+    const bool ok = tick_scene_build(&s, v, game) && picture_draw(&p, &s, error);
+    snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);
+    if (ok) {
+        *drawn = p.frame;
+        p.frame.pixels = NULL;
+    }
+    scene_release(&s);
+    picture_close(&p);
+    return ok;
+}
+
+bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error)
+{
+    octree_body bodies[400];
+    const octree_session session = session_of(frame, bodies);
+    view v = {.width = frame->width ? frame->width : 320, .height = frame->height ? frame->height : 180};
+    const char *bad;
+    octree_game *game;
+    if (!view_camera_parse(frame->camera, &v.camera) || !view_layers_parse(frame->layers, &v.layers, &bad))
+        return record_fail(error, "%s: no such camera or layer", frame->name);
+    if (octree_game_create(&session, &game) != OCTREE_OK)
+        return record_fail(error, "%s: the session cannot be played", frame->name);
+    for (uint64_t tick = 0; tick < frame->tick; tick++)
+        octree_game_advance(game);
+    const bool ok = draw_game(game, &v, drawn, renderer, size, error);
+    octree_game_destroy(game);
+    return ok;
+}

@@ -1,0 +1,23 @@
+/* golden_frames.h - the frames of golden/: each shows one thing. */
+#ifndef GOLDEN_FRAMES_H
+#define GOLDEN_FRAMES_H
+
+#include "folder.h"
+#include "image.h"
+
+typedef struct golden_frame {
+    const char *name;   /* golden/<name>.ref.png */
+    const char *camera;
+    const char *layers;
+    uint64_t tick;      /* of the session that `shows` plays */
+    const char *points; /* null: the default session; else "two", "three" or "clustered" points in its world */
+    int width, height;  /* 0: 320 x 180 */
+} golden_frame;
+
+extern const golden_frame golden_frames[];
+extern const size_t golden_frame_count;
+
+/* Draw one. `renderer` receives who drew it. */
+bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error);
+
+#endif

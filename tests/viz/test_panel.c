@@ -1,0 +1,177 @@
+/* test_panel.c - the words and swatches beside a picture: what they tell, and that they fit their place. */
+#include "scenes.h"
+#include "panel.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const scene_label *find_text(const scene *s, const char *text)
+{
+    for (size_t i = 0; i < s->labels.count; i++)
+        if (s->labels.items[i].look.layer == LAYER_TEXT && strstr(s->labels.items[i].text, text))
+            return &s->labels.items[i];
+    return NULL;
+}
+
+/* Elements have their own ids, texts end, all begins within the column. */
+static void check_place(const scene *s)
+{
+    const int width = panel_width(&s->view);
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label *label = &s->labels.items[i];
+        if (label->look.layer != LAYER_TEXT)
+            continue;
+        assert_non_null(memchr(label->text, 0, SCENE_TEXT));
+        assert_false(label->in_world);
+        assert_true(label->at[0] >= 0 && label->at[1] >= 0 && (width == 0 || label->at[0] < width));
+        for (size_t j = 0; j < i; j++)
+            assert_true(s->labels.items[j].look.layer != LAYER_TEXT || s->labels.items[j].id != label->id);
+    }
+    for (size_t i = 0; i < s->panels.count; i++) {
+        const scene_panel *panel = &s->panels.items[i];
+        assert_true(panel->x >= 0 && panel->width > 0 && panel->height > 0 && panel->x + panel->width <= width);
+        for (size_t j = 0; j < i; j++)
+            assert_true(s->panels.items[j].id != panel->id);
+    }
+}
+
+static void check_facts(const scene *s, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    char title[SCENE_TEXT];
+    snprintf(title, sizeof title, "tick %llu", (unsigned long long)tick->number);
+    assert_string_equal(find_text(s, "tick ")->text, title);
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        if (tick->events >> i & 1)
+            assert_non_null(find_text(s, octree_event_name(i)));
+}
+
+/* A hit is told in words and not by its colour alone; without one nothing but the legend's swatch is red. */
+static void check_red_words(const scene *s, const octree_tick *tick)
+{
+    size_t words = 0;
+    for (size_t i = 0; i < s->labels.count; i++)
+        words += s->labels.items[i].look.role == ROLE_COLLISION;
+    assert_int_equal(words, tick->hit_count != 0);
+    if (tick->hit_count)
+        assert_non_null(find_text(s, "collided"));
+}
+
+static void every_tick_tells_its_number_and_its_events(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1280, 720}, {320, 180}, {640, 360}, {3840, 2160}};
+    const octree_session session = octree_session_default();
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    unsigned met = 0;
+    for (unsigned tick = 0; !octree_game_over(game); tick++) {
+        const view v = view_of(sizes[tick % 4][0], sizes[tick % 4][1], CAMERA_ISO, VIEW_ALL_LAYERS);
+        play_tick(game);
+        build_tick(&s, &v, game);
+        check_place(&s);
+        check_facts(&s, game);
+        check_red_words(&s, octree_game_tick(game));
+        met |= octree_game_tick(game)->events;
+    }
+    assert_int_equal(met, (1 << OCTREE_EVENT_KINDS) - 1);
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+static bool has_swatch(const scene *s, unsigned role)
+{
+    for (size_t i = 0; i < s->panels.count; i++)
+        if (s->panels.items[i].look.role == role)
+            return true;
+    return false;
+}
+
+static void the_legend_has_the_colours_of_the_layers_that_are_shown(void **state)
+{
+    (void)state;
+    static const struct {
+        view_layer layer;
+        theme_role role;
+    } rows[] = {{LAYER_NODES, ROLE_NODE},      {LAYER_POINTS, ROLE_POINT},  {LAYER_RANGE, ROLE_RANGE},
+                {LAYER_NEAREST, ROLE_NEAREST}, {LAYER_PLAYER, ROLE_PLAYER}, {LAYER_BOX, ROLE_COLLISION}};
+    const octree_session session = octree_session_default();
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    for (unsigned layers = 0; layers <= VIEW_ALL_LAYERS; layers++) {
+        const view v = view_of(1280, 720, CAMERA_ISO, layers);
+        build_tick(&s, &v, game);
+        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+            assert_int_equal(has_swatch(&s, rows[i].role), view_shows(&v, rows[i].layer) && view_shows(&v, LAYER_TEXT));
+    }
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+static void the_column_never_takes_more_than_half_the_picture(void **state)
+{
+    (void)state;
+    for (int width = 1; width <= 16384; width += 1 + width / 50) {
+        for (int height = 1; height <= 16384; height += 1 + height / 20) {
+            const view v = view_of(width, height, CAMERA_ISO, VIEW_ALL_LAYERS);
+            const view wordless = view_of(width, height, CAMERA_ISO, VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT));
+            assert_true(panel_width(&v) >= 0 && 2 * panel_width(&v) <= width);
+            assert_int_equal(panel_width(&wordless), 0);
+        }
+    }
+}
+
+static void a_picture_too_small_for_the_column_has_its_facts_all_the_same(void **state)
+{
+    (void)state;
+    const octree_session session = octree_session_default();
+    const view v = view_of(64, 48, CAMERA_ISO, VIEW_ALL_LAYERS);
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    build_tick(&s, &v, game);
+    assert_int_equal(panel_width(&v), 0);
+    assert_int_equal(s.panels.count, 0);
+    check_facts(&s, game);
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+/* The longest of everything: ids of twenty digits, positions of many, titles beyond the room of a text. */
+static void numbers_of_any_length_stay_texts(void **state)
+{
+    (void)state;
+    octree_body bodies[40];
+    octree_session session = {.tree = define(cube(-1.2345678e300, 1.2345678e300), 1, 21, OCTREE_REFUSE)};
+    session.player = (octree_player){.id = UINT64_MAX, .step = 1.2345678e299, .box_size = 1e300};
+    for (size_t i = 0; i < 40; i++)
+        bodies[i] = (octree_body){.id = UINT64_MAX - 1 - i, .position = {-1e-300, 1.2345678e299, -1.2345678e-299}};
+    session.bodies = bodies;
+    session.body_count = 40;
+    session.keys = "dddd";
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    for (view v = view_default(); !octree_game_over(game); play_tick(game)) {
+        build_tick(&s, &v, game);
+        check_place(&s);
+    }
+    const view v = view_default();
+    char title[500];
+    memset(title, 'W', sizeof title);
+    title[sizeof title - 1] = 0;
+    assert_true(tree_scene_build(&s, &v, octree_game_tree(game), title));
+    check_place(&s);
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_tick_tells_its_number_and_its_events),
+        cmocka_unit_test(the_legend_has_the_colours_of_the_layers_that_are_shown),
+        cmocka_unit_test(the_column_never_takes_more_than_half_the_picture),
+        cmocka_unit_test(a_picture_too_small_for_the_column_has_its_facts_all_the_same),
+        cmocka_unit_test(numbers_of_any_length_stay_texts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

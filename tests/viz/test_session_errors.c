@@ -1,0 +1,272 @@
+/* test_session_errors.c - what is no session, and the sentence that says so. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "session_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define HEADER "{\"octreel\":\"session\",\"version\":1,\n"
+
+/* A text and the beginning of the sentence that refuses it, without the file's name. */
+typedef struct refusal {
+    const char *text, *sentence;
+} refusal;
+
+static void assert_refuses(const char *text, size_t size, const char *sentence)
+{
+    session_file file;
+    session_error error = {""};
+    char expected[512];
+    snprintf(expected, sizeof expected, "s.json:%s", sentence);
+    if (session_parse("s.json", "", text, size, &file, &error))
+        fail_msg("accepted instead of: %s", expected);
+    error.text[strlen(expected) < strlen(error.text) ? strlen(expected) : strlen(error.text)] = '\0';
+    assert_string_equal(error.text, expected);
+    assert_null(file.session.bodies);
+    assert_null(file.session.keys);
+    assert_int_equal(file.session.edit_count + file.session.query_count, 0);
+}
+
+static void assert_refuses_each(const refusal *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        assert_refuses(rows[i].text, strlen(rows[i].text), rows[i].sentence);
+}
+
+static void text_that_is_no_stream_of_objects_is_refused(void **state)
+{
+    static const refusal rows[] = {
+        {"", "1: holds no session"},
+        {"\n \n", "3: holds no session"},
+        {"hello", "1: '[' or '{' expected near 'hello'"},
+        {"[1]", "1: expected an object, found a list of 1"},
+        {"{}", "1: is no session: the first object has no \"octreel\": \"session\""},
+        {"\n{\"tick\":0}", "2: is no session: "},
+        {HEADER, "2: string or '}' expected near end of file"},
+        {HEADER "\"keys\":\"ww", "2: premature end of input near '\"ww'"},
+        {HEADER "\"points\":[[1,2,3],\n", "3: unexpected token near end of file"},
+        {HEADER "\"ticks\":NaN}", "2: invalid token near 'NaN'"},
+        {HEADER "\"ticks\":1,\n\"ticks\":2}", "3: duplicate object key near '\"ticks\"'"},
+        {HEADER "\"ticks\":1}\n\n x", "4: '[' or '{' expected near 'x'"},
+        {HEADER "\"ticks\":1}\n}", "3: '[' or '{' expected near '}'"},
+        {HEADER "\"ticks\":1}\n[]", "3: expected an object, found a list of 0"},
+        {HEADER "\"ticks\":1}\n" HEADER "\"ticks\":1}", "3: a second header; what follows the first are objects"},
+        {HEADER "\"keys\":\"\\u0000\"}", "2: \\u0000 is not allowed"},
+        {HEADER "\"keys\":\"\xff\"}", "2: unable to decode byte 0xff"},
+        {HEADER "\x1b[31m", "2: string or '}' expected near '?'"},
+    };
+    (void)state;
+    assert_refuses_each(rows, sizeof rows / sizeof *rows);
+}
+
+static void nul_bytes_are_refused(void **state)
+{
+    static const char text[] = HEADER "\"ticks\":1}\n\0\n";
+    (void)state;
+    assert_refuses(text, sizeof text - 1, "3: holds a NUL byte, so it is no text");
+}
+
+static void every_beginning_of_a_session_is_refused(void **state)
+{
+    static const char text[] = HEADER "\"points\":[[1,2,3,4],{\"id\":5,\"position\":[1,1,1]}],\"keys\":\"w\","
+                                      "\"queries\":[{\"nearest\":\"player\"}]}";
+    (void)state;
+    for (size_t size = 0; size < sizeof text - 1; size++) {
+        char *copy = malloc(size + 1);
+        assert_non_null(copy);
+        memcpy(copy, text, size);
+        assert_refuses(copy, size, "");
+        free(copy);
+    }
+}
+
+static void nesting_is_bounded(void **state)
+{
+    enum { DEPTH = 1000000 };
+    char *text = malloc(DEPTH + sizeof HEADER + 16);
+    (void)state;
+    assert_non_null(text);
+    size_t size = (size_t)sprintf(text, "%s\"points\":", HEADER);
+    memset(text + size, '[', DEPTH);
+    assert_refuses(text, size + DEPTH, "2: maximum parsing depth reached near '['");
+    free(text);
+}
+
+static void header_with_bad_members_is_refused(void **state)
+{
+    static const refusal rows[] = {
+        {"{\"octreel\":\"tick\",\"version\":1}", "1: octreel: expected \"session\", found \"tick\""},
+        {"{\"octreel\":\"session\"}", "1: the member \"version\" is missing"},
+        {"{\"octreel\":\"session\",\n\"version\":2}", "2: version: expected 1, the only version there is, found 2"},
+        {HEADER "\"keyz\":1}", "2: unknown member \"keyz\"; known: octreel, version, world, tree, player, points, "
+                               "velocities, keys, ticks, queries"},
+        {HEADER "\"\\u001b[0m\":1}", "1: unknown member \"?[0m\"; known: octreel"},
+        {HEADER "\"world\":5}", "2: world: expected an object, found 5"},
+        {HEADER "\"world\":{\"min\":[0,0,0]}}", "2: world: the member \"max\" is missing"},
+        {HEADER "\"world\":{\"min\":[0,0,0],\n\"max\":[1,2]}}", "3: world.max: expected three numbers [x, y, z], "
+                                                                "found a list of 2"},
+        {HEADER "\"world\":{\"min\":[0,0,0],\"max\":[1,null,2]}}", "2: world.max[1]: expected a number, found null"},
+        {HEADER "\"world\":{\"min\":[0,0,0],\"max\":[1,0,2]}}", "2: world: min must be below max on every axis, and "
+                                                                "is not on y"},
+        {HEADER "\"world\":{\"min\":[0,0,0],\"max\":[1,\n1e999,2]}}", "3: real number overflow near '1e999'"},
+        {HEADER "\"tree\":{\"capacity\":0}}",
+         "2: tree.capacity: expected a whole number from 1 to 4294967295, found 0"},
+        {HEADER "\"tree\":{\"capacity\":1.5}}", "2: tree.capacity: expected a whole number from 1 to 4294967295, "
+                                                "found 1.5"},
+        {HEADER "\"tree\":{\"depth\":22}}", "2: tree.depth: expected a whole number from 0 to 21, found 22"},
+        {HEADER "\"tree\":{\"full\":\"maybe\"}}", "2: tree.full: expected \"refuse\" or \"grow\", found \"maybe\""},
+        {HEADER "\"tree\":{\"full\":true}}", "2: tree.full: expected \"refuse\" or \"grow\", found true"},
+        {HEADER "\"player\":{\"stepp\":0}}",
+         "2: player: unknown member \"stepp\"; known: id, position, step, box_size"},
+        {HEADER "\"player\":{\"step\":-1}}", "2: player.step: expected a number that is not negative, found -1"},
+        {HEADER "\"player\":{\"box_size\":\"big\"}}", "2: player.box_size: expected a number that is not negative, "
+                                                      "found \"big\""},
+        {HEADER "\"player\":{\"position\":[0,0,-1001]}}", "2: player.position: the player is outside the world on z"},
+        {HEADER "\"player\":{\"id\":9007199254740992}}", "2: player.id: expected a whole number from 0 to "
+                                                         "9007199254740991, found 9007199254740992"},
+        {HEADER "\"player\":{\"id\":-1}}",
+         "2: player.id: expected a whole number from 0 to 9007199254740991, found -1"},
+        {HEADER "\"keys\":7}", "2: keys: expected a string of keys, found 7"},
+        {HEADER "\"keys\":\"wasdx\"}", "2: keys: key 5, 'x', is not one of w a s d e f n q ."},
+        {HEADER "\"ticks\":1000000001}", "2: ticks: expected a whole number from 0 to 1000000000, found 1000000001"},
+    };
+    (void)state;
+    assert_refuses_each(rows, sizeof rows / sizeof *rows);
+}
+
+static void bad_points_are_refused(void **state)
+{
+    static const refusal rows[] = {
+        {HEADER "\"points\":7}",
+         "2: points: expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": "
+         "..., \"seed\": ...}"},
+        {HEADER "\"points\":{\"fle\":\"a\"}}", "2: points: expected a list of points, {\"file\""},
+        {HEADER "\"points\":[\n[1,2,3],\n[1,2]]}", "4: points[1]: expected a point [x, y, z] or [x, y, z, id], found a "
+                                                   "list of 2"},
+        {HEADER "\"points\":[\n[1,2,3],\n\"p\"]}",
+         "4: points[1]: expected a point [x, y, z], [x, y, z, id] or {\"id\""},
+        {HEADER "\"points\":[[1,2,3,4.5]]}", "2: points[0][3]: expected a whole number from 0 to 9007199254740991, "
+                                             "found 4.5"},
+        {HEADER "\"points\":[[1,2,\"3\"]]}", "2: points[0][2]: expected a number, found \"3\""},
+        {HEADER "\"points\":[{\"id\":1}]}", "2: points[0]: the member \"position\" is missing"},
+        {HEADER "\"points\":[{\"id\":1,\"postion\":[]}]}", "2: points[0]: unknown member \"postion\"; known: id, "
+                                                           "position, velocity"},
+        {HEADER "\"points\":[{\"position\":[1,2,3],\n\"velocity\":5}]}",
+         "3: points[0].velocity: expected three numbers "
+         "[x, y, z], found 5"},
+        {HEADER "\"points\":[[1,2,3,9],\n[1,2,3,8],\n[4,5,6,9],\n[4,5,6,8]]}",
+         "4: points[2]: id 9 is taken by points[0] "
+         "in line 2"},
+        {HEADER "\"points\":[[1,2,3,2],\n[1,2,3]]}", "3: points[1]: id 2 is taken by points[0] in line 2"},
+        {HEADER "\"player\":{\"id\":6},\"points\":[[1,2,3],\n[1,2,3,6]]}", "3: points[1]: id 6 is the player's"},
+        {HEADER "\"points\":{\"sample\":\"odd\",\"count\":1}}", "2: points.sample: expected one of uniform, gaussian, "
+                                                                "clustered, surface, lattice, found \"odd\""},
+        {HEADER "\"points\":{\"sample\":\"uniform\"}}", "2: points: the member \"count\" is missing"},
+        {HEADER "\"points\":{\"sample\":\"uniform\",\"count\":-1}}",
+         "2: points.count: expected a whole number from 0 to "
+         "100000000, found -1"},
+        {HEADER "\"points\":{\"sample\":\"uniform\",\"count\":100000001}}", "2: points.count: expected a whole number"},
+        {HEADER "\"points\":{\"file\":\"a\",\"count\":1}}", "2: points: unknown member \"count\"; known: file"},
+        {HEADER "\"points\":{\"file\":7}}", "2: points.file: expected the name of a file, found 7"},
+        {HEADER "\"velocities\":3}", "2: velocities: expected a list of [id, vx, vy, vz] or {\"speed\": ..., \"seed\": "
+                                     "...}, found 3"},
+        {HEADER "\"velocities\":[[1,0,0,0]]}", "2: velocities[0]: no point has the id 1"},
+        {HEADER "\"points\":[[1,2,3]],\"velocities\":[[1,0,0,0],\n[1,0,0,0]]}",
+         "3: velocities[1]: the point with the id "
+         "1 was given a velocity before"},
+        {HEADER "\"points\":[[1,2,3]],\"velocities\":[[1,0,0]]}",
+         "2: velocities[0]: expected [id, vx, vy, vz], found a "
+         "list of 3"},
+        {HEADER "\"velocities\":{\"speed\":-5}}",
+         "2: velocities.speed: expected a number that is not negative, found -5"},
+        {HEADER "\"velocities\":{\"speed\":5,\"seed\":0.5}}", "2: velocities.seed: expected a whole number from 0 to"},
+    };
+    (void)state;
+    assert_refuses_each(rows, sizeof rows / sizeof *rows);
+}
+
+#define START HEADER "\"ticks\":3}\n"
+
+static void bad_ticks_are_refused(void **state)
+{
+    static const refusal rows[] = {
+        {START "{}", "3: the member \"tick\" is missing"},
+        {START "{\"tick\":1}\n{\"tick\":1}", "4: tick: tick 1 comes after tick 1; ticks must ascend"},
+        {START "{\"tick\":4}{\"tick\":\n3}", "4: tick: tick 3 comes after tick 4; ticks must ascend"},
+        {START "{\"tick\":1000000001}", "3: tick: expected a whole number from 0 to 1000000000"},
+        {START "{\"tick\":1,\"points\":[]}", "3: unknown member \"points\"; known: tick, edits, queries"},
+        {START "{\"tick\":0,\"edits\":[{\"remove\":1}]}", "3: edits: edits begin at tick 1"},
+        {START "{\"tick\":1,\"edits\":{\"remove\":1}}", "3: edits: expected a list of edits, found an object"},
+        {START "{\"tick\":1,\"edits\":[\n{}]}",
+         "4: edits[0]: expected one of {\"insert\": ...}, {\"remove\": ...} and"},
+        {START "{\"tick\":1,\"edits\":[{\"remove\":1,\"move\":2}]}", "3: edits[0]: expected one of {\"insert\": ...}"},
+        {START "{\"tick\":1,\"edits\":[{\"delete\":1}]}",
+         "3: edits[0]: unknown member \"delete\"; known: insert, remove, "
+         "move"},
+        {START "{\"tick\":1,\"edits\":[{\"move\":{\"id\":1,\"position\":[1,2,3],\"velocity\":[1,2,3]}}]}",
+         "3: edits[0].move: unknown member \"velocity\"; known: id, position"},
+        {START "{\"tick\":1,\"edits\":[{\"insert\":{\"position\":[1,2,3]}}]}",
+         "3: edits[0].insert: the member \"id\" is missing"},
+        {START "{\"tick\":1,\"edits\":[{\"remove\":\"all\"}]}",
+         "3: edits[0].remove: expected a whole number from 0 to"},
+        {START "{\"tick\":1,\"queries\":[{\"rnge\":1}]}",
+         "3: queries[0]: expected {\"range\": ...} or {\"nearest\": ...}"},
+        {START "{\"tick\":1,\"queries\":[{\"nearest\":1}]}",
+         "3: queries[0].nearest: expected \"player\" or three numbers "
+         "[x, y, z], found 1"},
+        {START "{\"tick\":1,\"queries\":[{\"nearest\":\"player\",\"at\":\"player\"}]}",
+         "3: queries[0]: unknown member \"at\"; known: nearest"},
+        {HEADER "\"queries\":[{\"range\":{\"min\":[0,0,5],\"max\":[0,0,4]}}]}",
+         "2: queries[0].range: min must not be above max, and is on z"},
+        {HEADER "\"queries\":[{\"range\":{\"min\":[0,0,5],\"max\":[0,0,6]},\"at\":\"home\"}]}",
+         "2: queries[0].at: expected \"player\", found \"home\""},
+    };
+    (void)state;
+    assert_refuses_each(rows, sizeof rows / sizeof *rows);
+}
+
+static void missing_cloud_is_told_as_it_is_by_its_reader(void **state)
+{
+    static const char text[] = HEADER "\"points\":{\"file\":\"missing.pcd\"}}";
+    session_file file;
+    session_error error;
+    (void)state;
+    assert_false(session_parse("s.json", "no/such/folder", text, strlen(text), &file, &error));
+    assert_string_equal(error.text, "no/such/folder/missing.pcd: cannot be opened: No such file or directory");
+}
+
+static void long_name_keeps_its_end_and_the_reason(void **state)
+{
+    char name[1000];
+    session_file file;
+    session_error error;
+    (void)state;
+    memset(name, 'a', sizeof name);
+    strcpy(name + sizeof name - 8, "/s.json");
+    assert_false(session_parse(name, "", "", 0, &file, &error));
+    assert_non_null(strstr(error.text, "aaa/s.json:1: holds no session"));
+    assert_false(session_read(name, &file, &error));
+    assert_non_null(strstr(error.text, "aaa/s.json: cannot be opened: "));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_that_is_no_stream_of_objects_is_refused),
+        cmocka_unit_test(nul_bytes_are_refused),
+        cmocka_unit_test(every_beginning_of_a_session_is_refused),
+        cmocka_unit_test(nesting_is_bounded),
+        cmocka_unit_test(header_with_bad_members_is_refused),
+        cmocka_unit_test(bad_points_are_refused),
+        cmocka_unit_test(bad_ticks_are_refused),
+        cmocka_unit_test(missing_cloud_is_told_as_it_is_by_its_reader),
+        cmocka_unit_test(long_name_keeps_its_end_and_the_reason),
+    };
+    return cmocka_run_group_tests_name("session_errors", tests, NULL, NULL);
+}
