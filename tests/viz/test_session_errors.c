@@ -50,7 +50,7 @@ static void text_that_is_no_stream_of_objects_is_refused(void **state)
         {"\n{\"tick\":0}", "2: is no session: "},
         {HEADER, "2: string or '}' expected near end of file"},
         {HEADER "\"keys\":\"ww", "2: premature end of input near '\"ww'"},
-        {HEADER "\"points\":[[1,2,3],\n", "3: unexpected token near end of file"},
+        {HEADER "\"points\":[[1,2,3],\n", "3: ']' expected near end of file"},
         {HEADER "\"ticks\":NaN}", "2: invalid token near 'NaN'"},
         {HEADER "\"ticks\":1,\n\"ticks\":2}", "3: duplicate object key near '\"ticks\"'"},
         {HEADER "\"ticks\":1}\n\n x", "4: '[' or '{' expected near 'x'"},

@@ -54,7 +54,7 @@ typedef struct session_error {
 } session_error;
 
 /* Read a session file into *out; files of points are looked for in its folder. False with the reason in *error; *out
- * is then empty. Cost: O(size) in time; memory about ten times the size for points and never beyond 130 times, plus
+ * is then empty. Cost: O(size) in time; memory about ten times the size for points and never beyond 100 times, plus
  * what files of points and samples need. A file has at most 2 GiB. */
 bool session_read(const char *path, session_file *out, session_error *error);
 
