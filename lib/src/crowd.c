@@ -1,7 +1,7 @@
 /* crowd.c - see crowd.h. Open addressing with linear probing; a slot holds an index + 1, or 0. */
 #include "crowd.h"
 #include "octree/digest.h"
-#include "tree.h"
+#include "point.h"
 
 #define CROWD_MAX_ROOM (UINT32_C(1) << 31)
 

@@ -43,6 +43,15 @@ octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status wh
 /* Collect what lies within the player's box about a centre into `hits`, by id. */
 octree_status game_collide(octree_game *game, const double center[3]);
 
+/* A visitor that appends points to a list of octree_point; it stops, and says so, when there is no memory. */
+typedef struct point_collector {
+    arena *memory;
+    list *points;
+    bool failed;
+} point_collector;
+
+bool collect_point(const octree_point *point, void *context);
+
 /* Sort points by id, then position. */
 void game_sort_points(octree_point *points, size_t count);
 

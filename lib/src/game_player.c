@@ -7,7 +7,6 @@
 #include "tree.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const struct {
@@ -33,51 +32,19 @@ bool game_is_key(char key)
     return key_index(key) < KEY_COUNT;
 }
 
-static int by_id_then_position(const void *a, const void *b)
-{
-    const octree_point *p = a, *q = b;
-    if (p->id != q->id)
-        return p->id < q->id ? -1 : 1;
-    for (int i = 0; i < 3; i++)
-        if (p->position[i] != q->position[i])
-            return p->position[i] < q->position[i] ? -1 : 1;
-    return 0;
-}
-
-void game_sort_points(octree_point *points, size_t count)
-{
-    if (count > 1)
-        qsort(points, count, sizeof *points, by_id_then_position);
-}
-
-typedef struct collecting {
-    octree_game *game;
-    bool failed;
-} collecting;
-
-static bool collect_hit(const octree_point *point, void *context)
-{
-    collecting *c = context;
-    octree_point *hit = list_append(&c->game->memory, &c->game->hits, sizeof *hit);
-    if (hit)
-        *hit = *point;
-    c->failed = !hit;
-    return hit != NULL;
-}
-
 octree_status game_collide(octree_game *game, const double center[3])
 {
     const octree_player *player = &game->session->player;
     octree_point self = {.id = player->id};
     memcpy(self.position, game->tick.player, sizeof self.position);
     memcpy(game->tick.attempt, center, sizeof game->tick.attempt);
-    collecting c = {game, false};
+    point_collector hits = {&game->memory, &game->hits, false};
     const octree_status status =
-        octree_collide(game->tree, game->tick.attempt, player->box_size, &self, collect_hit, &c);
+        octree_collide(game->tree, game->tick.attempt, player->box_size, &self, collect_point, &hits);
     game_sort_points(game->hits.items, game->hits.count);
     if (game->hits.count)
         game->tick.events |= OCTREE_EVENT_COLLIDED;
-    return c.failed ? OCTREE_NO_MEMORY : status;
+    return hits.failed ? OCTREE_NO_MEMORY : status;
 }
 
 /* The player's place after a net number of steps on each axis. */

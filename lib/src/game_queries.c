@@ -4,21 +4,6 @@
 
 #include <string.h>
 
-typedef struct collecting {
-    octree_game *game;
-    bool failed;
-} collecting;
-
-static bool collect_found(const octree_point *point, void *context)
-{
-    collecting *c = context;
-    octree_point *found = list_append(&c->game->memory, &c->game->found, sizeof *found);
-    if (found)
-        *found = *point;
-    c->failed = !found;
-    return found != NULL;
-}
-
 static octree_status answer_range(octree_game *game, const octree_query *query, octree_answer *answer)
 {
     answer->box = query->box;
@@ -27,11 +12,11 @@ static octree_status answer_range(octree_game *game, const octree_query *query, 
         answer->box.max[i] += game->tick.player[i];
     }
     const size_t before = game->found.count;
-    collecting c = {game, false};
-    octree_status status = octree_range(game->tree, &answer->box, collect_found, &c);
+    point_collector found = {&game->memory, &game->found, false};
+    octree_status status = octree_range(game->tree, &answer->box, collect_point, &found);
     answer->count = game->found.count - before;
-    if (status != OCTREE_OK || c.failed)
-        return c.failed ? OCTREE_NO_MEMORY : status;
+    if (status != OCTREE_OK || found.failed)
+        return found.failed ? OCTREE_NO_MEMORY : status;
     if (answer->count)
         game_sort_points((octree_point *)game->found.items + before, answer->count);
     return OCTREE_OK;

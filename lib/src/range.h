@@ -11,10 +11,4 @@ typedef bool (*range_node)(const node *n, bool inside, void *context);
 /* OK, NULL_ARGUMENT, NOT_FINITE or BAD_RANGE. Stops when a leaf's answer is false. */
 octree_status range_descend(const octree *tree, const octree_box *box, range_node visit, void *context);
 
-static inline bool box_contains(const octree_box *box, const double p[3])
-{
-    return box->min[0] <= p[0] && p[0] <= box->max[0] && box->min[1] <= p[1] && p[1] <= box->max[1] &&
-           box->min[2] <= p[2] && p[2] <= box->max[2];
-}
-
 #endif

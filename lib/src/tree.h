@@ -7,6 +7,7 @@
 #define OCTREE_TREE_H
 
 #include "plane.h"
+#include "point.h"
 #include "pool.h"
 
 typedef struct node {
@@ -73,11 +74,6 @@ cell path_cell(uint64_t code, unsigned depth);
 
 /* OK, NULL_ARGUMENT, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
-
-static inline bool same_position(const double a[3], const double b[3])
-{
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
 
 /* Nodes still to be visited, with their cells: a stack that no input can make deeper than D levels of 8 children. */
 #define STACK_ROOM (7 * OCTREE_MAX_DEPTH + 8)

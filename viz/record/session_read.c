@@ -37,6 +37,8 @@ static bool read_object(session_reader *reader, bool (*read)(session_reader *rea
     const size_t flags = JSON_REJECT_DUPLICATES | JSON_DISABLE_EOF_CHECK | JSON_DECODE_INT_AS_REAL;
     json_error_t parsed;
     json_t *object = json_loadb(reader->object, (size_t)(reader->limit - reader->object), flags, &parsed);
+    if (!object && parsed.line < 1)
+        return session_fail_line(reader, reader->line, "", "out of memory");
     if (!object)
         return session_fail_line(reader, reader->line + (size_t)parsed.line - 1, "", parsed.text);
     bool done = json_is_object(object) ? read(reader, object) : session_expected(reader, object, NULL, "an object");

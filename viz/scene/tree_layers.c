@@ -26,17 +26,6 @@ void add_world(scene *s, const octree_box *world)
     }
 }
 
-static int by_id_then_position(const void *a, const void *b)
-{
-    const octree_point *p = a, *q = b;
-    if (p->id != q->id)
-        return p->id < q->id ? -1 : 1;
-    for (int i = 0; i < 3; i++)
-        if (p->position[i] != q->position[i])
-            return p->position[i] < q->position[i] ? -1 : 1;
-    return 0;
-}
-
 /* What the walk over the nodes carries with it. */
 typedef struct tree_walk {
     scene *scene;
@@ -59,7 +48,7 @@ static void add_points(scene *s, const octree_node *leaf, uint8_t width)
         return;
     }
     memcpy(sorted, leaf->points, leaf->count * sizeof *sorted);
-    qsort(sorted, leaf->count, sizeof *sorted, by_id_then_position);
+    qsort(sorted, leaf->count, sizeof *sorted, octree_compare_points);
     for (size_t i = 0; i < leaf->count; i++)
         add_point(s, &sorted[i], width);
     free(sorted);

@@ -182,6 +182,9 @@ typedef struct octree_neighbor {
 octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
                              octree_neighbor *nearest);
 
+/* For qsort: by id, then by position; the order of "sorted" results. */
+int octree_compare_points(const void *a, const void *b);
+
 /* ---- Look --------------------------------------------------------------------------------------------------- */
 
 /* A node's address: a leading 1 bit, then three bits an octant from the root down (Morton order). The root is 1. */

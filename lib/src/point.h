@@ -1,0 +1,18 @@
+/* point.h - comparing positions. Private. */
+#ifndef OCTREE_POINT_H
+#define OCTREE_POINT_H
+
+#include "octree/octree.h"
+
+static inline bool same_position(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static inline bool box_contains(const octree_box *box, const double p[3])
+{
+    return box->min[0] <= p[0] && p[0] <= box->max[0] && box->min[1] <= p[1] && p[1] <= box->max[1] &&
+           box->min[2] <= p[2] && p[2] <= box->max[2];
+}
+
+#endif
