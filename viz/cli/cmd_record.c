@@ -45,7 +45,7 @@ static bool take_option(arguments *a, int option)
         a->keys = optarg;
         return true;
     case 'e':
-        return read_count("--every", optarg, 1, UINT64_MAX, &a->film.every);
+        return read_count("--every", optarg, 1, 1000000000, &a->film.every);
     case 's':
         return read_size(optarg, &a->film.view);
     case 'c':
