@@ -1,6 +1,6 @@
 /* collide.c - Algorithm 5: what is within box_size of a centre on every axis. */
 #include "exact.h"
-#include "range.h"
+#include "tree.h"
 
 #include <math.h>
 

@@ -48,13 +48,14 @@ octree_status game_add_body(octree_game *game, const octree_body *body)
 
 static octree_status remove_body(octree_game *game, const octree_edit *edit)
 {
+    static const double nowhere[3] = {0, 0, 0}; /* a removal says no place: only its id is read */
     moving_body *body = bodies_find(&game->bodies, edit->body.id);
     octree_status status = OCTREE_NOT_FOUND;
     if (body)
         status = octree_remove(game->tree, body->position, body->id);
     if (status == OCTREE_OK)
         bodies_remove(&game->bodies, body);
-    return note_unless_done(game, edit->body.id, status, edit->body.position);
+    return note_unless_done(game, edit->body.id, status, nowhere);
 }
 
 static octree_status move_body(octree_game *game, const octree_edit *edit)

@@ -43,6 +43,19 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
     return exact_sign(&sum);
 }
 
+int metric_compare_radius(const double target[3], const double p[3], double radius)
+{
+    exact_sum sum;
+    exact_clear(&sum);
+    for (int i = 0; i < 3; i++) {
+        exact_add_product(&sum, 1, p[i], p[i]);
+        exact_add_product(&sum, -2, p[i], target[i]);
+        exact_add_product(&sum, 1, target[i], target[i]);
+    }
+    exact_add_product(&sum, -1, radius, radius);
+    return exact_sign(&sum);
+}
+
 double metric_distance(const double a[3], const double b[3])
 {
     /* Halves where a difference could overflow; they are exact there. */

@@ -49,6 +49,9 @@ static inline bool metric_surely_less(double a, double b)
 /* The sign of |a - target|^2 - |b - target|^2 in real numbers: -1, 0 or 1. Exact for all finite doubles. */
 int metric_compare(const double target[3], const double a[3], const double b[3]);
 
+/* The sign of |p - target| - radius in real numbers. Exact for all finite doubles, radius >= 0. */
+int metric_compare_radius(const double target[3], const double p[3], double radius);
+
 /* The Euclidean distance, within 4 ulp, scaled by its largest component; infinite only beyond DBL_MAX. */
 double metric_distance(const double a[3], const double b[3]);
 

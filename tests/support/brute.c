@@ -23,6 +23,36 @@ void brute_insert(brute *all, const double position[3], uint64_t id)
     all->points[all->count++] = (octree_point){{position[0], position[1], position[2]}, id};
 }
 
+void brute_scatter(brute *all, uint64_t *random, size_t count, uint64_t reach, uint64_t ids)
+{
+    for (size_t i = 0; i < count; i++) {
+        double at[3];
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = (double)random_below(random, 2 * reach + 1) - (double)reach;
+        uint64_t id = random_below(random, ids);
+        if (!brute_contains(all, at, id))
+            brute_insert(all, at, id);
+    }
+}
+
+void brute_sample(brute *all, octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count)
+{
+    double(*positions)[3] = malloc(count * sizeof *positions);
+    assert_non_null(positions);
+    assert_int_equal(octree_sample(kind, seed, box, count, positions), OCTREE_OK);
+    for (size_t i = 0; i < count; i++)
+        brute_insert(all, positions[i], i);
+    free(positions);
+}
+
+octree *brute_tree(const brute *all, octree_box world, size_t capacity, size_t depth)
+{
+    octree *tree = make_tree(world, capacity, depth, OCTREE_GROW);
+    for (size_t i = 0; i < all->count; i++)
+        assert_int_equal(octree_insert(tree, all->points[i].position, all->points[i].id), OCTREE_OK);
+    return tree;
+}
+
 static size_t index_of(const brute *all, const double position[3], uint64_t id)
 {
     size_t i = 0;
@@ -123,12 +153,6 @@ bool brute_nearest(const brute *all, const double target[3], octree_skip skip, u
     return best != NULL;
 }
 
-bool brute_collect(const octree_point *point, void *context)
-{
-    brute_insert(context, point->position, point->id);
-    return true;
-}
-
 static int by_id_then_position(const void *left, const void *right)
 {
     const octree_point *a = left;
@@ -139,6 +163,47 @@ static int by_id_then_position(const void *left, const void *right)
         if (a->position[axis] != b->position[axis])
             return a->position[axis] < b->position[axis] ? -1 : 1;
     return 0;
+}
+
+void brute_radius(const brute *all, const double center[3], double radius, brute *found)
+{
+    for (size_t i = 0; i < all->count; i++)
+        if (squared_distance(all->points[i].position, center) <= radius * radius)
+            brute_collect(&all->points[i], found);
+}
+
+/* By the square that `distance` holds, then as points. */
+static int by_square(const void *left, const void *right)
+{
+    const octree_neighbor *a = left;
+    const octree_neighbor *b = right;
+    if (a->distance != b->distance)
+        return a->distance < b->distance ? -1 : 1;
+    return by_id_then_position(&a->point, &b->point);
+}
+
+size_t brute_nearest_k(const brute *all, const double target[3], size_t k, octree_skip skip, uint64_t skip_id,
+                       octree_neighbor **nearest)
+{
+    octree_neighbor *sorted = calloc(all->count + 1, sizeof *sorted);
+    assert_non_null(sorted);
+    size_t count = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        const octree_point *point = &all->points[i];
+        if (!brute_skips(point, target, skip, skip_id))
+            sorted[count++] = (octree_neighbor){*point, squared_distance(point->position, target)};
+    }
+    qsort(sorted, count, sizeof *sorted, by_square);
+    for (size_t i = 0; i < count; i++)
+        sorted[i].distance = sqrt(sorted[i].distance);
+    *nearest = sorted;
+    return count < k ? count : k;
+}
+
+bool brute_collect(const octree_point *point, void *context)
+{
+    brute_insert(context, point->position, point->id);
+    return true;
 }
 
 static void sort(brute *all)

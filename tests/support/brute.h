@@ -4,6 +4,7 @@
 #define BRUTE_H
 
 #include "octree/octree.h"
+#include "octree/sample.h"
 
 typedef struct brute {
     octree_point *points;
@@ -16,6 +17,15 @@ void brute_free(brute *all);
 
 /* Add a point, pairs that are stored included. */
 void brute_insert(brute *all, const double position[3], uint64_t id);
+
+/* Add `count` points with whole coordinates in [-reach, reach] and ids below `ids`, but for pairs that are stored. */
+void brute_scatter(brute *all, uint64_t *random, size_t count, uint64_t reach, uint64_t ids);
+
+/* Add `count` points of a distribution within a box, numbered from 0. */
+void brute_sample(brute *all, octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count);
+
+/* A new tree under OCTREE_GROW with the same contents, which must be pairs that differ. */
+octree *brute_tree(const brute *all, octree_box world, size_t capacity, size_t depth);
 
 /* Take the pair out. False when it is not there. The order of the others changes. */
 bool brute_remove(brute *all, const double position[3], uint64_t id);
@@ -41,6 +51,14 @@ bool brute_skips(const octree_point *point, const double target[3], octree_skip 
  * small whole coordinates. exact_oracle.h has the truth for all others. */
 bool brute_nearest(const brute *all, const double target[3], octree_skip skip, uint64_t skip_id,
                    octree_neighbor *nearest);
+
+/* The points at a distance of at most `radius` from the centre, added to `found`; true where the squares are exact. */
+void brute_radius(const brute *all, const double center[3], double radius, brute *found);
+
+/* The k nearest points by plain squared distances, then by id, then by position; true where the squares are exact.
+ * Returns how many there are; *nearest is to be freed. */
+size_t brute_nearest_k(const brute *all, const double target[3], size_t k, octree_skip skip, uint64_t skip_id,
+                       octree_neighbor **nearest);
 
 /* An octree_point_visitor that adds to the brute in `context`. */
 bool brute_collect(const octree_point *point, void *context);

@@ -4,8 +4,10 @@
 #include <float.h>
 #include <gmp.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "brute.h"
+#include "fixture.h"
 
 /* value * 2^1074, exactly. */
 static void set_scaled(mpz_t number, double value)
@@ -58,6 +60,101 @@ const octree_point *exact_nearest(const octree_point *points, size_t count, cons
             best = point;
     }
     return best;
+}
+
+typedef struct ranked {
+    mpz_t square;
+    const octree_point *point;
+} ranked;
+
+static int by_rank(const void *left, const void *right)
+{
+    const ranked *a = left;
+    const ranked *b = right;
+    int order = mpz_cmp(a->square, b->square);
+    if (order != 0)
+        return order;
+    if (a->point->id != b->point->id)
+        return a->point->id < b->point->id ? -1 : 1;
+    for (int axis = 0; axis < 3; axis++)
+        if (a->point->position[axis] != b->point->position[axis])
+            return a->point->position[axis] < b->point->position[axis] ? -1 : 1;
+    return 0;
+}
+
+size_t exact_nearest_sorted(const octree_point *points, size_t count, const double target[3], octree_skip skip,
+                            uint64_t skip_id, octree_point *sorted)
+{
+    ranked *all = malloc((count + 1) * sizeof *all);
+    assert_non_null(all);
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (brute_skips(&points[i], target, skip, skip_id))
+            continue;
+        mpz_init(all[kept].square);
+        set_squared_distance(all[kept].square, target, points[i].position);
+        all[kept++].point = &points[i];
+    }
+    qsort(all, kept, sizeof *all, by_rank);
+    for (size_t i = 0; i < kept; i++) {
+        sorted[i] = *all[i].point;
+        mpz_clear(all[i].square);
+    }
+    free(all);
+    return kept;
+}
+
+int exact_compare_radius(const double center[3], const double p[3], double radius, double epsilon)
+{
+    mpz_t squared, reach, more;
+    mpz_inits(squared, reach, more, NULL);
+    set_squared_distance(squared, center, p);
+    set_scaled(reach, radius);
+    set_scaled(more, epsilon);
+    mpz_add(reach, reach, more);
+    mpz_mul(reach, reach, reach);
+    int order = mpz_cmp(squared, reach);
+    mpz_clears(squared, reach, more, NULL);
+    return (order > 0) - (order < 0);
+}
+
+int exact_compare_ratio(const double target[3], const double a[3], const double b[3], double ratio)
+{
+    mpz_t to_a, to_b, factor, one;
+    mpz_inits(to_a, to_b, factor, one, NULL);
+    set_squared_distance(to_a, target, a);
+    set_squared_distance(to_b, target, b);
+    set_scaled(factor, ratio);
+    set_scaled(one, 1);
+    mpz_add(factor, factor, one); /* (1 + ratio) * 2^1074 */
+    mpz_mul(factor, factor, factor);
+    mpz_mul(one, one, one);
+    mpz_mul(to_a, to_a, one);
+    mpz_mul(to_b, to_b, factor);
+    int order = mpz_cmp(to_a, to_b);
+    mpz_clears(to_a, to_b, factor, one, NULL);
+    return (order > 0) - (order < 0);
+}
+
+int exact_compare_longer(const double target[3], const double a[3], const double b[3], double length)
+{
+    mpz_t left, to_b, squared;
+    mpz_inits(left, to_b, squared, NULL);
+    set_squared_distance(left, target, a);
+    set_squared_distance(to_b, target, b);
+    set_scaled(squared, length);
+    mpz_mul(squared, squared, squared);
+    mpz_sub(left, left, to_b);
+    mpz_sub(left, left, squared); /* a^2 - b^2 - length^2, to be compared with 2 * b * length */
+    int order = mpz_sgn(left);
+    if (order >= 0) {
+        mpz_mul(left, left, left);
+        mpz_mul(squared, squared, to_b);
+        mpz_mul_ui(squared, squared, 4);
+        order = mpz_cmp(left, squared);
+    }
+    mpz_clears(left, to_b, squared, NULL);
+    return (order > 0) - (order < 0);
 }
 
 /* The sign of distance^2 - squared, where an infinite distance stands for all reals from DBL_MAX + half an ulp. */

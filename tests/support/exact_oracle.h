@@ -14,6 +14,20 @@ int exact_compare(const double target[3], const double a[3], const double b[3]);
 const octree_point *exact_nearest(const octree_point *points, size_t count, const double target[3], octree_skip skip,
                                   uint64_t skip_id);
 
+/* All points that a skip rule leaves in, by the real distance, then by id, then by position, into `sorted`. Returns how
+ * many they are. */
+size_t exact_nearest_sorted(const octree_point *points, size_t count, const double target[3], octree_skip skip,
+                            uint64_t skip_id, octree_point *sorted);
+
+/* The sign of |p - center| - (radius + epsilon). */
+int exact_compare_radius(const double center[3], const double p[3], double radius, double epsilon);
+
+/* The sign of |a - target| - (1 + ratio) * |b - target|. */
+int exact_compare_ratio(const double target[3], const double a[3], const double b[3], double ratio);
+
+/* The sign of |a - target| - (|b - target| + length). */
+int exact_compare_longer(const double target[3], const double a[3], const double b[3], double length);
+
 /* Whether `distance` is within `steps` doubles of the real distance from a to b. */
 bool exact_distance_is(double distance, unsigned steps, const double a[3], const double b[3]);
 

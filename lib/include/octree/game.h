@@ -93,7 +93,7 @@ const char *octree_event_name(unsigned i);
 typedef struct octree_refusal {
     uint64_t id;
     octree_status why;
-    double position[3]; /* where it was to go */
+    double position[3]; /* where it was to go; 0 for an edit that removes */
 } octree_refusal;
 
 typedef struct octree_answer {

@@ -144,14 +144,61 @@ octree_status octree_find(const octree *tree, const double position[3], uint64_t
 /* True when the pair (position, id) is stored. Cost: O(D + M). */
 bool octree_contains(const octree *tree, const double position[3], uint64_t id);
 
+/* Which points do not count as neighbours of a target. */
+typedef enum octree_skip {
+    OCTREE_SKIP_NONE,       /* every point counts */
+    OCTREE_SKIP_ID,         /* leave out points with the given id: "not the target itself" */
+    OCTREE_SKIP_COINCIDENT, /* leave out points at the target's coordinates: the paper's rule */
+} octree_skip;
+
+/* What distances are decided by: the real numbers, or doubles alone. */
+typedef enum octree_mode {
+    OCTREE_EXACT,
+    OCTREE_FAST,
+} octree_mode;
+
+/* What a query did, in counts that are the same on every machine. Counts are added to, so that one report can take in
+ * many queries. */
+typedef struct octree_cost {
+    uint64_t nodes;  /* visited, leaves included */
+    uint64_t leaves; /* visited */
+    uint64_t points; /* compared with the query one by one */
+    uint64_t pruned; /* nodes left out by their box, with all below them */
+} octree_cost;
+
+/* How a query is answered: what trades accuracy for speed. All zero, which is also what a null pointer stands for, is
+ * exact and counts every point. */
+typedef struct octree_search {
+    octree_skip skip; /* nearest neighbours only */
+    uint64_t skip_id; /* read under OCTREE_SKIP_ID alone */
+    octree_mode mode; /* distances only; boxes are exact in both modes */
+    double epsilon;   /* finite, >= 0; for neighbours a ratio, for ranges a length: see each function */
+    octree_cost *cost; /* null: not counted */
+} octree_search;
+
 /* Algorithm 4. Visit every point in a closed box, in no stated order. The box may reach beyond the world; infinite
  * corners are allowed. Errors: NULL_ARGUMENT, NOT_FINITE (a NaN), BAD_RANGE (min > max).
  * Cost: O(nodes that meet the box + points in those leaves). */
 octree_status octree_range(const octree *tree, const octree_box *box, octree_point_visitor visit, void *context);
 
+/* The same with a choice of accuracy. With epsilon > 0 nothing in the box is missed, and nothing is visited that is
+ * farther than epsilon outside it on any axis. Proof: a node is taken whole only when its cell lies in the box whose
+ * faces are moved out by epsilon and rounded inwards; every other point is compared with the box itself.
+ * Errors: those of octree_range, and BAD_SIZE (epsilon < 0), NOT_FINITE, BAD_OPTION. */
+octree_status octree_range_search(const octree *tree, const octree_box *box, const octree_search *how,
+                                  octree_point_visitor visit, void *context);
+
 /* The number of points in a closed box, into *count. Errors and cost as octree_range; nodes inside the box are
  * counted without being entered. */
 octree_status octree_range_count(const octree *tree, const octree_box *box, size_t *count);
+
+/* Visit every point at a distance of at most `radius` from a centre, in no stated order. The centre may be outside the
+ * world. With epsilon > 0 nothing within `radius` is missed and nothing beyond radius + epsilon is visited. In FAST mode
+ * both hold for distances that are off by a factor of at most 1 + 2^-50, or by 2^-490 of the world's extent.
+ * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (radius or epsilon < 0), BAD_OPTION.
+ * Cost: O(nodes that meet the ball + points in those leaves). */
+octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,
+                            octree_point_visitor visit, void *context);
 
 /* Algorithm 5. Visit every point p with |p - center| <= box_size on each axis, decided by the real numbers and not by
  * rounded sums. The tree is not changed (the paper inserts the moving point and takes it out again, which fails when
@@ -162,13 +209,6 @@ octree_status octree_collide(const octree *tree, const double center[3], double 
 
 /* The box that octree_collide asks for: the smallest and largest doubles within box_size of the centre. */
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);
-
-/* Which points do not count as neighbours of a target. */
-typedef enum octree_skip {
-    OCTREE_SKIP_NONE,       /* every point counts */
-    OCTREE_SKIP_ID,         /* leave out points with the given id: "not the target itself" */
-    OCTREE_SKIP_COINCIDENT, /* leave out points at the target's coordinates: the paper's rule */
-} octree_skip;
 
 typedef struct octree_neighbor {
     octree_point point;
@@ -181,6 +221,21 @@ typedef struct octree_neighbor {
  * Cost: O(D + M) on average for points of bounded density, O(n) at worst. */
 octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
                              octree_neighbor *nearest);
+
+/* The k nearest points into neighbors[0 .. *count - 1], *count = min(k, points that count): by distance, then by id, then
+ * by position. There must be room for that many. Each is the true one, by the real numbers; the i-th distance in FAST
+ * mode is at most 1 + 2^-50 times the true i-th, or 2^-490 of the world's extent more. With epsilon > 0 it is at most
+ * (1 + epsilon) times the true i-th. Proof: a node is left out only when its box is farther than the k-th best found,
+ * divided by 1 + epsilon; so is then all that is in it, and the best found only get nearer.
+ * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (epsilon < 0), BAD_OPTION. k = 0 and an empty tree give none.
+ * Cost: O(D + M + k log k) on average for points of bounded density, O(n log k) at worst. */
+octree_status octree_nearest_k(const octree *tree, const double target[3], size_t k, const octree_search *how,
+                               octree_neighbor *neighbors, size_t *count);
+
+/* The nearest point at a distance of at most `radius`, decided by the real numbers (in FAST mode as octree_radius does);
+ * epsilon as in octree_nearest_k. Errors: those of octree_nearest_k, BAD_SIZE for a negative radius, and NOT_FOUND. */
+octree_status octree_nearest_within(const octree *tree, const double target[3], double radius,
+                                    const octree_search *how, octree_neighbor *nearest);
 
 /* For qsort: by id, then by position; the order of "sorted" results. */
 int octree_compare_points(const void *a, const void *b);

@@ -1,0 +1,208 @@
+/* commands.c - see commands.h. */
+#define _XOPEN_SOURCE 700 /* pseudo terminals */
+
+#include "commands.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fixture.h"
+
+enum { ARGUMENTS = 64, LINE = 8192 };
+
+/* Where the child writes, and where that is read. */
+typedef struct channel {
+    int child, test;
+} channel;
+
+/* What was read so far. */
+typedef struct capture {
+    int from;
+    char *text;
+    size_t size;
+} capture;
+
+static channel open_pipe(void)
+{
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    return (channel){ends[1], ends[0]};
+}
+
+static channel open_terminal(void)
+{
+    const int own = posix_openpt(O_RDWR | O_NOCTTY);
+    assert_true(own >= 0);
+    assert_int_equal(grantpt(own), 0);
+    assert_int_equal(unlockpt(own), 0);
+    const int other = open(ptsname(own), O_RDWR | O_NOCTTY);
+    assert_true(other >= 0);
+    return (channel){other, own};
+}
+
+static channel open_output(const command_setting *setting)
+{
+    channel made = open_pipe();
+    if (setting->output != NULL) {
+        close(made.child);
+        made.child = open(setting->output, O_WRONLY);
+        assert_true(made.child >= 0);
+    }
+    return made;
+}
+
+/* The arguments of a line, in place. */
+static void split(char *line, char *arguments[ARGUMENTS])
+{
+    static char name[] = "octreel";
+    size_t count = 0;
+    arguments[count++] = name;
+    for (char *word = strtok(line, " "); word != NULL; word = strtok(NULL, " ")) {
+        assert_true(count < ARGUMENTS - 1);
+        arguments[count++] = word;
+    }
+    arguments[count] = NULL;
+}
+
+static bool set_environment(const command_setting *setting)
+{
+    for (size_t i = 0; i < sizeof setting->environment / sizeof *setting->environment; i++) {
+        char name[64];
+        const char *pair = setting->environment[i], *equals = pair == NULL ? NULL : strchr(pair, '=');
+        if (pair == NULL)
+            return true;
+        if (equals == NULL || (size_t)(equals - pair) >= sizeof name)
+            return false;
+        memcpy(name, pair, (size_t)(equals - pair));
+        name[equals - pair] = '\0';
+        if (setenv(name, equals + 1, 1) != 0)
+            return false;
+    }
+    return true;
+}
+
+static bool set_limit(size_t bytes)
+{
+    const struct rlimit limit = {bytes, bytes};
+    if (bytes == 0)
+        return true;
+    signal(SIGXFSZ, SIG_IGN); /* so that write() fails, as on a full disk */
+    return setrlimit(RLIMIT_FSIZE, &limit) == 0;
+}
+
+static void become_octreel(const command_setting *setting, char **arguments, int out, int err)
+{
+    const bool ready = dup2(out, STDOUT_FILENO) >= 0 && dup2(err, STDERR_FILENO) >= 0 && set_environment(setting) &&
+                       set_limit(setting->file_limit);
+    if (ready)
+        execv(OCTREEL_PROGRAM, arguments);
+    _exit(127);
+}
+
+/* Add what is there to read. False at the end, which a terminal tells by EIO. */
+static bool read_more(capture *c)
+{
+    char bytes[4096];
+    const ssize_t size = read(c->from, bytes, sizeof bytes);
+    if (size < 0 && errno == EINTR)
+        return true;
+    if (size <= 0)
+        return false;
+    c->text = realloc(c->text, c->size + (size_t)size + 1);
+    assert_non_null(c->text);
+    memcpy(c->text + c->size, bytes, (size_t)size);
+    c->size += (size_t)size;
+    c->text[c->size] = '\0';
+    return true;
+}
+
+static void read_both(capture captures[2])
+{
+    struct pollfd waiting[2] = {{captures[0].from, POLLIN, 0}, {captures[1].from, POLLIN, 0}};
+    while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
+        if (poll(waiting, 2, -1) < 0)
+            continue;
+        for (int i = 0; i < 2; i++)
+            if (waiting[i].fd >= 0 && waiting[i].revents != 0 && !read_more(&captures[i]))
+                waiting[i].fd = -1;
+    }
+}
+
+static capture start_capture(int from)
+{
+    capture c = {from, calloc(1, 1), 0};
+    assert_non_null(c.text);
+    return c;
+}
+
+static command_result run(const command_setting *setting, char **arguments)
+{
+    const channel out = open_output(setting), err = setting->terminal ? open_terminal() : open_pipe();
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        close(out.test);
+        close(err.test);
+        become_octreel(setting, arguments, out.child, err.child);
+    }
+    close(out.child);
+    close(err.child);
+    capture captures[2] = {start_capture(out.test), start_capture(err.test)};
+    read_both(captures);
+    close(out.test);
+    close(err.test);
+    int status;
+    while (waitpid(child, &status, 0) < 0)
+        assert_int_equal(errno, EINTR);
+    return (command_result){WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), captures[0].text,
+                            captures[1].text};
+}
+
+command_result run_octreel(const command_setting *setting, const char *format, ...)
+{
+    static const command_setting plain = {.output = NULL};
+    char line[LINE], *arguments[ARGUMENTS];
+    va_list values;
+    va_start(values, format);
+    const int length = vsnprintf(line, sizeof line, format, values);
+    va_end(values);
+    assert_true(length >= 0 && length < LINE);
+    split(line, arguments);
+    return run(setting == NULL ? &plain : setting, arguments);
+}
+
+void command_release(command_result *result)
+{
+    free(result->out);
+    free(result->err);
+    *result = (command_result){0, NULL, NULL};
+}
+
+void assert_done(const command_result *result)
+{
+    assert_string_equal(result->err, "");
+    assert_int_equal(result->status, 0);
+}
+
+void assert_trouble(command_result *result, const char *part)
+{
+    static const char prefix[] = "octreel: ";
+    const char *end = strchr(result->err, '\n');
+    if (strstr(result->err, part) == NULL)
+        fail_msg("stderr says \"%s\" and not \"%s\"", result->err, part);
+    if (end == NULL || end[1] != '\0' || strncmp(result->err, prefix, sizeof prefix - 1) != 0)
+        fail_msg("not one line of octreel's: \"%s\"", result->err);
+    assert_string_equal(result->out, "");
+    assert_int_equal(result->status, 2);
+    command_release(result);
+}

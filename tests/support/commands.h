@@ -1,0 +1,34 @@
+/* commands.h - the program octreel, run as a child: what it says, and how it ends. */
+#ifndef COMMANDS_H
+#define COMMANDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The surroundings of a run; zeros are those of the test. */
+typedef struct command_setting {
+    const char *environment[4]; /* "NAME=value", beside what is there; the first null ends them */
+    const char *output;         /* a file in place of stdout */
+    size_t file_limit;          /* no file can grow beyond this many bytes; 0 is no limit */
+    bool terminal;              /* stderr is a terminal */
+} command_setting;
+
+typedef struct command_result {
+    int status; /* of the exit, or the signal's number and 128 */
+    char *out;  /* all that came from stdout, zero-terminated */
+    char *err;  /* likewise, stderr */
+} command_result;
+
+/* Run octreel with the arguments that a format gives, blanks between them. `setting` may be null. The test fails when
+ * the program cannot be run. */
+command_result run_octreel(const command_setting *setting, const char *format, ...);
+void command_release(command_result *result);
+
+/* It ended with status 0 and said nothing on stderr. */
+void assert_done(const command_result *result);
+
+/* It ended with status 2, said nothing on stdout, and said one line on stderr: "octreel: " and a sentence that holds
+ * `part`. The result is released. */
+void assert_trouble(command_result *result, const char *part);
+
+#endif

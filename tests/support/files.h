@@ -1,0 +1,44 @@
+/* files.h - files and folders within the folder of a test.
+ *
+ * Every function but file_exists() fails the test when it cannot do its job.
+ */
+#ifndef FILES_H
+#define FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "temp_folder.h"
+
+/* The path of a file, by value, so that a test can name several. */
+typedef struct place {
+    char path[1024];
+} place;
+
+place place_in(const temp_folder *folder, const char *name);
+place place_below(const char *folder, const char *name);
+
+/* A teardown for temp_folder_make: removes folders in the folder too, with all they hold. */
+int nested_folder_remove(void **state);
+
+/* Whether there is anything of this name. */
+bool file_exists(const char *path);
+
+/* The bytes of a file, with a zero behind them; the caller frees them. `size` may be null. */
+char *file_read(const char *path, size_t *size);
+void file_write(const char *path, const void *bytes, size_t size);
+void file_write_text(const char *path, const char *text);
+
+/* The names in a folder, sorted. */
+typedef struct listing {
+    char (*names)[256];
+    size_t count;
+} listing;
+
+listing folder_list(const char *folder);
+void listing_release(listing *names);
+
+/* Both folders hold the same names and the same bytes; those of the file `except` (may be null) may differ. */
+void assert_same_folders(const char *a, const char *b, const char *except);
+
+#endif

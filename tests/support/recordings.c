@@ -1,0 +1,99 @@
+/* recordings.c - see recordings.h. */
+#include "recordings.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "files.h"
+#include "fixture.h"
+#include "png_by_hand.h"
+#include "session_file.h"
+#include "theme.h"
+#include "tick_lines.h"
+
+film_options small_film(const char *folder)
+{
+    film_options options = {.folder = folder, .view = view_default(), .every = 1};
+    options.view.width = SMALL_WIDTH;
+    options.view.height = SMALL_HEIGHT;
+    return options;
+}
+
+film_summary assert_filmed(const octree_session *session, const film_options *options)
+{
+    film_summary summary;
+    record_error error = {""};
+    if (!film_session(session, options, &summary, &error))
+        fail_msg("%s", error.text);
+    return summary;
+}
+
+image assert_whole_frame(const char *path, int width, int height)
+{
+    static png_bytes file;
+    image frame;
+    image_error error;
+    png_bytes_load(&file, path);
+    const png_chunk header = png_chunk_of(&file, "IHDR"), palette = png_chunk_of(&file, "PLTE");
+    assert_int_equal(png_u32_at(header.data), width);
+    assert_int_equal(png_u32_at(header.data + 4), height);
+    assert_int_equal(header.data[8], 8);
+    assert_int_equal(header.data[9], 3);
+    assert_int_equal(palette.size, 3 * THEME_COLORS);
+    if (!image_read_png(path, &frame, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(frame.width, width);
+    assert_int_equal(frame.height, height);
+    return frame;
+}
+
+size_t for_each_line(const char *folder, void (*visit)(const char *line, size_t number, void *context), void *context)
+{
+    char *text = file_read(place_below(folder, "ticks.jsonl").path, NULL);
+    size_t number = 0;
+    for (char *line = text, *end; (end = strchr(line, '\n')) != NULL; line = end + 1, number++) {
+        *end = '\0';
+        visit(line, number, context);
+    }
+    free(text);
+    return number;
+}
+
+static void parse_line(const char *line, size_t number, void *context)
+{
+    json_t *object = json_read(line);
+    (void)context;
+    assert_whole_number(json_member(object, "tick"), number);
+    json_decref(object);
+}
+
+static void assert_whole_file(const char *folder, const char *name)
+{
+    const place file = place_below(folder, name);
+    if (strstr(name, ".part") != NULL)
+        fail_msg("%s is left", file.path);
+    if (strncmp(name, "frame_", 6) == 0) {
+        image frame = assert_whole_frame(file.path, SMALL_WIDTH, SMALL_HEIGHT);
+        image_release(&frame);
+    } else if (strcmp(name, "ticks.jsonl") == 0) {
+        for_each_line(folder, parse_line, NULL);
+    } else if (strcmp(name, "session.json") == 0) {
+        session_file session;
+        session_error error;
+        if (!session_read(file.path, &session, &error))
+            fail_msg("%s", error.text);
+        session_release(&session);
+    } else {
+        char *text = file_read(file.path, NULL);
+        json_decref(json_read(text));
+        free(text);
+    }
+}
+
+void assert_nothing_half_written(const char *folder)
+{
+    listing names = folder_list(folder);
+    for (size_t i = 0; i < names.count; i++)
+        assert_whole_file(folder, names.names[i]);
+    listing_release(&names);
+}

@@ -1,0 +1,28 @@
+/* recordings.h - recordings for tests: made small, and looked through. */
+#ifndef RECORDINGS_H
+#define RECORDINGS_H
+
+#include "film.h"
+#include "image.h"
+
+/* The size of most films of the tests. */
+#define SMALL_WIDTH 160
+#define SMALL_HEIGHT 90
+
+/* Every tick, all layers, small, into this folder. */
+film_options small_film(const char *folder);
+
+/* Film; the test fails, with the sentence, when it is not done. */
+film_summary assert_filmed(const octree_session *session, const film_options *options);
+
+/* A frame, decoded: the test fails unless it is whole, 8-bit indexed, of this size and of the theme's table. */
+image assert_whole_frame(const char *path, int width, int height);
+
+/* What a run that broke off may leave: whole frames of the small size, whole lines in ticks.jsonl but for the last
+ * one, whole JSON in the other files, and no .part. */
+void assert_nothing_half_written(const char *folder);
+
+/* Do something with each line of ticks.jsonl, which is zero-terminated without its newline. Returns their number. */
+size_t for_each_line(const char *folder, void (*visit)(const char *line, size_t number, void *context), void *context);
+
+#endif

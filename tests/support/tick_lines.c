@@ -1,0 +1,197 @@
+/* tick_lines.c - see tick_lines.h. */
+#include "tick_lines.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "fixture.h"
+
+json_t *json_read(const char *text)
+{
+    json_error_t error;
+    json_t *value = json_loads(text, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &error);
+    if (value == NULL)
+        fail_msg("%s in %.300s", error.text, text);
+    assert_true(json_is_object(value));
+    return value;
+}
+
+json_t *json_member(const json_t *object, const char *name)
+{
+    json_t *value = json_object_get(object, name);
+    if (value == NULL)
+        fail_msg("there is no member %s", name);
+    return value;
+}
+
+void assert_members(const json_t *object, const char *names)
+{
+    char copy[512];
+    size_t count = 0;
+    snprintf(copy, sizeof copy, "%s", names);
+    for (char *name = strtok(copy, " "); name != NULL; name = strtok(NULL, " "), count++)
+        json_member(object, name);
+    assert_int_equal(json_object_size(object), count);
+}
+
+void assert_whole_number(const json_t *value, uint64_t expected)
+{
+    assert_true(json_is_real(value));
+    assert_true(json_real_value(value) == (double)expected);
+}
+
+void assert_digest(const json_t *value, uint64_t expected)
+{
+    char text[17];
+    snprintf(text, sizeof text, "%016" PRIx64, expected);
+    assert_true(json_is_string(value));
+    assert_string_equal(json_string_value(value), text);
+}
+
+/* The same bits: what is printed must read back to what it was, the sign of zero included. */
+static void assert_number(const json_t *value, double expected)
+{
+    const double read = json_real_value(value);
+    assert_true(json_is_real(value));
+    assert_memory_equal(&read, &expected, sizeof read);
+}
+
+static void assert_position(const json_t *object, const char *name, const double expected[3])
+{
+    const json_t *list = json_member(object, name);
+    assert_int_equal(json_array_size(list), 3);
+    for (size_t i = 0; i < 3; i++)
+        assert_number(json_array_get(list, i), expected[i]);
+}
+
+static void assert_ids(const json_t *list, const octree_point *points, size_t count)
+{
+    assert_true(json_is_array(list));
+    assert_int_equal(json_array_size(list), count);
+    for (size_t i = 0; i < count; i++)
+        assert_whole_number(json_array_get(list, i), points[i].id);
+}
+
+static void assert_addresses(const json_t *list, const octree_address *addresses, size_t count)
+{
+    char text[OCTREE_ADDRESS_TEXT];
+    assert_true(json_is_array(list));
+    assert_int_equal(json_array_size(list), count);
+    for (size_t i = 0; i < count; i++)
+        assert_string_equal(json_string_value(json_array_get(list, i)), octree_address_format(addresses[i], text));
+}
+
+/* The names are the header's, in the order of their bits. */
+static void assert_events(const json_t *list, unsigned events)
+{
+    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full", "split", "merged"};
+    size_t at = 0;
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        if ((events & 1u << i) != 0)
+            assert_string_equal(json_string_value(json_array_get(list, at++)), names[i]);
+    assert_int_equal(json_array_size(list), at);
+}
+
+static void assert_refusals(const json_t *list, const octree_tick *tick)
+{
+    assert_int_equal(json_array_size(list), tick->refusal_count);
+    for (size_t i = 0; i < tick->refusal_count; i++) {
+        const json_t *row = json_array_get(list, i);
+        assert_members(row, "id why position");
+        assert_whole_number(json_member(row, "id"), tick->refusals[i].id);
+        assert_string_equal(json_string_value(json_member(row, "why")), octree_status_name(tick->refusals[i].why));
+        assert_position(row, "position", tick->refusals[i].position);
+    }
+}
+
+static void assert_range(const json_t *range, const octree_answer *answer)
+{
+    assert_members(range, "min max ids");
+    assert_position(range, "min", answer->box.min);
+    assert_position(range, "max", answer->box.max);
+    assert_ids(json_member(range, "ids"), answer->points, answer->count);
+}
+
+static void assert_nearest(const json_t *nearest, const octree_answer *answer)
+{
+    assert_members(nearest, answer->found ? "target id position distance" : "target id");
+    assert_position(nearest, "target", answer->target);
+    if (!answer->found) {
+        assert_true(json_is_null(json_member(nearest, "id")));
+        return;
+    }
+    assert_whole_number(json_member(nearest, "id"), answer->neighbor.point.id);
+    assert_position(nearest, "position", answer->neighbor.point.position);
+    assert_number(json_member(nearest, "distance"), answer->neighbor.distance);
+}
+
+static void assert_answers(const json_t *list, const octree_tick *tick)
+{
+    assert_int_equal(json_array_size(list), tick->answer_count);
+    for (size_t i = 0; i < tick->answer_count; i++) {
+        const bool range = tick->answers[i].kind == OCTREE_QUERY_RANGE;
+        const json_t *answer = json_array_get(list, i);
+        assert_members(answer, range ? "range" : "nearest");
+        if (range)
+            assert_range(json_member(answer, "range"), &tick->answers[i]);
+        else
+            assert_nearest(json_member(answer, "nearest"), &tick->answers[i]);
+    }
+}
+
+/* What a walk counts. */
+typedef struct census {
+    size_t points, nodes, leaves;
+    unsigned depth;
+} census;
+
+static octree_walk_order count_node(const octree_node *node, void *context)
+{
+    census *counted = context;
+    counted->nodes++;
+    counted->leaves += node->leaf;
+    counted->points += node->leaf ? node->count : 0;
+    counted->depth = node->depth > counted->depth ? node->depth : counted->depth;
+    return OCTREE_WALK_ON;
+}
+
+static void assert_tree(const json_t *object, const octree *tree)
+{
+    census counted = {0, 0, 0, 0};
+    assert_int_equal(octree_walk(tree, count_node, &counted), OCTREE_OK);
+    assert_members(object, "points nodes leaves depth digest");
+    assert_whole_number(json_member(object, "points"), counted.points);
+    assert_whole_number(json_member(object, "nodes"), counted.nodes);
+    assert_whole_number(json_member(object, "leaves"), counted.leaves);
+    assert_whole_number(json_member(object, "depth"), counted.depth);
+    assert_digest(json_member(object, "digest"), octree_digest(tree));
+}
+
+static void assert_key(const json_t *value, char key)
+{
+    const char expected[2] = {key, '\0'};
+    if (key == '\0')
+        assert_true(json_is_null(value));
+    else
+        assert_string_equal(json_string_value(value), expected);
+}
+
+void assert_line_tells(const json_t *line, const octree_tick *tick, const octree *tree)
+{
+    static const char always[] = "tick key player events attempt hits answers refusals splits merges tree";
+    char filmed[128];
+    snprintf(filmed, sizeof filmed, "%s frame scene", always);
+    assert_members(line, json_object_get(line, "frame") == NULL ? always : filmed);
+    assert_whole_number(json_member(line, "tick"), tick->number);
+    assert_key(json_member(line, "key"), tick->key);
+    assert_position(line, "player", tick->player);
+    assert_position(line, "attempt", tick->attempt);
+    assert_events(json_member(line, "events"), tick->events);
+    assert_ids(json_member(line, "hits"), tick->hits, tick->hit_count);
+    assert_answers(json_member(line, "answers"), tick);
+    assert_refusals(json_member(line, "refusals"), tick);
+    assert_addresses(json_member(line, "splits"), tick->splits, tick->split_count);
+    assert_addresses(json_member(line, "merges"), tick->merges, tick->merge_count);
+    assert_tree(json_member(line, "tree"), tree);
+}

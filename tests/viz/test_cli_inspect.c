@@ -1,0 +1,422 @@
+/* test_cli_inspect.c - octreel inspect: its statistics add up, its nodes lie within each other, and what it refuses. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "clouds.h"
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "octree/sample.h"
+#include "recordings.h"
+#include "tick_lines.h"
+#include "ticks_write.h"
+
+enum { POINTS = 500 };
+
+/* Clustered points, whole so that text has them exactly. */
+static void make_positions(double positions[POINTS][3])
+{
+    const octree_box box = cube(-1000, 1000);
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, 7, &box, POINTS, positions), OCTREE_OK);
+    for (size_t i = 0; i < POINTS * 3; i++)
+        positions[i / 3][i % 3] = (double)(long)positions[i / 3][i % 3];
+}
+
+/* These points as a file, behind a header. */
+static place write_points(void **state, const char *name, const char *header)
+{
+    double positions[POINTS][3];
+    const place file = place_in(*state, name);
+    make_positions(positions);
+    FILE *out = fopen(file.path, "wb");
+    assert_non_null(out);
+    fputs(header, out);
+    for (size_t i = 0; i < POINTS; i++)
+        fprintf(out, "%.17g %.17g %.17g\n", positions[i][0], positions[i][1], positions[i][2]);
+    assert_int_equal(fclose(out), 0);
+    return file;
+}
+
+/* What octreel says as JSON; the caller releases it. */
+static json_t *inspect_json(const char *path, const char *options)
+{
+    command_result result = run_octreel(NULL, "inspect %s --json %s", path, options);
+    assert_done(&result);
+    assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
+    json_t *object = json_read(result.out);
+    command_release(&result);
+    return object;
+}
+
+static size_t whole(const json_t *object, const char *name)
+{
+    const json_t *value = json_member(object, name);
+    assert_true(json_is_real(value));
+    return (size_t)json_real_value(value);
+}
+
+static size_t sum(const json_t *list)
+{
+    size_t total = 0;
+    for (size_t i = 0; i < json_array_size(list); i++)
+        total += (size_t)json_real_value(json_array_get(list, i));
+    return total;
+}
+
+/* Each bucket ends before the next begins; together they hold all leaves and bound the points. */
+static void assert_occupancy(const json_t *object)
+{
+    const json_t *rows = json_member(object, "leaves_by_points");
+    size_t leaves = 0, least = 0, most = 0, behind = 0;
+    for (size_t i = 0; i < json_array_size(rows); i++) {
+        const json_t *row = json_array_get(rows, i);
+        assert_members(row, "from to leaves");
+        assert_true(i == 0 || whole(row, "from") > behind);
+        assert_true(whole(row, "from") <= whole(row, "to"));
+        behind = whole(row, "to");
+        leaves += whole(row, "leaves");
+        least += whole(row, "leaves") * whole(row, "from");
+        most += whole(row, "leaves") * whole(row, "to");
+    }
+    assert_int_equal(leaves, whole(object, "leaves"));
+    assert_true(least <= whole(object, "stored") && whole(object, "stored") <= most);
+}
+
+static void assert_adds_up(const json_t *object)
+{
+    assert_members(object, "cloud points skipped refused outside stored world capacity max_depth nodes leaves depth "
+                           "largest_leaf memory nodes_by_depth leaves_by_depth leaves_by_points");
+    assert_int_equal(whole(object, "points"),
+                     whole(object, "stored") + whole(object, "refused") + whole(object, "outside"));
+    assert_int_equal(sum(json_member(object, "leaves_by_depth")), whole(object, "leaves"));
+    assert_int_equal(sum(json_member(object, "nodes_by_depth")), whole(object, "nodes"));
+    assert_int_equal(json_array_size(json_member(object, "nodes_by_depth")), whole(object, "depth") + 1);
+    assert_occupancy(object);
+}
+
+static void statistics_add_up(void **state)
+{
+    static const char *const options[] = {"",
+                                          "--capacity 1",
+                                          "--capacity 4294967295",
+                                          "--capacity 3 --depth 2 --full refuse",
+                                          "--capacity 3 --depth 2 --full grow",
+                                          "--depth 0",
+                                          "--depth 21 --capacity 1 --full refuse",
+                                          "--world=-100,-100,-100,100,100,100",
+                                          "--world 5000,5000,5000,6000,6000,6000",
+                                          "--world=-1e308,-1e308,-1e308,1e308,1e308,1e308"};
+    const place points = write_points(state, "points.txt", "# made\n");
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        json_t *object = inspect_json(points.path, options[i]);
+        assert_adds_up(object);
+        assert_int_equal(whole(object, "points"), POINTS);
+        assert_string_equal(json_string_value(json_member(object, "cloud")), "points.txt");
+        json_decref(object);
+    }
+}
+
+static void statistics_for_people_have_the_same_numbers(void **state)
+{
+    const place points = write_points(state, "points.txt", "");
+    char line[64];
+    json_t *object = inspect_json(points.path, "--capacity 4");
+    command_result result = run_octreel(NULL, "inspect %s --capacity 4", points.path);
+    assert_done(&result);
+    snprintf(line, sizeof line, "%zu, %zu of them leaves", whole(object, "nodes"), whole(object, "leaves"));
+    assert_non_null(strstr(result.out, line));
+    snprintf(line, sizeof line, "%d in the file, %zu in the tree", POINTS, whole(object, "stored"));
+    assert_non_null(strstr(result.out, line));
+    command_release(&result);
+    json_decref(object);
+}
+
+/* One line of the CSV. */
+typedef struct row {
+    char address[OCTREE_ADDRESS_TEXT];
+    unsigned depth, leaf;
+    size_t count;
+    octree_box box;
+} row;
+
+static row read_row(const char *line)
+{
+    row r;
+    int end = 0;
+    assert_int_equal(sscanf(line, "%47[^,],%u,%u,%zu,%lf,%lf,%lf,%lf,%lf,%lf%n", r.address, &r.depth, &r.leaf, &r.count,
+                            &r.box.min[0], &r.box.min[1], &r.box.min[2], &r.box.max[0], &r.box.max[1], &r.box.max[2],
+                            &end),
+                     10);
+    assert_int_equal(line[end], '\n');
+    return r;
+}
+
+/* The box of a node is its cell's, inside that of the parent above it in `path`. */
+static void assert_row(const row *r, row path[OCTREE_MAX_DEPTH + 1])
+{
+    octree_address address;
+    assert_true(octree_address_parse(r->address, &address));
+    assert_int_equal(octree_address_depth(address), r->depth);
+    const octree_box cell = octree_cell_box(&path[0].box, address);
+    assert_memory_equal(&cell, &r->box, sizeof cell);
+    if (r->depth == 0)
+        return;
+    const row *parent = &path[r->depth - 1];
+    assert_int_equal(parent->leaf, 0);
+    assert_true(r->count <= parent->count && r->count > 0);
+    assert_true(box_holds(&parent->box, r->box.min) && box_holds(&parent->box, r->box.max));
+    assert_true(r->depth == 1 || strncmp(parent->address, r->address, strlen(parent->address)) == 0);
+}
+
+static void nodes_lie_within_their_parents_and_hold_all_points(void **state)
+{
+    static const char header[] = "address,depth,leaf,count,min_x,min_y,min_z,max_x,max_y,max_z\n";
+    const place points = write_points(state, "points.txt", ""), csv = place_in(*state, "nodes.csv");
+    row path[OCTREE_MAX_DEPTH + 1];
+    size_t nodes = 0, leaves = 0, stored = 0;
+    command_result result = run_octreel(NULL, "inspect %s --capacity 2 --json --nodes %s", points.path, csv.path);
+    assert_done(&result);
+    json_t *object = json_read(result.out);
+    char *text = file_read(csv.path, NULL);
+    assert_memory_equal(text, header, sizeof header - 1);
+    for (const char *line = text + sizeof header - 1; *line != '\0'; line = strchr(line, '\n') + 1) {
+        const row r = read_row(line);
+        assert_true(r.depth <= OCTREE_MAX_DEPTH);
+        path[r.depth] = r;
+        assert_row(&r, path);
+        nodes++;
+        leaves += r.leaf;
+        stored += r.leaf ? r.count : 0;
+    }
+    assert_int_equal(nodes, whole(object, "nodes"));
+    assert_int_equal(leaves, whole(object, "leaves"));
+    assert_int_equal(stored, whole(object, "stored"));
+    json_decref(object);
+    free(text);
+    command_release(&result);
+}
+
+static void one_node_has_its_box_and_its_points(void **state)
+{
+    const place points = place_in(*state, "points.txt");
+    file_write_text(points.path, "0 0 0\n8 8 8\n1 1 1\n7 0.5 0.25\n");
+    json_t *root = inspect_json(points.path, "--capacity 1 --node root");
+    assert_members(root, "node depth leaf count box points");
+    assert_int_equal(whole(root, "count"), 4);
+    assert_int_equal(json_array_size(json_member(root, "points")), 0);
+    json_decref(root);
+    json_t *leaf = inspect_json(points.path, "--capacity 1 --node 4");
+    assert_true(json_is_true(json_member(leaf, "leaf")));
+    assert_int_equal(whole(leaf, "depth"), 1);
+    const json_t *point = json_array_get(json_member(leaf, "points"), 0);
+    assert_whole_number(json_member(point, "id"), 3);
+    assert_true(json_real_value(json_array_get(json_member(point, "position"), 2)) == 0.25);
+    json_decref(leaf);
+    json_t *deep = inspect_json(points.path, "--capacity 1 --node 0/0");
+    assert_int_equal(whole(deep, "depth"), 2);
+    json_decref(deep);
+    command_result result = run_octreel(NULL, "inspect %s --capacity 1 --node 4", points.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "3: 7 0.5 0.25"));
+    command_release(&result);
+}
+
+static void node_that_is_not_there_is_refused_and_nothing_is_made(void **state)
+{
+    static const char *const addresses[] = {
+        "nonsense", "8",         "0/8",    "0//3", "0/3/",
+        "-1",       "7/7/7/7/7", "root/0", "03",   "0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0"};
+    const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
+    const place csv = place_in(*state, "nodes.csv");
+    file_write_text(points.path, "0 0 0\n8 8 8\n1 1 1\n");
+    for (size_t i = 0; i < sizeof addresses / sizeof addresses[0]; i++) {
+        command_result result = run_octreel(NULL, "inspect %s --node %s -o %s --nodes %s --size 64x64", points.path,
+                                            addresses[i], picture.path, csv.path);
+        assert_trouble(&result, addresses[i]);
+        if (file_exists(picture.path) || file_exists(csv.path))
+            fail_msg("--node %s is refused, and a file is made all the same", addresses[i]);
+    }
+}
+
+static void formats_of_the_same_points_say_the_same(void **state)
+{
+    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 500\nproperty double x\nproperty double y\n"
+                              "property double z\nend_header\n";
+    static const char pcd[] = "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 500\nHEIGHT 1\n"
+                              "POINTS 500\nDATA ascii\n";
+    const place files[] = {write_points(state, "a.txt", ""), write_points(state, "a.ply", ply),
+                           write_points(state, "a.pcd", pcd)};
+    json_t *first = inspect_json(files[0].path, "--capacity 3");
+    json_object_del(first, "cloud");
+    for (size_t i = 1; i < sizeof files / sizeof files[0]; i++) {
+        json_t *other = inspect_json(files[i].path, "--capacity 3");
+        json_object_del(other, "cloud");
+        assert_true(json_equal(first, other));
+        json_decref(other);
+    }
+    json_decref(first);
+}
+
+static void a_million_equal_points_are_refused_or_one_leaf(void **state)
+{
+    enum { COUNT = 1000000, SIZE = 6 };
+    const place points = place_in(*state, "points.txt");
+    char *text = malloc((size_t)COUNT * SIZE);
+    assert_non_null(text);
+    for (size_t i = 0; i < COUNT; i++)
+        memcpy(text + i * SIZE, "1 2 3\n", SIZE);
+    file_write(points.path, text, (size_t)COUNT * SIZE);
+    free(text);
+    json_t *refused = inspect_json(points.path, "--full refuse");
+    assert_adds_up(refused);
+    assert_int_equal(whole(refused, "stored"), 16);
+    assert_int_equal(whole(refused, "refused"), COUNT - 16);
+    json_decref(refused);
+    json_t *grown = inspect_json(points.path, "");
+    assert_adds_up(grown);
+    assert_int_equal(whole(grown, "largest_leaf"), COUNT);
+    assert_int_equal(whole(grown, "leaves"), 1);
+    json_decref(grown);
+}
+
+static void picture_is_whole_and_traced(void **state)
+{
+    const place points = write_points(state, "points.txt", ""), picture = place_in(*state, "tree.png");
+    char text[64], digest[DIGEST_TEXT];
+    command_result result = run_octreel(NULL, "inspect %s --size 320x180 -o %s", points.path, picture.path);
+    assert_done(&result);
+    command_release(&result);
+    image frame = assert_whole_frame(picture.path, 320, 180);
+    assert_true(image_read_text(picture.path, "octreel-pixels", text, sizeof text));
+    assert_string_equal(text, digest_print(image_digest(&frame), digest));
+    assert_true(image_read_text(picture.path, "octreel-scene", text, sizeof text));
+    assert_int_equal(strlen(text), 16);
+    assert_false(image_read_text(picture.path, "octreel-tick", text, sizeof text));
+    image_release(&frame);
+}
+
+static void bad_clouds_are_refused_with_file_and_reason(void **state)
+{
+    static const char *const rows[][2] = {
+        {"", "cloud: "},
+        {"# nothing\n\n", "cloud: "},
+        {"1 2\n", "cloud:1: "},
+        {"1 2 3\n4 5\n", "cloud:2: "},
+        {"1 2 3\n4 five 6\n", "cloud:2: "},
+        {"1 2 3\n4 1e999 6\n", "cloud:2: "},
+        {"1 2 3\nnan 5 6\n", "cloud:2: "},
+        {"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+         "1 2 3\n",
+         "cloud"},
+        {"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 9999999999\nHEIGHT 9999999999\n"
+         "POINTS 99999999999999999\nDATA ascii\n1 2 3\n",
+         "cloud"},
+    };
+    const place points = place_in(*state, "cloud"), picture = place_in(*state, "tree.png");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        file_write_text(points.path, rows[i][0]);
+        command_result result = run_octreel(NULL, "inspect %s -o %s", points.path, picture.path);
+        assert_trouble(&result, rows[i][1]);
+        assert_false(file_exists(picture.path));
+    }
+}
+
+static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
+{
+    static const char *const rows[][2] = {
+        {"--capacity 0", "--capacity"},
+        {"--capacity -3", "-3"},
+        {"--capacity 4294967296", "4294967296"},
+        {"--capacity 2.5", "2.5"},
+        {"--depth 22", "0 to 21"},
+        {"--depth -1", "-1"},
+        {"--full maybe", "maybe"},
+        {"--world 0,0,0,1,1", "six"},
+        {"--world 0,0,0,1,1,1,1", "six"},
+        {"--world 0,0,0,1,0,1", "below"},
+        {"--world 0,0,0,1,nan,1", "six"},
+        {"--world 0,0,0,1,1e999,1", "six"},
+        {"--world 3,0,0,1,1,1", "below"},
+        {"--world=", "six"},
+        {"--size 0x0", "1 to 16384"},
+        {"--camera up", "up"},
+        {"--layers walls", "walls"},
+        {"second.txt", "one point cloud"},
+    };
+    const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
+    file_write_text(points.path, "1 2 3\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "inspect %s -o %s %s", points.path, picture.path, rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+        assert_int_equal(temp_folder_count(*state), 1);
+    }
+    command_result result = run_octreel(NULL, "inspect -o %s", picture.path);
+    assert_trouble(&result, "one point cloud");
+}
+
+static void clouds_and_places_that_are_none_are_refused_in_one_sentence(void **state)
+{
+    const temp_folder *own = *state;
+    const place points = place_in(own, "points.txt"), absent = place_in(own, "absent");
+    file_write_text(points.path, "1 2 3\n");
+    command_result result = run_octreel(NULL, "inspect %s", absent.path);
+    assert_trouble(&result, absent.path);
+    result = run_octreel(NULL, "inspect %s", own->name);
+    assert_trouble(&result, own->name);
+    result = run_octreel(NULL, "inspect %s -o %s/tree.png", points.path, absent.path);
+    assert_trouble(&result, absent.path);
+    result = run_octreel(NULL, "inspect %s --nodes %s/nodes.csv", points.path, absent.path);
+    assert_trouble(&result, absent.path);
+    assert_int_equal(temp_folder_count(own), 1);
+}
+
+/* A rename would put a picture in the place of a pipe, or of a device. */
+static void what_is_no_file_is_not_replaced_by_a_picture(void **state)
+{
+    const place points = place_in(*state, "points.txt"), pipe = place_in(*state, "pipe");
+    struct stat status;
+    file_write_text(points.path, "1 2 3\n");
+    assert_int_equal(mkfifo(pipe.path, 0666), 0);
+    command_result result = run_octreel(NULL, "inspect %s --size 64x64 -o %s", points.path, pipe.path);
+    assert_int_equal(lstat(pipe.path, &status), 0);
+    assert_true(S_ISFIFO(status.st_mode));
+    assert_trouble(&result, pipe.path);
+}
+
+/* Only a picture needs a renderer. */
+static void statistics_need_no_renderer(void **state)
+{
+    static const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
+    const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
+    file_write_text(points.path, "1 2 3\n");
+    command_result result = run_octreel(&other, "inspect %s", points.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(&other, "inspect %s -o %s", points.path, picture.path);
+    assert_trouble(&result, "softpipe");
+    assert_false(file_exists(picture.path));
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(statistics_add_up),
+        IN_FOLDER(statistics_for_people_have_the_same_numbers),
+        IN_FOLDER(nodes_lie_within_their_parents_and_hold_all_points),
+        IN_FOLDER(one_node_has_its_box_and_its_points),
+        IN_FOLDER(node_that_is_not_there_is_refused_and_nothing_is_made),
+        IN_FOLDER(formats_of_the_same_points_say_the_same),
+        IN_FOLDER(a_million_equal_points_are_refused_or_one_leaf),
+        IN_FOLDER(picture_is_whole_and_traced),
+        IN_FOLDER(bad_clouds_are_refused_with_file_and_reason),
+        IN_FOLDER(options_that_do_not_fit_are_refused_in_one_sentence),
+        IN_FOLDER(clouds_and_places_that_are_none_are_refused_in_one_sentence),
+        IN_FOLDER(what_is_no_file_is_not_replaced_by_a_picture),
+        IN_FOLDER(statistics_need_no_renderer),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,346 @@
+/* test_cli_record.c - octreel and octreel record: what the command line takes, says and refuses. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "recordings.h"
+#include "session_file.h"
+#include "tick_lines.h"
+
+#define SMALL "--size 160x90"
+#define HEADER "{\"octreel\": \"session\", \"version\": 1,\n"
+
+static void assert_says(const char *arguments, const char *part)
+{
+    command_result result = run_octreel(NULL, "%s", arguments);
+    assert_done(&result);
+    if (strstr(result.out, part) == NULL)
+        fail_msg("octreel %s says \"%s\" and not \"%s\"", arguments, result.out, part);
+    command_release(&result);
+}
+
+static void help_is_printed_on_stdout(void **state)
+{
+    (void)state;
+    assert_says("--help", "record");
+    assert_says("-h", "inspect");
+    assert_says("record --help", "--every");
+    assert_says("record -h", "--keys");
+    assert_says("inspect --help", "--capacity");
+    assert_says("inspect -h", "--nodes");
+}
+
+static void version_names_the_renderer(void **state)
+{
+    (void)state;
+    assert_says("--version", "octreel ");
+    assert_says("--version", "llvmpipe");
+}
+
+static void no_command_is_help_on_stderr(void **state)
+{
+    (void)state;
+    command_result result = run_octreel(NULL, "%s", "");
+    assert_int_equal(result.status, 2);
+    assert_string_equal(result.out, "");
+    assert_non_null(strstr(result.err, "record"));
+    command_release(&result);
+}
+
+/* getopt says what is wrong, and a second line where to read on. */
+static void unknown_and_unfinished_options_are_refused(void **state)
+{
+    static const char *const arguments[] = {"record --bogus -o", "record -x -o", "inspect --bogus -o"};
+    const place folder = place_in(*state, "film");
+    for (size_t i = 0; i < sizeof arguments / sizeof arguments[0]; i++) {
+        command_result result = run_octreel(NULL, "%s %s", arguments[i], folder.path);
+        assert_int_equal(result.status, 2);
+        assert_string_equal(result.out, "");
+        assert_true(strstr(result.err, "bogus") != NULL || strstr(result.err, "'x'") != NULL);
+        assert_non_null(strstr(result.err, "--help"));
+        if (strncmp(result.err, "octreel", 7) != 0)
+            fail_msg("who says \"%s\"?", result.err);
+        command_release(&result);
+    }
+    command_result result = run_octreel(NULL, "record -o");
+    assert_int_equal(result.status, 2);
+    assert_string_equal(result.out, "");
+    command_release(&result);
+    assert_int_equal(temp_folder_count(*state), 0);
+}
+
+static void values_that_do_not_fit_are_refused_in_one_sentence(void **state)
+{
+    static const char *const rows[][2] = {
+        {"--size 0x0", "1 to 16384"},
+        {"--size 160x0", "1 to 16384"},
+        {"--size 16385x1", "1 to 16384"},
+        {"--size 99999x99999", "1 to 16384"},
+        {"--size 99999999999999999999x1", "99999999999999999999x1"},
+        {"--size -160x90", "-160x90"},
+        {"--size 160", "160"},
+        {"--size 160x", "160x"},
+        {"--size 160x90x", "160x90x"},
+        {"--size 160X90", "160X90"},
+        {"--size=", "--size"},
+        {"--camera up", "up"},
+        {"--camera=", "camera"},
+        {"--layers nodes,walls", "walls"},
+        {"--layers nodes,,text", "layer"},
+        {"--layers=", "layer"},
+        {"--layers --", "layer"},
+        {"--every 0", "--every"},
+        {"--every -1", "-1"},
+        {"--every 1.5", "1.5"},
+        {"--every 18446744073709551616", "18446744073709551616"},
+        {"--every two", "two"},
+        {"--keys wwx", "key 3"},
+        {"--keys W", "'W'"},
+    };
+    const place folder = place_in(*state, "film");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "record -o %s %s", folder.path, rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+        assert_false(file_exists(folder.path));
+    }
+}
+
+static void command_lines_that_make_no_sense_are_refused_in_one_sentence(void **state)
+{
+    static const char *const rows[][2] = {{"bogus", "\"bogus\""},
+                                          {"rec", "\"rec\""},
+                                          {"record", "-o"},
+                                          {"record --json", "-o"},
+                                          {"record a.json", "-o"},
+                                          {"record a.json b.json -o x", "b.json"},
+                                          {"record --output=", "empty"},
+                                          {"record absent.json -o x", "absent.json"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "%s", rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+        assert_false(file_exists("x"));
+    }
+}
+
+static void bad_sessions_are_refused_with_file_line_and_reason(void **state)
+{
+    static const char *const rows[][2] = {
+        {"", "s.json:1: holds no session"},
+        {"nonsense", "s.json:1: "},
+        {HEADER "\"keys\": \"ww", "s.json:2: "},
+        {HEADER "\"keyz\": 1}", "s.json:2: unknown member \"keyz\""},
+        {HEADER "\"keys\": \"wx\"}", "s.json:2: keys: key 2"},
+        {HEADER "\"world\": {\"min\": [0, 0, 0],\n\"max\": [1, 0, 1]}}", "s.json:2: world: min must be below max"},
+        {HEADER "\"player\":\n{\"step\": -1}}", "s.json:3: player.step"},
+        {HEADER "\"player\": {\"box_size\": -0.5}}", "s.json:2: player.box_size"},
+        {HEADER "\"player\": {\"position\": [0, 2000, 0]}}", "outside the world on y"},
+        {HEADER "\"points\": [[1, 2, NaN]]}", "s.json:2: "},
+        {HEADER "\"points\": [[1, 2, 1e999]]}", "s.json:2: "},
+        {HEADER "\"points\": [\n[1, 2]]}", "s.json:3: points[0]"},
+        {HEADER "\"points\": [[1, 2, 3, 7],\n[4, 5, 6, 7]]}", "s.json:3: points[1]: id 7"},
+        {HEADER "\"points\": {\"file\": \"absent.txt\"}}", "absent.txt: "},
+        {HEADER "\"points\": {\"file\": \"bad.txt\"}}", "bad.txt:2: "},
+        {HEADER "\"points\": {\"sample\": \"fog\", \"count\": 3}}", "s.json:2: "},
+        {HEADER "\"tree\": {\"capacity\": 0}}", "s.json:2: tree.capacity"},
+        {HEADER "\"ticks\": -1}", "s.json:2: ticks"},
+        {HEADER "\"ticks\": 1}\n{\"tick\": 1, \"edits\": [{\"remove\": -1}]}", "s.json:3: "},
+        {"{\"octreel\": \"session\", \"version\": 2}", "s.json:1: version"},
+        {"[]", "s.json:1: "},
+    };
+    const place session = place_in(*state, "s.json"), folder = place_in(*state, "film");
+    file_write_text(place_in(*state, "bad.txt").path, "1 2 3\n4 five 6\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        file_write_text(session.path, rows[i][0]);
+        command_result result = run_octreel(NULL, "record %s -o %s", session.path, folder.path);
+        assert_trouble(&result, rows[i][1]);
+        assert_false(file_exists(folder.path));
+    }
+}
+
+static void what_is_no_file_is_no_session(void **state)
+{
+    const temp_folder *own = *state;
+    const place folder = place_in(own, "film");
+    command_result result = run_octreel(NULL, "record %s -o %s", own->name, folder.path);
+    assert_trouble(&result, own->name);
+    result = run_octreel(NULL, "record /dev/null -o %s", folder.path);
+    assert_trouble(&result, "/dev/null");
+    assert_int_equal(temp_folder_count(own), 0);
+}
+
+static void folder_that_holds_a_recording_is_refused_untouched(void **state)
+{
+    const place folder = place_in(*state, "film"), copy = place_in(*state, "copy");
+    const char *const folders[] = {folder.path, copy.path};
+    for (size_t i = 0; i < 2; i++) {
+        command_result result = run_octreel(NULL, "record --keys=w " SMALL " -o %s", folders[i]);
+        assert_done(&result);
+        command_release(&result);
+    }
+    command_result result = run_octreel(NULL, "record --keys=d " SMALL " -o %s", folder.path);
+    assert_non_null(strstr(result.err, folder.path));
+    assert_trouble(&result, "already holds a recording");
+    assert_same_folders(folder.path, copy.path, NULL);
+}
+
+/* A session that lies where its recording is to go is not written over. */
+static void session_in_the_folder_is_left_alone(void **state)
+{
+    const place folder = place_in(*state, "film"), session = place_in(*state, "film/session.json");
+    static const char text[] = HEADER "\"points\": {\"sample\": \"uniform\", \"count\": 5}, \"keys\": \"w\"}\n";
+    command_result made = run_octreel(NULL, "record --keys=w --size 16x16 -o %s/inside", folder.path);
+    assert_done(&made);
+    command_release(&made);
+    file_write_text(session.path, text);
+    command_result result = run_octreel(NULL, "record %s " SMALL " -o %s", session.path, folder.path);
+    char *left = file_read(session.path, NULL);
+    assert_string_equal(left, text);
+    free(left);
+    command_release(&result);
+}
+
+static void places_that_take_no_folder_are_refused_in_one_sentence(void **state)
+{
+    const place file = place_in(*state, "file");
+    file_write_text(file.path, "mine");
+    command_result result = run_octreel(NULL, "record -o %s", file.path);
+    assert_trouble(&result, file.path);
+    result = run_octreel(NULL, "record -o %s/film", file.path);
+    assert_trouble(&result, file.path);
+    result = run_octreel(NULL, "record -o /proc/octreel_test/film");
+    assert_trouble(&result, "/proc/octreel_test");
+    assert_int_equal(temp_folder_count(*state), 1);
+}
+
+static void renderer_that_is_not_llvmpipe_is_refused(void **state)
+{
+    static const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
+    const place folder = place_in(*state, "film");
+    command_result result = run_octreel(&other, "record -o %s", folder.path);
+    assert_trouble(&result, "softpipe");
+    assert_false(file_exists(folder.path));
+}
+
+static void machine_without_osmesa_is_told_what_to_install(void **state)
+{
+    const temp_folder *own = *state;
+    char path[96];
+    const place folder = place_in(own, "film");
+    snprintf(path, sizeof path, "LD_LIBRARY_PATH=%s", own->name);
+    const command_setting without = {.environment = {path}};
+    file_write_text(place_in(own, "libOSMesa.so.8").path, "");
+    file_write_text(place_in(own, "libOSMesa.so").path, "");
+    command_result result = run_octreel(&without, "record -o %s", folder.path);
+    assert_trouble(&result, "libosmesa6");
+    assert_false(file_exists(folder.path));
+    result = run_octreel(&without, "--version");
+    assert_int_equal(result.status, 2);
+    assert_non_null(strstr(result.out, "no renderer"));
+    command_release(&result);
+}
+
+static void json_summary_is_one_object_that_agrees_with_the_recording(void **state)
+{
+    const place folder = place_in(*state, "film");
+    command_result result = run_octreel(NULL, "record " SMALL " --every 50 --json -o %s", folder.path);
+    assert_done(&result);
+    assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
+    json_t *summary = json_read(result.out);
+    assert_members(summary, "folder ticks frames left_out seconds frames_per_second events");
+    assert_string_equal(json_string_value(json_member(summary, "folder")), folder.path);
+    assert_whole_number(json_member(summary, "ticks"), 253);
+    assert_whole_number(json_member(summary, "frames"), 6);
+    assert_whole_number(json_member(summary, "left_out"), 0);
+    assert_true(json_real_value(json_member(summary, "seconds")) > 0);
+    assert_members(json_member(summary, "events"), "moved refused collided full split merged");
+    json_decref(summary);
+    command_release(&result);
+}
+
+static void keys_replace_those_of_the_session(void **state)
+{
+    const place folder = place_in(*state, "film");
+    session_file played;
+    session_error error;
+    command_result result = run_octreel(NULL, "record --keys eenqww " SMALL " -o %s", folder.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_true(session_read(place_below(folder.path, "session.json").path, &played, &error));
+    assert_string_equal(played.session.keys, "eenqww");
+    session_release(&played);
+    assert_true(file_exists(place_below(folder.path, "frame_000003.png").path));
+    assert_false(file_exists(place_below(folder.path, "frame_000004.png").path)); /* q ends it */
+}
+
+static void progress_is_silent_without_a_terminal_and_shown_on_one(void **state)
+{
+    static const command_setting terminal = {.terminal = true};
+    const place quiet = place_in(*state, "quiet"), shown = place_in(*state, "shown");
+    command_result result = run_octreel(NULL, "record " SMALL " -o %s", quiet.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(&terminal, "record " SMALL " -o %s", shown.path);
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.err, "253/253 ticks"));
+    assert_non_null(strstr(result.err, "/s"));
+    assert_non_null(strstr(result.err, "s left"));
+    assert_null(strchr(result.err, '\n')); /* one line, written over and over, and cleared */
+    assert_string_equal(result.err + strlen(result.err) - 4, "\r\033[K");
+    assert_null(strchr(result.out, '\r'));
+    command_release(&result);
+    assert_same_folders(quiet.path, shown.path, NULL);
+}
+
+/* Refused bodies are events of tick 0, and no error. */
+static void points_without_room_are_refusals_of_tick_0(void **state)
+{
+    enum { COUNT = 20000 };
+    const place session = place_in(*state, "s.json"), points = place_in(*state, "p.txt"), film = place_in(*state, "f");
+    char *text = malloc(COUNT * 6 + 1);
+    assert_non_null(text);
+    for (size_t i = 0; i < COUNT; i++)
+        strcpy(text + 6 * i, "1 2 3\n");
+    file_write_text(points.path, text);
+    free(text);
+    file_write_text(session.path, HEADER "\"points\": {\"file\": \"p.txt\"}, \"ticks\": 1}\n");
+    command_result result = run_octreel(NULL, "record %s " SMALL " -o %s", session.path, film.path);
+    assert_done(&result);
+    command_release(&result);
+    char *lines = file_read(place_below(film.path, "ticks.jsonl").path, NULL);
+    *strchr(lines, '\n') = '\0';
+    json_t *first = json_read(lines);
+    assert_int_equal(json_array_size(json_member(first, "refusals")), COUNT - 8);
+    assert_whole_number(json_member(json_member(first, "tree"), "points"), 9);
+    json_decref(first);
+    free(lines);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(help_is_printed_on_stdout),
+        cmocka_unit_test(version_names_the_renderer),
+        cmocka_unit_test(no_command_is_help_on_stderr),
+        IN_FOLDER(unknown_and_unfinished_options_are_refused),
+        IN_FOLDER(values_that_do_not_fit_are_refused_in_one_sentence),
+        cmocka_unit_test(command_lines_that_make_no_sense_are_refused_in_one_sentence),
+        IN_FOLDER(bad_sessions_are_refused_with_file_line_and_reason),
+        IN_FOLDER(what_is_no_file_is_no_session),
+        IN_FOLDER(folder_that_holds_a_recording_is_refused_untouched),
+        IN_FOLDER(session_in_the_folder_is_left_alone),
+        IN_FOLDER(places_that_take_no_folder_are_refused_in_one_sentence),
+        IN_FOLDER(renderer_that_is_not_llvmpipe_is_refused),
+        IN_FOLDER(machine_without_osmesa_is_told_what_to_install),
+        IN_FOLDER(json_summary_is_one_object_that_agrees_with_the_recording),
+        IN_FOLDER(keys_replace_those_of_the_session),
+        IN_FOLDER(progress_is_silent_without_a_terminal_and_shown_on_one),
+        IN_FOLDER(points_without_room_are_refusals_of_tick_0),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

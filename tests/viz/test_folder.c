@@ -1,0 +1,232 @@
+/* test_folder.c - the folder of a recording: made with its parents, refused untouched, filled with whole files. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "files.h"
+#include "fixture.h"
+#include "folder.h"
+
+/* The user that owns nothing, for tests that run as root, whom no permission stops. */
+enum { NOBODY = 65534 };
+
+static void assert_prepared(const char *folder)
+{
+    record_error error = {""};
+    if (!folder_prepare(folder, &error))
+        fail_msg("%s", error.text);
+}
+
+/* The sentence names the folder and holds the reason. */
+static void assert_unprepared(const char *folder, const char *reason)
+{
+    record_error error = {""};
+    assert_false(folder_prepare(folder, &error));
+    if (strstr(error.text, folder) == NULL || strstr(error.text, reason) == NULL)
+        fail_msg("\"%s\" names not both %s and \"%s\"", error.text, folder, reason);
+}
+
+static void new_folders_are_made_with_their_parents(void **state)
+{
+    static const char *const names[] = {"a", "b/c/d/e", "f/", "g//h///i", "b/c/x", "./j/../k"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        struct stat status;
+        const place folder = place_in(*state, names[i]);
+        if (strcmp(names[i], "./j/../k") == 0)
+            assert_int_equal(mkdir(place_in(*state, "j").path, 0777), 0);
+        assert_prepared(folder.path);
+        assert_int_equal(stat(folder.path, &status), 0);
+        assert_true(S_ISDIR(status.st_mode));
+    }
+}
+
+static void absolute_folders_are_made(void **state)
+{
+    char current[512], absolute[1024];
+    const temp_folder *folder = *state;
+    assert_non_null(getcwd(current, sizeof current));
+    snprintf(absolute, sizeof absolute, "%s/%s/x/y", current, folder->name);
+    assert_prepared(absolute);
+    assert_true(file_exists(place_in(folder, "x/y").path));
+}
+
+static void empty_and_unrelated_folders_are_taken(void **state)
+{
+    const place folder = place_in(*state, "film");
+    assert_int_equal(mkdir(folder.path, 0777), 0);
+    assert_prepared(folder.path);
+    file_write_text(place_below(folder.path, "notes.txt").path, "mine");
+    file_write_text(place_below(folder.path, ".hidden").path, "mine");
+    assert_prepared(folder.path);
+}
+
+static void link_to_a_folder_is_a_folder(void **state)
+{
+    assert_int_equal(mkdir(place_in(*state, "film").path, 0777), 0);
+    assert_int_equal(symlink("film", place_in(*state, "link").path), 0);
+    assert_prepared(place_in(*state, "link").path);
+    assert_int_equal(symlink("nowhere", place_in(*state, "dangling").path), 0);
+    assert_unprepared(place_in(*state, "dangling").path, "cannot be made");
+}
+
+/* A file that a recording would write over may be all that is left of somebody's work. */
+static void folder_with_any_file_of_a_recording_is_refused_untouched(void **state)
+{
+    static const char *const names[] = {"frame_000000.png", "frame_000252.png", "frame_1000000.png", "ticks.jsonl",
+                                        "recording.json",   "session.json",     "renderer.json"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "film%zu", i);
+        const place folder = place_in(*state, name), file = place_below(folder.path, names[i]);
+        assert_int_equal(mkdir(folder.path, 0777), 0);
+        file_write_text(file.path, "mine");
+        assert_unprepared(folder.path, names[i]);
+        listing left = folder_list(folder.path);
+        assert_int_equal(left.count, 1);
+        listing_release(&left);
+        char *text = file_read(file.path, NULL);
+        assert_string_equal(text, "mine");
+        free(text);
+    }
+}
+
+static void file_in_the_place_of_a_folder_is_refused(void **state)
+{
+    const place file = place_in(*state, "file");
+    file_write_text(file.path, "mine");
+    assert_unprepared(file.path, "cannot be made");
+    record_error error = {""};
+    assert_false(folder_prepare(place_below(file.path, "x/y").path, &error));
+    assert_non_null(strstr(error.text, file.path));
+    char *text = file_read(file.path, NULL);
+    assert_string_equal(text, "mine");
+    free(text);
+}
+
+static void empty_name_and_a_place_for_no_files_are_refused(void **state)
+{
+    record_error error = {""};
+    (void)state;
+    assert_false(folder_prepare("", &error));
+    assert_non_null(strstr(error.text, "empty"));
+    assert_unprepared("/proc/no_such_folder", "cannot be made");
+}
+
+static void folder_without_permission_says_so(void **state)
+{
+    const temp_folder *own = *state;
+    const place sealed = place_in(own, "sealed"), film = place_in(own, "sealed/film");
+    assert_int_equal(mkdir(sealed.path, 0777), 0);
+    assert_int_equal(chmod(sealed.path, 0555), 0);
+    assert_int_equal(chmod(own->name, 0755), 0);
+    const bool root = geteuid() == 0;
+    if (root && seteuid(NOBODY) != 0)
+        skip(); /* root of a container that has no other user */
+    record_error error = {""};
+    const bool prepared = folder_prepare(film.path, &error);
+    if (root)
+        assert_int_equal(seteuid(0), 0);
+    assert_false(prepared);
+    assert_non_null(strstr(error.text, film.path));
+    if (strstr(error.text, "Permission denied") == NULL)
+        fail_msg("\"%s\" hides the reason", error.text);
+    assert_int_equal(chmod(sealed.path, 0755), 0);
+}
+
+/* However long the path: what went wrong must not be cut off. */
+static void reason_survives_a_long_path(void **state)
+{
+    char name[3 * 201 + 8] = "";
+    record_error error = {""};
+    for (size_t i = 0; i < 3; i++) {
+        memset(name + i * 201, 'd', 200);
+        name[i * 201 + 200] = '/';
+    }
+    strcpy(name + 3 * 201, "film");
+    const place folder = place_in(*state, name);
+    assert_prepared(folder.path);
+    file_write_text(place_below(folder.path, "ticks.jsonl").path, "");
+    assert_false(folder_prepare(folder.path, &error));
+    if (strstr(error.text, "already holds a recording") == NULL)
+        fail_msg("\"%s\" has no reason", error.text);
+}
+
+static void assert_written(const char *folder, const char *name, const char *text)
+{
+    record_error error = {""};
+    if (!folder_write(folder, name, text, strlen(text), &error))
+        fail_msg("%s", error.text);
+    size_t size;
+    char *back = file_read(place_below(folder, name).path, &size);
+    assert_int_equal(size, strlen(text));
+    assert_string_equal(back, text);
+    free(back);
+}
+
+static void files_are_written_whole_and_replaced_whole(void **state)
+{
+    const temp_folder *folder = *state;
+    assert_written(folder->name, "x.json", "first, and longer than what follows");
+    assert_written(folder->name, "x.json", "second");
+    assert_written(folder->name, "empty", "");
+    assert_int_equal(temp_folder_count(folder), 2);
+}
+
+/* The .part is a device that is always full: writing fails as late as when the file is closed. */
+static void file_that_cannot_be_written_leaves_nothing_and_harms_nothing(void **state)
+{
+    const temp_folder *folder = *state;
+    record_error error = {""};
+    assert_written(folder->name, "x.json", "mine");
+    assert_int_equal(symlink("/dev/full", place_in(folder, "x.json.part").path), 0);
+    assert_false(folder_write(folder->name, "x.json", "second", 6, &error));
+    assert_non_null(strstr(error.text, "x.json"));
+    assert_non_null(strstr(error.text, "No space left on device"));
+    char *text = file_read(place_in(folder, "x.json").path, NULL);
+    assert_string_equal(text, "mine");
+    free(text);
+    assert_int_equal(temp_folder_count(folder), 1);
+}
+
+static void file_without_its_folder_is_an_error(void **state)
+{
+    record_error error = {""};
+    const place nowhere = place_in(*state, "nowhere");
+    assert_false(folder_write(nowhere.path, "x.json", "a", 1, &error));
+    assert_non_null(strstr(error.text, nowhere.path));
+    assert_non_null(strstr(error.text, "No such file or directory"));
+}
+
+static void folder_in_the_place_of_a_file_is_an_error_that_leaves_no_part(void **state)
+{
+    const temp_folder *folder = *state;
+    record_error error = {""};
+    assert_int_equal(mkdir(place_in(folder, "x.json").path, 0777), 0);
+    assert_false(folder_write(folder->name, "x.json", "a", 1, &error));
+    assert_non_null(strstr(error.text, "x.json"));
+    assert_int_equal(temp_folder_count(folder), 1);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(new_folders_are_made_with_their_parents),
+        IN_FOLDER(absolute_folders_are_made),
+        IN_FOLDER(empty_and_unrelated_folders_are_taken),
+        IN_FOLDER(link_to_a_folder_is_a_folder),
+        IN_FOLDER(folder_with_any_file_of_a_recording_is_refused_untouched),
+        IN_FOLDER(file_in_the_place_of_a_folder_is_refused),
+        IN_FOLDER(empty_name_and_a_place_for_no_files_are_refused),
+        IN_FOLDER(folder_without_permission_says_so),
+        IN_FOLDER(reason_survives_a_long_path),
+        IN_FOLDER(files_are_written_whole_and_replaced_whole),
+        IN_FOLDER(file_that_cannot_be_written_leaves_nothing_and_harms_nothing),
+        IN_FOLDER(file_without_its_folder_is_an_error),
+        IN_FOLDER(folder_in_the_place_of_a_file_is_an_error_that_leaves_no_part),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,230 @@
+/* test_inspect.c - the world of a cloud at its extremes, and the tree that is built in it. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fixture.h"
+#include "inspect.h"
+#include "octree/sample.h"
+
+/* The names of clouds say what is hostile about them. */
+typedef struct hostile {
+    const char *name;
+    double positions[4][3];
+    size_t count;
+} hostile;
+
+static const hostile clouds[] = {
+    {"one point", {{1, 2, 3}}, 1},
+    {"one point at zero", {{0, 0, 0}}, 1},
+    {"minus zeros", {{-0.0, -0.0, -0.0}, {0, 0, 0}}, 2},
+    {"equal points", {{7, 7, 7}, {7, 7, 7}, {7, 7, 7}}, 3},
+    {"a line along x", {{0, 5, 5}, {10, 5, 5}}, 2},
+    {"a line along z", {{1e-3, 5, -5}, {1e-3, 5, 5}}, 2},
+    {"a plane", {{0, 0, 1}, {10, 3, 1}, {4, 9, 1}}, 3},
+    {"one point far off", {{1e15, -1e15, 1e15}}, 1},
+    {"a tiny extent far off", {{1e15, 1e15, 1e15}, {1e15 + 0.125, 1e15, 1e15}}, 2},
+    {"a tiny extent far off on one axis", {{1e15, 0, 0}, {1e15, 1e-9, 0}}, 2},
+    {"below a power of two", {{0x1p53, 0, 0}, {0x1.fffffffffffffp52, 0, 0}}, 2},
+    {"all of the doubles", {{-DBL_MAX, -DBL_MAX, -DBL_MAX}, {DBL_MAX, DBL_MAX, DBL_MAX}}, 2},
+    {"1e308 either way on x", {{-1e308, 0, 0}, {1e308, 0, 0}}, 2},
+    {"1e308 either way, shifted", {{-1e308, 5e307, 0}, {1e308, 5e307, 1}}, 2},
+    {"the largest double", {{DBL_MAX, DBL_MAX, DBL_MAX}}, 1},
+    {"the largest double on one axis", {{DBL_MAX, 0, 0}}, 1},
+    {"the lowest double", {{-DBL_MAX, 1, 1}}, 1},
+    {"half of the doubles", {{0, 0, 0}, {DBL_MAX, 1, 1}}, 2},
+    {"a subnormal", {{5e-324, 5e-324, 5e-324}}, 1},
+    {"subnormals", {{5e-324, 0, 0}, {0, 0, 0}}, 2},
+    {"subnormals either way", {{5e-324, 0, 0}, {-5e-324, 0, 0}}, 2},
+    {"the smallest normal", {{DBL_MIN, 0, -DBL_MIN}, {0, 0, 0}}, 2},
+    {"large beside small", {{1e300, 1e-300, 0}, {-1e300, -1e-300, 5e-324}}, 2},
+    {"tenths", {{0.1, 0.2, 0.3}, {0.7, 0.9, 1.1}, {-0.3, 1e-17, 0.1}}, 3},
+};
+
+enum { CLOUDS = sizeof clouds / sizeof clouds[0] };
+
+static cloud cloud_of(const hostile *h, double (*positions)[3])
+{
+    memcpy(positions, h->positions, sizeof h->positions);
+    return (cloud){.positions = positions, .count = h->count};
+}
+
+static octree_box world_of(const hostile *h)
+{
+    double positions[4][3];
+    const cloud c = cloud_of(h, positions);
+    return inspect_world(&c);
+}
+
+static void world_holds_every_point_and_a_tree_takes_it(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CLOUDS; i++) {
+        double positions[4][3];
+        const cloud c = cloud_of(&clouds[i], positions);
+        const octree_def def = define(inspect_world(&c), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
+        inspection made;
+        record_error error = {""};
+        if (!inspect_build(&c, &def, &made, &error))
+            fail_msg("%s: %s", clouds[i].name, error.text);
+        if (made.outside + made.refused != 0)
+            fail_msg("%s: points are left out", clouds[i].name);
+        assert_int_equal(octree_count(made.tree), c.count);
+        assert_valid(made.tree);
+        inspect_release(&made);
+    }
+}
+
+/* Half of a side, which does not overflow. */
+static double half_side(const octree_box *box, int axis)
+{
+    return box->max[axis] / 2 - box->min[axis] / 2;
+}
+
+/* A face at the end of the doubles cannot be farther out. */
+static bool is_cut_off(const octree_box *box, int axis)
+{
+    return box->min[axis] == -DBL_MAX || box->max[axis] == DBL_MAX;
+}
+
+/* Rounding moves a face by at most an ulp of it, here doubled. */
+static double rounding_of(const octree_box *box, int axis)
+{
+    const double face = fmax(fabs(box->min[axis]), fabs(box->max[axis]));
+    return face == DBL_MAX ? 0x1p971 : next_up(face) - face;
+}
+
+static void world_is_a_cube_but_for_rounding(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CLOUDS; i++) {
+        const octree_box box = world_of(&clouds[i]);
+        for (int a = 0; a < 3; a++) {
+            const int b = (a + 1) % 3;
+            const double slack = 2 * (rounding_of(&box, a) + rounding_of(&box, b));
+            if (is_cut_off(&box, a) || is_cut_off(&box, b))
+                continue;
+            if (fabs(half_side(&box, a) - half_side(&box, b)) > slack)
+                fail_msg("%s: sides %c and %c differ", clouds[i].name, "xyz"[a], "xyz"[b]);
+        }
+    }
+}
+
+/* Half of the side that the issue names: the largest extent, at least 4 ulp of the largest coordinate, and 1 where all
+ * points are equal. */
+static double half_of_smallest(const hostile *h)
+{
+    double half = 0, largest = 0;
+    for (size_t i = 0; i < h->count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            largest = fmax(largest, fabs(h->positions[i][axis]));
+            for (size_t j = 0; j < h->count; j++)
+                half = fmax(half, h->positions[i][axis] / 2 - h->positions[j][axis] / 2);
+        }
+    }
+    const bool equal = memcmp(h->positions[0], h->positions[h->count - 1], sizeof h->positions[0]) == 0;
+    const double ulp = largest == DBL_MAX ? 0x1p971 : next_up(largest) - largest;
+    return fmax(half == 0 && (equal || largest == 0) ? 0.5 : half, 2 * ulp);
+}
+
+static void world_is_no_larger_than_it_must_be(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CLOUDS; i++) {
+        const octree_box box = world_of(&clouds[i]);
+        const double smallest = half_of_smallest(&clouds[i]);
+        for (int axis = 0; axis < 3; axis++)
+            if (half_side(&box, axis) > smallest + 2 * rounding_of(&box, axis))
+                fail_msg("%s: half of side %c is %g and not %g", clouds[i].name, "xyz"[axis], half_side(&box, axis),
+                         smallest);
+    }
+}
+
+static void world_is_about_the_middle_of_the_points(void **state)
+{
+    static const hostile ordinary = {"ordinary", {{0, 10, -4}, {8, 12, -4}}, 2};
+    const octree_box box = world_of(&ordinary), expected = {{0, 7, -8}, {8, 15, 0}};
+    (void)state;
+    assert_memory_equal(&box, &expected, sizeof box);
+}
+
+/* Random clouds whose extents and offsets lie anywhere among the exponents. */
+static void worlds_of_random_extents_hold_their_points(void **state)
+{
+    uint64_t random = 3;
+    (void)state;
+    for (int round = 0; round < 3000; round++) {
+        double positions[4][3];
+        const cloud c = {.positions = positions, .count = 1 + random_below(&random, 4)};
+        for (int axis = 0; axis < 3; axis++) {
+            const double offset = ldexp(random_between(&random, -1, 1), (int)random_below(&random, 2090) - 1066);
+            const double extent = ldexp(1, (int)random_below(&random, 2090) - 1066);
+            for (size_t i = 0; i < c.count; i++) {
+                const double x = offset + extent * random_between(&random, -1, 1);
+                positions[i][axis] = isfinite(x) ? x : offset;
+            }
+        }
+        const octree_box box = inspect_world(&c);
+        for (size_t i = 0; i < c.count; i++)
+            assert_true(box_holds(&box, positions[i]));
+        octree_destroy(make_tree(box, 1, OCTREE_MAX_DEPTH, OCTREE_GROW));
+    }
+}
+
+static void points_are_stored_refused_or_outside(void **state)
+{
+    enum { COUNT = 3000 };
+    static double positions[COUNT][3];
+    const octree_box all = cube(-10, 10), world = cube(-5, 5);
+    const cloud c = {.positions = positions, .count = COUNT, .skipped = 4};
+    octree_def def = define(world, 2, 3, OCTREE_REFUSE);
+    inspection made;
+    record_error error = {""};
+    size_t outside = 0;
+    (void)state;
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &all, COUNT, positions), OCTREE_OK);
+    for (size_t i = 0; i < COUNT; i++)
+        outside += !box_holds(&world, positions[i]);
+    assert_true(inspect_build(&c, &def, &made, &error));
+    assert_int_equal(made.points, COUNT);
+    assert_int_equal(made.skipped, 4);
+    assert_int_equal(made.outside, outside);
+    assert_int_equal(made.refused + made.outside + octree_count(made.tree), COUNT);
+    for (size_t i = 0; i < COUNT; i++)
+        if (!box_holds(&world, positions[i]))
+            assert_false(octree_contains(made.tree, positions[i], i));
+    inspect_release(&made);
+    assert_null(made.tree);
+}
+
+static void definition_that_a_tree_refuses_is_an_error(void **state)
+{
+    double positions[1][3] = {{0, 0, 0}};
+    const cloud c = {.positions = positions, .count = 1};
+    const octree_def defs[] = {define(cube(1, 1), 2, 3, OCTREE_GROW), define(cube(-1, 1), 0, 3, OCTREE_GROW),
+                               define(cube(-INFINITY, 1), 2, 3, OCTREE_GROW)};
+    (void)state;
+    for (size_t i = 0; i < sizeof defs / sizeof defs[0]; i++) {
+        inspection made;
+        record_error error = {""};
+        assert_false(inspect_build(&c, &defs[i], &made, &error));
+        assert_non_null(strstr(error.text, "the tree cannot be made"));
+        assert_null(made.tree);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(world_holds_every_point_and_a_tree_takes_it),
+        cmocka_unit_test(world_is_a_cube_but_for_rounding),
+        cmocka_unit_test(world_is_no_larger_than_it_must_be),
+        cmocka_unit_test(world_is_about_the_middle_of_the_points),
+        cmocka_unit_test(worlds_of_random_extents_hold_their_points),
+        cmocka_unit_test(points_are_stored_refused_or_outside),
+        cmocka_unit_test(definition_that_a_tree_refuses_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,176 @@
+/* test_same_bytes.c - a recording is the same bytes, renderer.json aside: filmed twice, played again from its own
+ * session.json, by the library or the program, on however many threads and on whatever processor. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "random_session.h"
+#include "recordings.h"
+#include "session_file.h"
+
+static const char VIEW[] = "--size 160x90 --every 40 --camera orbit";
+
+static void assert_filmed_by_program(const command_setting *setting, const char *session, const char *view,
+                                     const char *folder)
+{
+    command_result result = run_octreel(setting, "record %s %s -o %s", session, view, folder);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void two_films_are_the_same_bytes(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    const octree_session session = octree_session_default();
+    const film_options first = small_film(a.path), second = small_film(b.path);
+    assert_filmed(&session, &first);
+    assert_filmed(&session, &second);
+    assert_same_folders(a.path, b.path, NULL);
+}
+
+static void program_and_library_film_the_same_bytes(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    const octree_session session = octree_session_default();
+    film_options options = small_film(a.path);
+    options.every = 40;
+    options.view.camera = CAMERA_ORBIT;
+    assert_filmed(&session, &options);
+    assert_filmed_by_program(NULL, "", VIEW, b.path);
+    assert_same_folders(a.path, b.path, NULL);
+}
+
+static void neither_threads_nor_processor_nor_surroundings_change_a_byte(void **state)
+{
+    static const command_setting settings[] = {
+        {.environment = {"LP_NUM_THREADS=0"}},
+        {.environment = {"LP_NUM_THREADS=2"}},
+        {.environment = {"LP_NATIVE_VECTOR_WIDTH=128"}},
+        {.environment = {"LP_NATIVE_VECTOR_WIDTH=256"}},
+        {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=sse4.1"}},
+        {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=nosse"}},
+        {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=0", "LP_NATIVE_VECTOR_WIDTH=128"}},
+        {.environment = {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TZ=Pacific/Kiritimati"}},
+    };
+    const place plain = place_in(*state, "plain");
+    assert_filmed_by_program(NULL, "", VIEW, plain.path);
+    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "film%zu", i);
+        const place other = place_in(*state, name);
+        assert_filmed_by_program(&settings[i], "", VIEW, other.path);
+        assert_same_folders(plain.path, other.path, "renderer.json");
+    }
+}
+
+/* Otherwise the test above would compare a renderer with itself. */
+static void the_vector_width_does_reach_the_renderer(void **state)
+{
+    static const command_setting narrow = {.environment = {"LP_NATIVE_VECTOR_WIDTH=128"}};
+    const place folder = place_in(*state, "film");
+    assert_filmed_by_program(&narrow, "", "--keys w --size 16x16", folder.path);
+    char *text = file_read(place_below(folder.path, "renderer.json").path, NULL);
+    assert_non_null(strstr(text, "128 bits"));
+    free(text);
+}
+
+static void every_camera_is_the_same_on_a_poor_processor(void **state)
+{
+    static const char *const cameras[] = {"iso", "top", "front", "side", "follow", "orbit"};
+    static const command_setting poor = {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=0"}};
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
+        char name[32], view[64];
+        snprintf(name, sizeof name, "%s-poor", cameras[i]);
+        snprintf(view, sizeof view, "--size 160x90 --every 80 --camera %s", cameras[i]);
+        const place a = place_in(*state, cameras[i]), b = place_in(*state, name);
+        assert_filmed_by_program(NULL, "", view, a.path);
+        assert_filmed_by_program(&poor, "", view, b.path);
+        assert_same_folders(a.path, b.path, "renderer.json");
+    }
+}
+
+/* Film a session, and the session.json of that film; both must be the same. */
+static void assert_plays_again(void **state, const octree_session *session)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    film_options options = small_film(a.path);
+    options.every = 20;
+    assert_filmed(session, &options);
+    session_file again;
+    session_error error;
+    if (!session_read(place_below(a.path, "session.json").path, &again, &error))
+        fail_msg("%s", error.text);
+    options.folder = b.path;
+    assert_filmed(&again.session, &options);
+    session_release(&again);
+    assert_same_folders(a.path, b.path, NULL);
+}
+
+static void default_session_plays_again_from_its_recording(void **state)
+{
+    const octree_session session = octree_session_default();
+    assert_plays_again(state, &session);
+}
+
+static void session_with_edits_motion_and_queries_plays_again_from_its_recording(void **state)
+{
+    static random_session made;
+    random_session_full(&made, 11);
+    assert_true(made.session.edit_count > 0);
+    assert_plays_again(state, &made.session);
+}
+
+static void session_with_awkward_numbers_plays_again_from_its_recording(void **state)
+{
+    static const octree_body bodies[] = {
+        {1, {1e15 + 0.125, -0.0, 5e-324}, {0.1, -1.0 / 3, 1e-17}},
+        {2, {1e15 + 0.875, 0.1, 2.2250738585072014e-308}, {0, -0.0, 0}},
+        {9007199254740991, {1e15 + 0.5, 1 - 0x1p-53, 1e-300}, {-0.125, 0.7, 0.01}},
+    };
+    octree_session session = octree_session_default();
+    session.tree.world = (octree_box){{1e15, -1, -1}, {1e15 + 1, 1, 1}};
+    session.player = (octree_player){7, {1e15 + 0.25, 0.3, -0.0}, 0.1, 1.0 / 3};
+    session.bodies = bodies;
+    session.body_count = sizeof bodies / sizeof bodies[0];
+    session.query_count = 0;
+    session.keys = "nwasdefn.wwwwwwwwwwdddddddd";
+    assert_plays_again(state, &session);
+}
+
+/* The points come from a file beside the session, and the recording has them inline. */
+static void recording_of_a_file_of_points_plays_anywhere(void **state)
+{
+    const place session = place_in(*state, "s.json"), points = place_in(*state, "points.txt");
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    file_write_text(points.path, "1.5 2 3\n-4 5.25 6\n0.1 0.2 0.3\n");
+    file_write_text(session.path,
+                    "{\"octreel\": \"session\", \"version\": 1, \"world\": {\"min\": [-10, -10, -10], \"max\": [10, "
+                    "10, 10]}, \"points\": {\"file\": \"points.txt\"}, \"velocities\": {\"speed\": 0.5, \"seed\": 3}, "
+                    "\"keys\": \"nwd\", \"ticks\": 6}\n");
+    assert_filmed_by_program(NULL, session.path, VIEW, a.path);
+    remove(points.path);
+    remove(session.path);
+    assert_filmed_by_program(NULL, place_below(a.path, "session.json").path, VIEW, b.path);
+    assert_same_folders(a.path, b.path, NULL);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(two_films_are_the_same_bytes),
+        IN_FOLDER(program_and_library_film_the_same_bytes),
+        IN_FOLDER(neither_threads_nor_processor_nor_surroundings_change_a_byte),
+        IN_FOLDER(the_vector_width_does_reach_the_renderer),
+        IN_FOLDER(every_camera_is_the_same_on_a_poor_processor),
+        IN_FOLDER(default_session_plays_again_from_its_recording),
+        IN_FOLDER(session_with_edits_motion_and_queries_plays_again_from_its_recording),
+        IN_FOLDER(session_with_awkward_numbers_plays_again_from_its_recording),
+        IN_FOLDER(recording_of_a_file_of_points_plays_anywhere),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

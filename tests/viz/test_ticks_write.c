@@ -1,0 +1,187 @@
+/* test_ticks_write.c - a tick as one line of JSON: all that it was, and back to the bit. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fixture.h"
+#include "game_fixture.h"
+#include "octree/sample.h"
+#include "random_session.h"
+#include "tick_lines.h"
+#include "ticks_write.h"
+
+/* The line of a tick; the caller frees it. */
+static char *line_of(const octree_tick *tick, const tick_extras *extras)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    tick_write(out, tick, extras);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+/* What the film says of a tree; the node counts of the line are checked against a walk. */
+static tick_extras extras_of(const octree *tree)
+{
+    tick_extras extras = {.tree_digest = octree_digest(tree)};
+    assert_int_equal(octree_statistics(tree, &extras.stats), OCTREE_OK);
+    return extras;
+}
+
+static void assert_told(const octree_tick *tick, const octree *tree)
+{
+    const tick_extras extras = extras_of(tree);
+    char *text = line_of(tick, &extras);
+    json_t *line = json_read(text);
+    assert_line_tells(line, tick, tree);
+    json_decref(line);
+    free(text);
+}
+
+static void every_tick_of_random_sessions_is_told(void **state)
+{
+    static random_session made;
+    unsigned events = 0;
+    (void)state;
+    for (uint64_t seed = 0; seed < 12; seed++) {
+        random_session_full(&made, seed);
+        octree_game *game = start_game(&made.session);
+        assert_told(octree_game_tick(game), octree_game_tree(game));
+        while (!octree_game_over(game)) {
+            assert_int_equal(octree_game_advance(game), OCTREE_OK);
+            assert_told(octree_game_tick(game), octree_game_tree(game));
+            events |= octree_game_tick(game)->events;
+        }
+        octree_game_destroy(game);
+    }
+    assert_int_equal(events, (1 << OCTREE_EVENT_KINDS) - 1);
+}
+
+static void line_is_exactly_this(void **state)
+{
+    static const char expected[] =
+        "{\"tick\": 3, \"key\": \"w\", \"player\": [0.1, -0, 1e+300], \"events\": [\"moved\", \"split\"], "
+        "\"attempt\": [0.1, 50, 1e+300], \"hits\": [4, 9007199254740991], \"answers\": [{\"nearest\": {\"target\": "
+        "[1, 2, 3], \"id\": null}}, {\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4]}}], "
+        "\"refusals\": [{\"id\": 7, \"why\": \"outside\", \"position\": [4.94065641845247e-324, 0, 0]}], \"splits\": "
+        "[\"root\", "
+        "\"0/7\"], \"merges\": [], \"tree\": {\"points\": 2, \"nodes\": 5, \"leaves\": 4, \"depth\": 1, \"digest\": "
+        "\"00000000000000ff\"}, \"frame\": \"frame_000003.png\", \"scene\": \"ffffffffffffffff\"}\n";
+    const octree_point hits[] = {{.id = 4}, {.id = 9007199254740991}};
+    const octree_answer answers[] = {{.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}},
+                                     {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1}};
+    const octree_refusal refused = {7, OCTREE_OUTSIDE, {5e-324, 0, 0}};
+    const octree_address splits[] = {OCTREE_ROOT, 0107};
+    const octree_tick tick = {.number = 3,
+                              .key = 'w',
+                              .events = OCTREE_EVENT_MOVED | OCTREE_EVENT_SPLIT,
+                              .player = {0.1, -0.0, 1e300},
+                              .attempt = {0.1, 50, 1e300},
+                              .hits = hits,
+                              .hit_count = 2,
+                              .refusals = &refused,
+                              .refusal_count = 1,
+                              .splits = splits,
+                              .split_count = 2,
+                              .answers = answers,
+                              .answer_count = 2};
+    const tick_extras extras = {.tree_digest = 255,
+                                .stats = {.points = 2, .nodes = 5, .leaves = 4, .depth = 1},
+                                .frame = "frame_000003.png",
+                                .scene_digest = UINT64_MAX};
+    (void)state;
+    char *text = line_of(&tick, &extras);
+    assert_string_equal(text, expected);
+    free(text);
+}
+
+static void tick_without_a_frame_has_neither_frame_nor_scene(void **state)
+{
+    const octree_tick tick = {.number = UINT64_C(1) << 52};
+    const tick_extras extras = {.scene_digest = 1};
+    (void)state;
+    char *text = line_of(&tick, &extras);
+    json_t *line = json_read(text);
+    assert_null(json_object_get(line, "frame"));
+    assert_null(json_object_get(line, "scene"));
+    assert_true(json_is_null(json_member(line, "key")));
+    assert_whole_number(json_member(line, "tick"), tick.number);
+    json_decref(line);
+    free(text);
+}
+
+static void every_set_of_events_is_told(void **state)
+{
+    octree *tree = make_tree(cube(-1, 1), 2, 5, OCTREE_REFUSE);
+    (void)state;
+    for (unsigned events = 0; events < 1u << OCTREE_EVENT_KINDS; events++) {
+        const octree_tick tick = {.number = events, .key = '.', .events = events};
+        assert_told(&tick, tree);
+    }
+    octree_destroy(tree);
+}
+
+static void every_double_is_told_to_the_bit(void **state)
+{
+    static const double values[] = {0.0,      -0.0,   5e-324,  -5e-324,      DBL_MIN, DBL_MAX,
+                                    -DBL_MAX, 0.1,    1.0 / 3, 1e15,         1e16,    1e17,
+                                    0x1p53,   1e22,   1e23,    1e-5,         1e-4,    123456.789,
+                                    1e300,    1e-300, 0.7,     0x1.fffffp30, -2.5e-8, 9007199254740993.0};
+    octree *tree = make_tree(cube(-1, 1), 2, 5, OCTREE_REFUSE);
+    uint64_t random = 9;
+    (void)state;
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
+        const octree_tick tick = {.key = 'n', .player = {values[i], -values[i], values[i] / 3}};
+        assert_told(&tick, tree);
+    }
+    for (int i = 0; i < 2000; i++) {
+        octree_tick tick = {.key = 'n'};
+        for (int axis = 0; axis < 3; axis++) {
+            const uint64_t bits = octree_random(&random);
+            memcpy(&tick.player[axis], &bits, sizeof bits);
+            if (!isfinite(tick.player[axis]))
+                tick.player[axis] = 0;
+        }
+        assert_told(&tick, tree);
+    }
+    octree_destroy(tree);
+}
+
+static void digest_is_sixteen_hexadecimal_digits(void **state)
+{
+    char text[DIGEST_TEXT];
+    (void)state;
+    assert_string_equal(digest_print(0, text), "0000000000000000");
+    assert_string_equal(digest_print(UINT64_MAX, text), "ffffffffffffffff");
+    assert_string_equal(digest_print(UINT64_C(0x0123456789abcdef), text), "0123456789abcdef");
+}
+
+static void failure_stays_with_the_stream(void **state)
+{
+    const octree_tick tick = {.number = 1};
+    const tick_extras extras = {.frame = NULL};
+    FILE *out = fopen("/dev/full", "wb");
+    (void)state;
+    assert_non_null(out);
+    tick_write(out, &tick, &extras);
+    assert_true(fflush(out) != 0 || ferror(out));
+    fclose(out);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_tick_of_random_sessions_is_told),
+        cmocka_unit_test(line_is_exactly_this),
+        cmocka_unit_test(tick_without_a_frame_has_neither_frame_nor_scene),
+        cmocka_unit_test(every_set_of_events_is_told),
+        cmocka_unit_test(every_double_is_told_to_the_bit),
+        cmocka_unit_test(digest_is_sixteen_hexadecimal_digits),
+        cmocka_unit_test(failure_stays_with_the_stream),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
