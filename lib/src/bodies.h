@@ -11,15 +11,15 @@ typedef struct moving_body {
     double position[3]; /* as stored in the tree */
     double origin[3];
     double velocity[3];
-    uint64_t since;     /* the tick of the origin */
+    uint64_t since; /* the tick of the origin */
 } moving_body;
 
 typedef struct bodies {
     arena *memory;
-    list items;     /* moving_body */
-    uint32_t *slots; /* index + 1 by hash of id, or 0; open addressing with linear probing */
+    list items;        /* moving_body */
+    uint32_t *slots;   /* index + 1 by hash of id, or 0; open addressing with linear probing */
     size_t slot_count; /* a power of two, or 0 */
-    size_t movers;  /* bodies whose velocity is not zero */
+    size_t movers;     /* bodies whose velocity is not zero */
 } bodies;
 
 void bodies_release(bodies *b);

@@ -25,8 +25,8 @@ void exact_add_product(exact_sum *sum, int factor, double a, double b);
 /* -1, 0 or 1. Leaves the sum with its carries done. */
 int exact_sign(exact_sum *sum);
 
-/* The largest double at most a + b, and the smallest at least: of the real sum, not the rounded one. Beyond the range of
- * doubles these are +-DBL_MAX, or an infinity where no finite double is a bound. */
+/* The largest double at most a + b, and the smallest at least: of the real sum, not the rounded one. Beyond the range
+ * of doubles these are +-DBL_MAX, or an infinity where no finite double is a bound. */
 double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 

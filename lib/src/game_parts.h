@@ -9,17 +9,17 @@ struct octree_game {
     octree *tree;
     arena memory;
     bodies bodies;
-    int64_t steps[3];  /* the player's net steps on each axis: its place is computed from them */
-    size_t next_edit;  /* the first edit that is still to come */
+    int64_t steps[3]; /* the player's net steps on each axis: its place is computed from them */
+    size_t next_edit; /* the first edit that is still to come */
     size_t next_query;
     bool quit;
     uint64_t set_version; /* the tree's version that `inner` was filled from */
     bool has_set;
     octree_tick tick;
-    list hits;     /* octree_point */
-    list found;    /* octree_point: the range results of all answers, one after the other */
-    list refusals; /* octree_refusal */
-    list answers;  /* octree_answer */
+    list hits;                                /* octree_point */
+    list found;                               /* octree_point: the range results of all answers, one after the other */
+    list refusals;                            /* octree_refusal */
+    list answers;                             /* octree_answer */
     list inner, inner_before, splits, merges; /* octree_address */
 };
 

@@ -30,7 +30,7 @@ static octree_status add_child(octree *tree, node *parent, unsigned octant, cons
 static bool parting_depth(const octree *tree, const node *leaf, uint64_t code, unsigned *depth)
 {
     if (!may_split(tree, path_cell(code, *depth)))
-        return false; /* before its points are read: a crowd has many */
+        return false;    /* before its points are read: a crowd has many */
     uint64_t unlike = 0; /* the bits in which any point's code differs from the new one's */
     for (uint32_t i = 0; i < leaf->count; i++)
         unlike |= morton_code(tree->axes, leaf_points(leaf)[i].position) ^ code;
@@ -112,8 +112,8 @@ static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from,
             return false;
         }
         *only = *bottom;
-        *bottom = (node){
-            .below = only, .count = only->count, .octants = (uint8_t)(1u << morton_octant(code, from - 1))};
+        *bottom =
+            (node){.below = only, .count = only->count, .octants = (uint8_t)(1u << morton_octant(code, from - 1))};
     }
     return true;
 }

@@ -128,3 +128,19 @@ void leaf_replace(node *leaf, uint32_t index, const octree_point *point)
     else
         leaf_points(leaf)[index] = *point;
 }
+
+void leaf_gather(octree *tree, node *leaf, const node *from, const octree_point *left_out)
+{
+    const node *pending[STACK_ROOM];
+    size_t size = 0;
+    pending[size++] = from;
+    while (size > 0) {
+        const node *next = pending[--size];
+        const unsigned children = bits_count8(next->octants);
+        for (unsigned i = 0; i < children; i++)
+            pending[size++] = &children_of(next)[i];
+        for (uint32_t i = 0; children == 0 && i < next->count; i++)
+            if (&leaf_points(next)[i] != left_out)
+                leaf_append(tree, leaf, &leaf_points(next)[i]); /* there is room */
+    }
+}

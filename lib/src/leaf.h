@@ -31,6 +31,9 @@ void leaf_take(octree *tree, node *leaf, uint32_t index);
 /* Overwrite the point at an index with a pair that is not there yet. Cannot fail. */
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 
+/* Append all points in and below `from` to a leaf with room for them, but for the one to be left out (or null). */
+void leaf_gather(octree *tree, node *leaf, const node *from, const octree_point *left_out);
+
 void leaf_release(octree *tree, node *leaf);
 
 #endif

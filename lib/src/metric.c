@@ -59,7 +59,8 @@ int metric_compare_radius(const double target[3], const double p[3], double radi
 double metric_distance(const double a[3], const double b[3])
 {
     /* Halves where a difference could overflow; they are exact there. */
-    const double unit = fabs(a[0]) + fabs(a[1]) + fabs(a[2]) + fabs(b[0]) + fabs(b[1]) + fabs(b[2]) > 0x1p1000 ? 0.5 : 1;
+    const double unit =
+        fabs(a[0]) + fabs(a[1]) + fabs(a[2]) + fabs(b[0]) + fabs(b[1]) + fabs(b[2]) > 0x1p1000 ? 0.5 : 1;
     double gap[3], largest = 0;
     for (int i = 0; i < 3; i++) {
         gap[i] = fabs(a[i] * unit - b[i] * unit);

@@ -23,7 +23,7 @@ typedef struct search {
     const octree *tree;
     octree_search how;
     metric metric;
-    double stretch; /* (1 + epsilon)^2, rounded down: a node is left out when its square times this is farther */
+    double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is left out when it is farther than this part of the worst */
     bool bounded;   /* by a radius */
     double radius, radius_square;
     octree_neighbor *best;
@@ -52,7 +52,7 @@ static int compare(const search *s, const octree_neighbor *a, const octree_neigh
         return -1;
     if (surely_less(s->how.mode, b->distance, a->distance))
         return 1;
-    const int order = s->how.mode == OCTREE_FAST
+    const int order = is_trusted(s->how.mode, a->distance)
                           ? 0
                           : metric_compare(s->metric.target, a->point.position, b->point.position);
     return order ? order : octree_compare_points(&a->point, &b->point);
@@ -93,7 +93,7 @@ static bool is_within_radius(const search *s, const octree_neighbor *n)
 {
     if (!s->bounded || surely_less(s->how.mode, n->distance, s->radius_square))
         return true;
-    if (s->how.mode == OCTREE_FAST)
+    if (is_trusted(s->how.mode, n->distance))
         return n->distance <= s->radius_square;
     return !metric_surely_less(s->radius_square, n->distance) &&
            metric_compare_radius(s->metric.target, n->point.position, s->radius) <= 0;
@@ -141,7 +141,9 @@ static void half_squares(const search *s, cell c, double squares[3][2])
 
 static bool is_too_far(const search *s, double square)
 {
-    return surely_less(s->how.mode, limit(s), square * s->stretch);
+    if (s->count == s->k)
+        return surely_less(s->how.mode, s->best[0].distance * s->shrink, square);
+    return s->bounded && surely_less(s->how.mode, s->radius_square, square);
 }
 
 /* Push the children that may hold something better, the nearest last so that it is popped first. */
@@ -204,7 +206,7 @@ static size_t find_nearest(const octree *tree, const double target[3], size_t k,
     s.tree = tree;
     s.how = *how;
     s.metric = metric_make(tree->scale, target);
-    s.stretch = how->epsilon > 0 ? (1 + how->epsilon) * (1 + how->epsilon) * (1 - 0x1p-50) : 1;
+    s.shrink = how->epsilon > 0 ? (1 + 0x1p-50) / ((1 + how->epsilon) * (1 + how->epsilon)) : 1;
     s.bounded = radius >= 0;
     s.radius = radius;
     s.radius_square = radius * tree->scale * (radius * tree->scale);
@@ -230,16 +232,16 @@ octree_status octree_nearest_k(const octree *tree, const double target[3], size_
                                octree_neighbor *neighbors, size_t *count)
 {
     const octree_search search = search_or_default(how);
-    const octree_status status = count && (neighbors || k == 0) ? check_arguments(tree, target, &search)
-                                                                : OCTREE_NULL_ARGUMENT;
+    const octree_status status =
+        count && (neighbors || k == 0) ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
     *count = k > 0 ? find_nearest(tree, target, k, -1, &search, neighbors) : 0;
     return OCTREE_OK;
 }
 
-octree_status octree_nearest_within(const octree *tree, const double target[3], double radius,
-                                    const octree_search *how, octree_neighbor *nearest)
+octree_status octree_nearest_within(const octree *tree, const double target[3], double radius, const octree_search *how,
+                                    octree_neighbor *nearest)
 {
     const octree_search search = search_or_default(how);
     octree_status status = nearest ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;

@@ -28,8 +28,9 @@ axis axis_make(double min, double max);
 double plane_precise(const axis *a, double t);
 
 /* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with t = k / 2^20 - 1, which is exact. The terms are
- * summed to some 80 bits before the one rounding that shows. So a plane is the paper's (min + max) / 2 of (min + max) / 2
- * wherever those are doubles; planes are monotone, since neighbours are 2^-21 of the extent apart; nothing overflows. */
+ * summed to some 80 bits before the one rounding that shows. So a plane is the paper's (min + max) / 2 of (min + max) /
+ * 2 wherever those are doubles; planes are monotone, since neighbours are 2^-21 of the extent apart; nothing overflows.
+ */
 static inline double plane_at(const axis *a, uint32_t k)
 {
     const double t = (double)k * 0x1p-20 - 1;

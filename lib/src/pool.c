@@ -165,7 +165,8 @@ static bool add_slab(pool *p)
     push(p, p->fresh, (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, or they would have served */
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
-    *slab = (struct slab){.next = p->slabs, .size = size, .units = units, .first = (unsigned char *)slab + header + skip};
+    *slab =
+        (struct slab){.next = p->slabs, .size = size, .units = units, .first = (unsigned char *)slab + header + skip};
     p->slabs = slab;
     p->fresh = slab->first;
     p->fresh_units = units;

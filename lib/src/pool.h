@@ -23,14 +23,14 @@ void arena_give(arena *a, void *memory, size_t size);
 
 typedef struct pool {
     arena *memory;
-    size_t unit;          /* bytes, at least a pointer's */
+    size_t unit; /* bytes, at least a pointer's */
     struct slab *slabs;
     unsigned char *fresh; /* untouched units of the newest slab */
     size_t fresh_units;
     size_t total_units;
-    size_t free_units;    /* in the free lists */
-    size_t given_units;   /* given back since free blocks were last joined */
-    uint64_t available;   /* bit u - 1 is set when free_blocks[u - 1] is not empty */
+    size_t free_units;  /* in the free lists */
+    size_t given_units; /* given back since free blocks were last joined */
+    uint64_t available; /* bit u - 1 is set when free_blocks[u - 1] is not empty */
     struct free_block *free_blocks[POOL_MAX_UNITS];
 } pool;
 

@@ -8,9 +8,9 @@ typedef struct ball {
     const octree *tree;
     octree_search how;
     metric metric;
-    double radius;        /* as given */
-    double square;        /* of the radius, scaled */
-    double whole_square;  /* of radius + epsilon, scaled */
+    double radius;       /* as given */
+    double square;       /* of the radius, scaled */
+    double whole_square; /* of radius + epsilon, scaled */
     octree_cost *cost;
     octree_point_visitor visit;
     void *context;
@@ -23,7 +23,8 @@ static void cell_squares(const ball *b, cell c, double *nearest, double *farthes
     const octree_box box = cell_bounds(b->tree->axes, c);
     for (int i = 0; i < 3; i++) {
         near[i] = metric_gap(&b->metric, i, box.min[i], box.max[i]);
-        far[i] = fmax(b->metric.scaled[i] - box.min[i] * b->metric.scale, box.max[i] * b->metric.scale - b->metric.scaled[i]);
+        far[i] = fmax(b->metric.scaled[i] - box.min[i] * b->metric.scale,
+                      box.max[i] * b->metric.scale - b->metric.scaled[i]);
     }
     *nearest = (near[0] * near[0] + near[1] * near[1]) + near[2] * near[2];
     *farthest = (far[0] * far[0] + far[1] * far[1]) + far[2] * far[2];
@@ -32,7 +33,7 @@ static void cell_squares(const ball *b, cell c, double *nearest, double *farthes
 static bool contains(const ball *b, const octree_point *point)
 {
     const double square = metric_point(&b->metric, point->position);
-    if (b->how.mode == OCTREE_FAST)
+    if (is_trusted(b->how.mode, square))
         return square <= b->square;
     if (metric_surely_less(square, b->square))
         return true;

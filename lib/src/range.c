@@ -65,8 +65,8 @@ static bool is_inside(const key_box *keys, cell c)
 /* What a box query does with what it meets. */
 typedef struct box_query {
     const octree_box *box;
-    key_box near_keys;  /* of the box: what does not meet it is left out */
-    key_box whole_keys; /* of the box moved out by epsilon: what is inside is taken whole */
+    key_box near_keys;          /* of the box: what does not meet it is left out */
+    key_box whole_keys;         /* of the box moved out by epsilon: what is inside is taken whole */
     octree_point_visitor visit; /* null: points are counted */
     void *context;
     size_t count;

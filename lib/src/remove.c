@@ -30,26 +30,9 @@ bool reserve_merge(octree *tree, const found_point *found, merge_room *room)
     return !room->wanted || leaf_create(tree, &room->leaf, found->way.nodes[depth]->count - 1);
 }
 
-/* Append all points below `from` to a leaf with room for them, but for the one to be left out. */
-static void gather(octree *tree, node *leaf, const node *from, const octree_point *left_out)
-{
-    const node *pending[STACK_ROOM];
-    size_t size = 0;
-    pending[size++] = from;
-    while (size > 0) {
-        const node *next = pending[--size];
-        const unsigned children = bits_count8(next->octants);
-        for (unsigned i = 0; i < children; i++)
-            pending[size++] = &children_of(next)[i];
-        for (uint32_t i = 0; children == 0 && i < next->count; i++)
-            if (&leaf_points(next)[i] != left_out)
-                leaf_append(tree, leaf, &leaf_points(next)[i]); /* there is room */
-    }
-}
-
 static void merge(octree *tree, node *n, const octree_point *left_out, node *room)
 {
-    gather(tree, room, n, left_out);
+    leaf_gather(tree, room, n, left_out);
     node_release(tree, n);
     *n = *room;
 }
@@ -65,7 +48,7 @@ static void drop_child(octree *tree, node *parent, node *child)
     unsigned octant = 0;
     while (!(parent->octants >> octant & 1) || child_index(parent, octant) != index)
         octant++;
-    parent->octants &= (uint8_t)~(1u << octant);
+    parent->octants &= (uint8_t) ~(1u << octant);
 }
 
 void remove_found(octree *tree, const found_point *found, merge_room *room)

@@ -5,6 +5,8 @@
 #include "metric.h"
 #include "tree.h"
 
+#include <math.h>
+
 /* The search that a null pointer stands for. */
 octree_search search_or_default(const octree_search *how);
 
@@ -18,6 +20,12 @@ octree_status check_finite(const double position[3]);
 static inline bool surely_less(octree_mode mode, double a, double b)
 {
     return mode == OCTREE_FAST ? a < b : metric_surely_less(a, b);
+}
+
+/* True when a square is decided by as it is: in fast mode, but for squares that overflow, which say nothing. */
+static inline bool is_trusted(octree_mode mode, double square)
+{
+    return mode == OCTREE_FAST && square < HUGE_VAL;
 }
 
 /* Counts go to the caller's report, or here where there is none. */

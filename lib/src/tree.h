@@ -11,16 +11,16 @@
 #include "pool.h"
 
 typedef struct node {
-    void *below;     /* inner: its children, struct node[], occupied octants only; leaf: its octree_point[]; may be null */
+    void *below; /* inner: its children, struct node[], occupied octants only; leaf: its octree_point[]; may be null */
     uint32_t count;  /* points in and below */
     uint8_t octants; /* the occupied ones; 0 for a leaf */
     uint8_t room;    /* leaf: points that its block has room for; LEAF_CROWD when it is a crowd (leaf.h) */
 } node;
 
 struct octree {
-    octree_def def;   /* as in force */
+    octree_def def; /* as in force */
     axis axes[3];
-    double scale;     /* the power of two that brings the world's extent near 1 (metric.h) */
+    double scale; /* the power of two that brings the world's extent near 1 (metric.h) */
     uint64_t version;
     node root;
     arena memory;

@@ -230,6 +230,108 @@ static void null_is_refused_by_what_asks_a_tree(void **state)
     octree_destroy(tree);
 }
 
+static void null_is_refused_by_what_searches_a_tree(void **state)
+{
+    (void)state;
+    const double at[3] = {0};
+    octree_box box = cube(-1, 1);
+    octree_neighbor nearest;
+    size_t count;
+    octree *tree = make_tree(box, 1, 5, OCTREE_REFUSE);
+    insert_all(tree, &at, 1);
+    uint64_t version = octree_version(tree);
+    assert_int_equal(octree_range_search(NULL, &box, NULL, visit_point, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_range_search(tree, NULL, NULL, visit_point, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_range_search(tree, &box, NULL, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_radius(NULL, at, 1, NULL, visit_point, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_radius(tree, NULL, 1, NULL, visit_point, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_radius(tree, at, 1, NULL, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_k(NULL, at, 1, NULL, &nearest, &count), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_k(tree, NULL, 1, NULL, &nearest, &count), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_k(tree, at, 1, NULL, NULL, &count), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_k(tree, at, 1, NULL, &nearest, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_k(NULL, at, 0, NULL, &nearest, &count), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_within(NULL, at, 1, NULL, &nearest), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_within(tree, NULL, 1, NULL, &nearest), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_nearest_within(tree, at, 1, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    /* Null stands for the default here. */
+    assert_int_equal(octree_range_search(tree, &box, NULL, visit_point, NULL), OCTREE_OK);
+    assert_int_equal(octree_radius(tree, at, 1, NULL, visit_point, NULL), OCTREE_OK);
+    assert_int_equal(octree_nearest_k(tree, at, 1, NULL, &nearest, &count), OCTREE_OK);
+    assert_int_equal(octree_nearest_within(tree, at, 1, NULL, &nearest), OCTREE_OK);
+    assert_true(octree_version(tree) == version);
+    octree_destroy(tree);
+}
+
+static bool must_not_be_called(const octree_point *point, void *context)
+{
+    (void)point;
+    (void)context;
+    fail_msg("a query that is refused visits nothing");
+    return false;
+}
+
+/* Every query that takes a search refuses this one, and tells why. */
+static void assert_refused(const octree *tree, const octree_search *how, octree_status status)
+{
+    const double at[3] = {0};
+    octree_box box = cube(-1, 1);
+    octree_neighbor nearest;
+    size_t count;
+    assert_int_equal(octree_range_search(tree, &box, how, must_not_be_called, NULL), status);
+    assert_int_equal(octree_radius(tree, at, 1, how, must_not_be_called, NULL), status);
+    assert_int_equal(octree_nearest_k(tree, at, 1, how, &nearest, &count), status);
+    assert_int_equal(octree_nearest_within(tree, at, 1, how, &nearest), status);
+}
+
+static void bad_numbers_are_refused_by_what_searches_a_tree(void **state)
+{
+    (void)state;
+    static const struct {
+        double number; /* as epsilon and as radius */
+        octree_status status;
+    } bad[] = {
+        {NAN, OCTREE_NOT_FINITE},   {INFINITY, OCTREE_NOT_FINITE}, {-INFINITY, OCTREE_NOT_FINITE},
+        {-5e-324, OCTREE_BAD_SIZE}, {-1, OCTREE_BAD_SIZE},         {-DBL_MAX, OCTREE_BAD_SIZE},
+    };
+    const double at[3] = {0};
+    octree_neighbor nearest;
+    octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
+    insert_all(tree, &at, 1);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_refused(tree, &(octree_search){.epsilon = bad[i].number}, bad[i].status);
+        assert_int_equal(octree_radius(tree, at, bad[i].number, NULL, must_not_be_called, NULL), bad[i].status);
+        assert_int_equal(octree_nearest_within(tree, at, bad[i].number, NULL, &nearest), bad[i].status);
+    }
+    assert_refused(tree, &(octree_search){.skip = (octree_skip)3}, OCTREE_BAD_OPTION);
+    assert_refused(tree, &(octree_search){.mode = (octree_mode)2}, OCTREE_BAD_OPTION);
+    for (int axis = 0; axis < 6; axis++) {
+        octree_box box = cube(-1, 1);
+        (axis < 3 ? box.min : box.max)[axis % 3] = NAN;
+        assert_int_equal(octree_range_search(tree, &box, NULL, must_not_be_called, NULL), OCTREE_NOT_FINITE);
+        (axis < 3 ? box.min : box.max)[axis % 3] = axis < 3 ? 2 : -2;
+        assert_int_equal(octree_range_search(tree, &box, NULL, must_not_be_called, NULL), OCTREE_BAD_RANGE);
+    }
+    octree_destroy(tree);
+}
+
+static void points_are_ordered_by_id_then_position(void **state)
+{
+    (void)state;
+    static const octree_point sorted[] = {
+        {{9, 9, 9}, 0},    {{-1, 5, 5}, 1},       {{-0.0, -1, 7}, 1},
+        {{0.0, 1, -7}, 1}, {{0.0, 1, 5e-324}, 1}, {{0, 0, 0}, UINT64_MAX},
+    };
+    enum { n = sizeof sorted / sizeof sorted[0] };
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            int order = octree_compare_points(&sorted[i], &sorted[j]);
+            assert_int_equal((order > 0) - (order < 0), (i > j) - (i < j));
+        }
+    const octree_point zero = {{0.0, -0.0, 0}, 4}, also_zero = {{-0.0, 0.0, -0.0}, 4};
+    assert_int_equal(octree_compare_points(&zero, &also_zero), 0);
+}
+
 static void null_is_refused_by_what_looks_at_a_tree(void **state)
 {
     (void)state;
@@ -303,6 +405,9 @@ int main(void)
         cmocka_unit_test(clear_makes_a_tree_like_a_new_one),
         cmocka_unit_test(null_is_refused_by_what_changes_a_tree),
         cmocka_unit_test(null_is_refused_by_what_asks_a_tree),
+        cmocka_unit_test(null_is_refused_by_what_searches_a_tree),
+        cmocka_unit_test(bad_numbers_are_refused_by_what_searches_a_tree),
+        cmocka_unit_test(points_are_ordered_by_id_then_position),
         cmocka_unit_test(null_is_refused_by_what_looks_at_a_tree),
         cmocka_unit_test(null_is_refused_by_games_and_samples),
         cmocka_unit_test(each_status_has_its_own_name_and_sentence),

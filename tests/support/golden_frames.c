@@ -10,29 +10,21 @@
 #define SHAPES "world,nodes,points,range,nearest,player,box"
 
 const golden_frame golden_frames[] = {
-    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},
-    {"first_split", "iso", SHAPES, 0, "three", 0, 0},
-    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},
-    {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
-    {"collision", "follow", SHAPES, 193, NULL, 0, 0},
-    {"refused_step", "iso", "all", 74, NULL, 0, 0},
-    {"full_leaf", "follow", "all", 214, NULL, 0, 0},
-    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
-    {"range", "side", SHAPES, 219, NULL, 0, 0},
-    {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
-    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0},
-    {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
+    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},        {"first_split", "iso", SHAPES, 0, "three", 0, 0},
+    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},  {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
+    {"collision", "follow", SHAPES, 193, NULL, 0, 0},   {"refused_step", "iso", "all", 74, NULL, 0, 0},
+    {"full_leaf", "follow", "all", 214, NULL, 0, 0},    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
+    {"range", "side", SHAPES, 219, NULL, 0, 0},         {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
+    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0}, {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
 
-static const octree_body few[] = {
-    {.id = 1, .position = {500, 500, 500}}, {.id = 2, .position = {-500, -500, -500}}};
+static const octree_body few[] = {{.id = 1, .position = {500, 500, 500}}, {.id = 2, .position = {-500, -500, -500}}};
 
-static const octree_query around[] = {{.tick = OCTREE_EVERY_TICK,
-                                       .kind = OCTREE_QUERY_RANGE,
-                                       .box = {{-900, -400, -300}, {100, 600, 300}}}};
+static const octree_query around[] = {
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-900, -400, -300}, {100, 600, 300}}}};
 
 /* 400 clustered points, and a region that some of them are in. */
 static octree_session clustered_session(octree_body *bodies, size_t count)

@@ -6,10 +6,10 @@
 #include "image.h"
 
 typedef struct golden_frame {
-    const char *name;   /* golden/<name>.ref.png */
+    const char *name; /* golden/<name>.ref.png */
     const char *camera;
     const char *layers;
-    uint64_t tick;      /* of the session that `shows` plays */
+    uint64_t tick;      /* of the session that `points` says */
     const char *points; /* null: the default session; else "two", "three" or "clustered" points in its world */
     int width, height;  /* 0: 320 x 180 */
 } golden_frame;

@@ -144,10 +144,10 @@ static void numbers_are_shortest_and_never_other_than_json(void **state)
 
 static void failed_stream_keeps_its_error(void **state)
 {
-    FILE *full = fopen("/dev/full", "w");
+    char room[4];
+    FILE *full = fmemopen(room, sizeof room, "w");
     (void)state;
-    if (!full)
-        skip();
+    assert_non_null(full);
     json_writer writer = {.out = full};
     json_write_string(&writer, "lost");
     fflush(full);

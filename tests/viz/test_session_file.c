@@ -368,13 +368,13 @@ static void written_session_has_a_point_a_line_and_a_tick_a_line(void **state)
     session_release(&file);
 }
 
-static void full_disk_is_told(void **state)
+static void stream_without_room_is_told(void **state)
 {
     const octree_session session = octree_session_default();
-    FILE *full = fopen("/dev/full", "w");
+    char room[16];
+    FILE *full = fmemopen(room, sizeof room, "w");
     (void)state;
-    if (!full)
-        skip();
+    assert_non_null(full);
     assert_false(session_write(&session, full));
     fclose(full);
 }
@@ -471,7 +471,7 @@ int main(void)
         cmocka_unit_test(every_bit_of_a_number_survives_the_round_trip),
         cmocka_unit_test(options_that_the_tree_clamps_are_written_clamped),
         cmocka_unit_test(written_session_has_a_point_a_line_and_a_tick_a_line),
-        cmocka_unit_test(full_disk_is_told),
+        cmocka_unit_test(stream_without_room_is_told),
         cmocka_unit_test(many_points_survive_the_round_trip),
         cmocka_unit_test(copy_owns_all_it_has),
         cmocka_unit_test(keys_are_replaced),

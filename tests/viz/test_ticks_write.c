@@ -67,9 +67,9 @@ static void line_is_exactly_this(void **state)
         "{\"tick\": 3, \"key\": \"w\", \"player\": [0.1, -0, 1e+300], \"events\": [\"moved\", \"split\"], "
         "\"attempt\": [0.1, 50, 1e+300], \"hits\": [4, 9007199254740991], \"answers\": [{\"nearest\": {\"target\": "
         "[1, 2, 3], \"id\": null}}, {\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4]}}], "
-        "\"refusals\": [{\"id\": 7, \"why\": \"outside\", \"position\": [4.94065641845247e-324, 0, 0]}], \"splits\": "
-        "[\"root\", "
-        "\"0/7\"], \"merges\": [], \"tree\": {\"points\": 2, \"nodes\": 5, \"leaves\": 4, \"depth\": 1, \"digest\": "
+        "\"refusals\": [{\"id\": 7, \"why\": \"outside\", \"position\": [4.94065645841247e-324, 0, 0]}], \"splits\": "
+        "[\"root\", \"0/7\"], \"merges\": [], \"tree\": {\"points\": 2, \"nodes\": 5, \"leaves\": 4, \"depth\": 1, "
+        "\"digest\": "
         "\"00000000000000ff\"}, \"frame\": \"frame_000003.png\", \"scene\": \"ffffffffffffffff\"}\n";
     const octree_point hits[] = {{.id = 4}, {.id = 9007199254740991}};
     const octree_answer answers[] = {{.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}},

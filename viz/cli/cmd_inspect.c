@@ -19,12 +19,12 @@ static const char help[] =
     "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
     "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"
     "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points\n"
-    "      --nodes FILE.csv  write all nodes\n"
-    "%s"
-    "      --json            print JSON\n"
-    "  -h, --help\n\n"
-    "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
-    "          octreel inspect points.txt --node 0/3 --json\n";
+    "      --nodes FILE.csv  write all nodes\n";
+
+static const char more_help[] = "      --json            print JSON\n"
+                                "  -h, --help\n\n"
+                                "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
+                                "          octreel inspect points.txt --node 0/3 --json\n";
 
 typedef struct arguments {
     const char *cloud, *picture, *node, *nodes;
@@ -34,12 +34,18 @@ typedef struct arguments {
 } arguments;
 
 static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'}, {"capacity", required_argument, NULL, 'C'},
-    {"depth", required_argument, NULL, 'd'},  {"full", required_argument, NULL, 'f'},
-    {"world", required_argument, NULL, 'w'},  {"node", required_argument, NULL, 'n'},
-    {"nodes", required_argument, NULL, 'N'},  {"size", required_argument, NULL, 's'},
-    {"camera", required_argument, NULL, 'c'}, {"layers", required_argument, NULL, 'l'},
-    {"json", no_argument, NULL, 'j'},         {"help", no_argument, NULL, 'h'},
+    {"output", required_argument, NULL, 'o'},
+    {"capacity", required_argument, NULL, 'C'},
+    {"depth", required_argument, NULL, 'd'},
+    {"full", required_argument, NULL, 'f'},
+    {"world", required_argument, NULL, 'w'},
+    {"node", required_argument, NULL, 'n'},
+    {"nodes", required_argument, NULL, 'N'},
+    {"size", required_argument, NULL, 's'},
+    {"camera", required_argument, NULL, 'c'},
+    {"layers", required_argument, NULL, 'l'},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
 };
 
@@ -137,18 +143,21 @@ static const char *base_name(const char *path)
 static int report(const arguments *a, const inspection *made)
 {
     record_error error;
+    octree_node node;
     const char *name = base_name(a->cloud);
+    if (a->node && !inspect_find_node(made, a->node, &node, &error))
+        return trouble("%s", error.text);
     if (a->picture && !film_tree(made->tree, name, &a->view, a->picture, &error))
         return trouble("%s", error.text);
     if (a->nodes && !inspect_write_nodes(made, a->nodes, &error))
         return trouble("%s", error.text);
-    if (a->node && !inspect_print_node(made, a->node, a->json, stdout, &error))
-        return trouble("%s", error.text);
-    if (!a->node && a->json)
+    if (a->node)
+        inspect_print_node(&node, a->json, stdout);
+    else if (a->json)
         inspect_print_json(made, name, stdout);
-    if (!a->node && !a->json)
+    else
         inspect_print(made, name, stdout);
-    return fflush(stdout) == 0 ? EXIT_DONE : trouble("the statistics cannot be written");
+    return EXIT_DONE;
 }
 
 static int inspect_it(arguments *a)
@@ -177,7 +186,9 @@ int cmd_inspect(int argc, char **argv)
     optind = 1;
     for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         if (option == 'h') {
-            printf(help, view_options_help);
+            fputs(help, stdout);
+            print_view_options(stdout);
+            fputs(more_help, stdout);
             return EXIT_DONE;
         }
         if (!take_option(&a, option))

@@ -13,8 +13,9 @@ static const char help[] =
     "renderer.json beside them. Without SESSION, the paper's own is played.\n\n"
     "  -o, --output DIR      where the recording goes; a new folder, or one without a recording\n"
     "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait\n"
-    "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n"
-    "%s"
+    "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n";
+
+static const char more_help[] =
     "      --json            print a summary as JSON on stdout\n"
     "  -h, --help\n\n"
     "Examples: octreel record -o frames\n"
@@ -27,10 +28,14 @@ typedef struct arguments {
 } arguments;
 
 static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'}, {"keys", required_argument, NULL, 'k'},
-    {"every", required_argument, NULL, 'e'},  {"size", required_argument, NULL, 's'},
-    {"camera", required_argument, NULL, 'c'}, {"layers", required_argument, NULL, 'l'},
-    {"json", no_argument, NULL, 'j'},         {"help", no_argument, NULL, 'h'},
+    {"output", required_argument, NULL, 'o'},
+    {"keys", required_argument, NULL, 'k'},
+    {"every", required_argument, NULL, 'e'},
+    {"size", required_argument, NULL, 's'},
+    {"camera", required_argument, NULL, 'c'},
+    {"layers", required_argument, NULL, 'l'},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
 };
 
@@ -78,7 +83,7 @@ static int film_it(arguments *a, const octree_session *session)
     if (!ok)
         return trouble("%s", error.text);
     film_report(stdout, &summary, a->film.folder, progress_seconds(&p), a->json);
-    return fflush(stdout) == 0 ? EXIT_DONE : trouble("the summary cannot be written");
+    return EXIT_DONE;
 }
 
 static int play(arguments *a)
@@ -104,7 +109,9 @@ int cmd_record(int argc, char **argv)
     optind = 1;
     for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         if (option == 'h') {
-            printf(help, view_options_help);
+            fputs(help, stdout);
+            print_view_options(stdout);
+            fputs(more_help, stdout);
             return EXIT_DONE;
         }
         if (!take_option(&a, option))

@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* Exit statuses. */
 enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
@@ -29,7 +30,7 @@ bool read_layers(const char *text, view *v);
 bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
 
 /* The part of a --help text that those options share. */
-extern const char view_options_help[];
+void print_view_options(FILE *out);
 
 /* A bar on stderr when that is a terminal, nothing otherwise. `done` of `total` items of this name. */
 typedef struct progress {

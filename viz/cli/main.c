@@ -39,7 +39,7 @@ static int print_version(void)
     return EXIT_DONE;
 }
 
-int main(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     if (argc < 2)
         return print_help(stderr);
@@ -47,8 +47,21 @@ int main(int argc, char **argv)
         return print_help(stdout);
     if (strcmp(argv[1], "--version") == 0)
         return print_version();
-    for (size_t i = 0; i < COMMANDS; i++)
-        if (strcmp(argv[1], commands[i].name) == 0)
+    for (size_t i = 0; i < COMMANDS; i++) {
+        if (strcmp(argv[1], commands[i].name) == 0) {
+            static char name[] = "octreel"; /* what getopt's own messages begin with */
+            argv[1] = name;
             return commands[i].run(argc - 1, argv + 1);
+        }
+    }
     return trouble("there is no command \"%s\"; octreel --help lists them", argv[1]);
+}
+
+/* What was said on stdout counts only when it arrived. */
+int main(int argc, char **argv)
+{
+    const int status = run(argc, argv);
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return status;
+    return trouble("what there is to say cannot be written to standard output");
 }

@@ -8,10 +8,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char view_options_help[] =
-    "      --size WxH        picture in pixels (default 1280x720; a side is 1 to 16384)\n"
-    "      --camera NAME     iso, top, front, side, follow or orbit (default iso)\n"
-    "      --layers LIST     of world,nodes,points,range,nearest,player,box,text (default all); -text leaves one out\n";
+/* Names, by their place; null beyond the last. */
+typedef const char *name_at(int i);
+
+static const char *camera_at(int i)
+{
+    return view_camera_name((view_camera)i);
+}
+
+static const char *layer_at(int i)
+{
+    return view_layer_name((view_layer)i);
+}
+
+static void print_names(FILE *out, name_at *name)
+{
+    for (int i = 0; name(i); i++)
+        fprintf(out, "%s%s", i ? ", " : "", name(i));
+}
+
+void print_view_options(FILE *out)
+{
+    fputs("      --size WxH        picture in pixels (default 1280x720; a side is 1 to 16384)\n"
+          "      --camera NAME     one of ",
+          out);
+    print_names(out, camera_at);
+    fputs(" (default iso)\n      --layers LIST     with commas between, of ", out);
+    print_names(out, layer_at);
+    fputs("\n                        (default all; -text leaves one out)\n", out);
+}
+
+/* "octreel: there is no camera "x"; there are iso, top ..." */
+static bool no_such(const char *kind, const char *text, int length, name_at *name)
+{
+    fprintf(stderr, "octreel: there is no %s \"%.*s\"; there are ", kind, length, text);
+    print_names(stderr, name);
+    fputc('\n', stderr);
+    return false;
+}
 
 int trouble(const char *format, ...)
 {
@@ -63,18 +97,11 @@ bool read_size(const char *text, view *v)
 
 bool read_camera(const char *text, view *v)
 {
-    if (view_camera_parse(text, &v->camera))
-        return true;
-    trouble("there is no camera \"%s\"; there are iso, top, front, side, follow, orbit", text);
-    return false;
+    return view_camera_parse(text, &v->camera) || no_such("camera", text, (int)strlen(text), camera_at);
 }
 
 bool read_layers(const char *text, view *v)
 {
     const char *bad;
-    if (view_layers_parse(text, &v->layers, &bad))
-        return true;
-    trouble("there is no layer \"%.*s\"; there are world, nodes, points, range, nearest, player, box, text, all, none",
-            (int)strcspn(bad, ","), bad);
-    return false;
+    return view_layers_parse(text, &v->layers, &bad) || no_such("layer", bad, (int)strcspn(bad, ","), layer_at);
 }

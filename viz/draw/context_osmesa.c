@@ -51,7 +51,8 @@ static bool open_mesa(context *c)
         !find_symbol(c->library, "OSMesaDestroyContext", &c->destroy, sizeof c->destroy) ||
         !find_symbol(c->library, "OSMesaGetProcAddress", &c->find, sizeof c->find))
         return false;
-    const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, OSMESA_DEPTH_BITS, 0, 0, 0};
+    const int wanted[] = {
+        OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, OSMESA_DEPTH_BITS, 0, 0, 0};
     c->mesa = create(wanted, NULL);
     return c->mesa && context_use(c);
 }

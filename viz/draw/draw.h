@@ -18,7 +18,7 @@ typedef struct draw_error {
 
 /* Who draws: static while the renderer lives. */
 typedef struct renderer_info {
-    const char *context; /* "osmesa" */
+    const char *context;                     /* "osmesa" */
     const char *vendor, *renderer, *version; /* GL's own strings */
 } renderer_info;
 

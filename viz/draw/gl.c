@@ -6,9 +6,9 @@
 bool gl_load(gl *functions, const context *c, draw_error *error)
 {
     const char *missing = NULL;
-#define GL_LOOK_UP(result, name, parameters)                                                                          \
-    functions->name = (result(GLAPIENTRY *) parameters)context_find(c, "gl" #name);                                   \
-    if (!functions->name && !missing)                                                                                 \
+#define GL_LOOK_UP(result, name, parameters)                                                                           \
+    functions->name = (result(GLAPIENTRY *) parameters)context_find(c, "gl" #name);                                    \
+    if (!functions->name && !missing)                                                                                  \
         missing = "gl" #name;
     GL_FUNCTIONS(GL_LOOK_UP)
 #undef GL_LOOK_UP

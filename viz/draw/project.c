@@ -10,7 +10,8 @@
 /* Camera coordinates beyond this could overflow on their way to pixels. */
 #define FARTHEST 1e301
 
-/* A depth in bands from the near side of the world, not yet rounded: a real number in 0..QUAD_BANDS for what is in it. */
+/* A depth in bands from the near side of the world, not yet rounded: a real number in 0..QUAD_BANDS for what is in it.
+ */
 static double band_position(const camera *c, double depth)
 {
     const double span = c->far_depth - c->near_depth;

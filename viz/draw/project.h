@@ -1,4 +1,5 @@
-/* project.h - world geometry through the camera: clipped, cut into bands of depth, in pixels; all in doubles. Private. */
+/* project.h - world geometry through the camera: clipped, cut into bands of depth, in pixels; all in doubles. Private.
+ */
 #ifndef DRAW_PROJECT_H
 #define DRAW_PROJECT_H
 

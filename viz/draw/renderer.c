@@ -119,8 +119,7 @@ renderer *renderer_open(int width, int height, draw_error *error)
     for (r->side = 1; r->side < width || r->side < height;)
         r->side *= 2;
     r->context = context_open(error);
-    if (!r->context || !gl_load(&r->gl, r->context, error) || !check_driver(r, error) ||
-        !make_framebuffer(r, error)) {
+    if (!r->context || !gl_load(&r->gl, r->context, error) || !check_driver(r, error) || !make_framebuffer(r, error)) {
         renderer_close(r);
         return NULL;
     }

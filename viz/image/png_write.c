@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -114,6 +115,13 @@ static bool encode(const content *content, FILE *file, image_fault *fault)
 }
 
 /* A full disk may show as late as in fclose, when stdio hands over its last bytes. */
+/* A rename would put a file in the place of a device or a pipe. */
+static bool is_replaceable(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode); /* a folder stays */
+}
+
 static bool write_by_rename(const content *content, const char *part, image_fault *fault)
 {
     FILE *file = fopen(part, "wb");
@@ -136,6 +144,8 @@ bool image_write_png(const image *image, const char *path, const image_text *tex
     const char *reason = refusal(image);
     if (reason != NULL)
         return image_fault_report(&fault, "", reason);
+    if (!is_replaceable(path))
+        return image_fault_report(&fault, "cannot be replaced: ", "it is there, and is not a regular file");
     size_t part_size = strlen(path) + sizeof ".part";
     char *part = malloc(part_size);
     if (part == NULL)

@@ -9,6 +9,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FRAME_NAME "frame_%06" PRIu64 ".png"
 #define FRAME_NAME_SIZE 40
@@ -20,6 +21,7 @@ typedef struct filming {
     picture picture;
     scene scene;
     FILE *ticks;
+    long whole_lines; /* bytes of ticks.jsonl up to the end of its last whole line */
     uint64_t session_digest;
     uint64_t tree_version; /* of the tree that `extras` describes */
     bool has_tree;
@@ -36,6 +38,9 @@ static bool open_ticks(filming *f, record_error *error)
     return f->ticks != NULL;
 }
 
+/* What a recording that did not begin leaves nothing of. */
+static const char *const written_once[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl"};
+
 /* Everything that can refuse a session or a view comes before the folder is touched. */
 static bool begin(filming *f, const octree_session *session, record_error *error)
 {
@@ -46,10 +51,14 @@ static bool begin(filming *f, const octree_session *session, record_error *error
     if (!picture_open(&f->picture, options->view.width, options->view.height, error))
         return false;
     const renderer_info info = renderer_about(f->picture.renderer);
-    return folder_prepare(options->folder, error) &&
-           write_recording_file(options->folder, &options->view, options->every, error) &&
-           write_session_file(options->folder, session, &f->session_digest, error) &&
-           write_renderer_file(options->folder, &info, error) && open_ticks(f, error);
+    if (!folder_prepare(options->folder, error))
+        return false;
+    if (write_recording_file(options->folder, &options->view, options->every, error) &&
+        write_session_file(options->folder, session, &f->session_digest, error) &&
+        write_renderer_file(options->folder, &info, error) && open_ticks(f, error))
+        return true;
+    folder_remove(options->folder, written_once, sizeof written_once / sizeof written_once[0]);
+    return false;
 }
 
 /* What traces a frame to the tick that made it. */
@@ -89,12 +98,26 @@ static void describe_tree(filming *f)
     octree_statistics(tree, &f->extras.stats);
 }
 
+/* Close ticks.jsonl and cut it off behind its last whole line. */
+static bool give_up_ticks(filming *f, record_error *error)
+{
+    const int reason = errno;
+    char *path = folder_path(f->options->folder, "ticks.jsonl");
+    fclose(f->ticks);
+    f->ticks = NULL;
+    const bool cut = path && truncate(path, f->whole_lines) == 0;
+    free(path);
+    return record_fail(error, "%s/ticks.jsonl: cannot be written: %s%s", f->options->folder, strerror(reason),
+                       cut ? "" : "; its last line is torn");
+}
+
 static bool write_line(filming *f, record_error *error)
 {
     tick_write(f->ticks, octree_game_tick(f->game), &f->extras);
-    if (fflush(f->ticks) == 0 && !ferror(f->ticks))
-        return true;
-    return record_fail(error, "%s/ticks.jsonl: cannot be written: %s", f->options->folder, strerror(errno));
+    if (ferror(f->ticks) || fflush(f->ticks) != 0)
+        return give_up_ticks(f, error);
+    f->whole_lines = ftell(f->ticks);
+    return true;
 }
 
 static bool film_tick(filming *f, film_summary *summary, record_error *error)

@@ -15,7 +15,7 @@ typedef struct film_options {
 } film_options;
 
 typedef struct film_summary {
-    uint64_t ticks;  /* tick 0 included */
+    uint64_t ticks; /* tick 0 included */
     uint64_t frames;
     uint64_t left_out; /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
     uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */

@@ -45,7 +45,8 @@ void film_report(FILE *out, const film_summary *summary, const char *folder, dou
     fprintf(out, "%s: %" PRIu64 " ticks, %" PRIu64 " frames, %.1f s, %.0f frames a second\n", folder, summary->ticks,
             summary->frames, seconds, rate_of(summary, seconds));
     if (summary->left_out)
-        fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n", summary->left_out);
+        fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n",
+                summary->left_out);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(i), summary->events[i]);

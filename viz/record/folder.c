@@ -3,18 +3,26 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+/* Sentences begin with a path: of one that is too long the beginning goes, never the reason at its end. */
 bool record_fail(record_error *error, const char *format, ...)
 {
+    char whole[PATH_MAX + sizeof error->text];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error->text, sizeof error->text, format, arguments);
+    vsnprintf(whole, sizeof whole, format, arguments);
     va_end(arguments);
+    const size_t length = strlen(whole), room = sizeof error->text - 1;
+    if (length <= room)
+        snprintf(error->text, sizeof error->text, "%s", whole);
+    else
+        snprintf(error->text, sizeof error->text, "...%s", whole + length - room + 3);
     return false;
 }
 
@@ -30,9 +38,12 @@ char *folder_path(const char *folder, const char *name)
 static bool make_one(const char *path, record_error *error)
 {
     struct stat status;
-    if (mkdir(path, 0777) == 0 || (stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
+    if (mkdir(path, 0777) == 0)
         return true;
-    return record_fail(error, "%s: the folder cannot be made: %s", path, strerror(errno));
+    const int reason = errno;
+    if (stat(path, &status) != 0)
+        return record_fail(error, "%s: the folder cannot be made: %s", path, strerror(reason));
+    return S_ISDIR(status.st_mode) || record_fail(error, "%s: the folder cannot be made: a file is in its place", path);
 }
 
 static bool make_all(const char *folder, record_error *error)
@@ -54,7 +65,11 @@ static bool make_all(const char *folder, record_error *error)
 /* What tells a folder that was filmed into. */
 static bool belongs_to_recording(const char *name)
 {
-    return strcmp(name, "recording.json") == 0 || strcmp(name, "ticks.jsonl") == 0 || strncmp(name, "frame_", 6) == 0;
+    static const char *const names[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(name, names[i]) == 0)
+            return true;
+    return strncmp(name, "frame_", 6) == 0;
 }
 
 static bool check_empty(const char *folder, record_error *error)
@@ -78,35 +93,65 @@ bool folder_prepare(const char *folder, record_error *error)
     return make_all(folder, error) && check_empty(folder, error);
 }
 
-static bool write_whole(const char *path, const char *bytes, size_t size, record_error *error)
+static bool is_there_but_no_file(const char *path)
 {
-    FILE *file = fopen(path, "wb");
-    if (!file)
-        return record_fail(error, "%s: cannot be written: %s", path, strerror(errno));
-    const bool written = fwrite(bytes, 1, size, file) == size;
-    const int first = errno;
-    const bool closed = fclose(file) == 0;
-    if (written && closed)
+    struct stat status;
+    return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+bool part_open(part_file *file, const char *path, record_error *error)
+{
+    const size_t size = strlen(path) + sizeof ".part";
+    *file = (part_file){.path = path, .part = malloc(size)};
+    if (!file->part)
+        return record_fail(error, "there is no memory");
+    snprintf(file->part, size, "%s%s", path, is_there_but_no_file(path) ? "" : ".part");
+    file->stream = fopen(file->part, "wb");
+    if (file->stream)
         return true;
-    return record_fail(error, "%s: cannot be written: %s", path, strerror(written ? errno : first));
+    record_fail(error, "%s: cannot be written: %s", path, strerror(errno));
+    free(file->part);
+    return false;
+}
+
+bool part_close(part_file *file, record_error *error)
+{
+    const bool direct = strcmp(file->part, file->path) == 0;
+    bool ok = fflush(file->stream) == 0 && !ferror(file->stream);
+    int reason = errno;
+    if (fclose(file->stream) != 0 && ok) {
+        ok = false;
+        reason = errno;
+    }
+    if (ok && !direct && rename(file->part, file->path) != 0) {
+        ok = false;
+        reason = errno;
+    }
+    if (!ok && !direct)
+        remove(file->part);
+    free(file->part);
+    return ok || record_fail(error, "%s: cannot be written: %s", file->path, strerror(reason));
 }
 
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, record_error *error)
 {
     char *path = folder_path(folder, name);
-    char *part = path ? malloc(strlen(path) + sizeof ".part") : NULL;
-    bool ok = part != NULL;
+    part_file file;
+    bool ok = path ? part_open(&file, path, error) : record_fail(error, "there is no memory");
     if (ok) {
-        sprintf(part, "%s.part", path);
-        ok = write_whole(part, bytes, size, error);
-        if (ok && rename(part, path) != 0)
-            ok = record_fail(error, "%s: cannot be renamed: %s", part, strerror(errno));
-        if (!ok)
-            remove(part);
-    } else {
-        record_fail(error, "there is no memory");
+        fwrite(bytes, 1, size, file.stream); /* part_close tells */
+        ok = part_close(&file, error);
     }
-    free(part);
     free(path);
     return ok;
+}
+
+void folder_remove(const char *folder, const char *const *names, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char *path = folder_path(folder, names[i]);
+        if (path)
+            remove(path);
+        free(path);
+    }
 }

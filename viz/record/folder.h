@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /* One sentence: what could not be done, and why. */
 typedef struct record_error {
@@ -16,10 +17,24 @@ bool record_fail(record_error *error, const char *format, ...);
 /* Make the folder and its parents where they are missing. An existing folder must hold no recording and no frames. */
 bool folder_prepare(const char *folder, record_error *error);
 
+/* Remove files of the folder, those that are there. */
+void folder_remove(const char *folder, const char *const *names, size_t count);
+
 /* "folder/name"; owned by the caller, null when there is no memory. */
 char *folder_path(const char *folder, const char *name);
 
-/* Write a file by way of "<name>.part" and a rename. */
+/* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. What is there already and is no
+ * regular file, a pipe say, is written to as it is. */
+typedef struct part_file {
+    FILE *stream;
+    const char *path;
+    char *part; /* where the stream goes */
+} part_file;
+
+bool part_open(part_file *file, const char *path, record_error *error);
+bool part_close(part_file *file, record_error *error);
+
+/* Write a whole file of the folder so. */
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, record_error *error);
 
 #endif

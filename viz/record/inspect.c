@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The distance from |value| to the next double above it. */
@@ -32,46 +33,69 @@ static octree_box bounds_of(const cloud *c)
     return box;
 }
 
-/* The side of the cube. Where the extent of the points overflows, the side is infinite. */
-static double side_of(const octree_box *bounds)
+/* Half the side of the cube. Halves of extents, since extents can overflow; whole ones where halves would be rounded. */
+static double half_extent(const octree_box *bounds, int axis)
 {
-    double side = 0, largest = 0;
+    const double extent = bounds->max[axis] - bounds->min[axis];
+    return isfinite(extent) ? extent / 2 : bounds->max[axis] / 2 - bounds->min[axis] / 2;
+}
+
+static double half_side(const octree_box *bounds)
+{
+    double half = 0, largest = 0;
+    bool flat = true;
     for (int i = 0; i < 3; i++) {
-        side = fmax(side, bounds->max[i] - bounds->min[i]);
+        flat = flat && bounds->min[i] == bounds->max[i];
+        half = fmax(half, half_extent(bounds, i));
         largest = fmax(largest, fmax(fabs(bounds->min[i]), fabs(bounds->max[i])));
     }
-    return fmax(side > 0 ? side : 1, 4 * ulp_of(largest));
+    return fmax(flat ? 0.5 : half, 2 * ulp_of(largest));
 }
 
 octree_box inspect_world(const cloud *c)
 {
     octree_box box = bounds_of(c);
-    const double side = side_of(&box);
+    const double half = half_side(&box);
     for (int i = 0; i < 3; i++) {
         /* Rounding is monotone: what is subtracted is not negative, so no face passes a point. */
-        const double slack = (side - (box.max[i] - box.min[i])) / 2;
-        box.min[i] = fmax(box.min[i] - (slack > 0 ? slack : 0), -DBL_MAX);
-        box.max[i] = fmin(box.max[i] + (slack > 0 ? slack : 0), DBL_MAX);
+        const double slack = fmax(half - half_extent(&box, i), 0);
+        box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
+        box.max[i] = fmin(box.max[i] + slack, DBL_MAX);
     }
     return box;
+}
+
+/* All points in one go; refusals are counted by their statuses. */
+static octree_status insert_all(const cloud *c, inspection *result)
+{
+    octree_point *points = malloc(c->count * sizeof *points);
+    octree_status *statuses = malloc(c->count * sizeof *statuses);
+    octree_status status = OCTREE_NO_MEMORY;
+    for (size_t i = 0; points && i < c->count; i++) {
+        memcpy(points[i].position, c->positions[i], sizeof points[i].position);
+        points[i].id = i;
+    }
+    if (points && statuses)
+        status = octree_insert_many(result->tree, points, c->count, statuses, NULL);
+    for (size_t i = 0; status == OCTREE_OK && i < c->count; i++) {
+        result->refused += statuses[i] == OCTREE_FULL;
+        result->outside += statuses[i] == OCTREE_OUTSIDE;
+    }
+    free(points);
+    free(statuses);
+    return status;
 }
 
 bool inspect_build(const cloud *c, const octree_def *def, inspection *result, record_error *error)
 {
     *result = (inspection){.points = c->count, .skipped = c->skipped};
     octree_status status = octree_create(def, &result->tree);
-    if (status != OCTREE_OK)
-        return record_fail(error, "the tree cannot be made: %s", octree_status_text(status));
-    for (size_t i = 0; i < c->count; i++) {
-        status = octree_insert(result->tree, c->positions[i], i);
-        result->refused += status == OCTREE_FULL;
-        result->outside += status == OCTREE_OUTSIDE;
-        if (status != OCTREE_OK && status != OCTREE_FULL && status != OCTREE_OUTSIDE) {
-            inspect_release(result);
-            return record_fail(error, "point %zu cannot be inserted: %s", i, octree_status_text(status));
-        }
-    }
-    return true;
+    if (status == OCTREE_OK)
+        status = insert_all(c, result);
+    if (status == OCTREE_OK)
+        return true;
+    inspect_release(result);
+    return record_fail(error, "the tree cannot be made: %s", octree_status_text(status));
 }
 
 void inspect_release(inspection *i)

@@ -13,11 +13,11 @@
 octree_box inspect_world(const cloud *c);
 
 typedef struct inspection {
-    octree *tree;     /* ids are the places in the cloud, from 0 */
-    size_t points;    /* in the cloud */
-    size_t skipped;   /* in the file, without finite coordinates */
-    size_t refused;   /* by a full leaf, under OCTREE_REFUSE */
-    size_t outside;   /* of the world that was given */
+    octree *tree;   /* ids are the places in the cloud, from 0 */
+    size_t points;  /* in the cloud */
+    size_t skipped; /* in the file, without finite coordinates */
+    size_t refused; /* by a full leaf, under OCTREE_REFUSE */
+    size_t outside; /* of the world that was given */
 } inspection;
 
 /* Insert every point of a cloud into a new tree. */
@@ -30,8 +30,11 @@ void inspect_print(const inspection *i, const char *name, FILE *out);
 /* The same as one JSON object on one line. */
 void inspect_print_json(const inspection *i, const char *name, FILE *out);
 
-/* One node: its box and, for a leaf, its points. False when there is no such node. */
-bool inspect_print_node(const inspection *i, const char *address, bool json, FILE *out, record_error *error);
+/* The node at an address as it is typed, such as 0/3/7 or root. False, with a sentence, when there is none. */
+bool inspect_find_node(const inspection *i, const char *address, octree_node *node, record_error *error);
+
+/* One node: its box and, for a leaf, its points; for people or as JSON. */
+void inspect_print_node(const octree_node *node, bool json, FILE *out);
 
 /* All nodes as CSV: address, depth, leaf, count, min_x ... max_z. */
 bool inspect_write_nodes(const inspection *i, const char *path, record_error *error);

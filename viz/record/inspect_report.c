@@ -3,7 +3,6 @@
 #include "json_write.h"
 #include "number.h"
 
-#include <errno.h>
 #include <string.h>
 
 /* Leaves by the points that they hold: bucket 0 holds empty leaves, bucket b those of 2^(b-1) .. 2^b - 1 points. */
@@ -109,8 +108,8 @@ void inspect_print(const inspection *i, const char *name, FILE *out)
         fprintf(out, "  skipped   %zu without finite coordinates\n", i->skipped);
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
-    fprintf(out, "  nodes     %zu, %zu of them leaves; deepest %u; fullest leaf %zu points\n", stats.nodes, stats.leaves,
-            stats.depth, stats.largest_leaf);
+    fprintf(out, "  nodes     %zu, %zu of them leaves; deepest %u; fullest leaf %zu points\n", stats.nodes,
+            stats.leaves, stats.depth, stats.largest_leaf);
     fprintf(out, "  memory    %zu bytes, %.1f a point\n", stats.memory,
             stats.points ? (double)stats.memory / (double)stats.points : 0.0);
     print_depths(&stats, out);
@@ -229,20 +228,23 @@ static void write_node(const octree_node *node, FILE *out)
     json_write_end_line(w);
 }
 
-bool inspect_print_node(const inspection *i, const char *address, bool json, FILE *out, record_error *error)
+bool inspect_find_node(const inspection *i, const char *address, octree_node *node, record_error *error)
 {
     octree_address parsed;
-    octree_node node;
     if (!octree_address_parse(address, &parsed))
-        return record_fail(error, "\"%s\" is not a node's address; it is octants from the root down, as in 0/3/7, or root",
+        return record_fail(error,
+                           "\"%s\" is not a node's address; it is octants from the root down, as in 0/3/7, or root",
                            address);
-    if (octree_node_at(i->tree, parsed, &node) != OCTREE_OK)
-        return record_fail(error, "there is no node %s in this tree", address);
+    return octree_node_at(i->tree, parsed, node) == OCTREE_OK ||
+           record_fail(error, "there is no node %s in this tree", address);
+}
+
+void inspect_print_node(const octree_node *node, bool json, FILE *out)
+{
     if (json)
-        write_node(&node, out);
+        write_node(node, out);
     else
-        print_node(&node, out);
-    return true;
+        print_node(node, out);
 }
 
 static octree_walk_order write_row(const octree_node *node, void *context)
@@ -260,12 +262,10 @@ static octree_walk_order write_row(const octree_node *node, void *context)
 
 bool inspect_write_nodes(const inspection *i, const char *path, record_error *error)
 {
-    FILE *out = fopen(path, "wb");
-    if (!out)
-        return record_fail(error, "%s: cannot be written: %s", path, strerror(errno));
-    fputs("address,depth,leaf,count,min_x,min_y,min_z,max_x,max_y,max_z\n", out);
-    octree_walk(i->tree, write_row, out);
-    const bool written = !ferror(out);
-    const bool closed = fclose(out) == 0;
-    return (written && closed) || record_fail(error, "%s: cannot be written: %s", path, strerror(errno));
+    part_file file;
+    if (!part_open(&file, path, error))
+        return false;
+    fputs("address,depth,leaf,count,min_x,min_y,min_z,max_x,max_y,max_z\n", file.stream);
+    octree_walk(i->tree, write_row, file.stream);
+    return part_close(&file, error);
 }

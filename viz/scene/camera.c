@@ -7,7 +7,7 @@
 /* A unit that is not quite the frame's, so that labels fit around the world. */
 #define MARGIN 1.1
 #define MARGIN_OF_BALL 1.01
-#define THINNEST 1e-3 /* a world that is seen as less, end on, is not enlarged to fill the window */
+#define THINNEST 1e-3   /* a world that is seen as less, end on, is not enlarged to fill the window */
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* of the camera that follows: half the window is seen at this distance a unit */
 
@@ -46,7 +46,8 @@ void camera_turn(double turns, double *cosine, double *sine)
     }
 }
 
-/* Look along a direction given by azimuth (0: along +y, growing to the left of it) and elevation of the eye, in turns. */
+/* Look along a direction given by azimuth (0: along +y, growing to the left of it) and elevation of the eye, in turns.
+ */
 static void look(camera *c, double azimuth, double elevation)
 {
     double ca, sa, ce, se;
@@ -91,7 +92,8 @@ static const struct {
 /* Fit the world into the window: orthographic by its outline, perspective by the ball around it. */
 static double fit(const camera *c, camera_window window, double distance)
 {
-    const double across = fmax(half_span(c->right, c->half), THINNEST), along = fmax(half_span(c->up, c->half), THINNEST);
+    const double across = fmax(half_span(c->right, c->half), THINNEST),
+                 along = fmax(half_span(c->up, c->half), THINNEST);
     const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
     const double smaller = window.width < window.height ? window.width : window.height;
     const double square = dot(c->half, c->half);
@@ -122,8 +124,7 @@ void camera_unit(const camera *c, const double position[3], double result[3])
         result[i] = 2 * ((position[i] * c->scale - c->origin[i]) / c->size) - c->half[i];
 }
 
-camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3],
-                   uint64_t tick)
+camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
     measure(&c, world);

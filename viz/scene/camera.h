@@ -22,15 +22,14 @@ typedef struct camera {
     double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */
     double eye[3];                      /* in unit coordinates */
     bool perspective;
-    double zoom;                        /* pixels a unit; under perspective, at distance 1 */
-    double middle[2];                   /* the pixel that the axis of view passes through */
-    double near;                        /* what is nearer than this (along forward, from the eye) is clipped */
-    double near_depth, far_depth;       /* the world's span of view depth: the bands divide it */
+    double zoom;                  /* pixels a unit; under perspective, at distance 1 */
+    double middle[2];             /* the pixel that the axis of view passes through */
+    double near;                  /* what is nearer than this (along forward, from the eye) is clipped */
+    double near_depth, far_depth; /* the world's span of view depth: the bands divide it */
 } camera;
 
 /* The camera of a tick: it depends on nothing but the view, the world, the player and the number of the tick. */
-camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3],
-                   uint64_t tick);
+camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
 
 /* To unit coordinates: 2 (p - origin) / size - half. */
 void camera_unit(const camera *c, const double position[3], double result[3]);

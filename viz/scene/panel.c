@@ -29,7 +29,8 @@ typedef struct pen {
 static void write_text(pen *p, int x, theme_role role, int size, const char *text)
 {
     const scene *s = p->scene;
-    scene_label label = {.id = p->next_id++, .look = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
+    scene_label label = {.id = p->next_id++,
+                         .look = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
     label.at[0] = x * s->unit;
     label.at[1] = p->y * s->unit;
     const int fits = (COLUMN - x) / (LETTER * size) < SCENE_TEXT ? (COLUMN - x) / (LETTER * size) : SCENE_TEXT - 1;
@@ -183,8 +184,8 @@ static void write_keys(pen *p, const octree_game *game)
     char text[SCENE_TEXT];
     size_t used = 0;
     for (uint64_t tick = now > 5 ? now - 5 : 1; tick <= now + 6 && tick <= count; tick++)
-        used += (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ",
-                                 session->keys[tick - 1]);
+        used +=
+            (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ", session->keys[tick - 1]);
     if (used) {
         write_text(p, MARGIN, ROLE_FAINT, 1, text);
         p->y += LINE;

@@ -38,13 +38,13 @@ static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size
 }
 
 /* The body of every scene_add: `array` is one of the scene's. */
-#define APPEND(s, array, item)                                                                                        \
-    do {                                                                                                              \
-        void *grown = grow(s, (array).items, (array).count, &(array).room, sizeof *(array).items);                    \
-        if (grown) {                                                                                                  \
-            (array).items = grown;                                                                                    \
-            (array).items[(array).count++] = (item);                                                                  \
-        }                                                                                                             \
+#define APPEND(s, array, item)                                                                                         \
+    do {                                                                                                               \
+        void *grown = grow(s, (array).items, (array).count, &(array).room, sizeof *(array).items);                     \
+        if (grown) {                                                                                                   \
+            (array).items = grown;                                                                                     \
+            (array).items[(array).count++] = (item);                                                                   \
+        }                                                                                                              \
     } while (0)
 
 static bool all_finite(const double *values, size_t count)

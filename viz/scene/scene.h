@@ -50,7 +50,7 @@ typedef struct scene_marker {
 typedef struct scene_label {
     uint64_t id;
     bool in_world;
-    double at[3];       /* a world position, or x and y in pixels of the text's top left corner */
+    double at[3]; /* a world position, or x and y in pixels of the text's top left corner */
     char text[SCENE_TEXT];
     scene_look look;
 } scene_label;
@@ -63,10 +63,10 @@ typedef struct scene_panel {
 } scene_panel;
 
 /* A growing array; see scene_add_*. */
-#define SCENE_ARRAY(type)                                                                                             \
-    struct {                                                                                                          \
-        type *items;                                                                                                  \
-        size_t count, room;                                                                                           \
+#define SCENE_ARRAY(type)                                                                                              \
+    struct {                                                                                                           \
+        type *items;                                                                                                   \
+        size_t count, room;                                                                                            \
     }
 
 typedef struct scene {
@@ -78,7 +78,7 @@ typedef struct scene {
     SCENE_ARRAY(scene_marker) markers;
     SCENE_ARRAY(scene_label) labels;
     SCENE_ARRAY(scene_panel) panels;
-    size_t refused;   /* elements with NaN or infinite geometry: counted, never drawn */
+    size_t refused;     /* elements with NaN or infinite geometry: counted, never drawn */
     bool out_of_memory; /* set by scene_add_*: the scene is not whole */
 } scene;
 

@@ -45,7 +45,8 @@ static octree_box box_about(const double center[3], double size)
 /* A line from the middle of the player's box straight down to the world's floor tells where it is in space. */
 static void add_plumb_line(scene *s, const octree_tick *tick, const octree_box *world)
 {
-    scene_segment plumb = {.id = 0, .look = {.layer = LAYER_PLAYER, .role = ROLE_FAINT, .style = STYLE_DASHED, .width = 1}};
+    scene_segment plumb = {.id = 0,
+                           .look = {.layer = LAYER_PLAYER, .role = ROLE_FAINT, .style = STYLE_DASHED, .width = 1}};
     memcpy(plumb.ends[0], tick->player, sizeof plumb.ends[0]);
     memcpy(plumb.ends[1], tick->player, sizeof plumb.ends[1]);
     plumb.ends[1][2] = world->min[2];
@@ -55,8 +56,9 @@ static void add_plumb_line(scene *s, const octree_tick *tick, const octree_box *
 static void add_player(scene *s, const octree_tick *tick, const octree_session *session)
 {
     add_plumb_line(s, tick, &session->tree.world);
-    scene_marker marker = {
-        .id = session->player.id, .look = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 4}, .shape = SHAPE_DIAMOND};
+    scene_marker marker = {.id = session->player.id,
+                           .look = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 4},
+                           .shape = SHAPE_DIAMOND};
     memcpy(marker.at, tick->player, sizeof marker.at);
     scene_add_marker(s, marker);
     scene_add_box(s, (scene_box){

@@ -4,9 +4,10 @@
 #include <stddef.h>
 #include <string.h>
 
-static const char *const camera_names[CAMERA_COUNT] = {"iso", "top", "front", "side", "follow", "orbit"};
-static const char *const layer_names[LAYER_COUNT] = {"world",   "nodes",  "points", "range",
-                                                     "nearest", "player", "box",    "text"};
+#define VIEW_TEXT(name, text) text,
+static const char *const camera_names[CAMERA_COUNT] = {VIEW_CAMERA_MAP(VIEW_TEXT)};
+static const char *const layer_names[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_TEXT)};
+#undef VIEW_TEXT
 
 view view_default(void)
 {

@@ -4,33 +4,44 @@
 
 #include <stdbool.h>
 
+/* Each camera and the name that people type. */
+#define VIEW_CAMERA_MAP(X)                                                                                             \
+    X(ISO, "iso")       /* orthographic, three-quarter view from above */                                              \
+    X(TOP, "top")       /* orthographic, along -z; x to the right, y up */                                             \
+    X(FRONT, "front")   /* orthographic, along +y; x to the right, z up */                                             \
+    X(SIDE, "side")     /* orthographic, along -x; y to the right, z up */                                             \
+    X(FOLLOW, "follow") /* perspective, behind and above the player */                                                 \
+    X(ORBIT, "orbit")   /* perspective, round the world by a fixed angle a tick */
+
+/* Each layer and its name, in painter's order: later layers lie on top. */
+#define VIEW_LAYER_MAP(X)                                                                                              \
+    X(WORLD, "world")                                                                                                  \
+    X(NODES, "nodes")                                                                                                  \
+    X(POINTS, "points")                                                                                                \
+    X(RANGE, "range")                                                                                                  \
+    X(NEAREST, "nearest")                                                                                              \
+    X(PLAYER, "player")                                                                                                \
+    X(BOX, "box") /* the player's collision box, and what is in it */                                                  \
+    X(TEXT, "text")
+
 typedef enum view_camera {
-    CAMERA_ISO,    /* orthographic, three-quarter view from above */
-    CAMERA_TOP,    /* orthographic, along -z; x to the right, y up */
-    CAMERA_FRONT,  /* orthographic, along +y; x to the right, z up */
-    CAMERA_SIDE,   /* orthographic, along -x; y to the right, z up */
-    CAMERA_FOLLOW, /* perspective, behind and above the player */
-    CAMERA_ORBIT,  /* perspective, round the world by a fixed angle a tick */
-    CAMERA_COUNT
+#define VIEW_CAMERA_ENUM(name, text) CAMERA_##name,
+    VIEW_CAMERA_MAP(VIEW_CAMERA_ENUM)
+#undef VIEW_CAMERA_ENUM
+        CAMERA_COUNT
 } view_camera;
 
-/* In painter's order: later layers lie on top. */
 typedef enum view_layer {
-    LAYER_WORLD,
-    LAYER_NODES,
-    LAYER_POINTS,
-    LAYER_RANGE,
-    LAYER_NEAREST,
-    LAYER_PLAYER,
-    LAYER_BOX, /* the player's collision box, and what is in it */
-    LAYER_TEXT,
-    LAYER_COUNT
+#define VIEW_LAYER_ENUM(name, text) LAYER_##name,
+    VIEW_LAYER_MAP(VIEW_LAYER_ENUM)
+#undef VIEW_LAYER_ENUM
+        LAYER_COUNT
 } view_layer;
 
 typedef struct view {
     int width, height; /* pixels */
     view_camera camera;
-    unsigned layers;   /* bit 1 << view_layer */
+    unsigned layers; /* bit 1 << view_layer */
 } view;
 
 #define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
@@ -38,8 +49,8 @@ typedef struct view {
 /* 1280 x 720, iso, all layers. */
 view view_default(void);
 
-/* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6 at
- * 2160; a narrow picture counts as its 16:9 part. */
+/* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6
+ * at 2160; a narrow picture counts as its 16:9 part. */
 int view_unit(const view *v);
 
 static inline bool view_shows(const view *v, view_layer layer)

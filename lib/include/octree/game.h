@@ -59,8 +59,8 @@ typedef struct octree_session {
     octree_player player;
     const octree_body *bodies;
     size_t body_count;
-    const char *keys; /* one a tick; null or a string */
-    uint64_t ticks;   /* ticks after tick 0 to play at least; keys that are missing are waits */
+    const char *keys;         /* one a tick; null or a string */
+    uint64_t ticks;           /* ticks after tick 0 to play at least; keys that are missing are waits */
     const octree_edit *edits; /* ascending by tick */
     size_t edit_count;
     const octree_query *queries; /* ascending by tick, OCTREE_EVERY_TICK last */
@@ -98,11 +98,11 @@ typedef struct octree_refusal {
 
 typedef struct octree_answer {
     octree_query_kind kind;
-    bool by_key;               /* asked by n */
-    octree_box box;            /* range: as asked, in world coordinates */
-    double target[3];          /* nearest: as asked */
-    bool found;                /* nearest */
-    octree_neighbor neighbor;  /* nearest, when found */
+    bool by_key;                /* asked by n */
+    octree_box box;             /* range: as asked, in world coordinates */
+    double target[3];           /* nearest: as asked */
+    bool found;                 /* nearest */
+    octree_neighbor neighbor;   /* nearest, when found */
     const octree_point *points; /* range: the result, by id */
     size_t count;
 } octree_answer;
@@ -110,10 +110,10 @@ typedef struct octree_answer {
 /* One tick. The arrays are owned by the game and valid until its next step. */
 typedef struct octree_tick {
     uint64_t number;
-    char key;            /* 0 at tick 0 */
-    unsigned events;     /* bits of octree_event */
-    double player[3];    /* after the tick */
-    double attempt[3];   /* where the collision test was made: the step's end, taken back or not */
+    char key;                 /* 0 at tick 0 */
+    unsigned events;          /* bits of octree_event */
+    double player[3];         /* after the tick */
+    double attempt[3];        /* where the collision test was made: the step's end, taken back or not */
     const octree_point *hits; /* what the collision test found, by id */
     size_t hit_count;
     const octree_refusal *refusals; /* in the order they happened */

@@ -1,0 +1,252 @@
+/* insert_many.c - many points at once: what a node becomes is made from its old self and its share of the points. */
+#include "batch.h"
+#include "journal.h"
+#include "leaf.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct insertion {
+    octree *tree;
+    batch *batch;
+    journal journal;
+    list repetitions;
+} insertion;
+
+/* What was stored comes first, then the caller's points in their order: so leaves refuse as one by one. */
+static int by_place(const void *a, const void *b)
+{
+    const uint32_t p = ((const batch_item *)a)->place + 1, q = ((const batch_item *)b)->place + 1; /* stored: 0 */
+    return (p > q) - (p < q);
+}
+
+/* A leaf of those of the items that it takes; the others are told why not. */
+static bool make_leaf(insertion *in, batch_item *items, size_t count, node *made)
+{
+    const size_t capacity = in->tree->def.leaf_capacity;
+    size_t taken = count;
+    if (count > capacity && in->tree->def.full_leaf == OCTREE_REFUSE) {
+        qsort(items, count, sizeof *items, by_place);
+        taken = capacity;
+    }
+    if (!journal_make_leaf(&in->journal, made, (uint32_t)taken))
+        return false;
+    for (size_t i = 0; i < taken; i++)
+        leaf_append(in->tree, made, items[i].point); /* there is room */
+    for (size_t i = taken; i < count; i++)
+        batch_set(in->batch, &items[i], OCTREE_FULL);
+    return true;
+}
+
+/* The children that the items' octants become, and those that are there already. `old` is an inner node, or null. */
+static bool build_children(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made);
+
+/* What a cell without anything stored, or with all that was stored among the items, becomes. */
+static bool build(insertion *in, cell c, batch_item *items, size_t count, node *made)
+{
+    if (count <= in->tree->def.leaf_capacity || !may_split(in->tree, c))
+        return make_leaf(in, items, count, made);
+    return build_children(in, NULL, c, items, count, made);
+}
+
+static int by_code(const void *a, const void *b)
+{
+    const uint64_t p = ((const batch_item *)a)->code, q = ((const batch_item *)b)->code;
+    return (p > q) - (p < q);
+}
+
+/* A leaf's points, sorted, and then its share of the batch; both merged into one order by code. */
+static void merge_items(const octree *tree, const node *leaf, const batch_item *items, size_t count, batch_item *all)
+{
+    for (uint32_t i = 0; i < leaf->count; i++) {
+        const octree_point *point = &leaf_points(leaf)[i];
+        all[i] = (batch_item){morton_code(tree->axes, point->position), point, BATCH_STORED};
+    }
+    qsort(all, leaf->count, sizeof *all, by_code);
+    size_t stored = leaf->count, new = count;
+    for (size_t last = stored + new; new > 0; last--) {
+        if (stored > 0 && all[stored - 1].code > items[new - 1].code)
+            all[last - 1] = all[--stored];
+        else
+            all[last - 1] = items[--new];
+    }
+}
+
+/* Leave out those that the leaf holds already. Returns how many are left. */
+static size_t drop_stored(const insertion *in, const node *leaf, batch_item *items, size_t count)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (leaf_find(leaf, items[i].point->position, items[i].point->id) == LEAF_NONE)
+            items[left++] = items[i];
+        else
+            batch_set(in->batch, &items[i], OCTREE_DUPLICATE);
+    }
+    return left;
+}
+
+static bool add_to_leaf(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made)
+{
+    count = drop_stored(in, old, items, count);
+    if (old->count == 0)
+        return build(in, c, items, count, made) && journal_replace(&in->journal, old);
+    const size_t room = (old->count + count) * sizeof(batch_item);
+    batch_item *all = arena_take(&in->tree->memory, room);
+    if (!all)
+        return false;
+    merge_items(in->tree, old, items, count, all);
+    const bool ok = build(in, c, all, old->count + count, made) && journal_replace(&in->journal, old);
+    arena_give(&in->tree->memory, all, room);
+    return ok;
+}
+
+/* What a node becomes. */
+static bool add(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made)
+{
+    *made = *old;
+    if (count == 0)
+        return true;
+    return old->octants ? build_children(in, old, c, items, count, made) : add_to_leaf(in, old, c, items, count, made);
+}
+
+static bool build_children(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made)
+{
+    static const node empty = {0};
+    size_t shares[8] = {0};
+    unsigned octants = old ? old->octants : 0;
+    for (size_t at = 0; at < count;) {
+        const unsigned octant = morton_octant(items[at].code, c.depth);
+        shares[octant] = batch_share(items + at, count - at, c.depth);
+        octants |= 1u << octant;
+        at += shares[octant];
+    }
+    node *group = journal_make_group(&in->journal, bits_count8(octants));
+    *made = (node){.below = group, .octants = (uint8_t)octants};
+    for (unsigned octant = 0; group && octant < 8; octant++) {
+        if (!(octants >> octant & 1))
+            continue;
+        const node *before = old ? child_at(old, octant) : NULL;
+        if (!add(in, before ? before : &empty, cell_child(c, octant), items, shares[octant], group))
+            return false;
+        made->count += group->count;
+        items += shares[octant];
+        group++;
+    }
+    if (!group || (old && !journal_replace(&in->journal, old)))
+        return false;
+    /* Where leaves refused points, what is left may fit one leaf after all. */
+    return made->count > in->tree->def.leaf_capacity || journal_collapse(&in->journal, made);
+}
+
+/* A point of the batch, and its place there. */
+typedef struct placed {
+    octree_point point;
+    uint32_t place;
+} placed;
+
+static int compare_placed(const void *a, const void *b)
+{
+    const placed *p = a, *q = b;
+    const int order = octree_compare_points(&p->point, &q->point);
+    return order ? order : (p->place > q->place) - (p->place < q->place);
+}
+
+/* A point that repeats an earlier one of the batch. */
+typedef struct repetition {
+    uint32_t place, first;
+} repetition;
+
+static bool note_repetitions(insertion *in, const placed *sorted, size_t count)
+{
+    for (size_t i = 1, first = 0; i < count; i++) {
+        if (octree_compare_points(&sorted[first].point, &sorted[i].point) != 0) {
+            first = i;
+            continue;
+        }
+        repetition *r = list_append(&in->tree->memory, &in->repetitions, sizeof *r);
+        if (!r)
+            return false;
+        *r = (repetition){sorted[i].place, sorted[first].place};
+        in->batch->statuses[r->place] = OCTREE_DUPLICATE;
+    }
+    return true;
+}
+
+/* Items of one code: find those that repeat an earlier one. */
+static bool find_repetitions(insertion *in, const batch_item *items, size_t count)
+{
+    placed *sorted = arena_take(&in->tree->memory, count * sizeof *sorted);
+    if (!sorted)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = (placed){*items[i].point, items[i].place};
+    qsort(sorted, count, sizeof *sorted, compare_placed);
+    const bool ok = note_repetitions(in, sorted, count);
+    arena_give(&in->tree->memory, sorted, count * sizeof *sorted);
+    return ok;
+}
+
+/* Take those that repeat an earlier one out of the batch: they must not make leaves split. */
+static bool drop_repetitions(insertion *in)
+{
+    batch *b = in->batch;
+    size_t left = 0;
+    for (size_t start = 0, end; start < b->count; start = end) {
+        for (end = start + 1; end < b->count && b->items[end].code == b->items[start].code; end++)
+            ;
+        if (end - start > 1 && !find_repetitions(in, b->items + start, end - start))
+            return false;
+        for (size_t i = start; i < end; i++)
+            if (b->statuses[b->items[i].place] == OCTREE_OK)
+                b->items[left++] = b->items[i];
+    }
+    b->count = left;
+    return true;
+}
+
+/* What repeats a point that its leaf refused would have been refused too. */
+static void judge_repetitions(const insertion *in)
+{
+    const repetition *all = in->repetitions.items;
+    for (size_t i = 0; i < in->repetitions.count; i++)
+        if (in->batch->statuses[all[i].first] == OCTREE_FULL)
+            in->batch->statuses[all[i].place] = OCTREE_FULL;
+}
+
+static octree_status insert_batch(insertion *in)
+{
+    octree *tree = in->tree;
+    batch *b = in->batch;
+    node root;
+    if (!drop_repetitions(in))
+        return OCTREE_NO_MEMORY;
+    if (b->count > UINT32_MAX - tree->root.count)
+        return OCTREE_TOO_MANY;
+    if (!add(in, &tree->root, root_cell(), b->items, b->count, &root)) {
+        journal_abandon(&in->journal);
+        return OCTREE_NO_MEMORY;
+    }
+    judge_repetitions(in);
+    if (root.count == tree->root.count)
+        journal_abandon(&in->journal); /* nothing was taken */
+    else
+        journal_commit(&in->journal, root);
+    return OCTREE_OK;
+}
+
+octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                 size_t *inserted)
+{
+    if (!tree || (!points && count))
+        return OCTREE_NULL_ARGUMENT;
+    batch b;
+    insertion in = {.tree = tree, .batch = &b, .journal = {.tree = tree}};
+    octree_status status = batch_begin(&b, tree, points, count, statuses);
+    if (status == OCTREE_OK)
+        status = insert_batch(&in);
+    if (status == OCTREE_OK && inserted)
+        *inserted = batch_done(&b);
+    list_release(&tree->memory, &in.repetitions, sizeof(repetition));
+    batch_end(&b);
+    return status;
+}
