@@ -207,6 +207,30 @@ static void every_magnitude_in_one_tree_is_answered_exactly(void **state)
     brute_free(&all);
 }
 
+static void distances_whose_squares_vanish_are_told_apart(void **state)
+{
+    (void)state;
+    uint64_t random = 18;
+    for (int exponent = -480; exponent >= -560; exponent -= 2) {
+        octree_box world = cube(-1, 1);
+        brute all = {0};
+        for (int i = 0; i < 30; i++) {
+            double at[3];
+            for (int axis = 0; axis < 3; axis++)
+                at[axis] = ldexp(random_between(&random, -1, 1), exponent);
+            add(&all, &world, at);
+        }
+        octree *tree = brute_tree(&all, world, 1 + (size_t)(-exponent) % 5, 21);
+        for (int i = 0; i < 10; i++) {
+            const double *at = all.points[random_below(&random, all.count)].position;
+            const double target[3] = {at[0] * 0.75, at[1] * 0.75, at[2] * -0.75};
+            assert_all(tree, &all, target, &random);
+        }
+        octree_destroy(tree);
+        brute_free(&all);
+    }
+}
+
 static double random_magnitude(uint64_t *random)
 {
     static const int scales[] = {0, 0, 0, 53, -53, 660, -660, 1023, -1060};
@@ -268,6 +292,7 @@ int main(void)
         cmocka_unit_test(a_lattice_of_tenths_is_answered_exactly),
         cmocka_unit_test(targets_far_outside_are_answered_exactly),
         cmocka_unit_test(every_magnitude_in_one_tree_is_answered_exactly),
+        cmocka_unit_test(distances_whose_squares_vanish_are_told_apart),
         cmocka_unit_test(a_sphere_is_decided_by_whole_numbers),
         cmocka_unit_test(every_capacity_and_depth_gives_the_true_answer),
     };

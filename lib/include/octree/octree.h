@@ -219,12 +219,29 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
 octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,
                             octree_point_visitor visit, void *context);
 
+/* The points in a closed box into points[0 .. room - 1], in no stated order. *count receives how many there are; where
+ * that is more than `room`, the rest is left out. Errors and cost as octree_range_search. */
+octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
+                                   octree_point *points, size_t room, size_t *count);
+
+/* The same, sorted by id and then by position. Where there are more than `room`, the first `room` of them in that
+ * order. */
+octree_status octree_range_collect_sorted(const octree *tree, const octree_box *box, const octree_search *how,
+                                          octree_point *points, size_t room, size_t *count);
+
 /* Algorithm 5. Visit every point p with |p - center| <= box_size on each axis, decided by the real numbers and not by
  * rounded sums. The tree is not changed (the paper inserts the moving point and takes it out again, which fails when
  * its leaf is full): `self`, which may be null, is the one pair (position, id) to leave out.
  * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0). Cost: as octree_range. */
 octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
                              octree_point_visitor visit, void *context);
+
+/* Collision on the way: visit every point that the box position +- box_size touches somewhere between two places, both
+ * included, decided by the real numbers. Nothing is missed, however long the step is; a test at both ends alone is sure
+ * to miss nothing only where the step is at most 2 * box_size along one axis. `self` as in octree_collide.
+ * Errors: as octree_collide. Cost: as octree_range of the box around the whole step. */
+octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,
+                                   const octree_point *self, octree_point_visitor visit, void *context);
 
 /* The box that octree_collide asks for: the smallest and largest doubles within box_size of the centre. */
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);
@@ -250,6 +267,13 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
  * log k) on average for points of bounded density, O(n log k) at worst. */
 octree_status octree_nearest_k(const octree *tree, const double target[3], size_t k, const octree_search *how,
                                octree_neighbor *neighbors, size_t *count);
+
+/* The nearest point of each of `count` targets, rows of three doubles, into neighbors[i]; found[i] (may be null) tells
+ * whether there is one, and neighbors[i] is untouched where there is none. The targets are asked in Morton order, so
+ * that those close by share what is in the cache. Errors: as octree_nearest_k, TOO_MANY and NO_MEMORY; a target that is
+ * not finite is NOT_FINITE before anything is written. Cost: `count` searches, and 16 bytes a target while it runs. */
+octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
+                                   const octree_search *how, octree_neighbor *neighbors, bool *found);
 
 /* The nearest point at a distance of at most `radius`, decided by the real numbers (in FAST mode as octree_radius
  * does); epsilon as in octree_nearest_k. Errors: those of octree_nearest_k, BAD_SIZE for a negative radius, and
