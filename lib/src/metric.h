@@ -46,6 +46,9 @@ static inline bool metric_surely_less(double a, double b)
     return b - a > (a + b) * 0x1p-50 + 0x1p-999;
 }
 
+/* A square below this has not overflowed; a larger one may stand for anything beyond. */
+#define METRIC_FINITE 0x1p1020
+
 /* The sign of |a - target|^2 - |b - target|^2 in real numbers: -1, 0 or 1. Exact for all finite doubles. */
 int metric_compare(const double target[3], const double a[3], const double b[3]);
 

@@ -23,8 +23,9 @@ typedef struct search {
     const octree *tree;
     octree_search how;
     metric metric;
-    double shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is left out when it is farther than this part of the worst */
-    bool bounded;   /* by a radius */
+    double
+        shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is left out when it is farther than this part of the worst */
+    bool bounded; /* by a radius */
     double radius, radius_square;
     octree_neighbor *best;
     size_t count, k;
@@ -91,7 +92,7 @@ static double limit(const search *s)
 
 static bool is_within_radius(const search *s, const octree_neighbor *n)
 {
-    if (!s->bounded || surely_less(s->how.mode, n->distance, s->radius_square))
+    if (!s->bounded || surely_less(s->how.mode, n->distance, fmin(s->radius_square, METRIC_FINITE)))
         return true;
     if (is_trusted(s->how.mode, n->distance))
         return n->distance <= s->radius_square;
@@ -141,8 +142,10 @@ static void half_squares(const search *s, cell c, double squares[3][2])
 
 static bool is_too_far(const search *s, double square)
 {
+    /* With an epsilon the slack of exact mode serves fast mode too: the bound rests on it. */
+    const octree_mode mode = s->how.epsilon > 0 ? OCTREE_EXACT : s->how.mode;
     if (s->count == s->k)
-        return surely_less(s->how.mode, s->best[0].distance * s->shrink, square);
+        return surely_less(mode, s->best[0].distance * s->shrink, square);
     return s->bounded && surely_less(s->how.mode, s->radius_square, square);
 }
 
@@ -193,8 +196,11 @@ static void finish(const search *s)
         swap(&s->best[0], &s->best[left - 1]);
         sink(s, s->best, left - 1);
     }
-    for (size_t i = 0; i < s->count; i++)
-        s->best[i].distance = metric_distance(s->metric.target, s->best[i].point.position);
+    for (size_t i = 0; i < s->count; i++) {
+        const double distance = metric_distance(s->metric.target, s->best[i].point.position);
+        /* The order is the real numbers'; rounding must not make it look otherwise. */
+        s->best[i].distance = i > 0 ? fmax(distance, s->best[i - 1].distance) : distance;
+    }
 }
 
 /* A search for k points; a negative radius is none. Returns how many were found. */

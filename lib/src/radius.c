@@ -35,7 +35,7 @@ static bool contains(const ball *b, const octree_point *point)
     const double square = metric_point(&b->metric, point->position);
     if (is_trusted(b->how.mode, square))
         return square <= b->square;
-    if (metric_surely_less(square, b->square))
+    if (metric_surely_less(square, fmin(b->square, METRIC_FINITE)))
         return true;
     return !metric_surely_less(b->square, square) &&
            metric_compare_radius(b->metric.target, point->position, b->radius) <= 0;
@@ -101,7 +101,7 @@ octree_status octree_radius(const octree *tree, const double center[3], double r
         .metric = metric_make(tree->scale, center),
         .radius = radius,
         .square = scaled_square(radius, tree->scale),
-        .whole_square = scaled_square(radius + search.epsilon, tree->scale),
+        .whole_square = fmin(scaled_square(radius + search.epsilon, tree->scale), METRIC_FINITE),
         .cost = cost_or(&search, &unused),
         .visit = visit,
         .context = context,
