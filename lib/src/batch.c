@@ -1,5 +1,6 @@
 /* batch.c - see batch.h. */
 #include "batch.h"
+#include "float_mode.h"
 
 #include <string.h>
 
@@ -65,6 +66,8 @@ static void collect(batch *b)
 octree_status batch_begin(batch *b, octree *tree, const octree_point *points, size_t count, octree_status *statuses)
 {
     *b = (batch){.tree = tree, .points = points, .statuses = statuses, .point_count = count, .room = count};
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     if (count >= BATCH_STORED)
         return OCTREE_TOO_MANY;
     b->items = take_array(tree, count, sizeof *b->items);

@@ -1,4 +1,5 @@
 /* check.c - the validator: every invariant of the nodes, and a digest of them. */
+#include "float_mode.h"
 #include "leaf.h"
 #include "octree/digest.h"
 
@@ -43,6 +44,8 @@ const char *octree_check(const octree *tree, octree_address *where)
 {
     if (!tree)
         return "there is no tree";
+    if (!float_mode_is_default())
+        return octree_status_text(OCTREE_FLOAT_MODE);
     node_stack stack = {.size = 0};
     stack_push(&stack, &tree->root, root_cell());
     while (stack.size > 0) {
@@ -78,7 +81,8 @@ uint64_t octree_digest(const octree *tree)
     if (!tree)
         return 0;
     uint64_t sum = 0;
-    octree_walk(tree, digest_node, &sum);
+    if (octree_walk(tree, digest_node, &sum) != OCTREE_OK)
+        return 0;
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, sum);
     digest = octree_digest_word(digest, tree->def.leaf_capacity);
     digest = octree_digest_word(digest, tree->def.max_depth);

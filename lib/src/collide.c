@@ -1,5 +1,6 @@
 /* collide.c - Algorithm 5: what is within box_size of a centre on every axis. */
 #include "exact.h"
+#include "float_mode.h"
 #include "tree.h"
 
 #include <math.h>
@@ -8,6 +9,8 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
 {
     if (!center || !box)
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     if (!isfinite(center[0]) || !isfinite(center[1]) || !isfinite(center[2]) || !isfinite(box_size))
         return OCTREE_NOT_FINITE;
     if (box_size < 0)

@@ -64,22 +64,24 @@ static bool enters_before(const sweep *s, const double p[3], int a, int b)
 }
 
 /* 1 or 0 when doubles can tell, -1 when only exact arithmetic can. Each bound takes in the roundings of its differences
- * and its division, with u = 2^-53: 8u of the sum of magnitudes, divided by the length. */
+ * and its division, with u = 2^-53: 8u of the sum of magnitudes, divided by the length, and what may have underflowed.
+ * Where a step of that reckoning overflows, the bound is infinite. */
 static int guess(const sweep *s, const double p[3])
 {
-    double enter = 0, leave = 1, error = 0;
+    double enter = 0, leave = 1, error = 0x1p-1000;
     for (int i = 0; i < 3; i++) {
         const double way = direction(s, i), length = way * (s->to[i] - s->from[i]);
         if (length == 0)
             continue; /* is_covered has told */
         const double offset = way * (p[i] - s->from[i]);
+        const double magnitude = fabs(p[i]) + fabs(s->from[i]) + fabs(s->to[i]) + s->size;
         enter = fmax(enter, (offset - s->size) / length);
         leave = fmin(leave, (offset + s->size) / length);
-        error = fmax(error, (fabs(p[i]) + fabs(s->from[i]) + fabs(s->to[i]) + s->size) / length * 0x1p-48);
+        error = isfinite(magnitude) && isfinite(length) ? fmax(error, magnitude / length * 0x1p-48) : INFINITY;
         error = fmax(error, (fabs(enter) + fabs(leave)) * 0x1p-48);
+        if (!(error < 1))
+            return -1;
     }
-    if (!(error < 1))
-        return -1;
     return leave - enter > 2 * error ? 1 : enter - leave > 2 * error ? 0 : -1;
 }
 

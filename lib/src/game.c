@@ -1,5 +1,6 @@
 /* game.c - the game loop: one tick after another, in the order that game.h states. */
 #include "bodies.h"
+#include "float_mode.h"
 #include "game_parts.h"
 #include "node_set.h"
 #include "tree.h"
@@ -129,6 +130,8 @@ octree_status octree_game_step(octree_game *game, char key)
 {
     if (!game)
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     if (key == 'q') {
         game->quit = true;
         return OCTREE_OK;

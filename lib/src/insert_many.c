@@ -204,6 +204,38 @@ static bool drop_repetitions(insertion *in)
     return true;
 }
 
+/* Keep the first of some items by place, in order of their codes; the others are told that the leaf is full, or that
+ * they are stored already. */
+static void refuse_last(const batch *b, batch_item *items, size_t count, size_t kept)
+{
+    qsort(items, count, sizeof *items, by_place);
+    for (size_t i = kept; i < count; i++)
+        batch_set(b, &items[i],
+                  octree_contains(b->tree, items[i].point->position, items[i].point->id) ? OCTREE_DUPLICATE
+                                                                                         : OCTREE_FULL);
+    qsort(items, kept, sizeof *items, by_code);
+}
+
+/* Of the points of one deepest cell no more than a leaf's worth can be taken: refuse the others before anything is
+ * divided for them. What is stored there already is seen to later, leaf by leaf. */
+static void refuse_early(const insertion *in)
+{
+    batch *b = in->batch;
+    const octree_def *def = &in->tree->def;
+    const unsigned shift = 3 * (OCTREE_MAX_DEPTH - (unsigned)def->max_depth);
+    size_t left = 0;
+    for (size_t start = 0, end; start < b->count; start = end) {
+        for (end = start + 1; end < b->count && b->items[end].code >> shift == b->items[start].code >> shift; end++)
+            ;
+        const size_t taken = end - start < def->leaf_capacity ? end - start : def->leaf_capacity;
+        if (taken < end - start)
+            refuse_last(b, b->items + start, end - start, taken);
+        memmove(b->items + left, b->items + start, taken * sizeof *b->items);
+        left += taken;
+    }
+    b->count = left;
+}
+
 /* What repeats a point that its leaf refused would have been refused too. */
 static void judge_repetitions(const insertion *in)
 {
@@ -220,6 +252,8 @@ static octree_status insert_batch(insertion *in)
     node root;
     if (!drop_repetitions(in))
         return OCTREE_NO_MEMORY;
+    if (tree->def.full_leaf == OCTREE_REFUSE)
+        refuse_early(in);
     if (b->count > UINT32_MAX - tree->root.count)
         return OCTREE_TOO_MANY;
     if (!add(in, &tree->root, root_cell(), b->items, b->count, &root)) {

@@ -1,5 +1,6 @@
 /* range.c - Algorithm 4: the points in a closed box. */
 #include "exact.h"
+#include "float_mode.h"
 #include "leaf.h"
 #include "search.h"
 
@@ -9,6 +10,8 @@ static octree_status check_box(const octree_box *box)
 {
     if (!box)
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     for (int i = 0; i < 3; i++) {
         if (isnan(box->min[i]) || isnan(box->max[i]))
             return OCTREE_NOT_FINITE;

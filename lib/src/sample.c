@@ -1,5 +1,6 @@
 /* sample.c - see sample.h. No libm beyond sqrt: the same points on every machine. */
 #include "octree/sample.h"
+#include "float_mode.h"
 #include "float_rules.h"
 
 #include <math.h>
@@ -140,6 +141,8 @@ octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree
 {
     if (!box || (!positions && count))
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     if ((unsigned)kind >= OCTREE_SAMPLE_KINDS)
         return OCTREE_BAD_OPTION;
     for (int i = 0; i < 3; i++)

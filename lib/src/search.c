@@ -1,5 +1,6 @@
 /* search.c - see search.h. */
 #include "search.h"
+#include "float_mode.h"
 #include "leaf.h"
 
 #include <math.h>
@@ -20,6 +21,8 @@ octree_status check_search(const octree_search *how)
 
 octree_status check_finite(const double position[3])
 {
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     const bool finite = isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]);
     return finite ? OCTREE_OK : OCTREE_NOT_FINITE;
 }

@@ -1,6 +1,7 @@
 /* tree.c - making and freeing a tree, and the way from its root to a leaf. */
 #include "tree.h"
 #include "leaf.h"
+#include "float_mode.h"
 #include "metric.h"
 
 #include <math.h>
@@ -31,6 +32,8 @@ octree_def octree_def_default(void)
 
 static octree_status check_def(const octree_def *def)
 {
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     for (int i = 0; i < 3; i++)
         if (!isfinite(def->world.min[i]) || !isfinite(def->world.max[i]) || !(def->world.min[i] < def->world.max[i]))
             return OCTREE_BAD_WORLD;
@@ -118,6 +121,8 @@ octree_status check_position(const octree *tree, const double position[3])
 {
     if (!tree || !position)
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     bool inside = true;
     for (int i = 0; i < 3; i++) {
         if (!isfinite(position[i]))

@@ -1,4 +1,5 @@
 /* walk.c - looking at the nodes: one by one, by address, by position, and in numbers. */
+#include "float_mode.h"
 #include "leaf.h"
 
 static octree_node describe(const octree *tree, const node *n, cell c, octree_address address)
@@ -18,6 +19,8 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
 {
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     node_stack stack = {.size = 0};
     stack_push(&stack, &tree->root, root_cell());
     while (stack.size > 0) {
@@ -36,6 +39,8 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
 {
     if (!tree || !result)
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     char text[OCTREE_ADDRESS_TEXT];
     octree_address canonical;
     if (!octree_address_parse(octree_address_format(address, text), &canonical) || canonical != address)

@@ -14,10 +14,16 @@ pencil pencil_make(const scene *s, scene_look look, unsigned depth)
     return (pencil){.look = look, .width = width > 1 ? width : 1, .unit = s->unit, .depth = depth};
 }
 
+/* What the tick is about fades less than the tree around it: the last bands would drown it. */
+static unsigned shade_of(const pencil *with, unsigned band)
+{
+    return with->look.layer >= LAYER_RANGE ? band / 3 : band;
+}
+
 static quad blank(const pencil *with, unsigned band)
 {
     return (quad){
-        .color = theme_index(with->look.role, band),
+        .color = theme_index(with->look.role, shade_of(with, band)),
         .order = quad_order(with->look.layer, band, with->depth),
     };
 }

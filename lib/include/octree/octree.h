@@ -15,6 +15,8 @@
  *   - Functions that take `const octree *` touch no shared state and may run from many threads at once. A mutation
  *     must run alone.
  *   - D is the depth of the tree (at most 21), M the leaf capacity, n the number of points, k the number of results.
+ *   - Answers rest on the default floating-point mode. Where the calling thread has another one (directed rounding, or
+ *     subnormals flushed to zero), functions that compute with positions return OCTREE_FLOAT_MODE and do nothing (octree_digest returns 0).
  *   - -0.0 equals +0.0 in every comparison; the bits that were stored are kept.
  */
 #ifndef OCTREE_OCTREE_H
@@ -44,6 +46,7 @@ extern "C" {
     X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
     X(BAD_OPTION, "bad_option", "an enumeration has a value that is not listed in the header")                         \
     X(BAD_ORDER, "bad_order", "edits and queries must be in ascending order of their ticks")                           \
+    X(FLOAT_MODE, "float_mode", "the thread's floating-point mode is not the default: nearest rounding, subnormals")  \
     X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
     X(TOO_MANY, "too_many", "the tree holds 4294967295 points, which is its limit")
 
@@ -136,7 +139,7 @@ octree_status octree_move(octree *tree, const double from[3], uint64_t id, const
  * of octree_insert one after the other: where a leaf refuses, the first in input order are taken. statuses[i] (may be
  * null) receives what octree_insert would have returned for points[i], and *inserted (may be null) the number of OKs.
  * Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are undefined.
- * Cost: O(count + nodes touched), and some fifty bytes a point while it runs. */
+ * Cost: O(count + points of the leaves touched), and some fifty bytes a point while it runs. */
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted);
 
@@ -259,7 +262,8 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
                              octree_neighbor *nearest);
 
 /* The k nearest points into neighbors[0 .. *count - 1], *count = min(k, points that count): by distance, then by id,
- * then by position. There must be room for that many. Each is the true one, by the real numbers; the i-th distance in
+ * then by position. There must be room for that many; null will do for k = 0. *count is 0 on an error. Each is the true
+ * one, by the real numbers; the i-th distance in
  * FAST mode is at most 1 + 2^-50 times the true i-th, or 2^-490 of the world's extent more. With epsilon > 0 it is at
  * most (1 + epsilon) times the true i-th. Proof: a node is left out only when its box is farther than the k-th best
  * found, divided by 1 + epsilon; so is then all that is in it, and the best found only get nearer. Errors:

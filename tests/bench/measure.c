@@ -1,0 +1,147 @@
+/* measure.c - one operation, timed on several trees in turn, their answers compared. */
+#include "measure.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { PROBES = 200 };
+
+/* Nanoseconds of this process alone: what else the machine does is not counted. */
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void finish(lineup *l, int rounds)
+{
+    for (int i = 0; i < l->count; i++) {
+        double *ns = l->of[i].round_ns;
+        qsort(ns, (size_t)rounds, sizeof *ns, by_value);
+        l->of[i].ns = (ns[(rounds - 1) / 2] + ns[rounds / 2]) / 2;
+    }
+}
+
+/* Peers measure distances in rounded doubles. */
+static bool alike(const peer_answer *a, const peer_answer *b)
+{
+    return a->count == b->count && a->ids == b->ids &&
+           fabs(a->distance - b->distance) <= 1e-12 * fmax(a->distance, b->distance);
+}
+
+static outcome compare(const lineup *l, int i, const char *op, const workload *w, size_t count,
+                       const peer_answer *expected, const peer_answer *given)
+{
+    for (size_t q = 0; q < count; q++) {
+        const peer_answer *a = &expected[q], *b = &given[q];
+        if (alike(a, b))
+            continue;
+        fprintf(stderr, "octree-bench: %s of %zu %s points, query %zu: ", op, w->count, octree_sample_name(w->set), q);
+        fprintf(stderr, "%s finds %zu points, ids %" PRIu64 ", distance %.17g; ", l->of[0].who, a->count, a->ids,
+                a->distance);
+        fprintf(stderr, "%s finds %zu, %" PRIu64 ", %.17g\n", l->of[i].who, b->count, b->ids, b->distance);
+        return UNLIKE;
+    }
+    return MEASURED;
+}
+
+/* After a change every tree is asked for the points about some targets. */
+static outcome probe(const lineup *l, int i, const char *op, const workload *w, peer_answer (*answers)[PROBES])
+{
+    const size_t count = w->query_count < PROBES ? w->query_count : PROBES;
+    const contender *c = &l->of[i];
+    c->peer->ask[PEER_RADIUS](c->self, w->targets, count, answers[i]);
+    return compare(l, i, op, w, count, answers[0], answers[i]);
+}
+
+static outcome check_done(const contender *c, const char *op, size_t done, size_t asked)
+{
+    if (done == asked)
+        return MEASURED;
+    fprintf(stderr, "octree-bench: %s: %s did %zu of %zu\n", op, c->who, done, asked);
+    return UNLIKE;
+}
+
+/* What was removed is inserted again; what was moved moves back. */
+static size_t undo(const contender *c, const changes *asked)
+{
+    return asked->kind == PEER_MOVE ? c->peer->change[PEER_MOVE](c->self, asked->to, asked->points, asked->count)
+                                    : c->peer->change[PEER_INSERT](c->self, asked->points, NULL, asked->count);
+}
+
+static outcome change_once(lineup *l, int i, const workload *w, const changes *asked, int round,
+                           peer_answer (*answers)[PROBES])
+{
+    contender *c = &l->of[i];
+    const bool fills = asked->kind == PEER_BUILD || asked->kind == PEER_INSERT;
+    if (fills && !(c->self = c->peer->create(&w->world)))
+        return OUT_OF_MEMORY;
+    const double start = now();
+    const size_t done = c->peer->change[asked->kind](c->self, asked->points, asked->to, asked->count);
+    c->round_ns[round] = (now() - start) / (double)asked->count;
+    c->memory = c->peer->memory(c->self);
+    outcome result = check_done(c, asked->op, done, asked->count);
+    if (result == MEASURED)
+        result = probe(l, i, asked->op, w, answers);
+    if (fills) {
+        c->peer->destroy(c->self);
+        c->self = NULL;
+    } else if (result == MEASURED) {
+        result = check_done(c, asked->op, undo(c, asked), asked->count);
+    }
+    return result;
+}
+
+outcome measure_changes(lineup *l, const workload *w, const changes *asked, int rounds)
+{
+    peer_answer answers[RIVALS_AT_MOST][PROBES];
+    for (int round = 0; round < rounds; round++)
+        for (int i = 0; i < l->count; i++) {
+            const outcome result = change_once(l, i, w, asked, round, answers);
+            if (result != MEASURED)
+                return result;
+        }
+    finish(l, rounds);
+    return MEASURED;
+}
+
+static outcome ask_in_rounds(lineup *l, const workload *w, const questions *asked, int rounds, peer_answer *expected,
+                             peer_answer *given)
+{
+    for (int round = 0; round < rounds; round++)
+        for (int i = 0; i < l->count; i++) {
+            contender *c = &l->of[i];
+            peer_answer *answers = i == 0 ? expected : given;
+            const double start = now();
+            c->ask(c->self, asked->queries, asked->count, answers);
+            c->round_ns[round] = (now() - start) / (double)asked->count;
+            if (compare(l, i, asked->op, w, asked->count, expected, answers) != MEASURED)
+                return UNLIKE;
+        }
+    return MEASURED;
+}
+
+outcome measure_asks(lineup *l, const workload *w, const questions *asked, int rounds)
+{
+    peer_answer *expected = malloc(asked->count * sizeof *expected), *given = malloc(asked->count * sizeof *given);
+    outcome result = OUT_OF_MEMORY;
+    if (expected && given) {
+        result = ask_in_rounds(l, w, asked, rounds, expected, given);
+        for (int i = 0; i < l->count; i++)
+            l->of[i].memory = l->of[i].peer->memory(l->of[i].self);
+        finish(l, rounds);
+    }
+    free(expected);
+    free(given);
+    return result;
+}

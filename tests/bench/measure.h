@@ -1,0 +1,46 @@
+/* measure.h - one operation, timed on several trees in turn, their answers compared. */
+#ifndef BENCH_MEASURE_H
+#define BENCH_MEASURE_H
+
+#include "workload.h"
+
+enum { ROUNDS_AT_MOST = 99, RIVALS_AT_MOST = 5 };
+
+/* A tree that takes part in an operation. */
+typedef struct contender {
+    const char *who;
+    const peer *peer;
+    void *self;
+    peer_ask ask;  /* null for changes */
+    double ns;     /* an operation: the median of the rounds */
+    size_t memory; /* bytes, after the operation */
+    double round_ns[ROUNDS_AT_MOST];
+} contender;
+
+/* The contenders of an operation; the first is the one that the others are compared with. */
+typedef struct lineup {
+    contender of[RIVALS_AT_MOST];
+    int count;
+} lineup;
+
+typedef enum outcome { MEASURED, UNLIKE, OUT_OF_MEMORY } outcome;
+
+/* Changes to time. A tree is made anew by PEER_BUILD and PEER_INSERT; after the others it is put back as it was. */
+typedef struct changes {
+    const char *op; /* its name, for messages */
+    peer_change_kind kind;
+    const octree_point *points, *to; /* `to` is read by moves alone */
+    size_t count;
+} changes;
+
+typedef struct questions {
+    const char *op;
+    const peer_query *queries;
+    size_t count;
+} questions;
+
+/* Time all contenders, `rounds` times in turn. UNLIKE has said on stderr what differs. */
+outcome measure_changes(lineup *l, const workload *w, const changes *asked, int rounds);
+outcome measure_asks(lineup *l, const workload *w, const questions *asked, int rounds);
+
+#endif

@@ -1,0 +1,44 @@
+/* ops.h - the operations of the bench, and the trees that each is measured on. */
+#ifndef BENCH_OPS_H
+#define BENCH_OPS_H
+
+#include "measure.h"
+
+/* Which trees an operation needs. */
+typedef enum stage {
+    STAGE_FILL,    /* none: it makes them */
+    STAGE_DYNAMIC, /* filled point by point */
+    STAGE_STATIC,  /* built at once */
+    STAGE_CHURNED, /* octrees alone: half of the points are removed again, or were never there */
+    STAGES
+} stage;
+
+typedef struct goal {
+    enum { NO_GOAL, AT_LEAST, AT_MOST } kind;
+    double ratio; /* of the best other's time to the octree's */
+} goal;
+
+typedef struct op {
+    const char *name;
+    stage stage;
+    peer_change_kind change; /* PEER_CHANGES: it asks */
+    peer_ask_kind ask;
+    const char *rival;       /* not null: the octree against itself, under this name ... */
+    peer_ask_kind rival_ask; /* ... and asked like this */
+    bool far, miss;          /* move far; ask for stored places or for targets */
+    size_t hits;             /* > 0: targets are sized to find this many */
+    size_t most;             /* queries at most */
+    goal goal;
+} op;
+
+enum { OPS = 17 };
+
+extern const op all_ops[OPS];
+
+/* Told the results of an operation. */
+typedef void report_op(const op *o, const workload *w, const lineup *l, void *context);
+
+/* Measure those operations of which wanted[i] is set on a workload. */
+outcome run_ops(const bool wanted[OPS], workload *w, int rounds, report_op *report, void *context);
+
+#endif

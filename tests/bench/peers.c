@@ -1,0 +1,15 @@
+/* peers.c - the trees that are in this build. */
+#include "peers.h"
+
+const peer *const all_peers[] = {
+    &peer_octree,
+#ifdef BENCH_NANOFLANN
+    &peer_nanoflann,
+#endif
+#ifdef BENCH_BOOST
+    &peer_boost_packed,
+    &peer_boost_quadratic,
+    &peer_boost_rstar,
+#endif
+    0,
+};

@@ -1,0 +1,12 @@
+/* peers.h - the trees that are in this build. */
+#ifndef BENCH_PEERS_H
+#define BENCH_PEERS_H
+
+#include "peer.h"
+
+/* Ends with null; the octree is first. */
+extern const peer *const all_peers[];
+
+enum { PEERS_AT_MOST = 5 };
+
+#endif

@@ -1,0 +1,305 @@
+/* test_exact_swept.c - swept boxes against exact rationals: grazing, near misses, and every scale of doubles. */
+#include "fixture.h"
+
+#include <float.h>
+#include <gmp.h>
+#include <math.h>
+
+#include "brute.h"
+
+/* A step, and the box that is carried along. */
+typedef struct sweep {
+    double from[3], to[3], size;
+} sweep;
+
+/* Narrow [first, last] to the moments when low <= at + way * t <= high, for offsets low and high and a way > 0. */
+static void narrow(mpq_t first, mpq_t last, mpq_t low, mpq_t high, const mpq_t way)
+{
+    mpq_div(low, low, way);
+    mpq_div(high, high, way);
+    if (mpq_cmp(low, first) > 0)
+        mpq_set(first, low);
+    if (mpq_cmp(high, last) < 0)
+        mpq_set(last, high);
+}
+
+/* Narrow [first, last] to the moments of one axis. False when it is never covered there, at rest. */
+static bool narrow_axis(mpq_t first, mpq_t last, const sweep *s, const double p[3], int axis)
+{
+    mpq_t offset, size, way, low, high;
+    mpq_inits(offset, size, way, low, high, NULL);
+    mpq_set_d(offset, p[axis]);
+    mpq_set_d(low, s->from[axis]);
+    mpq_set_d(way, s->to[axis]);
+    mpq_set_d(size, s->size);
+    mpq_sub(offset, offset, low);
+    mpq_sub(way, way, low);
+    if (mpq_sgn(way) < 0) { /* mirrored, it goes upwards */
+        mpq_neg(offset, offset);
+        mpq_neg(way, way);
+    }
+    mpq_sub(low, offset, size);
+    mpq_add(high, offset, size);
+    bool covered = mpq_sgn(low) <= 0 && mpq_sgn(high) >= 0;
+    if (mpq_sgn(way) > 0) {
+        narrow(first, last, low, high, way);
+        covered = true;
+    }
+    mpq_clears(offset, size, way, low, high, NULL);
+    return covered;
+}
+
+/* The truth: the moments of [0, 1] when the box covers p on the three axes have one in common. */
+static bool truly_touches(const sweep *s, const double p[3])
+{
+    mpq_t first, last;
+    mpq_inits(first, last, NULL);
+    mpq_set_ui(last, 1, 1);
+    bool covered = true;
+    for (int axis = 0; axis < 3 && covered; axis++)
+        covered = narrow_axis(first, last, s, p, axis);
+    covered = covered && mpq_cmp(first, last) <= 0;
+    mpq_clears(first, last, NULL);
+    return covered;
+}
+
+static void find_wrong(const brute *expected, const brute *found, const sweep *s)
+{
+    for (size_t i = 0; i < expected->count + found->count; i++) {
+        const bool missed = i < expected->count;
+        const octree_point *p = missed ? &expected->points[i] : &found->points[i - expected->count];
+        if (!brute_contains(missed ? found : expected, p->position, p->id))
+            fail_msg("(%a %a %a) to (%a %a %a) with %a %s (%a %a %a)", s->from[0], s->from[1], s->from[2], s->to[0],
+                     s->to[1], s->to[2], s->size, missed ? "misses" : "should not touch", p->position[0],
+                     p->position[1], p->position[2]);
+    }
+}
+
+static void assert_swept_in(const octree *tree, const brute *all, const sweep *s)
+{
+    const sweep back = {{s->to[0], s->to[1], s->to[2]}, {s->from[0], s->from[1], s->from[2]}, s->size};
+    brute expected = {0}, found = {0}, reversed = {0};
+    for (size_t i = 0; i < all->count; i++)
+        if (truly_touches(s, all->points[i].position))
+            brute_collect(&all->points[i], &expected);
+    assert_int_equal(octree_collide_swept(tree, s->from, s->to, s->size, NULL, brute_collect, &found), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, s->to, s->from, s->size, NULL, brute_collect, &reversed), OCTREE_OK);
+    find_wrong(&expected, &found, s);
+    find_wrong(&expected, &reversed, &back);
+    assert_true(brute_equal(&expected, &found) && brute_equal(&expected, &reversed)); /* each once */
+    brute_free(&expected);
+    brute_free(&found);
+    brute_free(&reversed);
+}
+
+/* The test fails unless exactly the truly touched points are visited, there and back. Frees the points. */
+static void assert_swept(brute *all, const sweep *s)
+{
+    octree *tree = brute_tree(all, cube(-DBL_MAX, DBL_MAX), 1, 21);
+    assert_swept_in(tree, all, s);
+    octree_destroy(tree);
+    brute_free(all);
+}
+
+static double nudged(double value, int steps)
+{
+    for (; steps > 0; steps--)
+        value = next_up(value);
+    for (; steps < 0; steps++)
+        value = next_down(value);
+    return fmin(fmax(value, -DBL_MAX), DBL_MAX);
+}
+
+/* A point and all those that are up to `reach` doubles away on each axis. */
+static void add_around(brute *all, const double at[3], int reach)
+{
+    for (int x = -reach; x <= reach; x++)
+        for (int y = -reach; y <= reach; y++)
+            for (int z = -reach; z <= reach; z++) {
+                const double p[3] = {nudged(at[0], x), nudged(at[1], y), nudged(at[2], z)};
+                if (!brute_contains(all, p, 0))
+                    brute_insert(all, p, 0);
+            }
+}
+
+/* The edges of the hull of (0,0,0) to (12,12,12) with size 4, moved and scaled: a point on an edge where two axes meet
+ * at one moment, and one on a corner where all three do. */
+static void grazing_is_decided_to_the_last_bit_at_every_scale(void **state)
+{
+    (void)state;
+    static const int scales[] = {-1074, -1071, -1022, -1000, -540, -53, 0, 40, 500, 1000, 1019};
+    static const double edges[][3] = {{3, 11, 7},   {11, 3, 7},    {2, 10, 2},  {10, 2, 6},   {3, 3, 11}, {-4, 4, 0},
+                                      {4, -4, -4},  {-4, -4, -4},  {-4, 4, 4},  {16, 8, 16},  {8, 16, 8}, {16, 16, 16},
+                                      {16, 16, 12}, {7, -1, 3},    {0, 0, 8},   {6, 14, 14}};
+    for (size_t i = 0; i < sizeof scales / sizeof scales[0]; i++)
+        for (size_t j = 0; j < sizeof edges / sizeof edges[0]; j++) {
+            brute all = {0};
+            const double unit = ldexp(1, scales[i]);
+            sweep s = {{0, 0, 0}, {12 * unit, 12 * unit, 12 * unit}, 4 * unit};
+            const double at[3] = {edges[j][0] * unit, edges[j][1] * unit, edges[j][2] * unit};
+            assert_true(truly_touches(&s, at));
+            add_around(&all, at, 1);
+            assert_swept(&all, &s);
+        }
+}
+
+/* A place on the hull of a random sweep, as rounding lets it be: two or three axes at the end of their moment t. */
+static void point_on_hull(uint64_t *random, const sweep *s, double t, double at[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const double center = s->from[axis] * (1 - t) + s->to[axis] * t;
+        const double sides[4] = {s->size, -s->size, s->size * octree_random_unit(random), 0};
+        at[axis] = fmin(fmax(center + sides[random_below(random, 4)], -DBL_MAX), DBL_MAX);
+    }
+}
+
+static void near_misses_in(const octree_box *places, double largest, size_t trials, uint64_t seed)
+{
+    uint64_t random = seed;
+    for (size_t i = 0; i < trials; i++) {
+        sweep s;
+        for (int axis = 0; axis < 3; axis++) {
+            s.from[axis] = random_between(&random, places->min[axis], places->max[axis]);
+            const bool still = random_below(&random, 6) == 0;
+            s.to[axis] = still ? s.from[axis] : random_between(&random, places->min[axis], places->max[axis]);
+        }
+        s.size = random_between(&random, 0, largest);
+        brute all = {0};
+        for (int j = 0; j < 3; j++) {
+            double at[3];
+            const double moments[4] = {0, 1, 0.5, octree_random_unit(&random)};
+            point_on_hull(&random, &s, moments[random_below(&random, 4)], at);
+            add_around(&all, at, 1);
+        }
+        assert_swept(&all, &s);
+    }
+}
+
+static void near_misses_within_an_ulp_are_told_from_hits(void **state)
+{
+    (void)state;
+    const octree_box small = cube(-1, 1), far = cube(1e15, 1e15 + 8), slab = {{-1e9, -1, -1e-9}, {1e9, 1, 1e-9}};
+    near_misses_in(&small, 0.5, 200, 1);
+    near_misses_in(&far, 4, 100, 2);
+    near_misses_in(&slab, 1, 100, 3);
+    near_misses_in(&slab, 1e-9, 100, 4);
+}
+
+static void near_misses_of_extreme_scales_are_told_from_hits(void **state)
+{
+    (void)state;
+    const octree_box huge = cube(-DBL_MAX, DBL_MAX), half = cube(-DBL_MAX / 4, DBL_MAX / 4), tiny = cube(-1e-318, 1e-318),
+                     normal = cube(-1e-300, 1e-300);
+    const octree_box mixed = {{-DBL_MAX, -1, -1e-320}, {DBL_MAX, 1, 1e-320}};
+    near_misses_in(&huge, DBL_MAX, 100, 5);
+    near_misses_in(&huge, 1e300, 100, 6);
+    near_misses_in(&half, DBL_MAX / 8, 100, 7);
+    near_misses_in(&tiny, 1e-319, 100, 8);
+    near_misses_in(&normal, 1e-305, 100, 9);
+    near_misses_in(&mixed, 0.5, 100, 10);
+    near_misses_in(&mixed, 1e308, 100, 11);
+    near_misses_in(&mixed, 1e-321, 100, 12);
+}
+
+/* Steps so long that the moments of touching are subnormal themselves, and differ by less than one of them. */
+static void moments_that_underflow_are_told_apart(void **state)
+{
+    (void)state;
+    uint64_t random = 13;
+    for (int i = 0; i < 1000; i++) {
+        sweep s;
+        const int bits = 30 + (int)random_below(&random, 24); /* coordinates upon a grid that rounds in sums, or not */
+        for (int axis = 0; axis < 3; axis++) {
+            s.from[axis] = ldexp((double)random_below(&random, 1u << 20), -bits);
+            s.to[axis] = random_below(&random, 2) == 0 ? 0x1p1023 : 0x1.8p1023;
+        }
+        s.size = 1 + ldexp((double)random_below(&random, 8), -52);
+        brute all = {0};
+        for (int j = 0; j < 8; j++) {
+            const double near = 2 + ldexp((double)random_below(&random, 8), -51);
+            const double at[3] = {near + s.from[0], near - 2 * s.size + s.from[1], s.from[2]};
+            add_around(&all, at, 1);
+        }
+        assert_swept(&all, &s);
+    }
+}
+
+static const double extremes[] = {0,      5e-324,      1e-323, 0x1p-1022, 1e-200,      0x1p-53,       0.1,     1,
+                                  30, 1 + 0x1p-52, 1e15,   1e200,     DBL_MAX / 4, DBL_MAX / 2, 1e308, DBL_MAX};
+
+static double extreme(uint64_t *random)
+{
+    const double value = extremes[random_below(random, sizeof extremes / sizeof extremes[0])];
+    return random_below(random, 2) == 0 ? value : -value;
+}
+
+static void any_mixture_of_extremes_is_decided_rightly(void **state)
+{
+    (void)state;
+    uint64_t random = 14;
+    for (int i = 0; i < 600; i++) {
+        brute all = {0};
+        for (int j = 0; j < 24; j++) {
+            const double at[3] = {extreme(&random), extreme(&random), extreme(&random)};
+            if (!brute_contains(&all, at, 0))
+                brute_insert(&all, at, 0);
+        }
+        octree *tree = brute_tree(&all, cube(-DBL_MAX, DBL_MAX), 1, 21);
+        for (int j = 0; j < 4; j++) {
+            sweep s = {.size = fabs(extreme(&random))};
+            for (int axis = 0; axis < 3; axis++) {
+                s.from[axis] = extreme(&random);
+                s.to[axis] = extreme(&random);
+            }
+            assert_swept_in(tree, &all, &s);
+        }
+        octree_destroy(tree);
+        brute_free(&all);
+    }
+}
+
+/* A step of at most two boxes along one axis, in real numbers and not in rounded ones: the two ends tell all. */
+static void the_two_ends_tell_all_of_a_step_of_two_boxes_and_no_more(void **state)
+{
+    (void)state;
+    uint64_t random = 15;
+    size_t short_steps = 0;
+    for (int i = 0; i < 2000; i++) {
+        const double size = random_between(&random, 0, 1);
+        double from[3] = {0.25, 0.25, 0.25}, to[3] = {0.25, 0.25, 0.25}, at[3] = {0.25, 0.25, 0.25};
+        from[i % 3] = random_between(&random, -2, 2);
+        to[i % 3] = nudged(from[i % 3] + 2 * size, (int)random_below(&random, 5) - 2);
+        brute all = {0}, ends = {0}, swept = {0};
+        at[i % 3] = from[i % 3] + size;
+        add_around(&all, at, 2);
+        octree *tree = brute_tree(&all, cube(-8, 8), 4, 21);
+        assert_int_equal(octree_collide_swept(tree, from, to, size, NULL, brute_collect, &swept), OCTREE_OK);
+        for (size_t j = 0; j < all.count; j++)
+            if (brute_within(from[i % 3], size, all.points[j].position[i % 3]) ||
+                brute_within(to[i % 3], size, all.points[j].position[i % 3]))
+                brute_collect(&all.points[j], &ends);
+        if (brute_within(from[i % 3], 2 * size, to[i % 3])) { /* others lie off the axis, but within the box or not */
+            short_steps++;
+            for (size_t j = 0; j < swept.count; j++)
+                assert_true(brute_contains(&ends, swept.points[j].position, 0));
+        }
+        octree_destroy(tree);
+        brute_free(&all);
+        brute_free(&ends);
+        brute_free(&swept);
+    }
+    assert_true(short_steps > 500 && short_steps < 1900);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(grazing_is_decided_to_the_last_bit_at_every_scale),
+        cmocka_unit_test(near_misses_within_an_ulp_are_told_from_hits),
+        cmocka_unit_test(near_misses_of_extreme_scales_are_told_from_hits),
+        cmocka_unit_test(moments_that_underflow_are_told_apart),
+        cmocka_unit_test(any_mixture_of_extremes_is_decided_rightly),
+        cmocka_unit_test(the_two_ends_tell_all_of_a_step_of_two_boxes_and_no_more),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,341 @@
+/* test_many_memory.c - memory when many points change at once: failures leave no trace, and a point has its bound. */
+#include "fixture.h"
+
+#include <stdlib.h>
+
+#include "brute.h"
+#include "counting_allocator.h"
+#include "octree/sample.h"
+
+enum { million = 1000000, fifth = million / 5, rows = 400 };
+
+static size_t memory_of(const octree *tree)
+{
+    octree_stats stats;
+    assert_int_equal(octree_statistics(tree, &stats), OCTREE_OK);
+    return stats.memory;
+}
+
+typedef enum change_kind { INSERT_MANY, REMOVE_MANY, REWORLD } change_kind;
+
+/* A tree to begin with, and a change to it. */
+typedef struct attempt {
+    const char *name;
+    size_t capacity, depth;
+    octree_full_leaf full_leaf;
+    size_t stored; /* of the rows, inserted one by one before */
+    change_kind kind;
+    size_t from, count; /* the rows to insert or to remove */
+    bool own_statuses;  /* null is passed for the caller's */
+} attempt;
+
+static const attempt attempts[] = {
+    {"bulk build", 4, 21, OCTREE_GROW, 0, INSERT_MANY, 0, rows, true},
+    {"bulk build that refuses", 1, 6, OCTREE_REFUSE, 0, INSERT_MANY, 0, rows, false},
+    {"bulk build of one leaf", 1000, 21, OCTREE_GROW, 0, INSERT_MANY, 0, rows, false},
+    {"more points", 2, 21, OCTREE_GROW, 150, INSERT_MANY, 100, 300, false},
+    {"more points that are refused", 2, 4, OCTREE_REFUSE, 150, INSERT_MANY, 100, 300, true},
+    {"all are there already", 2, 21, OCTREE_GROW, rows, INSERT_MANY, 0, rows, false},
+    {"empty batch", 2, 21, OCTREE_GROW, 100, INSERT_MANY, 0, 0, true},
+    {"remove half", 2, 21, OCTREE_GROW, 300, REMOVE_MANY, 150, 250, true},
+    {"remove most, so that nodes merge", 8, 21, OCTREE_GROW, rows, REMOVE_MANY, 0, 390, false},
+    {"remove all", 3, 21, OCTREE_GROW, rows, REMOVE_MANY, 0, rows, false},
+    {"remove from one leaf", 1000, 21, OCTREE_GROW, rows, REMOVE_MANY, 100, 200, false},
+    {"remove what is absent", 3, 21, OCTREE_REFUSE, 100, REMOVE_MANY, 200, 200, false},
+    {"reworld", 2, 21, OCTREE_GROW, rows, REWORLD, 0, 0, false},
+    {"reworld one leaf", 1000, 21, OCTREE_REFUSE, rows, REWORLD, 0, 0, false},
+    {"reworld an empty tree", 2, 21, OCTREE_REFUSE, 0, REWORLD, 0, 0, false},
+};
+
+/* Every third at one of two crowded places, every tenth a repetition, the others spread. */
+static void make_rows(octree_point points[rows])
+{
+    uint64_t random = 5;
+    for (size_t i = 0; i < rows; i++) {
+        points[i].id = i;
+        for (int axis = 0; axis < 3; axis++)
+            points[i].position[axis] =
+                i % 3 == 0 ? 0.5 - (double)(i % 2) : (double)random_below(&random, 4097) / 2048 - 1;
+        if (i % 10 == 9)
+            points[i] = points[i - 5];
+    }
+}
+
+static octree *begin(const attempt *a, counting_allocator *counts, const octree_point *points)
+{
+    octree *tree = make_counted_tree(counts, cube(-1, 1), a->capacity, a->depth, a->full_leaf);
+    for (size_t i = 0; i < a->stored; i++) {
+        const octree_status status = octree_insert(tree, points[i].position, points[i].id);
+        assert_true(status == OCTREE_OK || status == OCTREE_DUPLICATE || status == OCTREE_FULL);
+    }
+    return tree;
+}
+
+static octree_status try(const attempt *a, octree *tree, const octree_point *points)
+{
+    static const octree_box larger = {{-3, -2, -1}, {1, 2, 5}};
+    octree_status statuses[rows];
+    size_t done;
+    if (a->kind == REWORLD)
+        return octree_reworld(tree, &larger);
+    return (a->kind == INSERT_MANY ? octree_insert_many : octree_remove_many)(tree, points + a->from, a->count,
+                                                                              a->own_statuses ? NULL : statuses, &done);
+}
+
+/* Do it with the n-th allocation failing, and where `all_after` is set those after it too. False when it needed fewer.
+ */
+static bool fails_without_a_trace(const attempt *a, const octree_point *points, size_t n, bool all_after,
+                                  uint64_t expected)
+{
+    counting_allocator counts = {0};
+    octree *tree = begin(a, &counts, points);
+    const uint64_t digest = octree_digest(tree), version = octree_version(tree);
+    const size_t count = octree_count(tree);
+    const octree_box world = octree_definition(tree).world;
+    counting_allocator_fail_at(&counts, n);
+    if (all_after)
+        counts.fail_until = SIZE_MAX;
+    const octree_status status = try(a, tree, points);
+    const bool failed = counts.calls > counts.fail_from;
+    counting_allocator_heal(&counts);
+    assert_int_equal(status, failed ? OCTREE_NO_MEMORY : OCTREE_OK);
+    assert_int_equal(memory_of(tree), counts.bytes);
+    assert_valid(tree);
+    if (failed) {
+        assert_true(octree_digest(tree) == digest && octree_version(tree) == version);
+        assert_int_equal(octree_count(tree), count);
+        const octree_box after = octree_definition(tree).world;
+        assert_memory_equal(&after, &world, sizeof world);
+        assert_int_equal(try(a, tree, points), OCTREE_OK); /* with memory again it is as if nothing had been */
+    }
+    assert_true(octree_digest(tree) == expected);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    return failed;
+}
+
+static uint64_t digest_after(const attempt *a, const octree_point *points)
+{
+    counting_allocator counts = {0};
+    octree *tree = begin(a, &counts, points);
+    assert_int_equal(try(a, tree, points), OCTREE_OK);
+    const uint64_t digest = octree_digest(tree);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    return digest;
+}
+
+static void changes_of_many_survive_the_failure_of_each_allocation(void **state)
+{
+    (void)state;
+    octree_point points[rows];
+    make_rows(points);
+    for (size_t i = 0; i < sizeof attempts / sizeof attempts[0]; i++)
+        for (int all_after = 0; all_after < 2; all_after++) {
+            const uint64_t expected = digest_after(&attempts[i], points);
+            size_t n = 0;
+            while (fails_without_a_trace(&attempts[i], points, n, all_after, expected))
+                n++;
+            if (n == 0 && attempts[i].count > 0)
+                fail_msg("%s took no memory", attempts[i].name);
+        }
+}
+
+static void many_failures_on_one_tree_do_not_add_up(void **state)
+{
+    (void)state;
+    octree_point points[rows];
+    make_rows(points);
+    const attempt a = {"", 2, 21, OCTREE_GROW, 150, INSERT_MANY, 0, rows, false};
+    counting_allocator counts = {0};
+    octree *tree = begin(&a, &counts, points);
+    const uint64_t digest = octree_digest(tree);
+    size_t limit = 0;
+    for (size_t n = 0; n < 2000; n++) {
+        counting_allocator_fail_at(&counts, n % 40);
+        const octree_status status = try(&a, tree, points);
+        counting_allocator_heal(&counts);
+        if (status == OCTREE_OK) {
+            octree_destroy(tree);
+            assert_all_returned(&counts);
+            tree = begin(&a, &counts, points);
+        }
+        assert_true(octree_digest(tree) == digest);
+        if (n == 200)
+            limit = 2 * counts.peak;
+        assert_true(limit == 0 || counts.peak <= limit);
+    }
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+}
+
+static octree_point *make_points(size_t count)
+{
+    octree_point *points = malloc(count * sizeof *points);
+    assert_non_null(points);
+    uint64_t random = 8;
+    for (size_t i = 0; i < count; i++) {
+        points[i].id = i;
+        for (int axis = 0; axis < 3; axis++)
+            points[i].position[axis] = 2 * octree_random_unit(&random) - 1;
+    }
+    return points;
+}
+
+/* The number done. */
+static size_t insert_many(octree *tree, const octree_point *points, size_t count)
+{
+    size_t inserted;
+    assert_int_equal(octree_insert_many(tree, points, count, NULL, &inserted), OCTREE_OK);
+    return inserted;
+}
+
+static void a_million_points_take_at_most_48_bytes_each(void **state)
+{
+    (void)state;
+    octree_point *points = make_points(million);
+    counting_allocator counts = {0}, counts_by_one = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 16, 21, OCTREE_REFUSE);
+    octree *one_by_one = make_counted_tree(&counts_by_one, cube(-1, 1), 16, 21, OCTREE_REFUSE);
+    assert_int_equal(insert_many(tree, points, million), million);
+    assert_true(memory_of(tree) <= 48 * (size_t)million);
+    assert_true(counts.peak <= 100 * (size_t)million);
+    for (size_t i = 0; i < million; i++)
+        assert_true(octree_insert(one_by_one, points[i].position, points[i].id) == OCTREE_OK);
+    assert_true(memory_of(one_by_one) <= 48 * (size_t)million);
+    assert_true(octree_digest(tree) == octree_digest(one_by_one));
+    octree_destroy(one_by_one);
+    size_t removed;
+    assert_int_equal(octree_remove_many(tree, points, million, NULL, &removed), OCTREE_OK);
+    assert_int_equal(removed, million);
+    assert_true(counts.peak <= 100 * (size_t)million);
+    assert_int_equal(memory_of(tree), counts.bytes);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    assert_all_returned(&counts_by_one);
+    free(points);
+}
+
+static void batches_and_a_new_world_keep_memory_linear(void **state)
+{
+    (void)state;
+    octree_point *points = make_points(fifth);
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 16, 21, OCTREE_REFUSE);
+    for (size_t i = 0; i < 10; i++)
+        assert_int_equal(insert_many(tree, points + i * (fifth / 10), fifth / 10), fifth / 10);
+    assert_true(memory_of(tree) <= 100 * (size_t)fifth);
+    for (size_t i = 0; i < 6; i++) { /* churn */
+        const octree_point *tenth = points + i * (fifth / 10);
+        assert_int_equal(octree_remove_many(tree, tenth, fifth / 10, NULL, NULL), OCTREE_OK);
+        assert_int_equal(insert_many(tree, tenth, fifth / 10), fifth / 10);
+        assert_true(memory_of(tree) <= 100 * (size_t)fifth);
+    }
+    const octree_box wider = cube(-2, 3);
+    assert_int_equal(octree_reworld(tree, &wider), OCTREE_OK);
+    assert_true(memory_of(tree) <= 48 * (size_t)fifth);
+    assert_true(counts.peak <= 200 * (size_t)fifth);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    free(points);
+}
+
+static void a_million_equal_points_are_one_leaf_or_refused(void **state)
+{
+    (void)state;
+    octree_point *points = make_points(million);
+    for (size_t i = 0; i < million; i++)
+        points[i] = (octree_point){{0.3, 0.3, 0.3}, i * 618033 % million};
+    for (int grow = 0; grow < 2; grow++) {
+        counting_allocator counts = {0};
+        octree *tree = make_counted_tree(&counts, cube(-1, 1), 2, 21, grow ? OCTREE_GROW : OCTREE_REFUSE);
+        assert_int_equal(insert_many(tree, points, million), grow ? million : 2);
+        assert_int_equal(node_count(tree), grow ? OCTREE_MAX_DEPTH + 1 : 1);
+        assert_true(octree_contains(tree, points[0].position, points[0].id));
+        assert_true(memory_of(tree) <= (grow ? 48 * (size_t)million : 1 << 20));
+        size_t removed;
+        assert_int_equal(octree_remove_many(tree, points, million, NULL, &removed), OCTREE_OK);
+        assert_int_equal(removed, grow ? million : 2);
+        assert_true(memory_of(tree) <= 1 << 20);
+        assert_true(counts.peak <= 100 * (size_t)million);
+        octree_destroy(tree);
+        assert_all_returned(&counts);
+    }
+    free(points);
+}
+
+static void a_million_times_the_same_pair_is_one_point(void **state)
+{
+    (void)state;
+    octree_point *points = make_points(million);
+    for (size_t i = 0; i < million; i++)
+        points[i] = (octree_point){{0.3, 0.3, 0.3}, 7};
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 1, 21, OCTREE_GROW);
+    assert_int_equal(insert_many(tree, points, million), 1);
+    size_t removed;
+    assert_int_equal(octree_remove_many(tree, points, million, NULL, &removed), OCTREE_OK);
+    assert_int_equal(removed, 1);
+    assert_true(counts.peak <= 100 * (size_t)million);
+    assert_true(memory_of(tree) <= 1 << 20);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    free(points);
+}
+
+static void refused_points_take_no_memory(void **state)
+{
+    (void)state;
+    /* Half of the points are refused, each at the maximum depth: what was divided to find that out must not stay. */
+    octree_point *points = make_points(fifth);
+    for (size_t i = 1; i < fifth; i += 2)
+        points[i] =
+            (octree_point){{points[i - 1].position[0], points[i - 1].position[1], points[i - 1].position[2]}, i};
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 1, 21, OCTREE_REFUSE);
+    assert_int_equal(insert_many(tree, points, fifth), fifth / 2);
+    assert_true(memory_of(tree) <= 100 * (size_t)fifth / 2); /* 61 one by one */
+    assert_true(counts.peak <= 150 * (size_t)fifth);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    free(points);
+}
+
+static void a_small_batch_into_a_crowd_takes_memory_for_the_crowd_alone(void **state)
+{
+    (void)state;
+    octree_point *points = make_points(fifth);
+    for (size_t i = 0; i < fifth; i++)
+        points[i] = (octree_point){{0.3, 0.3, 0.3}, i};
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 2, 21, OCTREE_GROW);
+    const size_t most = fifth - 10;
+    assert_int_equal(insert_many(tree, points, most), most);
+    for (int i = 0; i < 3; i++) {
+        counts.peak = counts.bytes;
+        assert_int_equal(insert_many(tree, points + most, 10), 10);
+        assert_int_equal(octree_remove_many(tree, points + most, 10, NULL, NULL), OCTREE_OK);
+        assert_int_equal(octree_count(tree), most);
+        assert_true(counts.peak - counts.bytes <= 100 * most);
+        assert_true(counts.bytes <= 48 * most);
+    }
+    assert_valid(tree);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    free(points);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(changes_of_many_survive_the_failure_of_each_allocation),
+        cmocka_unit_test(many_failures_on_one_tree_do_not_add_up),
+        cmocka_unit_test(a_million_points_take_at_most_48_bytes_each),
+        cmocka_unit_test(batches_and_a_new_world_keep_memory_linear),
+        cmocka_unit_test(a_million_equal_points_are_one_leaf_or_refused),
+        cmocka_unit_test(a_million_times_the_same_pair_is_one_point),
+        cmocka_unit_test(refused_points_take_no_memory),
+        cmocka_unit_test(a_small_batch_into_a_crowd_takes_memory_for_the_crowd_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
