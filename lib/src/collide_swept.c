@@ -23,25 +23,6 @@ static double direction(const sweep *s, int axis)
     return s->to[axis] < s->from[axis] ? -1 : 1;
 }
 
-/* The sign of the sum of up to four doubles, exactly. */
-static int sign_of_sum(const double terms[], int count)
-{
-    exact_sum sum;
-    exact_clear(&sum);
-    for (int i = 0; i < count; i++)
-        exact_add_product(&sum, 1, terms[i], 1);
-    return exact_sign(&sum);
-}
-
-/* Is the point covered on this axis at any time from 0 to 1? */
-static bool is_covered(const sweep *s, const double p[3], int axis)
-{
-    const double way = direction(s, axis);
-    const double before_end[3] = {way * s->to[axis], -way * p[axis], s->size};    /* enter <= 1 */
-    const double after_start[3] = {way * p[axis], -way * s->from[axis], s->size}; /* leave >= 0 */
-    return sign_of_sum(before_end, 3) >= 0 && sign_of_sum(after_start, 3) >= 0;
-}
-
 /* Add way * (p - f - side * way * r) of one axis times the way's length on another. */
 static void add_cross(exact_sum *sum, const sweep *s, const double p[3], int axis, int other, double side, int factor)
 {
@@ -64,15 +45,15 @@ static bool enters_before(const sweep *s, const double p[3], int a, int b)
 }
 
 /* 1 or 0 when doubles can tell, -1 when only exact arithmetic can. Each bound takes in the roundings of its differences
- * and its division, with u = 2^-53: 8u of the sum of magnitudes, divided by the length, and what may have underflowed.
- * Where a step of that reckoning overflows, the bound is infinite. */
+ * and its division, with u = 2^-53: 32u of the sum of magnitudes, divided by the length. Where a step of that reckoning
+ * overflows, the bound is infinite. */
 static int guess(const sweep *s, const double p[3])
 {
-    double enter = 0, leave = 1, error = 0x1p-1000;
+    double enter = 0, leave = 1, error = 0;
     for (int i = 0; i < 3; i++) {
         const double way = direction(s, i), length = way * (s->to[i] - s->from[i]);
         if (length == 0)
-            continue; /* is_covered has told */
+            continue; /* the box around the step has told */
         const double offset = way * (p[i] - s->from[i]);
         const double magnitude = fabs(p[i]) + fabs(s->from[i]) + fabs(s->to[i]) + s->size;
         enter = fmax(enter, (offset - s->size) / length);
@@ -87,9 +68,6 @@ static int guess(const sweep *s, const double p[3])
 
 static bool touches(const sweep *s, const double p[3])
 {
-    for (int i = 0; i < 3; i++)
-        if (!is_covered(s, p, i))
-            return false;
     const int guessed = guess(s, p);
     if (guessed >= 0)
         return guessed == 1;

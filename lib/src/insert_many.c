@@ -41,10 +41,24 @@ static bool make_leaf(insertion *in, batch_item *items, size_t count, node *made
 /* The children that the items' octants become, and those that are there already. `old` is an inner node, or null. */
 static bool build_children(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made);
 
+/* Whether sorted items share one cell that cannot be divided: dividing this one would not part them. A leaf that
+ * refuses asks this first, so that nothing is divided for points that are refused then; and where items do part, more
+ * than a leaf's worth of them are taken, so that no division is in vain. */
+static bool inseparable(const octree *tree, cell c, const batch_item *items, size_t count)
+{
+    const uint64_t unlike = items[0].code ^ items[count - 1].code;
+    for (; may_split(tree, c); c = cell_child(c, morton_octant(items[0].code, c.depth)))
+        if (morton_octant(unlike, c.depth) != 0)
+            return false;
+    return true;
+}
+
 /* What a cell without anything stored, or with all that was stored among the items, becomes. */
 static bool build(insertion *in, cell c, batch_item *items, size_t count, node *made)
 {
-    if (count <= in->tree->def.leaf_capacity || !may_split(in->tree, c))
+    const octree_def *def = &in->tree->def;
+    if (count <= def->leaf_capacity || !may_split(in->tree, c) ||
+        (def->full_leaf == OCTREE_REFUSE && inseparable(in->tree, c, items, count)))
         return make_leaf(in, items, count, made);
     return build_children(in, NULL, c, items, count, made);
 }
@@ -88,6 +102,8 @@ static size_t drop_stored(const insertion *in, const node *leaf, batch_item *ite
 static bool add_to_leaf(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made)
 {
     count = drop_stored(in, old, items, count);
+    if (count == 0)
+        return true;
     if (old->count == 0)
         return build(in, c, items, count, made) && journal_replace(&in->journal, old);
     const size_t room = (old->count + count) * sizeof(batch_item);
@@ -132,10 +148,7 @@ static bool build_children(insertion *in, const node *old, cell c, batch_item *i
         items += shares[octant];
         group++;
     }
-    if (!group || (old && !journal_replace(&in->journal, old)))
-        return false;
-    /* Where leaves refused points, what is left may fit one leaf after all. */
-    return made->count > in->tree->def.leaf_capacity || journal_collapse(&in->journal, made);
+    return group && (!old || journal_replace(&in->journal, old));
 }
 
 /* A point of the batch, and its place there. */
@@ -204,38 +217,6 @@ static bool drop_repetitions(insertion *in)
     return true;
 }
 
-/* Keep the first of some items by place, in order of their codes; the others are told that the leaf is full, or that
- * they are stored already. */
-static void refuse_last(const batch *b, batch_item *items, size_t count, size_t kept)
-{
-    qsort(items, count, sizeof *items, by_place);
-    for (size_t i = kept; i < count; i++)
-        batch_set(b, &items[i],
-                  octree_contains(b->tree, items[i].point->position, items[i].point->id) ? OCTREE_DUPLICATE
-                                                                                         : OCTREE_FULL);
-    qsort(items, kept, sizeof *items, by_code);
-}
-
-/* Of the points of one deepest cell no more than a leaf's worth can be taken: refuse the others before anything is
- * divided for them. What is stored there already is seen to later, leaf by leaf. */
-static void refuse_early(const insertion *in)
-{
-    batch *b = in->batch;
-    const octree_def *def = &in->tree->def;
-    const unsigned shift = 3 * (OCTREE_MAX_DEPTH - (unsigned)def->max_depth);
-    size_t left = 0;
-    for (size_t start = 0, end; start < b->count; start = end) {
-        for (end = start + 1; end < b->count && b->items[end].code >> shift == b->items[start].code >> shift; end++)
-            ;
-        const size_t taken = end - start < def->leaf_capacity ? end - start : def->leaf_capacity;
-        if (taken < end - start)
-            refuse_last(b, b->items + start, end - start, taken);
-        memmove(b->items + left, b->items + start, taken * sizeof *b->items);
-        left += taken;
-    }
-    b->count = left;
-}
-
 /* What repeats a point that its leaf refused would have been refused too. */
 static void judge_repetitions(const insertion *in)
 {
@@ -252,8 +233,6 @@ static octree_status insert_batch(insertion *in)
     node root;
     if (!drop_repetitions(in))
         return OCTREE_NO_MEMORY;
-    if (tree->def.full_leaf == OCTREE_REFUSE)
-        refuse_early(in);
     if (b->count > UINT32_MAX - tree->root.count)
         return OCTREE_TOO_MANY;
     if (!add(in, &tree->root, root_cell(), b->items, b->count, &root)) {

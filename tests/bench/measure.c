@@ -89,15 +89,15 @@ static outcome change_once(lineup *l, int i, const workload *w, const changes *a
     const double start = now();
     const size_t done = c->peer->change[asked->kind](c->self, asked->points, asked->to, asked->count);
     c->round_ns[round] = (now() - start) / (double)asked->count;
-    c->memory = c->peer->memory(c->self);
     outcome result = check_done(c, asked->op, done, asked->count);
     if (result == MEASURED)
         result = probe(l, i, asked->op, w, answers);
+    if (result == MEASURED && !fills)
+        result = check_done(c, asked->op, undo(c, asked), asked->count);
+    c->memory = c->peer->memory(c->self);
     if (fills) {
         c->peer->destroy(c->self);
         c->self = NULL;
-    } else if (result == MEASURED) {
-        result = check_done(c, asked->op, undo(c, asked), asked->count);
     }
     return result;
 }

@@ -12,8 +12,9 @@ typedef struct contender {
     const peer *peer;
     void *self;
     peer_ask ask;  /* null for changes */
+    size_t points; /* in the tree, before and after the operation */
     double ns;     /* an operation: the median of the rounds */
-    size_t memory; /* bytes, after the operation */
+    size_t memory; /* bytes, with these points */
     double round_ns[ROUNDS_AT_MOST];
 } contender;
 

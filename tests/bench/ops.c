@@ -9,76 +9,80 @@ const op all_ops[OPS] = {
     {"remove", STAGE_DYNAMIC, .change = PEER_REMOVE, .goal = {AT_LEAST, 3}},
     {"move", STAGE_DYNAMIC, .change = PEER_MOVE, .goal = {AT_LEAST, 4}},
     {"move_far", STAGE_DYNAMIC, .change = PEER_MOVE, .far = true, .goal = {AT_LEAST, 3}},
-    {"find", STAGE_STATIC, ASKS, PEER_FIND, .stored = true, .most = 100000, .goal = {AT_LEAST, 2}},
-    {"find_miss", STAGE_STATIC, ASKS, PEER_FIND, .most = 100000, .goal = {AT_LEAST, 2}},
-    {"box10", STAGE_STATIC, ASKS, PEER_BOX, .hits = 10, .most = 50000, .goal = {AT_LEAST, 2}},
-    {"box1000", STAGE_STATIC, ASKS, PEER_BOX, .hits = 1000, .most = 5000, .goal = {AT_LEAST, 2}},
-    {"radius100", STAGE_STATIC, ASKS, PEER_RADIUS, .hits = 100, .most = 20000, .goal = {AT_LEAST, 2}},
-    {"collide", STAGE_STATIC, ASKS, PEER_COLLIDE, .hits = 10, .most = 50000},
-    {"nearest", STAGE_STATIC, ASKS, PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 2}},
-    {"knn8", STAGE_STATIC, ASKS, PEER_KNN, .most = 50000, .goal = {AT_LEAST, 2}},
-    {"nearest_batch", STAGE_STATIC, ASKS, PEER_NEAREST_BATCH, "octree-singly", PEER_NEAREST, .most = 100000,
-     .goal = {AT_LEAST, 1.5}},
-    {"nearest_all", STAGE_STATIC, ASKS, PEER_NEAREST_ALL, "octree-singly", PEER_NEAREST, .most = 100000},
-    {"nearest_fast", STAGE_STATIC, ASKS, PEER_NEAREST_FAST, "octree-exact", PEER_NEAREST, .most = 100000,
-     .goal = {AT_MOST, 1.1}},
-    {"nearest_churned", STAGE_CHURNED, ASKS, PEER_NEAREST, "octree-fresh", PEER_NEAREST, .most = 100000,
-     .goal = {AT_LEAST, 1 / 1.15}},
+    {"find", STAGE_STATIC, .ask = PEER_FIND, .most = 100000, .stored = true, .goal = {AT_LEAST, 2}},
+    {"find_miss", STAGE_STATIC, .ask = PEER_FIND, .most = 100000, .goal = {AT_LEAST, 2}},
+    {"box10", STAGE_STATIC, .ask = PEER_BOX, .most = 50000, .hits = 10, .goal = {AT_LEAST, 2}},
+    {"box1000", STAGE_STATIC, .ask = PEER_BOX, .most = 5000, .hits = 1000, .goal = {AT_LEAST, 2}},
+    {"radius100", STAGE_STATIC, .ask = PEER_RADIUS, .most = 20000, .hits = 100, .goal = {AT_LEAST, 2}},
+    {"collide", STAGE_STATIC, .ask = PEER_COLLIDE, .most = 50000, .hits = 10},
+    {"nearest", STAGE_STATIC, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 2}},
+    {"knn8", STAGE_STATIC, .ask = PEER_KNN, .most = 50000, .goal = {AT_LEAST, 2}},
+    {"nearest_batch", STAGE_STATIC, .ask = PEER_NEAREST_BATCH, .most = 100000, .rival = "octree-singly",
+     .rival_ask = PEER_NEAREST, .goal = {AT_LEAST, 1.5}},
+    {"nearest_all", STAGE_STATIC, .ask = PEER_NEAREST_ALL, .most = 100000, .rival = "octree-singly",
+     .rival_ask = PEER_NEAREST},
+    {"nearest_fast", STAGE_STATIC, .ask = PEER_NEAREST_FAST, .most = 100000, .rival = "octree-exact",
+     .rival_ask = PEER_NEAREST, .goal = {AT_MOST, 1.1}},
+    {"nearest_churned", STAGE_CHURNED, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 1 / 1.15}},
 };
 
 static bool asks(const op *o)
 {
-    return o->change == PEER_CHANGES;
+    return o->stage == STAGE_STATIC || o->stage == STAGE_CHURNED;
 }
 
-static void enter(lineup *l, const char *who, const peer *p)
+static contender *enter(lineup *l, const char *who, const peer *p, size_t points)
 {
-    l->of[l->count++] = (contender){.who = who, .peer = p};
+    contender *c = &l->of[l->count++];
+    *c = (contender){.who = who, .peer = p, .points = points};
+    return c;
 }
 
-/* Fill the trees of all peers that can be filled in this way. False when there is no memory. */
-static bool fill_all(lineup *l, peer_change_kind change, const workload *w)
+static void enter_all(lineup *l, const workload *w)
 {
-    *l = (lineup){0};
+    for (int i = 0; all_peers[i]; i++)
+        enter(l, all_peers[i]->name, all_peers[i], w->count);
+}
+
+static bool fill(contender *c, const workload *w, peer_change_kind change, const octree_point *points, size_t count)
+{
+    c->self = c->peer->create(&w->world);
+    return c->self && c->peer->change[change](c->self, points, NULL, count) == count;
+}
+
+/* The trees of all peers that can be filled in this way. */
+static bool fill_all(lineup *l, const workload *w, peer_change_kind change)
+{
     for (int i = 0; all_peers[i]; i++) {
         const peer *p = all_peers[i];
-        if (!p->change[change])
-            continue;
-        enter(l, p->name, p);
-        contender *c = &l->of[l->count - 1];
-        c->self = p->create(&w->world);
-        if (!c->self || p->change[change](c->self, w->points, NULL, w->count) != w->count)
+        if (p->change[change] && !fill(enter(l, p->name, p, w->count), w, change, w->points, w->count))
             return false;
     }
     return true;
 }
 
-/* An octree from which the picks were removed again, and one that holds what is left from the beginning. */
+/* An octree from which half of the points were removed again, and one that never held them. */
 static bool fill_churned(lineup *l, const workload *w)
 {
-    *l = (lineup){0};
-    enter(l, peer_octree.name, &peer_octree);
-    enter(l, "octree-fresh", &peer_octree);
-    void *churned = l->of[0].self = peer_octree.create(&w->world);
-    void *fresh = l->of[1].self = peer_octree.create(&w->world);
-    if (!churned || !fresh)
-        return false;
-    return peer_octree.change[PEER_INSERT](churned, w->points, NULL, w->count) == w->count &&
-           peer_octree.change[PEER_REMOVE](churned, w->picks, NULL, w->pick_count) == w->pick_count &&
-           peer_octree.change[PEER_BUILD](fresh, w->rest, NULL, w->count - w->pick_count) == w->count - w->pick_count;
+    const size_t left = w->count - w->half;
+    contender *churned = enter(l, peer_octree.name, &peer_octree, left);
+    contender *fresh = enter(l, "octree-fresh", &peer_octree, left);
+    return fill(churned, w, PEER_INSERT, w->points, w->count) &&
+           peer_octree.change[PEER_REMOVE](churned->self, w->picks, NULL, w->half) == w->half &&
+           fill(fresh, w, PEER_BUILD, w->picks + w->half, left);
 }
 
 static bool fill_stage(lineup *l, stage at, const workload *w)
 {
     switch (at) {
     case STAGE_DYNAMIC:
-        return fill_all(l, PEER_INSERT, w);
+        return fill_all(l, w, PEER_INSERT);
     case STAGE_STATIC:
-        return fill_all(l, PEER_BUILD, w);
+        return fill_all(l, w, PEER_BUILD);
     case STAGE_CHURNED:
         return fill_churned(l, w);
     default:
-        *l = (lineup){0};
+        enter_all(l, w);
         return true;
     }
 }
@@ -90,24 +94,20 @@ static void empty_stage(lineup *l)
             l->of[i].peer->destroy(l->of[i].self);
 }
 
-/* Those of the stage that can do it; the octree is the first in every stage. */
+/* Those of the stage that have this operation; the octree is first in every stage. */
 static lineup choose(const op *o, const lineup *all)
 {
     lineup chosen = {0};
-    for (int i = 0; o->stage == STAGE_FILL && all_peers[i]; i++)
-        if (all_peers[i]->change[o->change])
-            enter(&chosen, all_peers[i]->name, all_peers[i]);
     for (int i = 0; i < all->count; i++) {
         contender c = all->of[i];
-        c.ask = asks(o) ? c.peer->ask[o->ask] : NULL;
-        if ((asks(o) && !c.ask) || (o->stage == STAGE_STATIC && o->rival && i))
-            continue;
-        chosen.of[chosen.count++] = c;
+        c.ask = c.peer->ask[o->ask];
+        if (asks(o) ? c.ask != NULL : c.peer->change[o->change] != NULL)
+            chosen.of[chosen.count++] = c;
     }
-    if (o->stage == STAGE_STATIC && o->rival) {
+    if (o->rival) {
         chosen.of[1] = chosen.of[0];
         chosen.of[1].who = o->rival;
-        chosen.of[1].ask = chosen.of[0].peer->ask[o->rival_ask];
+        chosen.of[1].ask = chosen.of[1].peer->ask[o->rival_ask];
         chosen.count = 2;
     }
     return chosen;
@@ -144,7 +144,7 @@ static bool stage_is_wanted(const bool wanted[OPS], stage at)
 
 static outcome run_stage(const bool wanted[OPS], stage at, workload *w, int rounds, report_op *report, void *context)
 {
-    lineup all;
+    lineup all = {0};
     outcome result = fill_stage(&all, at, w) ? MEASURED : OUT_OF_MEMORY;
     for (int i = 0; result == MEASURED && i < OPS; i++) {
         const op *o = &all_ops[i];

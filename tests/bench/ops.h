@@ -21,13 +21,14 @@ typedef struct goal {
 typedef struct op {
     const char *name;
     stage stage;
-    peer_change_kind change; /* PEER_CHANGES: it asks */
-    peer_ask_kind ask;
-    const char *rival;       /* not null: the octree against itself, under this name ... */
-    peer_ask_kind rival_ask; /* ... and asked like this */
-    bool far, miss;          /* move far; ask for stored places or for targets */
-    size_t hits;             /* > 0: targets are sized to find this many */
+    peer_change_kind change; /* read in STAGE_FILL and STAGE_DYNAMIC */
+    peer_ask_kind ask;       /* read in the other stages */
     size_t most;             /* queries at most */
+    size_t hits;             /* > 0: targets are sized to find this many */
+    bool stored;             /* ask for places where points are, not for targets */
+    bool far;                /* move to a far place */
+    const char *rival;       /* not null: the octree against itself, under this name and ... */
+    peer_ask_kind rival_ask; /* ... asked like this */
     goal goal;
 } op;
 

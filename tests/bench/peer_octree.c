@@ -144,8 +144,7 @@ static void ask_batches(const void *self, const peer_query *queries, size_t coun
         for (size_t i = 0; i < size; i++)
             for (int axis = 0; axis < 3; axis++)
                 targets[i][axis] = queries[start + i].at[axis];
-        const octree_status status =
-            octree_nearest_batch(self, (const double(*)[3])targets, size, NULL, found, NULL);
+        const octree_status status = octree_nearest_batch(self, (const double(*)[3])targets, size, NULL, found, NULL);
         for (size_t i = 0; i < size; i++)
             answers[start + i] = (peer_answer){.count = status == OCTREE_OK, .distance = found[i].distance};
     }

@@ -30,13 +30,13 @@ static void shuffle(octree_point *points, size_t count, uint64_t *random)
     }
 }
 
-/* Half of the points, in steps that meet each once and have nothing to do with the order of insertion. */
+/* In steps that meet each point once and have nothing to do with the order of insertion. */
 static void pick_points(workload *w)
 {
     size_t step = (size_t)(0.618 * (double)w->count) + 1;
     while (common_divisor(step, w->count) != 1)
         step++;
-    for (size_t i = 0, at = 0; i < w->pick_count; i++, at = (at + step) % w->count)
+    for (size_t i = 0, at = 0; i < w->count; i++, at = (at + step) % w->count)
         w->picks[i] = w->points[at];
 }
 
@@ -84,7 +84,7 @@ static bool sample_rows(const workload *w, double (*rows)[3])
 static bool allocate(workload *w)
 {
     w->points = malloc(w->count * sizeof *w->points);
-    w->picks = malloc(w->pick_count * sizeof *w->picks);
+    w->picks = malloc(w->count * sizeof *w->picks);
     w->near = malloc(w->query_count * sizeof *w->near);
     w->far = malloc(w->query_count * sizeof *w->far);
     w->stored = malloc(w->query_count * sizeof *w->stored);
@@ -94,8 +94,8 @@ static bool allocate(workload *w)
 
 bool workload_make(workload *w, octree_sample_kind set, size_t count)
 {
-    *w = (workload){.set = set, .world = bench_world, .count = count, .pick_count = count / 2};
-    w->query_count = w->pick_count < QUERIES_AT_MOST ? w->pick_count : QUERIES_AT_MOST;
+    *w = (workload){.set = set, .world = bench_world, .count = count, .half = count / 2};
+    w->query_count = w->half < QUERIES_AT_MOST ? w->half : QUERIES_AT_MOST;
     double(*rows)[3] = malloc((count + w->query_count) * sizeof *rows);
     if (!rows || !allocate(w) || !sample_rows(w, rows)) {
         free(rows);

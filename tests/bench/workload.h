@@ -10,8 +10,8 @@ typedef struct workload {
     octree_box world;
     size_t count;
     octree_point *points; /* in random order; ids are places */
-    octree_point *picks;  /* half of the points, in another random order */
-    size_t pick_count;
+    octree_point *picks;  /* the points again, in another random order: the first half is what is changed */
+    size_t half;
     octree_point *near, *far; /* where the first picks move to: one mean spacing away, to a place like the others */
     peer_query *stored;       /* the places of the first picks */
     peer_query *targets;      /* places of the same distribution (for a lattice: anywhere) where no point is */

@@ -157,7 +157,7 @@ static void rows_two_boxes_apart_stop_every_step(void **state)
     uint64_t random = 1;
     for (int axis = 0; axis < 3; axis++) {
         octree *tree = build_wall(along[(axis + 1) % 3], along[(axis + 2) % 3], 60);
-        for (int i = 0; i < 1000; i++) {
+        for (int i = 0; i < 300; i++) {
             double from[3], to[3];
             for (int other = 0; other < 3; other++) {
                 from[other] = random_between(&random, -960, 960);
@@ -180,7 +180,7 @@ static void a_slanted_wall_stops_every_step(void **state)
     (void)state;
     octree *tree = build_wall((const int[3]){1, -1, 0}, (const int[3]){0, 0, 1}, 60);
     uint64_t random = 2;
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < 1500; i++) {
         double from[3], to[3];
         for (int axis = 0; axis < 3; axis++) {
             from[axis] = random_between(&random, -960, 960);
@@ -246,7 +246,7 @@ static void steps_of_two_boxes_along_one_axis_need_no_sweep(void **state)
     brute all = {0};
     brute_scatter(&all, &random, 1500, 30, 5);
     octree *tree = brute_tree(&all, cube(-30, 30), 2, 21);
-    for (int i = 0; i < 1000; i++) {
+    for (int i = 0; i < 300; i++) {
         const double size = (double)random_below(&random, 12);
         double from[3];
         for (int axis = 0; axis < 3; axis++)
@@ -325,7 +325,7 @@ static void swept_agrees_with_whole_numbers_at_every_capacity(void **state)
     brute_scatter(&all, &random, 500, 20, 4);
     for (size_t shape = 0; shape < sizeof shapes / sizeof shapes[0]; shape++) {
         octree *tree = brute_tree(&all, cube(-20, 20), shapes[shape][0], shapes[shape][1]);
-        for (int i = 0; i < 500; i++) {
+        for (int i = 0; i < 300; i++) {
             double from[3], to[3];
             for (int axis = 0; axis < 3; axis++)
                 from[axis] = (double)random_below(&random, 81) - 40; /* half of them outside the world */

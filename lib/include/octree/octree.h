@@ -16,7 +16,8 @@
  *     must run alone.
  *   - D is the depth of the tree (at most 21), M the leaf capacity, n the number of points, k the number of results.
  *   - Answers rest on the default floating-point mode. Where the calling thread has another one (directed rounding, or
- *     subnormals flushed to zero), functions that compute with positions return OCTREE_FLOAT_MODE and do nothing (octree_digest returns 0).
+ *     subnormals flushed to zero), functions that compute with positions return OCTREE_FLOAT_MODE and do nothing
+ *     (octree_digest returns 0).
  *   - -0.0 equals +0.0 in every comparison; the bits that were stored are kept.
  */
 #ifndef OCTREE_OCTREE_H
@@ -46,7 +47,7 @@ extern "C" {
     X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
     X(BAD_OPTION, "bad_option", "an enumeration has a value that is not listed in the header")                         \
     X(BAD_ORDER, "bad_order", "edits and queries must be in ascending order of their ticks")                           \
-    X(FLOAT_MODE, "float_mode", "the thread's floating-point mode is not the default: nearest rounding, subnormals")  \
+    X(FLOAT_MODE, "float_mode", "the thread's floating-point mode is not the default: nearest rounding, subnormals")   \
     X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
     X(TOO_MANY, "too_many", "the tree holds 4294967295 points, which is its limit")
 
@@ -275,7 +276,8 @@ octree_status octree_nearest_k(const octree *tree, const double target[3], size_
 /* The nearest point of each of `count` targets, rows of three doubles, into neighbors[i]; found[i] (may be null) tells
  * whether there is one, and neighbors[i] is untouched where there is none. The targets are asked in Morton order, so
  * that those close by share what is in the cache. Errors: as octree_nearest_k, TOO_MANY and NO_MEMORY; a target that is
- * not finite is NOT_FINITE before anything is written. Cost: `count` searches, and 16 bytes a target while it runs. */
+ * not finite is NOT_FINITE before anything is written. Cost: `count` searches, and some 32 bytes a target while it
+ * runs. */
 octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
                                    const octree_search *how, octree_neighbor *neighbors, bool *found);
 
