@@ -4,7 +4,6 @@
 #include "leaf.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 typedef struct insertion {
     octree *tree;
