@@ -39,6 +39,14 @@ static channel open_pipe(void)
     return (channel){ends[1], ends[0]};
 }
 
+bool command_has_terminals(void)
+{
+    const int own = posix_openpt(O_RDWR | O_NOCTTY);
+    if (own >= 0)
+        close(own);
+    return own >= 0;
+}
+
 static channel open_terminal(void)
 {
     const int own = posix_openpt(O_RDWR | O_NOCTTY);

@@ -31,4 +31,7 @@ void assert_done(const command_result *result);
  * `part`. The result is released. */
 void assert_trouble(command_result *result, const char *part);
 
+/* False where the system gives no pseudo-terminals, as in a bare container. */
+bool command_has_terminals(void);
+
 #endif
