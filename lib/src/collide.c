@@ -31,9 +31,7 @@ typedef struct collision {
 static bool visit_others(const octree_point *point, void *context)
 {
     const collision *c = context;
-    if (c->self && c->self->id == point->id && same_position(c->self->position, point->position))
-        return true;
-    return c->visit(point, c->context);
+    return is_self(c->self, point) || c->visit(point, c->context);
 }
 
 octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,

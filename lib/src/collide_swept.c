@@ -81,9 +81,7 @@ static bool touches(const sweep *s, const double p[3])
 static bool visit_touched(const octree_point *point, void *context)
 {
     const sweep *s = context;
-    if (s->self && s->self->id == point->id && same_position(s->self->position, point->position))
-        return true;
-    return !touches(s, point->position) || s->visit(point, s->context);
+    return is_self(s->self, point) || !touches(s, point->position) || s->visit(point, s->context);
 }
 
 octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,

@@ -68,14 +68,17 @@ static int by_code(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* A leaf's points, sorted, and then its share of the batch; both merged into one order by code. */
-static void merge_items(const octree *tree, const node *leaf, const batch_item *items, size_t count, batch_item *all)
+/* A leaf's points and its share of the batch, in one order by code where the cell can be divided; where it cannot, as
+ * in a crowd, nobody reads the order. */
+static void merge_items(const octree *tree, const node *leaf, cell c, const batch_item *items, size_t count,
+                        batch_item *all)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
         const octree_point *point = &leaf_points(leaf)[i];
         all[i] = (batch_item){morton_code(tree->axes, point->position), point, BATCH_STORED};
     }
-    qsort(all, leaf->count, sizeof *all, by_code);
+    if (may_split(tree, c))
+        qsort(all, leaf->count, sizeof *all, by_code);
     size_t stored = leaf->count, new = count;
     for (size_t last = stored + new; new > 0; last--) {
         if (stored > 0 && all[stored - 1].code > items[new - 1].code)
@@ -109,7 +112,7 @@ static bool add_to_leaf(insertion *in, const node *old, cell c, batch_item *item
     batch_item *all = arena_take(&in->tree->memory, room);
     if (!all)
         return false;
-    merge_items(in->tree, old, items, count, all);
+    merge_items(in->tree, old, c, items, count, all);
     const bool ok = build(in, c, all, old->count + count, made) && journal_replace(&in->journal, old);
     arena_give(&in->tree->memory, all, room);
     return ok;

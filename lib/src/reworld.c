@@ -1,20 +1,17 @@
 /* reworld.c - the same points in another world. */
-#include "leaf.h"
-#include "tree.h"
+#include "search.h"
 
-static size_t collect_points(const octree *tree, octree_point *points)
+static bool copy_point(const octree_point *point, void *context)
 {
-    const node *pending[STACK_ROOM];
-    size_t size = 0, count = 0;
-    pending[size++] = &tree->root;
-    while (size > 0) {
-        const node *next = pending[--size];
-        for (unsigned i = bits_count8(next->octants); i-- > 0;)
-            pending[size++] = &children_of(next)[i];
-        for (uint32_t i = 0; !next->octants && i < next->count; i++)
-            points[count++] = leaf_points(next)[i];
-    }
-    return count;
+    octree_point **next = context;
+    *(*next)++ = *point;
+    return true;
+}
+
+static void copy_all(const octree *tree, octree_point *points)
+{
+    octree_cost unused = {0};
+    visit_all_below(&tree->root, &unused, copy_point, &points);
 }
 
 /* Insert all into an empty tree, or say why one of them does not fit. */
@@ -50,7 +47,11 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
         return status;
     const size_t size = (octree_count(tree) + 1) * sizeof(octree_point);
     octree_point *points = arena_take(&other->memory, size);
-    status = points ? fill(other, points, collect_points(tree, points)) : OCTREE_NO_MEMORY;
+    status = OCTREE_NO_MEMORY;
+    if (points) {
+        copy_all(tree, points);
+        status = fill(other, points, octree_count(tree));
+    }
     arena_give(&other->memory, points, size);
     if (status == OCTREE_OK) {
         exchange(tree, other);

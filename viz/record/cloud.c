@@ -1,14 +1,13 @@
 /* cloud.c - point-cloud files: opening, telling the formats apart, and the growing array of points. */
 #include "cloud_format.h"
+#include "whole_file.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
@@ -140,40 +139,16 @@ void cloud_release(cloud *cloud)
     memset(cloud, 0, sizeof *cloud);
 }
 
-/* ---- Files -------------------------------------------------------------------------------------------------- */
-
-/* Read up to file->size bytes, and set it to what was there. */
-static bool read_bytes(cloud_file *file, unsigned char *bytes)
-{
-    FILE *stream = fopen(file->name, "rb");
-    if (!stream)
-        return cloud_fail(file, "cannot be opened: %s", strerror(errno));
-    file->size = fread(bytes, 1, file->size, stream);
-    file->bytes = bytes;
-    bool whole = !ferror(stream);
-    if (!whole)
-        cloud_fail(file, "cannot be read: %s", strerror(errno));
-    fclose(stream);
-    return whole;
-}
-
 bool cloud_read(const char *path, cloud *out, cloud_error *error)
 {
-    cloud_file file = {path, NULL, 0, out, error};
-    struct stat status;
+    char *bytes, reason[WHOLE_FILE_REASON];
+    size_t size;
     *out = (cloud){0};
-    if (stat(path, &status) != 0)
-        return cloud_fail(&file, "cannot be opened: %s", strerror(errno));
-    /* Opening a pipe would wait for its other end; a device may never end. */
-    if (!S_ISREG(status.st_mode))
-        return cloud_fail(&file, "is not a regular file");
-    if ((uintmax_t)status.st_size >= SIZE_MAX)
-        return cloud_fail(&file, "is too large for this machine");
-    file.size = (size_t)status.st_size;
-    unsigned char *bytes = malloc(file.size + 1);
-    if (!bytes)
-        return cloud_fail(&file, "out of memory for its %zu bytes", file.size);
-    bool done = read_bytes(&file, bytes) && cloud_parse(path, bytes, file.size, out, error);
+    if (!whole_file_read(path, &bytes, &size, reason)) {
+        cloud_file file = {path, NULL, 0, out, error};
+        return cloud_fail(&file, "%s", reason);
+    }
+    const bool done = cloud_parse(path, (const unsigned char *)bytes, size, out, error);
     free(bytes);
     return done;
 }

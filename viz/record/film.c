@@ -38,9 +38,6 @@ static bool open_ticks(filming *f, record_error *error)
     return f->ticks != NULL;
 }
 
-/* What a recording that did not begin leaves nothing of. */
-static const char *const written_once[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl"};
-
 /* Everything that can refuse a session or a view comes before the folder is touched. */
 static bool begin(filming *f, const octree_session *session, record_error *error)
 {
@@ -57,7 +54,7 @@ static bool begin(filming *f, const octree_session *session, record_error *error
         write_session_file(options->folder, session, &f->session_digest, error) &&
         write_renderer_file(options->folder, &info, error) && open_ticks(f, error))
         return true;
-    folder_remove(options->folder, written_once, sizeof written_once / sizeof written_once[0]);
+    folder_abandon(options->folder);
     return false;
 }
 

@@ -62,12 +62,16 @@ static bool make_all(const char *folder, record_error *error)
     return ok;
 }
 
+/* A recording's files beside its frames. */
+static const char *const recording_files[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl"};
+
+#define RECORDING_FILES (sizeof recording_files / sizeof recording_files[0])
+
 /* What tells a folder that was filmed into. */
 static bool belongs_to_recording(const char *name)
 {
-    static const char *const names[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strcmp(name, names[i]) == 0)
+    for (size_t i = 0; i < RECORDING_FILES; i++)
+        if (strcmp(name, recording_files[i]) == 0)
             return true;
     return strncmp(name, "frame_", 6) == 0;
 }
@@ -146,10 +150,10 @@ bool folder_write(const char *folder, const char *name, const char *bytes, size_
     return ok;
 }
 
-void folder_remove(const char *folder, const char *const *names, size_t count)
+void folder_abandon(const char *folder)
 {
-    for (size_t i = 0; i < count; i++) {
-        char *path = folder_path(folder, names[i]);
+    for (size_t i = 0; i < RECORDING_FILES; i++) {
+        char *path = folder_path(folder, recording_files[i]);
         if (path)
             remove(path);
         free(path);

@@ -17,8 +17,8 @@ bool record_fail(record_error *error, const char *format, ...);
 /* Make the folder and its parents where they are missing. An existing folder must hold no recording and no frames. */
 bool folder_prepare(const char *folder, record_error *error);
 
-/* Remove files of the folder, those that are there. */
-void folder_remove(const char *folder, const char *const *names, size_t count);
+/* Remove the files of a recording that did not come to its first frame. */
+void folder_abandon(const char *folder);
 
 /* "folder/name"; owned by the caller, null when there is no memory. */
 char *folder_path(const char *folder, const char *name);
