@@ -6,6 +6,7 @@
  * parent has too, or that of the plane between the halves. So the children ascend like the sums of the subsets of three
  * increments, and the first that is out of reach ends its node.
  */
+#include "nearest.h"
 #include "best.h"
 #include "leaf.h"
 #include "search.h"
@@ -142,8 +143,8 @@ static void step(search *s)
     s->open--;
 }
 
-/* What is left of a node on the way to the target's leaf: all but the octant that the way took. */
-static void search_beside(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
+/* Measure a node on the way to the target's leaf, to search it beside the octant that the way took. */
+static frame *measure_way(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     frame *f = &s->frames[depth];
     const uint32_t half = cell_size(depth + 1);
@@ -156,15 +157,33 @@ static void search_beside(search *s, const node *n, uint64_t code, const uint32_
     measure(s, f);
     f->near = (uint8_t)morton_octant(code, depth);
     f->next = 1;
+    return f;
+}
+
+static void search_beside(search *s, frame *f, unsigned depth)
+{
     const double reach = s->best.node_reach;
     if (square_of(f, 1) > reach && square_of(f, 2) > reach && square_of(f, 4) > reach) {
-        meter_prune(&s->meter, f->address, n->octants & ~(1u << f->near));
+        meter_prune(&s->meter, f->address, f->node->octants & ~(1u << f->near));
         return;
     }
     sort_flips(f);
     s->open = depth + 1;
     while (s->open > depth)
         step(s);
+}
+
+/* While the target's leaf is on its way from memory, ask for those beside it that are likely to be next. */
+static void prefetch_beside(frame *f)
+{
+    sort_flips(f);
+    for (int i = 1; i < 4; i++) {
+        const node *child = child_at(f->node, f->near ^ f->flips[i]);
+        if (child) {
+            prefetch(child->below);
+            prefetch((const char *)child->below + 64);
+        }
+    }
 }
 
 static void run_search(search *s)
@@ -188,16 +207,22 @@ static void run_search(search *s)
     const path way = path_to(tree, code);
     for (unsigned depth = 0; depth <= way.depth; depth++)
         meter_visit(&s->meter, morton_address(code, depth));
-    const bool at_leaf = way.nodes[way.depth]->octants == 0;
-    if (at_leaf)
-        scan_leaf(s, way.nodes[way.depth]);
-    for (unsigned depth = way.depth + !at_leaf; depth-- > 0;)
-        search_beside(s, way.nodes[depth], code, keys, depth);
+    unsigned depth = way.depth;
+    if (way.nodes[depth]->octants == 0) {
+        if (depth > 0)
+            prefetch_beside(measure_way(s, way.nodes[depth - 1], code, keys, depth - 1));
+        scan_leaf(s, way.nodes[depth]);
+        if (depth-- == 0)
+            return;
+        search_beside(s, &s->frames[depth], depth);
+    } else
+        depth++;
+    while (depth-- > 0)
+        search_beside(s, measure_way(s, way.nodes[depth], code, keys, depth), depth);
 }
 
-/* A search for k points; a negative radius is none. Returns how many were found. */
-static size_t find_nearest(const octree *tree, const double target[3], size_t k, double radius,
-                           const octree_search *how, octree_neighbor *neighbors)
+size_t nearest_search(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
+                      octree_neighbor *neighbors)
 {
     const metric m = metric_make(tree->scale, target);
     search s;
@@ -227,7 +252,7 @@ octree_status octree_nearest_k(const octree *tree, const double target[3], size_
         count && (neighbors || k == 0) ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
-    *count = k > 0 ? find_nearest(tree, target, k, -1, &search, neighbors) : 0;
+    *count = k > 0 ? nearest_search(tree, target, k, -1, &search, neighbors) : 0;
     return OCTREE_OK;
 }
 
@@ -242,7 +267,7 @@ octree_status octree_nearest_within(const octree *tree, const double target[3], 
         status = OCTREE_BAD_SIZE;
     if (status != OCTREE_OK)
         return status;
-    return find_nearest(tree, target, 1, radius, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
+    return nearest_search(tree, target, 1, radius, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
 }
 
 octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
@@ -252,5 +277,5 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
     const octree_status status = nearest ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
-    return find_nearest(tree, target, 1, -1, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
+    return nearest_search(tree, target, 1, -1, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
 }

@@ -1,20 +1,8 @@
 /* nearest_batch.c - the nearest points of many targets, asked in the order of the tree. */
+#include "leaf.h"
+#include "morton_sort.h"
+#include "nearest.h"
 #include "search.h"
-
-#include <stdlib.h>
-
-/* A target, by where it lies in the world, or by the nearest place of the world to it. */
-typedef struct turn {
-    uint64_t code;
-    uint32_t place;
-} turn;
-
-static int by_code(const void *a, const void *b)
-{
-    const turn *p = a, *q = b;
-    return p->code != q->code ? (p->code > q->code) - (p->code < q->code)
-                              : (p->place > q->place) - (p->place < q->place);
-}
 
 static uint64_t code_near(const octree *tree, const double target[3])
 {
@@ -37,17 +25,45 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
     return status;
 }
 
-static void ask_in_turn(const octree *tree, const double (*targets)[3], const turn *turns, size_t count,
+#define GROUP 16
+
+/* Ask for the memory of the leaves that a few targets lie in, all at once and level by level: what one search after the
+ * other would wait for is on its way for all of them. */
+static void prefetch_leaves(const octree *tree, const morton_item *turns, size_t count)
+{
+    const node *at[GROUP];
+    for (size_t i = 0; i < count; i++)
+        at[i] = &tree->root;
+    bool deeper = true;
+    for (unsigned depth = 0; deeper; depth++) {
+        deeper = false;
+        for (size_t i = 0; i < count; i++) {
+            const node *child = at[i]->octants ? child_at(at[i], morton_octant(turns[i].code, depth)) : NULL;
+            if (!child)
+                continue;
+            at[i] = child;
+            prefetch(child->below);
+            deeper = true;
+        }
+    }
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t next = 2; at[i]->octants == 0 && next < at[i]->count && next < POOL_MAX_UNITS; next += 2)
+            prefetch(&leaf_points(at[i])[next]);
+}
+
+static void ask_in_turn(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count,
                         const octree_search *how, octree_neighbor *neighbors, bool *found)
 {
     for (size_t i = 0; i < count; i++) {
-        size_t one;
+        if (i % GROUP == 0)
+            prefetch_leaves(tree, turns + i, count - i < GROUP ? count - i : GROUP);
         octree_neighbor nearest;
-        octree_nearest_k(tree, targets[turns[i].place], 1, how, &nearest, &one);
+        const uint32_t place = turns[i].place;
+        const bool one = nearest_search(tree, targets[place], 1, -1, how, &nearest) == 1;
         if (one)
-            neighbors[turns[i].place] = nearest;
+            neighbors[place] = nearest;
         if (found)
-            found[turns[i].place] = one;
+            found[place] = one;
     }
 }
 
@@ -60,14 +76,14 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
         return status;
     /* The tree's own allocator, but not its books: queries change nothing of the tree. */
     const octree_allocator *allocator = &tree->def.allocator;
-    turn *turns =
-        count <= SIZE_MAX / sizeof *turns ? allocator->allocate(count * sizeof *turns, allocator->context) : NULL;
+    const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
+    morton_item *turns = size < SIZE_MAX ? allocator->allocate(size, allocator->context) : NULL;
     if (!turns)
         return OCTREE_NO_MEMORY;
     for (size_t i = 0; i < count; i++)
-        turns[i] = (turn){code_near(tree, targets[i]), (uint32_t)i};
-    qsort(turns, count, sizeof *turns, by_code);
+        turns[i] = (morton_item){code_near(tree, targets[i]), (uint32_t)i, false};
+    morton_sort(turns, turns + count, count);
     ask_in_turn(tree, targets, turns, count, &search, neighbors, found);
-    allocator->release(turns, count * sizeof *turns, allocator->context);
+    allocator->release(turns, size, allocator->context);
     return OCTREE_OK;
 }

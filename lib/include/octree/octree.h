@@ -292,8 +292,7 @@ octree_status octree_nearest_k(const octree *tree, const double target[3], size_
 /* The nearest point of each of `count` targets, rows of three doubles, into neighbors[i]; found[i] (may be null) tells
  * whether there is one, and neighbors[i] is untouched where there is none. The targets are asked in Morton order, so
  * that those close by share what is in the cache. Errors: as octree_nearest_k, TOO_MANY and NO_MEMORY; a target that is
- * not finite is NOT_FINITE before anything is written. Cost: `count` searches, and some 32 bytes a target while it
- * runs. */
+ * not finite is NOT_FINITE before anything is written. Cost: `count` searches, and 32 bytes a target while it runs. */
 octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
                                    const octree_search *how, octree_neighbor *neighbors, bool *found);
 
