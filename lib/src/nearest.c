@@ -173,16 +173,45 @@ static void search_beside(search *s, frame *f, unsigned depth)
         step(s);
 }
 
-/* While the target's leaf is on its way from memory, ask for those beside it that are likely to be next. */
-static void prefetch_beside(frame *f)
+unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, uint64_t codes[3])
 {
-    sort_flips(f);
-    for (int i = 1; i < 4; i++) {
-        const node *child = child_at(f->node, f->near ^ f->flips[i]);
-        if (child) {
-            prefetch(child->below);
-            prefetch((const char *)child->below + 64);
-        }
+    const uint32_t size = cell_size(depth), quarter = size / 4;
+    unsigned count = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint32_t within = keys[i] & (size - 1);
+        uint32_t beside[3] = {keys[0], keys[1], keys[2]};
+        if (within < quarter)
+            beside[i] -= size;
+        else if (within >= size - quarter)
+            beside[i] += size;
+        if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped */
+            codes[count++] = morton_interleave(beside);
+    }
+    return count;
+}
+
+/* While the target's leaf is on its way from memory, ask for those beside it. */
+static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3])
+{
+    uint64_t codes[3];
+    const unsigned count = nearest_codes_beside(keys, way->depth, codes);
+    for (unsigned i = 0; i < count; i++) {
+        unsigned depth = way->depth;
+        while ((codes[i] ^ code) >> 3 * (OCTREE_MAX_DEPTH - depth))
+            depth--;
+        const node *n = way->nodes[depth];
+        while (n && n->octants)
+            n = child_at(n, morton_octant(codes[i], depth++));
+        if (n)
+            prefetch(n->below);
+    }
+}
+
+void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &tree->axes[i];
+        keys[i] = plane_key(a, target[i] < a->min ? a->min : target[i] > a->max ? a->max : target[i]);
     }
 }
 
@@ -193,8 +222,7 @@ static void run_search(search *s)
     double squares = 0;
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
-        const double gap = metric_gap(&s->best.metric, i, a->min, a->max), x = s->best.metric.target[i];
-        keys[i] = plane_key(a, x < a->min ? a->min : x > a->max ? a->max : x);
+        const double gap = metric_gap(&s->best.metric, i, a->min, a->max);
         s->root_squares[i] = gap * gap;
         squares += s->root_squares[i];
     }
@@ -203,20 +231,18 @@ static void run_search(search *s)
         meter_trace(&s->meter, OCTREE_ROOT, OCTREE_TOUCH_PRUNED);
         return;
     }
+    nearest_keys(tree, s->best.metric.target, keys);
     const uint64_t code = morton_interleave(keys);
     const path way = path_to(tree, code);
     for (unsigned depth = 0; depth <= way.depth; depth++)
         meter_visit(&s->meter, morton_address(code, depth));
     unsigned depth = way.depth;
-    if (way.nodes[depth]->octants == 0) {
-        if (depth > 0)
-            prefetch_beside(measure_way(s, way.nodes[depth - 1], code, keys, depth - 1));
+    if (way.nodes[depth]->octants) {
+        depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
+    } else {
+        prefetch_beside(&way, code, keys);
         scan_leaf(s, way.nodes[depth]);
-        if (depth-- == 0)
-            return;
-        search_beside(s, &s->frames[depth], depth);
-    } else
-        depth++;
+    }
     while (depth-- > 0)
         search_beside(s, measure_way(s, way.nodes[depth], code, keys, depth), depth);
 }

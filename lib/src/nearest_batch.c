@@ -4,14 +4,6 @@
 #include "nearest.h"
 #include "search.h"
 
-static uint64_t code_near(const octree *tree, const double target[3])
-{
-    double inside[3];
-    for (int i = 0; i < 3; i++)
-        inside[i] = fmin(fmax(target[i], tree->axes[i].min), tree->axes[i].max);
-    return morton_code(tree->axes, inside);
-}
-
 static octree_status check_batch(const octree *tree, const double (*targets)[3], size_t count, const octree_search *how,
                                  const octree_neighbor *neighbors)
 {
@@ -27,28 +19,53 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
 
 #define GROUP 16
 
-/* Ask for the memory of the leaves that a few targets lie in, all at once and level by level: what one search after the
- * other would wait for is on its way for all of them. */
-static void prefetch_leaves(const octree *tree, const morton_item *turns, size_t count)
+/* On the way to the leaf of a code. */
+typedef struct walker {
+    const node *node;
+    uint64_t code;
+    unsigned depth;
+} walker;
+
+/* Walk to the leaves level by level, all at once: what one walker after the other would wait for is then on its way for
+ * all of them. */
+static void walk_to_leaves(walker *walkers, size_t count)
 {
-    const node *at[GROUP];
-    for (size_t i = 0; i < count; i++)
-        at[i] = &tree->root;
-    bool deeper = true;
-    for (unsigned depth = 0; deeper; depth++) {
+    for (bool deeper = true; deeper;) {
         deeper = false;
         for (size_t i = 0; i < count; i++) {
-            const node *child = at[i]->octants ? child_at(at[i], morton_octant(turns[i].code, depth)) : NULL;
+            walker *w = &walkers[i];
+            const node *child = w->node->octants ? child_at(w->node, morton_octant(w->code, w->depth)) : NULL;
             if (!child)
                 continue;
-            at[i] = child;
+            w->node = child;
+            w->depth++;
             prefetch(child->below);
             deeper = true;
         }
     }
     for (size_t i = 0; i < count; i++)
-        for (uint32_t next = 2; at[i]->octants == 0 && next < at[i]->count && next < POOL_MAX_UNITS; next += 2)
-            prefetch(&leaf_points(at[i])[next]);
+        for (uint32_t j = 2; walkers[i].node->octants == 0 && j < walkers[i].node->count && j < POOL_MAX_UNITS; j += 2)
+            prefetch(&leaf_points(walkers[i].node)[j]);
+}
+
+/* Ask for the memory that a few searches will begin with: the leaves that the targets lie in, then those beside them.
+ */
+static void prefetch_group(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count)
+{
+    walker walkers[GROUP], beside[3 * GROUP];
+    size_t more = 0;
+    for (size_t i = 0; i < count; i++)
+        walkers[i] = (walker){&tree->root, turns[i].code, 0};
+    walk_to_leaves(walkers, count);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t keys[3];
+        nearest_keys(tree, targets[turns[i].place], keys);
+        uint64_t codes[3];
+        const unsigned close = nearest_codes_beside(keys, walkers[i].depth, codes);
+        for (unsigned j = 0; j < close; j++)
+            beside[more++] = (walker){&tree->root, codes[j], 0};
+    }
+    walk_to_leaves(beside, more);
 }
 
 static void ask_in_turn(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count,
@@ -56,7 +73,7 @@ static void ask_in_turn(const octree *tree, const double (*targets)[3], const mo
 {
     for (size_t i = 0; i < count; i++) {
         if (i % GROUP == 0)
-            prefetch_leaves(tree, turns + i, count - i < GROUP ? count - i : GROUP);
+            prefetch_group(tree, targets, turns + i, count - i < GROUP ? count - i : GROUP);
         octree_neighbor nearest;
         const uint32_t place = turns[i].place;
         const bool one = nearest_search(tree, targets[place], 1, -1, how, &nearest) == 1;
@@ -80,8 +97,11 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     morton_item *turns = size < SIZE_MAX ? allocator->allocate(size, allocator->context) : NULL;
     if (!turns)
         return OCTREE_NO_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        turns[i] = (morton_item){code_near(tree, targets[i]), (uint32_t)i, false};
+    for (size_t i = 0; i < count; i++) {
+        uint32_t keys[3];
+        nearest_keys(tree, targets[i], keys);
+        turns[i] = (morton_item){morton_interleave(keys), (uint32_t)i, false};
+    }
     morton_sort(turns, turns + count, count);
     ask_in_turn(tree, targets, turns, count, &search, neighbors, found);
     allocator->release(turns, size, allocator->context);

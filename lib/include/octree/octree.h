@@ -105,7 +105,7 @@ typedef struct octree_def {
     octree_allocator allocator; /* null functions mean malloc and free */
 } octree_def;
 
-/* World [-1000, 1000]^3, capacity 16, depth 21, OCTREE_REFUSE, malloc. */
+/* World [-1000, 1000]^3, capacity 64, depth 21, OCTREE_REFUSE, malloc. */
 octree_def octree_def_default(void);
 
 /* Make an empty tree into *tree. The definition is copied.
