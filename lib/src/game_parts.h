@@ -17,13 +17,17 @@ struct octree_game {
     bool has_set;
     octree_tick tick;
     list hits;                                /* octree_point */
-    list found;                               /* octree_point: the range results of all answers, one after the other */
+    list found;                               /* octree_point: those of all answers, one after the other */
+    list near;                                /* octree_neighbor: the same */
     list refusals;                            /* octree_refusal */
     list answers;                             /* octree_answer */
     list inner, inner_before, splits, merges; /* octree_address */
 };
 
 bool game_is_key(char key);
+
+/* OK, or what octree_game_create says of a session whose tree could be made. */
+octree_status game_check_session(const octree_session *session, const octree *tree);
 
 /* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
 octree_status game_add_body(octree_game *game, const octree_body *body);

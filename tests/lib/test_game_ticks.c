@@ -90,22 +90,63 @@ static void check_hits(const octree_tick *tick, const octree_player *player, bru
     brute_free(&expected);
 }
 
-static void check_answer(const octree_answer *answer, const octree_tick *tick, const octree_player *player, brute *all)
+static void check_neighbors(const octree_answer *answer, const octree_query *query, const octree_tick *tick,
+                            const octree_player *player, const brute *all)
 {
-    if (answer->kind == OCTREE_QUERY_RANGE) {
+    octree_neighbor *expected;
+    const octree_skip skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
+    const size_t k = query->kind == OCTREE_QUERY_NEAREST ? 1 : query->k;
+    const double *target = query->at_player ? tick->player : query->target;
+    const size_t found = brute_nearest_k(all, target, k, skip, player->id, &expected);
+    assert_int_equal(answer->count, found);
+    assert_true(answer->k == k && same_position(answer->target, target));
+    for (size_t i = 0; i < found; i++)
+        assert_true(answer->neighbors[i].point.id == expected[i].point.id &&
+                    same_position(answer->neighbors[i].point.position, expected[i].point.position) &&
+                    answer->neighbors[i].distance == expected[i].distance);
+    free(expected);
+}
+
+/* Whether the answer is what the query asks for, and is true. */
+static void check_answer(const octree_answer *answer, const octree_query *query, const octree_tick *tick,
+                         const octree_player *player, brute *all)
+{
+    assert_int_equal(answer->kind, query->kind);
+
+    if (query->kind == OCTREE_QUERY_RANGE || query->kind == OCTREE_QUERY_RADIUS) {
         brute expected = {0};
-        brute_range(all, &answer->box, &expected);
+        octree_box box = query->box;
+        for (int axis = 0; query->at_player && axis < 3; axis++) {
+            box.min[axis] += tick->player[axis];
+            box.max[axis] += tick->player[axis];
+        }
+        if (query->kind == OCTREE_QUERY_RANGE)
+            brute_range(all, &box, &expected);
+        else
+            brute_radius(all, query->at_player ? tick->player : query->target, query->radius, &expected);
         assert_same_points(answer->points, answer->count, &expected);
         brute_free(&expected);
         return;
     }
-    octree_neighbor expected;
-    bool of_player = answer->by_key || same_position(answer->target, tick->player);
-    bool found =
-        brute_nearest(all, answer->target, of_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE, player->id, &expected);
-    assert_true(answer->found == found);
-    if (found)
-        assert_true(answer->neighbor.point.id == expected.point.id && answer->neighbor.distance == expected.distance);
+    check_neighbors(answer, query, tick, player, all);
+}
+
+/* The answers are those of the queries that the tick is due, n first. */
+static void check_answers(const octree_tick *tick, const octree_session *session, brute *all)
+{
+    static const octree_query by_key = {.kind = OCTREE_QUERY_NEAREST, .at_player = true};
+    size_t due = 0;
+    if (tick->key == 'n')
+        check_answer(&tick->answers[due++], &by_key, tick, &session->player, all);
+    for (size_t i = 0; i < session->query_count; i++) {
+        const octree_query *query = &session->queries[i];
+        if (query->tick != tick->number && query->tick != OCTREE_EVERY_TICK)
+            continue;
+        assert_true(due < tick->answer_count);
+        assert_true(tick->answers[due].by_key == (tick->key == 'n' && due == 0));
+        check_answer(&tick->answers[due++], query, tick, &session->player, all);
+    }
+    assert_int_equal(tick->answer_count, due);
 }
 
 static int direction_on(char key, int axis)
@@ -143,18 +184,8 @@ static void check_tick(const octree_game *game, inner_nodes *before, int64_t ste
     check_player(tick, session, steps);
     check_nodes(tick, tree, before);
     check_hits(tick, &session->player, &all);
-    for (size_t i = 0; i < tick->answer_count; i++)
-        check_answer(&tick->answers[i], tick, &session->player, &all);
+    check_answers(tick, session, &all);
     brute_free(&all);
-}
-
-/* The number of answers that a session asks for at a tick. */
-static size_t answers_due(const octree_session *session, uint64_t tick, char key)
-{
-    size_t due = key == 'n' ? 1 : 0;
-    for (size_t i = 0; i < session->query_count; i++)
-        due += session->queries[i].tick == tick || session->queries[i].tick == OCTREE_EVERY_TICK ? 1 : 0;
-    return due;
 }
 
 static void play_and_check(const octree_session *session)
@@ -166,7 +197,6 @@ static void play_and_check(const octree_session *session)
     for (uint64_t number = 0;; number++) {
         const octree_tick *tick = octree_game_tick(game);
         assert_int_equal(tick->number, number);
-        assert_int_equal(tick->answer_count, answers_due(session, number, tick->key));
         check_tick(game, &before, steps);
         if (octree_game_over(game))
             break;
@@ -217,10 +247,13 @@ static uint64_t digest_tick(uint64_t digest, const octree_tick *tick)
         digest = octree_digest_word(digest, tick->refusals[i].id ^ (uint64_t)tick->refusals[i].why << 32);
     for (size_t i = 0; i < tick->answer_count; i++) {
         const octree_answer *answer = &tick->answers[i];
-        digest = answer->kind == OCTREE_QUERY_RANGE ? digest_points(digest, answer->points, answer->count)
-                                                    : octree_digest_word(digest, answer->found);
-        if (answer->kind == OCTREE_QUERY_NEAREST && answer->found)
-            digest = octree_digest_double(digest, answer->neighbor.distance);
+        digest = octree_digest_word(digest, answer->count);
+        if (answer->points)
+            digest = digest_points(digest, answer->points, answer->count);
+        for (size_t j = 0; answer->neighbors && j < answer->count; j++) {
+            digest = digest_points(digest, &answer->neighbors[j].point, 1);
+            digest = octree_digest_double(digest, answer->neighbors[j].distance);
+        }
     }
     return digest;
 }

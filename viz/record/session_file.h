@@ -16,8 +16,12 @@
  *   {"tick": 3, "edits": [{"insert": {"id": 9, "position": [x, y, z], "velocity": [vx, vy, vz]}}, {"remove": 9},
  *                         {"move": {"id": 9, "position": [x, y, z]}}], "queries": [...]}
  *
- * A query is {"range": {"min": [...], "max": [...]}} with "at": "player" when it is relative to the player, or
- * {"nearest": [x, y, z]}, or {"nearest": "player"}.
+ * A query is one of
+ *   {"range": {"min": [...], "max": [...]}}    the points in a box; with "at": "player" it is relative to the player
+ *   {"radius": 200, "at": [x, y, z]}           the points at a distance of at most 200
+ *   {"nearest": [x, y, z]}                     the nearest point
+ *   {"knearest": 8, "at": [x, y, z]}           the 8 nearest points
+ * and "player" may stand for [x, y, z]: neighbours are then others than the player itself.
  *
  * A point without an id has its place in the list for an id, counted from 1 and passing over the player's. Ids are
  * unique, the player's included. "velocities" replace those of the points. Points may lie outside the world: the game

@@ -1,36 +1,10 @@
 /* tick_scene.c - a tick of a game as a scene: the tree, and on top of it what the tick asked and met. */
 #include "tick_scene.h"
+#include "answer_layers.h"
 #include "panel.h"
 #include "tree_layers.h"
 
 #include <string.h>
-
-static void add_range(scene *s, const octree_answer *answer, uint64_t id)
-{
-    const scene_look look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = STYLE_DASHED, .width = 1};
-    scene_add_box(s, (scene_box){.id = id, .box = answer->box, .look = look});
-    for (size_t i = 0; i < answer->count; i++) {
-        scene_marker marker = {.id = answer->points[i].id, .look = look, .shape = SHAPE_FRAME};
-        marker.look.width = 5;
-        memcpy(marker.at, answer->points[i].position, sizeof marker.at);
-        scene_add_marker(s, marker);
-    }
-}
-
-static void add_nearest(scene *s, const octree_answer *answer, uint64_t id)
-{
-    if (!answer->found)
-        return;
-    const scene_look look = {.layer = LAYER_NEAREST, .role = ROLE_NEAREST, .style = STYLE_DASHED, .width = 1};
-    scene_segment line = {.id = id, .look = look};
-    memcpy(line.ends[0], answer->target, sizeof line.ends[0]);
-    memcpy(line.ends[1], answer->neighbor.point.position, sizeof line.ends[1]);
-    scene_add_segment(s, line);
-    scene_marker marker = {.id = answer->neighbor.point.id, .look = look, .shape = SHAPE_FRAME};
-    marker.look.width = 7;
-    memcpy(marker.at, answer->neighbor.point.position, sizeof marker.at);
-    scene_add_marker(s, marker);
-}
 
 static octree_box box_about(const double center[3], double size)
 {
@@ -111,12 +85,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game)
     begin_scene(s, v, &session->tree.world, tick->player, tick->number, panel_width(v));
     add_world(s, &session->tree.world);
     add_tree(s, octree_game_tree(game), session->body_count);
-    for (size_t i = 0; i < tick->answer_count; i++) {
-        if (tick->answers[i].kind == OCTREE_QUERY_RANGE)
-            add_range(s, &tick->answers[i], i);
-        else
-            add_nearest(s, &tick->answers[i], i);
-    }
+    add_answers(s, tick);
     add_player(s, tick, session);
     add_collision(s, tick, session);
     add_tick_panel(s, game);

@@ -40,17 +40,29 @@ typedef struct octree_edit {
     octree_body body; /* remove reads the id alone; move reads id and position, and keeps the velocity */
 } octree_edit;
 
-typedef enum octree_query_kind { OCTREE_QUERY_RANGE, OCTREE_QUERY_NEAREST } octree_query_kind;
+typedef enum octree_query_kind {
+    OCTREE_QUERY_RANGE,    /* the points in a box */
+    OCTREE_QUERY_NEAREST,  /* the point nearest to a place */
+    OCTREE_QUERY_KNEAREST, /* the k points nearest to it */
+    OCTREE_QUERY_RADIUS,   /* the points in a ball */
+    OCTREE_QUERY_KINDS
+} octree_query_kind;
+
+/* "range", "nearest", "knearest", "radius": the name that files use. Null from OCTREE_QUERY_KINDS on. */
+const char *octree_query_name(octree_query_kind kind);
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
-/* A question asked at the end of a tick. */
+/* A question asked at the end of a tick. The player is no neighbour of itself; boxes and balls have it as they have
+ * every other point. */
 typedef struct octree_query {
     uint64_t tick; /* or OCTREE_EVERY_TICK */
     octree_query_kind kind;
-    bool at_player;   /* range: the box is relative to the player; nearest: the target is the player, itself left out */
+    bool at_player;   /* range: the box is relative to the player; others: the target is the player */
     octree_box box;   /* range */
-    double target[3]; /* nearest, unless at_player */
+    double target[3]; /* nearest, k nearest, and the ball's centre; unless at_player */
+    size_t k;         /* k nearest: how many; where there are fewer, all */
+    double radius;    /* of the closed ball, >= 0 */
 } octree_query;
 
 /* All that is needed to play. The arrays are borrowed: they must outlive the game. */
@@ -98,13 +110,14 @@ typedef struct octree_refusal {
 
 typedef struct octree_answer {
     octree_query_kind kind;
-    bool by_key;                /* asked by n */
-    octree_box box;             /* range: as asked, in world coordinates */
-    double target[3];           /* nearest: as asked */
-    bool found;                 /* nearest */
-    octree_neighbor neighbor;   /* nearest, when found */
-    const octree_point *points; /* range: the result, by id */
-    size_t count;
+    bool by_key;                      /* asked by n */
+    octree_box box;                   /* range: as asked, in world coordinates */
+    double target[3];                 /* nearest, k nearest, and the ball's centre: as asked */
+    size_t k;                         /* k nearest: as asked; nearest: 1 */
+    double radius;                    /* radius: as asked */
+    const octree_point *points;       /* range, radius: the result, by id */
+    const octree_neighbor *neighbors; /* nearest, k nearest: the result, by distance and then by id */
+    size_t count;                     /* of points or neighbours; nearest: 0 or 1 */
 } octree_answer;
 
 /* One tick. The arrays are owned by the game and valid until its next step. */
@@ -130,8 +143,8 @@ typedef struct octree_game octree_game;
 
 /* Start a session and play tick 0. Bodies that the tree refuses are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
- * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; NO_MEMORY. *game is then null.
- * Cost: one insertion a body. */
+ * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
+ * BAD_RANGE, BAD_SIZE; NO_MEMORY. *game is then null. Cost: one insertion a body. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
