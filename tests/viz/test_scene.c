@@ -1,11 +1,10 @@
-/* test_scene.c - the draw list of a tick, without any picture: what is in it, how often, and where. */
+/* test_scene.c - the draw list of a tick, without any picture: what is in it, how often, and where. What the tick asked
+ * is in test_answer_layers.c. */
 #include "scenes.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "answer_layers.h"
+#include "draw_list.h"
 #include "random_session.h"
 
 /* What a walk over the nodes is compared with. */
@@ -13,57 +12,6 @@ typedef struct node_check {
     const scene *scene;
     size_t nodes, points;
 } node_check;
-
-/* The one box of a layer with this id; the test fails when there is another number of them. */
-static const scene_box *only_box(const scene *s, unsigned layer, uint64_t id)
-{
-    const scene_box *found = NULL;
-    for (size_t i = 0; i < s->boxes.count; i++) {
-        const scene_box *box = &s->boxes.items[i];
-        if (box->look.layer != layer || box->id != id)
-            continue;
-        assert_null(found);
-        found = box;
-    }
-    assert_non_null(found);
-    return found;
-}
-
-static size_t markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->markers.count; i++) {
-        const scene_marker *marker = &s->markers.items[i];
-        count += marker->look.layer == layer && marker->id == id && same_position(marker->at, at);
-    }
-    return count;
-}
-
-/* The elements of a layer, by kind. */
-typedef struct layer_counts {
-    size_t boxes, segments, markers, labels, panels;
-} layer_counts;
-
-static layer_counts count_layer(const scene *s, unsigned layer)
-{
-    layer_counts found = {0};
-    for (size_t i = 0; i < s->boxes.count; i++)
-        found.boxes += s->boxes.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->segments.count; i++)
-        found.segments += s->segments.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->markers.count; i++)
-        found.markers += s->markers.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->labels.count; i++)
-        found.labels += s->labels.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->panels.count; i++)
-        found.panels += s->panels.items[i].look.layer == layer;
-    return found;
-}
-
-static bool same_box(const octree_box *a, const octree_box *b)
-{
-    return same_position(a->min, b->min) && same_position(a->max, b->max);
-}
 
 static octree_walk_order check_node(const octree_node *node, void *context)
 {
@@ -124,146 +72,6 @@ static void check_collision(const scene *s, const octree_tick *tick, const octre
     check_box_about(&box->box, tick->attempt, player->box_size);
 }
 
-/* The segments of a layer that have this id and these ends. */
-static size_t lines_between(const scene *s, unsigned layer, uint64_t id, const double from[3], const double to[3])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->segments.count; i++) {
-        const scene_segment *line = &s->segments.items[i];
-        count += line->look.layer == layer && line->id == id && same_position(line->ends[0], from) &&
-                 same_position(line->ends[1], to);
-    }
-    return count;
-}
-
-static void check_marked(const scene *s, unsigned layer, const octree_answer *answer)
-{
-    for (size_t i = 0; i < answer->count; i++)
-        assert_true(markers_at(s, layer, answer->points[i].id, answer->points[i].position) >= 1);
-}
-
-static void check_range(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
-{
-    assert_true(same_box(&only_box(s, LAYER_RANGE, place)->box, &answer->box));
-    check_marked(s, LAYER_RANGE, answer);
-    due->boxes++;
-    due->markers += answer->count;
-}
-
-static void check_nearest(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
-{
-    for (size_t i = 0; i < answer->count; i++) {
-        const octree_point *nearest = &answer->neighbors[i].point;
-        assert_int_equal(lines_between(s, LAYER_NEAREST, place, answer->target, nearest->position), 1);
-        assert_true(markers_at(s, LAYER_NEAREST, nearest->id, nearest->position) >= 1);
-    }
-    due->segments += answer->count;
-    due->markers += answer->count;
-}
-
-/* The rank that a label of this id tells beside a place, or null. */
-static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, const double at[3])
-{
-    char number[24];
-    snprintf(number, sizeof number, " %zu", rank);
-    for (size_t i = 0; i < s->labels.count; i++) {
-        const scene_label *label = &s->labels.items[i];
-        if (label->look.layer != LAYER_KNEAREST || label->id != id)
-            continue;
-        assert_true(label->in_world && strcmp(label->text, number) == 0 && same_position(label->at, at));
-        return label;
-    }
-    return NULL;
-}
-
-/* Whether two numbers are so close that one would cover the other. */
-static bool are_crowded(const scene *s, const double a[3], const double b[3])
-{
-    double p[2], q[2];
-    pixel_of(s, a, p);
-    pixel_of(s, b, q);
-    return fabs(p[0] - q[0]) < 8 * s->unit && fabs(p[1] - q[1]) < 9 * s->unit;
-}
-
-static bool is_behind_the_eye(const scene *s, const double at[3])
-{
-    double seen[3];
-    camera_transform(&s->camera, at, seen);
-    return s->camera.perspective && seen[2] < s->camera.near;
-}
-
-/* A line from the target to each neighbour, and beside the first nine their ranks, but where one covers another's. */
-static void check_knearest(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
-{
-    const double *numbered[9];
-    size_t numbers = 0;
-    for (size_t i = 0; i < answer->count; i++) {
-        const double *at = answer->neighbors[i].point.position;
-        const uint64_t id = (uint64_t)place << 32 | i;
-        assert_int_equal(lines_between(s, LAYER_KNEAREST, id, answer->target, at), 1);
-        bool room = i < 9 && !is_behind_the_eye(s, at);
-        for (size_t j = 0; room && j < numbers; j++)
-            room = !are_crowded(s, at, numbered[j]);
-        assert_int_equal(rank_of(s, id, i + 1, at) != NULL, room);
-        if (room)
-            numbered[numbers++] = at;
-    }
-    due->segments += answer->count;
-    due->labels += numbers;
-}
-
-/* Three closed chains of chords: each in a plane through the centre, and its ends at the radius from it. */
-static void check_radius(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
-{
-    size_t in_plane[3] = {0, 0, 0};
-    const double *last = NULL;
-    for (size_t i = 0; i < s->segments.count; i++) {
-        const scene_segment *chord = &s->segments.items[i];
-        if (chord->look.layer != LAYER_RADIUS || chord->id >> 32 != place)
-            continue;
-        const size_t number = chord->id & UINT32_MAX, plane = number / BALL_CHORDS;
-        double square = 0;
-        for (int axis = 0; axis < 3; axis++)
-            square += pow((chord->ends[0][axis] - answer->target[axis]) / (answer->radius > 0 ? answer->radius : 1), 2);
-        assert_true(fabs(square - (answer->radius > 0)) < 1e-12);
-        assert_true(chord->ends[0][plane] == answer->target[plane] && chord->ends[1][plane] == answer->target[plane]);
-        assert_true(number % BALL_CHORDS == 0 || same_position(chord->ends[0], last));
-        in_plane[plane]++;
-        last = chord->ends[1];
-        if (number % BALL_CHORDS == BALL_CHORDS - 1)
-            assert_int_equal(lines_between(s, LAYER_RADIUS, chord->id - (BALL_CHORDS - 1), last,
-                                           s->segments.items[i - (BALL_CHORDS - 1)].ends[1]),
-                             1);
-    }
-    for (int plane = 0; plane < 3; plane++)
-        assert_int_equal(in_plane[plane], BALL_CHORDS);
-    check_marked(s, LAYER_RADIUS, answer);
-    due->segments += 3 * (size_t)BALL_CHORDS;
-    due->markers += answer->count;
-}
-
-/* Each answer is shown in the layer of its kind, and that layer shows nothing else. */
-static void check_answers(const scene *s, const octree_tick *tick)
-{
-    static const struct {
-        view_layer layer;
-        void (*check)(const scene *, const octree_answer *, size_t, layer_counts *);
-    } kinds[OCTREE_QUERY_KINDS] = {
-        [OCTREE_QUERY_RANGE] = {LAYER_RANGE, check_range},
-        [OCTREE_QUERY_NEAREST] = {LAYER_NEAREST, check_nearest},
-        [OCTREE_QUERY_KNEAREST] = {LAYER_KNEAREST, check_knearest},
-        [OCTREE_QUERY_RADIUS] = {LAYER_RADIUS, check_radius},
-    };
-    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
-        layer_counts due = {0}, found = count_layer(s, kinds[kind].layer);
-        for (size_t i = 0; i < tick->answer_count; i++)
-            if ((int)tick->answers[i].kind == kind)
-                kinds[kind].check(s, &tick->answers[i], i, &due);
-        assert_true(found.boxes == due.boxes && found.segments == due.segments && found.markers == due.markers &&
-                    found.labels == due.labels && found.panels == 0);
-    }
-}
-
 static void check_red(const scene *s, const octree_tick *tick)
 {
     size_t red = 0;
@@ -284,7 +92,6 @@ static void check_tick(const scene *s, const octree_game *game)
     check_tree(s, octree_game_tree(game));
     check_player(s, tick, player);
     check_collision(s, tick, player);
-    check_answers(s, tick);
     check_red(s, tick);
 }
 
