@@ -67,6 +67,7 @@ void octree_game_destroy(octree_game *game)
     bodies_release(&game->bodies);
     arena memory = game->memory;
     list_release(&memory, &game->hits, sizeof(octree_point));
+    list_release(&memory, &game->hit_from, sizeof(double[3]));
     list_release(&memory, &game->found, sizeof(octree_point));
     list_release(&memory, &game->near, sizeof(octree_neighbor));
     list_release(&memory, &game->refusals, sizeof(octree_refusal));

@@ -137,6 +137,7 @@ static void publish(octree_game *game)
     publish_answers(game);
     tick->hits = game->hits.items;
     tick->hit_count = game->hits.count;
+    tick->hit_from = game->hit_from.items;
     tick->refusals = game->refusals.items;
     tick->refusal_count = game->refusals.count;
     tick->splits = game->splits.items;

@@ -77,16 +77,66 @@ static void assert_same_points(const octree_point *points, size_t count, brute *
     brute_free(&given);
 }
 
-static void check_hits(const octree_tick *tick, const octree_player *player, brute *all)
+static const octree_point *find_id(const brute *all, uint64_t id)
 {
-    brute others = {0}, expected = {0};
     for (size_t i = 0; i < all->count; i++)
-        if (all->points[i].id != player->id)
-            brute_collect(&all->points[i], &others);
-    brute_collide(&others, tick->attempt, player->box_size, NULL, &expected);
+        if (all->points[i].id == id)
+            return &all->points[i];
+    return NULL;
+}
+
+/* Whether the tree did not take a body where an edit puts it. */
+static bool is_refused(const octree_tick *tick, const octree_body *body)
+{
+    for (size_t i = 0; i < tick->refusal_count; i++)
+        if (tick->refusals[i].id == body->id && tick->refusals[i].why != OCTREE_DUPLICATE &&
+            same_position(tick->refusals[i].position, body->position))
+            return true;
+    return false;
+}
+
+/* Where each body comes from: where it was at the tick before, or where an edit of this tick has inserted it. */
+static void trace(const octree_session *session, const octree_tick *tick, const brute *before, brute *from)
+{
+    for (size_t i = 0; i < before->count; i++)
+        brute_collect(&before->points[i], from);
+    for (size_t i = 0; i < session->edit_count; i++) {
+        const octree_edit *edit = &session->edits[i];
+        const octree_point *known = find_id(from, edit->body.id);
+        if (edit->tick != tick->number || edit->kind == OCTREE_EDIT_MOVE || edit->body.id == session->player.id)
+            continue;
+        if (edit->kind == OCTREE_EDIT_REMOVE && known)
+            brute_remove(from, known->position, known->id);
+        if (edit->kind == OCTREE_EDIT_INSERT && !known && !is_refused(tick, &edit->body))
+            brute_insert(from, edit->body.position, edit->body.id);
+    }
+}
+
+static bool is_met(const octree_tick *tick, double size, const double from[3], const double at[3])
+{
+    return tick->swept ? brute_touches(tick->from, tick->attempt, size, from, at)
+                       : brute_touches(tick->attempt, tick->attempt, size, at, at);
+}
+
+/* `before` is what there was after the tick before. */
+static void check_hits(const octree_tick *tick, const octree_session *session, const brute *before, const brute *all)
+{
+    const octree_player *player = &session->player;
+    brute from = {0}, expected = {0};
+    trace(session, tick, before, &from);
+    for (size_t i = 0; i < all->count; i++) {
+        const octree_point *point = &all->points[i];
+        if (point->id != player->id &&
+            is_met(tick, player->box_size, find_id(&from, point->id)->position, point->position))
+            brute_collect(point, &expected);
+    }
     assert_same_points(tick->hits, tick->hit_count, &expected);
     assert_true(((tick->events & OCTREE_EVENT_COLLIDED) != 0) == (tick->hit_count > 0));
-    brute_free(&others);
+    assert_true(tick->swept == player->sweep);
+    assert_true(same_position(tick->from, find_id(before, player->id)->position));
+    for (size_t i = 0; tick->swept && i < tick->hit_count; i++)
+        assert_true(same_position(tick->hit_from[i], find_id(&from, tick->hits[i].id)->position));
+    brute_free(&from);
     brute_free(&expected);
 }
 
@@ -170,7 +220,14 @@ static void check_player(const octree_tick *tick, const octree_session *session,
     }
 }
 
-static void check_tick(const octree_game *game, inner_nodes *before, int64_t steps[3])
+/* What a tick is compared with: the tick before it. */
+typedef struct last_tick {
+    inner_nodes nodes;
+    int64_t steps[3];
+    brute points;
+} last_tick;
+
+static void check_tick(const octree_game *game, last_tick *last)
 {
     const octree_tick *tick = octree_game_tick(game);
     const octree_session *session = octree_game_session(game);
@@ -181,28 +238,32 @@ static void check_tick(const octree_game *game, inner_nodes *before, int64_t ste
     assert_int_equal(octree_count(tree), all.count);
     assert_true(brute_contains(&all, tick->player, session->player.id));
     assert_valid(tree);
-    check_player(tick, session, steps);
-    check_nodes(tick, tree, before);
-    check_hits(tick, &session->player, &all);
+    if (tick->number == 0) /* nothing came before it, so it has no splits and nothing has moved */
+        for (size_t i = 0; i < all.count; i++)
+            brute_collect(&all.points[i], &last->points);
+    check_player(tick, session, last->steps);
+    check_nodes(tick, tree, &last->nodes);
+    check_hits(tick, session, &last->points, &all);
     check_answers(tick, session, &all);
-    brute_free(&all);
+    brute_free(&last->points);
+    last->points = all;
 }
 
 static void play_and_check(const octree_session *session)
 {
     octree_game *game = start_game(session);
-    inner_nodes before; /* of tick 0 itself: nothing came before it, so it has no splits */
-    look_at_inner(octree_game_tree(game), &before);
-    int64_t steps[3] = {0, 0, 0};
+    last_tick last = {.steps = {0, 0, 0}};
+    look_at_inner(octree_game_tree(game), &last.nodes);
     for (uint64_t number = 0;; number++) {
         const octree_tick *tick = octree_game_tick(game);
         assert_int_equal(tick->number, number);
-        check_tick(game, &before, steps);
+        check_tick(game, &last);
         if (octree_game_over(game))
             break;
         assert_int_equal(octree_game_advance(game), OCTREE_OK);
     }
     assert_int_equal(octree_game_tick(game)->number, octree_session_length(session));
+    brute_free(&last.points);
     octree_game_destroy(game);
 }
 
@@ -239,6 +300,7 @@ static uint64_t digest_tick(uint64_t digest, const octree_tick *tick)
     digest = octree_digest_word(digest, tick->number);
     digest = octree_digest_word(digest, tick->events);
     digest = octree_digest_bytes(digest, tick->player, sizeof tick->player);
+    digest = octree_digest_bytes(digest, tick->from, sizeof tick->from);
     digest = octree_digest_bytes(digest, tick->attempt, sizeof tick->attempt);
     digest = digest_points(digest, tick->hits, tick->hit_count);
     digest = octree_digest_bytes(digest, tick->splits, tick->split_count * sizeof(octree_address));

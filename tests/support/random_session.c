@@ -133,5 +133,6 @@ void random_session_full(random_session *made, uint64_t seed)
     random_keys(made, &state);
     random_edits(made, &state);
     random_queries(made, &state);
+    made->session.player.sweep = random_below(&state, 3) == 0;
     made->session.ticks = random_below(&state, 2 * RANDOM_SESSION_KEYS);
 }

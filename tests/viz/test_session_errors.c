@@ -123,8 +123,9 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"tree\":{\"full\":\"maybe\"}}", "2: tree.full: expected \"refuse\" or \"grow\", found \"maybe\""},
         {HEADER "\"tree\":{\"full\":true}}", "2: tree.full: expected \"refuse\" or \"grow\", found true"},
         {HEADER "\"player\":{\"stepp\":0}}",
-         "2: player: unknown member \"stepp\"; known: id, position, step, box_size"},
+         "2: player: unknown member \"stepp\"; known: id, position, step, box_size, sweep"},
         {HEADER "\"player\":{\"step\":-1}}", "2: player.step: expected a number that is not negative, found -1"},
+        {HEADER "\"player\":{\"sweep\":1}}", "2: player.sweep: expected true or false, found 1"},
         {HEADER "\"player\":{\"box_size\":\"big\"}}", "2: player.box_size: expected a number that is not negative, "
                                                       "found \"big\""},
         {HEADER "\"player\":{\"position\":[0,0,-1001]}}", "2: player.position: the player is outside the world on z"},

@@ -60,6 +60,13 @@ static void player_follows_the_world_and_the_box_the_step(void **state)
     session_release(&file);
     file = parse(HEADER ",\"player\":{\"box_size\":7}}");
     assert_true(file.session.player.step == 50 && file.session.player.box_size == 7);
+    assert_false(file.session.player.sweep);
+    session_release(&file);
+    file = parse(HEADER ",\"player\":{\"sweep\":true}}");
+    assert_true(file.session.player.sweep);
+    session_release(&file);
+    file = parse(HEADER ",\"player\":{\"sweep\":false}}");
+    assert_false(file.session.player.sweep);
     session_release(&file);
 }
 
@@ -240,7 +247,11 @@ static void assert_same_start(const octree_session *a, const octree_session *b)
     assert_int_equal(a->tree.leaf_capacity, b->tree.leaf_capacity);
     assert_int_equal(a->tree.max_depth, b->tree.max_depth);
     assert_int_equal(a->tree.full_leaf, b->tree.full_leaf);
-    assert_memory_equal(&a->player, &b->player, sizeof a->player);
+    assert_int_equal(a->player.id, b->player.id);
+    assert_memory_equal(a->player.position, b->player.position, sizeof a->player.position);
+    assert_memory_equal(&a->player.step, &b->player.step, sizeof a->player.step);
+    assert_memory_equal(&a->player.box_size, &b->player.box_size, sizeof a->player.box_size);
+    assert_int_equal(a->player.sweep, b->player.sweep);
     assert_int_equal(a->ticks, b->ticks);
     assert_int_equal(a->keys != NULL, b->keys != NULL);
     if (a->keys)

@@ -49,6 +49,10 @@ static void write_player(json_writer *writer, const octree_player *player)
     json_write_number(writer, player->step);
     json_write_key(writer, "box_size");
     json_write_number(writer, player->box_size);
+    if (player->sweep) {
+        json_write_key(writer, "sweep");
+        json_write_bool(writer, true);
+    }
     json_write_end_object(writer);
 }
 

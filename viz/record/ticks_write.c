@@ -171,6 +171,8 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
         json_write_null(w);
     write_position(w, "player", tick->player);
     write_events(w, tick->events);
+    if (tick->swept)
+        write_position(w, "from", tick->from);
     write_position(w, "attempt", tick->attempt);
     write_ids(w, "hits", tick->hits, tick->hit_count);
     write_answers(w, tick);

@@ -4,6 +4,12 @@
  * state before any key. The order within a tick: edits, points that move by velocity, the player's step, the
  * collision test, the queries.
  *
+ * A point may jump over the player, and the player over a point, in one tick. With octree_player.sweep the collision
+ * test covers the whole way: straight, at constant speed, from the place that is stored at the end of a tick to that at
+ * the end of the next, for the player and for every body that is moved, by its velocity, by an edit or by both. A body
+ * that bounces is taken along the straight line too; one that is inserted begins where it is put. A step is tested on
+ * its way there whether or not it is taken back.
+ *
  * Keys: w/s = +y/-y, d/a = +x/-x, e/f = +z/-z, n names the nearest neighbour, . waits, q ends the session (no tick is
  * played for it).
  */
@@ -29,6 +35,8 @@ typedef struct octree_player {
     double position[3];
     double step;     /* distance of one key, >= 0 */
     double box_size; /* the collision box is position +- box_size, >= 0 */
+    bool sweep; /* test the whole way. Without, as in the paper, the step's end alone: sure to miss nothing only where
+                   player and point move relative to each other by at most 2 * box_size a tick, along one axis */
 } octree_player;
 
 typedef enum octree_edit_kind { OCTREE_EDIT_INSERT, OCTREE_EDIT_REMOVE, OCTREE_EDIT_MOVE } octree_edit_kind;
@@ -127,8 +135,11 @@ typedef struct octree_tick {
     unsigned events;          /* bits of octree_event */
     double player[3];         /* after the tick */
     double attempt[3];        /* where the collision test was made: the step's end, taken back or not */
+    bool swept;               /* the test was made all the way from `from` to `attempt` */
+    double from[3];           /* where the player was before the tick */
     const octree_point *hits; /* what the collision test found, by id */
     size_t hit_count;
+    const double (*hit_from)[3];    /* swept: where each hit was before the tick; else null */
     const octree_refusal *refusals; /* in the order they happened */
     size_t refusal_count;
     const octree_address *splits; /* inner now and not at the tick before; in pre-order, none at tick 0 */

@@ -211,9 +211,12 @@ static void assert_key(const json_t *value, char key)
 void assert_line_tells(const json_t *line, const octree_tick *tick, const octree *tree)
 {
     static const char always[] = "tick key player events attempt hits answers refusals splits merges tree";
-    char filmed[128];
-    snprintf(filmed, sizeof filmed, "%s frame scene", always);
-    assert_members(line, json_object_get(line, "frame") == NULL ? always : filmed);
+    char names[128];
+    snprintf(names, sizeof names, "%s%s%s", always, json_object_get(line, "frame") == NULL ? "" : " frame scene",
+             tick->swept ? " from" : "");
+    assert_members(line, names);
+    if (tick->swept)
+        assert_position(line, "from", tick->from);
     assert_whole_number(json_member(line, "tick"), tick->number);
     assert_key(json_member(line, "key"), tick->key);
     assert_position(line, "player", tick->player);
