@@ -129,6 +129,25 @@ static void the_legend_leaves_out_queries_that_the_session_never_asks(void **sta
     scene_release(&s);
 }
 
+/* The word, and the line of the legend that a sweep needs. */
+static void a_sweep_is_told(void **state)
+{
+    (void)state;
+    const view v = view_default();
+    for (int sweep = 0; sweep < 2; sweep++) {
+        octree_session session = small_session(NULL, 0);
+        session.player.sweep = sweep;
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        build_tick(&s, &v, game);
+        check_place(&s);
+        assert_int_equal(find_text(&s, "the whole way") != NULL, sweep);
+        assert_int_equal(find_text(&s, "way to a hit, dashed") != NULL, sweep);
+        octree_game_destroy(game);
+        scene_release(&s);
+    }
+}
+
 static bool says(const scene *s, const char *text)
 {
     return find_text(s, text) != NULL;
@@ -221,6 +240,7 @@ int main(void)
         cmocka_unit_test(every_tick_tells_its_number_and_its_events),
         cmocka_unit_test(the_legend_has_the_colours_of_the_layers_that_are_shown),
         cmocka_unit_test(the_legend_leaves_out_queries_that_the_session_never_asks),
+        cmocka_unit_test(a_sweep_is_told),
         cmocka_unit_test(answers_are_told_in_words),
         cmocka_unit_test(the_column_never_takes_more_than_half_the_picture),
         cmocka_unit_test(a_picture_too_small_for_the_column_has_its_facts_all_the_same),

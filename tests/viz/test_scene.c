@@ -57,12 +57,47 @@ static void check_player(const scene *s, const octree_tick *tick, const octree_p
     assert_int_equal(markers_at(s, LAYER_PLAYER, player->id, tick->player), 1);
 }
 
+/* A dashed line. */
+static bool has_way(const scene *s, uint64_t id, const double from[3], const double to[3])
+{
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *line = &s->segments.items[i];
+        if (line->look.layer == LAYER_BOX && line->id == id)
+            return line->look.style == STYLE_DASHED && same_position(line->ends[0], from) &&
+                   same_position(line->ends[1], to);
+    }
+    return false;
+}
+
+/* The ways of a swept collision: from corner to corner of the player's box, and of the hits that moved. */
+static size_t ways_shown(const scene *s, const octree_tick *tick, double size)
+{
+    size_t ways = 0;
+    for (unsigned corner = 0; tick->swept && corner < 8 && !same_position(tick->from, tick->attempt); corner++) {
+        double from[3], to[3];
+        for (int axis = 0; axis < 3; axis++) {
+            const double side = corner >> axis & 1 ? size : -size;
+            from[axis] = tick->from[axis] + side;
+            to[axis] = tick->attempt[axis] + side;
+        }
+        assert_true(has_way(s, 12 + corner, from, to));
+        ways++;
+    }
+    for (size_t i = 0; tick->swept && i < tick->hit_count; i++) {
+        if (same_position(tick->hit_from[i], tick->hits[i].position))
+            continue;
+        assert_true(has_way(s, 20 + i, tick->hit_from[i], tick->hits[i].position));
+        ways++;
+    }
+    return ways;
+}
+
 static void check_collision(const scene *s, const octree_tick *tick, const octree_player *player)
 {
     const layer_counts found = count_layer(s, LAYER_BOX);
     assert_int_equal(found.markers, tick->hit_count);
     assert_int_equal(found.boxes, tick->hit_count ? 2 : 1);
-    assert_int_equal(found.segments != 0, tick->hit_count != 0);
+    assert_int_equal(found.segments, tick->hit_count ? 12 + ways_shown(s, tick, player->box_size) : 0);
     for (size_t i = 0; i < tick->hit_count; i++)
         assert_int_equal(markers_at(s, LAYER_BOX, tick->hits[i].id, tick->hits[i].position), 1);
     if (tick->hit_count == 0)

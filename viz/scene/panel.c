@@ -227,16 +227,18 @@ typedef struct legend_entry {
     int height; /* of the swatch: 1 is a line, more a square */
     scene_style style;
     const char *text;
+    bool swept; /* in sessions alone that are swept */
 } legend_entry;
 
 static const legend_entry legend[] = {
-    {LAYER_POINTS, ROLE_POINT, 2, STYLE_SOLID, "point"},
-    {LAYER_PLAYER, ROLE_PLAYER, 5, STYLE_SOLID, "player and its box"},
-    {LAYER_BOX, ROLE_COLLISION, 5, STYLE_SOLID, "collision, crossed"},
-    {LAYER_RANGE, ROLE_RANGE, 1, STYLE_DASHED, "range query, dashed"},
-    {LAYER_RADIUS, ROLE_RADIUS, 1, STYLE_SOLID, "radius query, round"},
-    {LAYER_KNEAREST, ROLE_KNEAREST, 1, STYLE_SOLID, "k nearest, numbered"},
-    {LAYER_NEAREST, ROLE_NEAREST, 1, STYLE_DASHED, "nearest point, dashed"},
+    {LAYER_POINTS, ROLE_POINT, 2, STYLE_SOLID, "point", false},
+    {LAYER_PLAYER, ROLE_PLAYER, 5, STYLE_SOLID, "player and its box", false},
+    {LAYER_BOX, ROLE_COLLISION, 5, STYLE_SOLID, "collision, crossed", false},
+    {LAYER_BOX, ROLE_COLLISION, 1, STYLE_DASHED, "way to a hit, dashed", true},
+    {LAYER_RANGE, ROLE_RANGE, 1, STYLE_DASHED, "range query, dashed", false},
+    {LAYER_RADIUS, ROLE_RADIUS, 1, STYLE_SOLID, "radius query, round", false},
+    {LAYER_KNEAREST, ROLE_KNEAREST, 1, STYLE_SOLID, "k nearest, numbered", false},
+    {LAYER_NEAREST, ROLE_NEAREST, 1, STYLE_DASHED, "nearest point, dashed", false},
 };
 
 #define LEGEND_ENTRIES (sizeof legend / sizeof legend[0])
@@ -287,14 +289,19 @@ static void write_legend_entry(pen *p, const legend_entry *entry)
     p->y += LINE;
 }
 
+static bool is_listed(const legend_entry *entry, unsigned layers, bool swept)
+{
+    return (layers >> entry->layer & 1) && (swept || !entry->swept);
+}
+
 /* The view's layers, of those that there can be. */
-static void write_legend(pen *p, size_t max_depth, unsigned layers)
+static void write_legend(pen *p, size_t max_depth, unsigned layers, bool swept)
 {
     const scene *s = p->scene;
     layers &= s->view.layers;
     int lines = layers >> LAYER_NODES & 1;
     for (size_t i = 0; i < LEGEND_ENTRIES; i++)
-        lines += layers >> legend[i].layer & 1;
+        lines += is_listed(&legend[i], layers, swept);
     const int top = s->view.height / s->unit - MARGIN - lines * LINE;
     if (top < p->y + LINE / 2)
         return; /* a low picture has no room for it */
@@ -302,7 +309,7 @@ static void write_legend(pen *p, size_t max_depth, unsigned layers)
     if (layers >> LAYER_NODES & 1)
         write_depth_ramp(p, max_depth);
     for (size_t i = 0; i < LEGEND_ENTRIES; i++)
-        if (layers >> legend[i].layer & 1)
+        if (is_listed(&legend[i], layers, swept))
             write_legend_entry(p, &legend[i]);
 }
 
@@ -341,6 +348,8 @@ void add_tick_panel(scene *s, const octree_game *game)
         write_row(&p, "key", "%c  %s", tick->key, key_meaning(tick->key));
     write_keys(&p, game);
     write_position(&p, "player", tick->player);
+    if (tick->swept)
+        write_row(&p, "tested", "the whole way");
     p.y += LINE / 2;
     write_statistics(&p, octree_game_tree(game));
     p.y += LINE / 2;
@@ -349,7 +358,7 @@ void add_tick_panel(scene *s, const octree_game *game)
     write_refusals(&p, tick);
     write_addresses(&p, "split", tick->splits, tick->split_count);
     write_addresses(&p, "merged", tick->merges, tick->merge_count);
-    write_legend(&p, session->tree.max_depth, layers_of(session));
+    write_legend(&p, session->tree.max_depth, layers_of(session), session->player.sweep);
 }
 
 void add_tree_panel(scene *s, const octree *tree, const char *title)
@@ -362,5 +371,5 @@ void add_tree_panel(scene *s, const octree *tree, const char *title)
     p.y += LINE / 2;
     const octree_box world = octree_definition(tree).world;
     write_world(&p, &world);
-    write_legend(&p, octree_definition(tree).max_depth, 1u << LAYER_NODES | 1u << LAYER_POINTS);
+    write_legend(&p, octree_definition(tree).max_depth, 1u << LAYER_NODES | 1u << LAYER_POINTS, false);
 }

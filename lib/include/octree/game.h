@@ -160,7 +160,8 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
 void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key, whatever the session's keys say. After an error the game must not be stepped again.
- * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries; nodes, when the tree changed). */
+ * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries; all bodies, when
+ * swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */

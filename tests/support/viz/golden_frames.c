@@ -10,13 +10,21 @@
 #define SHAPES "world,nodes,points,range,radius,knearest,nearest,player,box"
 
 const golden_frame golden_frames[] = {
-    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},         {"first_split", "iso", SHAPES, 0, "three", 0, 0},
-    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},   {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
-    {"collision", "follow", SHAPES, 193, NULL, 0, 0},    {"refused_step", "iso", "all", 74, NULL, 0, 0},
-    {"full_leaf", "follow", "all", 214, NULL, 0, 0},     {"nearest", "front", SHAPES, 7, NULL, 0, 0},
-    {"range", "side", SHAPES, 219, NULL, 0, 0},          {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
-    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0},  {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
-    {"knearest", "follow", SHAPES, 0, "knearest", 0, 0}, {"radius", "follow", SHAPES, 0, "radius", 0, 0},
+    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},
+    {"first_split", "iso", SHAPES, 0, "three", 0, 0},
+    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},
+    {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
+    {"collision", "follow", SHAPES, 193, NULL, 0, 0},
+    {"refused_step", "iso", "all", 74, NULL, 0, 0},
+    {"full_leaf", "follow", "all", 214, NULL, 0, 0},
+    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
+    {"range", "side", SHAPES, 219, NULL, 0, 0},
+    {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
+    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0},
+    {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
+    {"knearest", "follow", SHAPES, 0, "knearest", 0, 0},
+    {"radius", "follow", SHAPES, 0, "radius", 0, 0},
+    {"swept", "front", SHAPES, 1, "swept", 0, 0},
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
 };
 
@@ -31,6 +39,13 @@ static const octree_query around[] = {
 
 static const octree_query neighbors[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 6}};
 static const octree_query ball[] = {{.kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 500}};
+
+static const octree_body crossing[] = {
+    {.id = 1, .position = {50, -50, -250}},
+    {.id = 2, .position = {300, 0, 600}, .velocity = {-100, 0, -1400}},
+    {.id = 3, .position = {50, 0, 0}},
+    {.id = 4, .position = {-200, 0, 900}, .velocity = {700, 0, -200}},
+};
 
 /* Many points of a kind, and one query. */
 static octree_session sampled_session(octree_sample_kind kind, const octree_query *query, octree_body *bodies,
@@ -50,6 +65,19 @@ static octree_session sampled_session(octree_sample_kind kind, const octree_quer
     return session;
 }
 
+/* A step over one point and past another, which comes along the same way from above. */
+static octree_session swept_session(void)
+{
+    octree_session session = octree_session_default();
+    session.player =
+        (octree_player){.id = 6, .position = {-600, 0, -300}, .step = 1200, .box_size = 100, .sweep = true};
+    session.keys = "d";
+    session.bodies = crossing;
+    session.body_count = sizeof crossing / sizeof crossing[0];
+    session.query_count = 0;
+    return session;
+}
+
 static octree_session session_of(const golden_frame *frame, octree_body bodies[MOST_BODIES])
 {
     octree_session session = octree_session_default();
@@ -62,6 +90,8 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[M
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
     case 'r':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, ball, bodies, 60);
+    case 's':
+        return swept_session();
     default:
         break;
     }
