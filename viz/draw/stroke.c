@@ -128,6 +128,16 @@ static void add_diamond(quad_list *list, quad q, int x, int y, int half)
     quads_add(list, &q);
 }
 
+static void add_lozenge(quad_list *list, const pencil *with, unsigned band, int x, int y, int half)
+{
+    pencil thin = *with;
+    thin.width = with->unit / 2 > 1 ? with->unit / 2 : 1;
+    const double cx = x + 0.5, cy = y + 0.5;
+    const double corners[5][2] = {{cx - half, cy}, {cx, cy - half}, {cx + half, cy}, {cx, cy + half}, {cx - half, cy}};
+    for (int i = 0; i < 4; i++)
+        add_line(list, &thin, band, corners[i], corners[i + 1]);
+}
+
 static void add_cross(quad_list *list, const pencil *with, unsigned band, int x, int y, int half)
 {
     pencil thick = *with;
@@ -151,6 +161,9 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
         break;
     case SHAPE_FRAME:
         add_frame(list, q, x, y, half, line);
+        break;
+    case SHAPE_LOZENGE:
+        add_lozenge(list, with, band, x, y, half);
         break;
     case SHAPE_CROSS:
         add_cross(list, with, band, x, y, half);
