@@ -104,6 +104,7 @@ class Timeline {
         this.lanes.forEach((lane, i) => this.place(lane, i + 2));
         this.scrub.style.gridRow = `2 / span ${this.lanes.length}`;
         this.followPointer(goTo);
+        this.measure(); /* once and at each change of size: asking at each tick costs a layout */
         new ResizeObserver(() => this.draw()).observe(this.root);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     }
@@ -153,18 +154,18 @@ class Timeline {
         this.scrub.addEventListener("pointermove", event => event.buttons & 1 && follow(event));
     }
 
-    get scale()
+    measure()
     {
-        return new Scale(this.recording.length, this.scrub.clientWidth);
+        this.scale = new Scale(this.recording.length, this.scrub.clientWidth);
     }
 
     draw()
     {
-        const scale = this.scale;
+        this.measure();
         for (const {name, bit, canvas, paint} of this.lanes) {
             const context = prepareCanvas(canvas);
             context.fillStyle = context.strokeStyle = colorOf(bit ? name : "curve");
-            paint(context, scale, canvas.clientHeight);
+            paint(context, this.scale, canvas.clientHeight);
         }
         this.mark(this.tick);
     }

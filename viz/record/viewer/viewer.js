@@ -5,6 +5,7 @@
 const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; /* frames a second */
 const START_SPEED = 15;
 const FRAMES_AHEAD = 6;
+const SHORTEST_WAIT = 4; /* ms */
 const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes with each frame */
 
 const byId = id => document.getElementById(id);
@@ -89,33 +90,37 @@ class Viewer {
         if (this.nextPlayed(this.tick) < 0)
             this.goTo(Math.max(this.nextPlayed(-1), 0));
         this.playing = true;
-        this.due = 0;
+        this.due = performance.now();
         this.showPlaying();
-        requestAnimationFrame(now => this.beat(now));
+        this.beat();
     }
 
     pause()
     {
         this.playing = false;
+        clearTimeout(this.timer);
         this.showPlaying();
     }
 
     /* A frame that is not decoded yet is waited for, so that none is skipped. */
-    beat(now)
+    beat()
     {
-        if (!this.playing)
-            return;
-        const period = 1000 / Number(byId("speed").value);
-        this.due = this.due || now + period;
+        const now = performance.now();
         if (now >= this.due && !this.stage.busy) {
-            this.due = Math.max(this.due + period, now);
-            const next = this.nextPlayed(this.tick);
-            if (next >= 0)
-                this.goTo(next);
-            if (this.nextPlayed(this.tick) < 0)
-                this.pause();
+            this.due = Math.max(this.due + 1000 / Number(byId("speed").value), now);
+            this.playNext();
         }
-        requestAnimationFrame(time => this.beat(time));
+        if (this.playing)
+            this.timer = setTimeout(() => this.beat(), Math.max(this.due - now, SHORTEST_WAIT));
+    }
+
+    playNext()
+    {
+        const next = this.nextPlayed(this.tick);
+        if (next >= 0)
+            this.goTo(next);
+        if (this.nextPlayed(this.tick) < 0)
+            this.pause();
     }
 
     changeSpeed(direction)
