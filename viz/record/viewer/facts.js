@@ -63,7 +63,7 @@ class Recording {
         this.about = JSON.parse(lines[0]);
         this.lines = lines.slice(1);
         this.length = this.lines.length;
-        this.events = new Uint8Array(this.length);
+        this.events = new Uint32Array(this.length);
         this.filmed = new Int32Array(this.length).fill(-1); /* the tick whose frame is the latest at this one */
         this.curves = CURVES.map(([path, name]) => ({path, name, values: new Float64Array(this.length)}));
         for (let i = 0; i < this.length; i++)

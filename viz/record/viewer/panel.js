@@ -86,7 +86,7 @@ function showKey(key)
 const SHOWN_AS = {
     events: showEvents,
     key: showKey,
-    frame: name => [element("a", name, {href: name, target: "_blank"})],
+    frame: name => [element("a", name, {href: `./${name}`, target: "_blank"})], /* a file here, whatever its name */
 };
 
 function showValue(value, path)
