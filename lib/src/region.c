@@ -10,10 +10,15 @@ typedef struct frame {
     uint8_t coming, inside;
 } frame;
 
+/* Leaves wait until their points have come from memory; the way to the next ones is found meanwhile. */
+#define WAITING 16
+
 typedef struct descent {
     region *region;
     unsigned depth;
     frame frames[OCTREE_MAX_DEPTH + 1];
+    unsigned came, went; /* leaves that began to wait, and that were scanned */
+    const node *waiting[WAITING];
 } descent;
 
 static bool take_whole(region *r, const node *n, octree_address address)
@@ -43,7 +48,20 @@ static bool scan_leaf(region *r, const node *leaf)
     return true;
 }
 
-/* The children's memory is asked for at once: it comes while the first of them is scanned. */
+static bool scan_next(descent *d)
+{
+    return scan_leaf(d->region, d->waiting[d->went++ % WAITING]);
+}
+
+static bool let_wait(descent *d, const node *leaf)
+{
+    const bool go_on = d->came - d->went < WAITING || scan_next(d);
+    prefetch(leaf->below);
+    d->waiting[d->came++ % WAITING] = leaf;
+    return go_on;
+}
+
+/* The memory of all children is asked for at once. */
 static void prefetch_children(const frame *f)
 {
     for (unsigned coming = f->coming; coming; coming &= coming - 1)
@@ -67,7 +85,7 @@ static bool look_at(descent *d, const node *n, octree_address address, unsigned 
         return take_whole(d->region, n, address);
     meter_visit(&d->region->meter, address);
     if (n->octants == 0)
-        return scan_leaf(d->region, n);
+        return let_wait(d, n);
     open_node(d, n, address, octant);
     return true;
 }
@@ -76,7 +94,7 @@ void region_descend(region *r, octant_masks root)
 {
     descent d;
     d.region = r;
-    d.depth = 0;
+    d.depth = d.came = d.went = 0;
     if (!(root.meets & 1)) {
         r->meter.count.pruned++;
         meter_trace(&r->meter, OCTREE_ROOT, OCTREE_TOUCH_PRUNED);
@@ -93,4 +111,6 @@ void region_descend(region *r, octant_masks root)
         f->coming &= (uint8_t)(f->coming - 1);
         go_on = look_at(&d, child_at(f->node, octant), f->address << 3 | octant, octant, f->inside >> octant & 1);
     }
+    while (go_on && d.went < d.came)
+        go_on = scan_next(&d);
 }
