@@ -78,11 +78,11 @@ static double step_down(double value)
     return value;
 }
 
-/* The rounding error of sum = fl(a + b), exactly (Knuth's TwoSum). */
+/* The rounding error of sum = fl(a + b), exactly (Dekker's FastTwoSum; Knuth's TwoSum, which asks for no order, can
+ * overflow on the way). */
 static double sum_error(double a, double b, double sum)
 {
-    const double b_seen = sum - a;
-    return (a - (sum - b_seen)) + (b - b_seen);
+    return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);
 }
 
 double exact_add_down(double a, double b)

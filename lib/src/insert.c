@@ -1,6 +1,7 @@
 /* insert.c - Algorithm 1: a point goes down to its leaf; a full leaf splits, refuses or grows. */
 #include "insert.h"
 #include "leaf.h"
+#include "tune.h"
 
 #include <string.h>
 
@@ -176,5 +177,7 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
-    return insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id});
+    const octree_status inserted = insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id});
+    tune_if_due(tree);
+    return inserted;
 }

@@ -2,6 +2,7 @@
 #include "batch.h"
 #include "journal.h"
 #include "leaf.h"
+#include "tune.h"
 
 #include <stdlib.h>
 
@@ -269,5 +270,6 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
         *inserted = batch_done(&b);
     list_release(&tree->memory, &in.repetitions, sizeof(repetition));
     batch_end(&b);
+    tune_if_due(tree);
     return status;
 }

@@ -1,6 +1,7 @@
 /* metric.c - see metric.h. */
 #include "metric.h"
 #include "exact.h"
+#include "point.h"
 
 #include <math.h>
 
@@ -30,6 +31,8 @@ metric metric_make(double scale, const double target[3])
 int metric_compare(const double target[3], const double a[3], const double b[3])
 {
     /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, less where coordinates agree. */
+    if (same_position(a, b))
+        return 0; /* crowds are compared often */
     exact_sum sum;
     exact_clear(&sum);
     for (int i = 0; i < 3; i++) {

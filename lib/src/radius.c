@@ -122,9 +122,9 @@ static octant_masks measure_root(ball *b, const octree *tree)
     return (octant_masks){!(near > b->reach), far < b->whole};
 }
 
-static double scaled_square(double length, double scale)
+static double square_of(double length)
 {
-    return length * scale * (length * scale);
+    return length * length;
 }
 
 static void run_query(const octree *tree, const double center[3], double radius, const octree_search *how,
@@ -134,9 +134,9 @@ static void run_query(const octree *tree, const double center[3], double radius,
     b.metric = metric_make(tree->scale, center);
     b.mode = how->mode;
     b.radius = radius;
-    b.square = scaled_square(radius, tree->scale);
+    b.square = square_of(radius * tree->scale);
     b.reach = metric_above(b.square);
-    b.whole = metric_below(scaled_square(radius + how->epsilon, tree->scale));
+    b.whole = metric_below(square_of(radius * tree->scale + how->epsilon * tree->scale)); /* their sum may overflow */
     region r = {
         .tree = tree,
         .shape = &b,

@@ -3,6 +3,7 @@
 #include "leaf.h"
 #include "float_mode.h"
 #include "metric.h"
+#include "tune.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -39,6 +40,8 @@ static octree_status check_def(const octree_def *def)
             return OCTREE_BAD_WORLD;
     if (def->leaf_capacity == 0)
         return OCTREE_BAD_CAPACITY;
+    if (def->leaf_capacity == OCTREE_AUTO && def->full_leaf != OCTREE_GROW)
+        return OCTREE_BAD_CAPACITY;
     const bool half_an_allocator = !def->allocator.allocate != !def->allocator.release;
     if ((def->full_leaf != OCTREE_REFUSE && def->full_leaf != OCTREE_GROW) || half_an_allocator)
         return OCTREE_BAD_OPTION;
@@ -47,6 +50,8 @@ static octree_status check_def(const octree_def *def)
 
 static octree_def clamp_def(octree_def def)
 {
+    if (def.leaf_capacity == OCTREE_AUTO)
+        def.leaf_capacity = octree_def_default().leaf_capacity; /* until there are points to choose by */
     if (def.leaf_capacity > UINT32_MAX)
         def.leaf_capacity = UINT32_MAX;
     if (def.max_depth > OCTREE_MAX_DEPTH)
@@ -73,6 +78,7 @@ octree_status octree_create(const octree_def *def, octree **tree)
     if (!made)
         return OCTREE_NO_MEMORY;
     *made = (octree){.def = clamp_def(*def), .memory = memory, .scale = metric_scale(&def->world)};
+    made->tuning = (tuning){def->leaf_capacity == OCTREE_AUTO, octree_mix_default(), TUNE_LEAST};
     for (int i = 0; i < 3; i++)
         made->axes[i] = axis_make(def->world.min[i], def->world.max[i]);
     pool_init(&made->nodes, &made->memory, sizeof(node));
@@ -98,6 +104,7 @@ octree_status octree_clear(octree *tree)
     pool_release(&tree->nodes);
     pool_release(&tree->points);
     tree->root = (node){0};
+    tree->tuning.due = TUNE_LEAST;
     tree->version++;
     return OCTREE_OK;
 }

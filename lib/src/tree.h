@@ -17,11 +17,19 @@ typedef struct node {
     uint8_t room;    /* leaf: points that its block has room for; LEAF_CROWD when it is a crowd (leaf.h) */
 } node;
 
+/* Whether the capacity is chosen by itself (tune.h). */
+typedef struct tuning {
+    bool automatic;
+    octree_mix mix;
+    size_t due; /* the number of points at which it is chosen next */
+} tuning;
+
 struct octree {
     octree_def def; /* as in force */
     axis axes[3];
     double scale; /* the power of two that brings the world's extent near 1 (metric.h) */
     uint64_t version;
+    tuning tuning;
     node root;
     arena memory;
     pool nodes;

@@ -50,7 +50,9 @@ static void print_help(void)
         "      --json        a line for each operation and tree, for programs\n"
         "  -h, --help\n\n"
         "A ratio is the best other's time to the octree's. nearest_batch asks %d targets a call, nearest_all all of\n"
-        "them; those two, nearest_fast and nearest_churned compare the octree with itself.\n"
+        "them; those two, nearest_fast and nearest_churned compare the octree with itself, and the auto_ operations "
+        "one\n"
+        "that has chosen its leaf capacity by the operation with fixed capacities from 8 to 256.\n"
         "Exit status: 0 done, 1 two trees answer differently, 2 trouble.\n",
         ROUNDS_AT_MOST, PEER_BATCH);
 }

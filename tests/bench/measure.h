@@ -4,7 +4,7 @@
 
 #include "workload.h"
 
-enum { ROUNDS_AT_MOST = 99, RIVALS_AT_MOST = 5 };
+enum { ROUNDS_AT_MOST = 99, RIVALS_AT_MOST = 8 };
 
 /* A tree that takes part in an operation. */
 typedef struct contender {

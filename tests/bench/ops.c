@@ -24,11 +24,21 @@ const op all_ops[OPS] = {
     {"nearest_fast", STAGE_STATIC, .ask = PEER_NEAREST_FAST, .most = 100000, .rival = "octree-exact",
      .rival_ask = PEER_NEAREST, .goal = {AT_MOST, 1.1}},
     {"nearest_churned", STAGE_CHURNED, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 1 / 1.15}},
+    {"auto_mixed", STAGE_TUNED, .ask = PEER_MIXED, .most = 50000, .hits = 10, .mix = {1, 1, 1, 1, 10},
+     .goal = {AT_LEAST, 1 / 1.2}},
+    {"auto_find", STAGE_TUNED, .ask = PEER_FIND, .most = 100000, .stored = true, .mix = {.changes = 1},
+     .goal = {AT_LEAST, 1 / 1.2}},
+    {"auto_nearest", STAGE_TUNED, .ask = PEER_NEAREST, .most = 100000, .mix = {.nearest = 1, .k = 1},
+     .goal = {AT_LEAST, 1 / 1.2}},
+    {"auto_knn8", STAGE_TUNED, .ask = PEER_KNN, .most = 50000, .mix = {.nearest = 1, .k = PEER_NEIGHBORS},
+     .goal = {AT_LEAST, 1 / 1.2}},
+    {"auto_box1000", STAGE_TUNED, .ask = PEER_BOX, .most = 5000, .hits = 1000, .mix = {.ranges = 1, .hits = 1000},
+     .goal = {AT_LEAST, 1 / 1.2}},
 };
 
 static bool asks(const op *o)
 {
-    return o->stage == STAGE_STATIC || o->stage == STAGE_CHURNED;
+    return o->stage == STAGE_STATIC || o->stage == STAGE_CHURNED || o->stage == STAGE_TUNED;
 }
 
 static contender *enter(lineup *l, const char *who, const peer *p, size_t points)
@@ -72,6 +82,25 @@ static bool fill_churned(lineup *l, const workload *w)
            fill(fresh, w, PEER_BUILD, w->picks + w->half, left);
 }
 
+/* An octree that is tuned for each operation before it is measured, and those that it must not fall behind. */
+static bool fill_tuned(lineup *l, const workload *w)
+{
+    static const struct {
+        size_t capacity;
+        const char *who;
+    } rivals[] = {
+        {64, "octree"},       {8, "octree-of-8"},     {16, "octree-of-16"},   {32, "octree-of-32"},
+        {64, "octree-of-64"}, {128, "octree-of-128"}, {256, "octree-of-256"},
+    };
+    for (size_t i = 0; i < sizeof rivals / sizeof rivals[0]; i++) {
+        contender *c = enter(l, rivals[i].who, &peer_octree, w->count);
+        c->self = make_octree(&w->world, rivals[i].capacity);
+        if (!c->self || peer_octree.change[PEER_BUILD](c->self, w->points, NULL, w->count) != w->count)
+            return false;
+    }
+    return true;
+}
+
 static bool fill_stage(lineup *l, stage at, const workload *w)
 {
     switch (at) {
@@ -81,6 +110,8 @@ static bool fill_stage(lineup *l, stage at, const workload *w)
         return fill_all(l, w, PEER_BUILD);
     case STAGE_CHURNED:
         return fill_churned(l, w);
+    case STAGE_TUNED:
+        return fill_tuned(l, w);
     default:
         enter_all(l, w);
         return true;
@@ -151,6 +182,8 @@ static outcome run_stage(const bool wanted[OPS], stage at, workload *w, int roun
         if (!wanted[i] || o->stage != at)
             continue;
         lineup chosen = choose(o, &all);
+        if (at == STAGE_TUNED && octree_tune(all.of[0].self, &o->mix) != OCTREE_OK)
+            return OUT_OF_MEMORY;
         result = asks(o) ? run_asks(o, &chosen, w, rounds) : run_changes(o, &chosen, w, rounds);
         if (result == MEASURED)
             report(o, w, &chosen, context);

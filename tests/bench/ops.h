@@ -10,6 +10,7 @@ typedef enum stage {
     STAGE_DYNAMIC, /* filled point by point */
     STAGE_STATIC,  /* built at once */
     STAGE_CHURNED, /* octrees alone: half of the points are removed again, or were never there */
+    STAGE_TUNED,   /* octrees alone: one that chooses its capacity by the operation's mix, and all capacities */
     STAGES
 } stage;
 
@@ -29,10 +30,11 @@ typedef struct op {
     bool far;                /* move to a far place */
     const char *rival;       /* not null: the octree against itself, under this name and ... */
     peer_ask_kind rival_ask; /* ... asked like this */
+    octree_mix mix;          /* STAGE_TUNED: what the capacity is chosen for */
     goal goal;
 } op;
 
-enum { OPS = 17 };
+enum { OPS = 22 };
 
 extern const op all_ops[OPS];
 

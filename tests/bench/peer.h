@@ -38,6 +38,7 @@ typedef enum peer_ask_kind {
     PEER_NEAREST_ALL,   /* all targets in one call */
     PEER_KNN,           /* the PEER_NEIGHBORS nearest */
     PEER_COLLIDE,
+    PEER_MIXED, /* a place, the nearest point and a box, all three a query */
     PEER_ASKS
 } peer_ask_kind;
 
@@ -57,6 +58,10 @@ typedef struct peer {
 } peer;
 
 extern const peer peer_octree;
+
+/* An octree of this leaf capacity for peer_octree; null: no memory. */
+void *make_octree(const octree_box *world, size_t capacity);
+
 extern const peer peer_nanoflann;
 extern const peer peer_boost_packed;
 extern const peer peer_boost_quadratic;

@@ -3,14 +3,20 @@
 
 #include <stdlib.h>
 
-static void *create(const octree_box *world)
+void *make_octree(const octree_box *world, size_t capacity)
 {
     octree_def def = octree_def_default();
     def.world = *world;
     def.full_leaf = OCTREE_GROW;
+    def.leaf_capacity = capacity;
     octree *tree;
     octree_create(&def, &tree);
     return tree;
+}
+
+static void *create(const octree_box *world)
+{
+    return make_octree(world, octree_def_default().leaf_capacity);
 }
 
 static void destroy(void *self)
@@ -134,6 +140,19 @@ static void knn(const void *self, const peer_query *queries, size_t count, peer_
     search_k(self, queries, count, PEER_NEIGHBORS, NULL, answers);
 }
 
+static void mixed(const void *self, const peer_query *queries, size_t count, peer_answer *answers)
+{
+    for (size_t i = 0; i < count; i++) {
+        peer_answer parts[3];
+        find(self, &queries[i], 1, &parts[0]);
+        nearest(self, &queries[i], 1, &parts[1]);
+        box(self, &queries[i], 1, &parts[2]);
+        answers[i] = (peer_answer){.count = parts[0].count + parts[1].count + parts[2].count,
+                                   .ids = parts[0].ids + parts[2].ids,
+                                   .distance = parts[1].distance};
+    }
+}
+
 /* What has no memory stays unanswered, which the comparison finds. */
 static void ask_batches(const void *self, const peer_query *queries, size_t count, size_t batch, peer_answer *answers)
 {
@@ -176,5 +195,6 @@ const peer peer_octree = {
             [PEER_NEAREST_BATCH] = nearest_batch,
             [PEER_NEAREST_ALL] = nearest_all,
             [PEER_KNN] = knn,
-            [PEER_COLLIDE] = collide},
+            [PEER_COLLIDE] = collide,
+            [PEER_MIXED] = mixed},
 };

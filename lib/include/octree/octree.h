@@ -41,7 +41,7 @@ extern "C" {
     X(NOT_FINITE, "not_finite", "a number is NaN or infinite")                                                         \
     X(NULL_ARGUMENT, "null_argument", "a required pointer is null")                                                    \
     X(BAD_WORLD, "bad_world", "the world must have finite corners with min below max on every axis")                   \
-    X(BAD_CAPACITY, "bad_capacity", "the leaf capacity must be at least 1")                                            \
+    X(BAD_CAPACITY, "bad_capacity", "the leaf capacity must be at least 1; OCTREE_AUTO needs OCTREE_GROW")             \
     X(BAD_RANGE, "bad_range", "the box's min is above its max")                                                        \
     X(BAD_SIZE, "bad_size", "a size must not be negative")                                                             \
     X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
@@ -96,11 +96,16 @@ typedef struct octree_allocator {
     void *context;
 } octree_allocator;
 
+/* The leaf capacity is chosen by octree_tune, with the default mix or the last one it was given: when a tree has 1024
+ * points and then whenever it has twice as many as the last time. Under OCTREE_GROW alone: what a leaf refuses must not
+ * depend on a choice. The nodes then follow from the contents and from the capacity in force. */
+#define OCTREE_AUTO (SIZE_MAX - 1)
+
 /* All that defines an empty tree. Start from octree_def_default() and change what you need. */
 typedef struct octree_def {
-    octree_box world;           /* min < max on every axis; any finite doubles, ±DBL_MAX included */
-    size_t leaf_capacity;       /* points a leaf holds before it splits; at least 1, clamped to 2^32 - 1 */
-    size_t max_depth;           /* clamped to OCTREE_MAX_DEPTH; 0 keeps the root a leaf */
+    octree_box world;     /* min < max on every axis; any finite doubles, ±DBL_MAX included */
+    size_t leaf_capacity; /* points a leaf holds before it splits; at least 1, clamped to 2^32 - 1; or OCTREE_AUTO */
+    size_t max_depth;     /* clamped to OCTREE_MAX_DEPTH; 0 keeps the root a leaf */
     octree_full_leaf full_leaf; /* what a full leaf at the maximum depth does */
     octree_allocator allocator; /* null functions mean malloc and free */
 } octree_def;
@@ -118,8 +123,28 @@ void octree_destroy(octree *tree);
 /* Remove every point; the memory goes back to the allocator. Cost: O(memory blocks). */
 octree_status octree_clear(octree *tree);
 
-/* The definition in force, after clamping. */
+/* The definition in force, after clamping; under OCTREE_AUTO with the capacity that was chosen. */
 octree_def octree_definition(const octree *tree);
+
+/* What a tree is asked, in shares of which only the ratios matter. */
+typedef struct octree_mix {
+    double changes; /* insertions, removals and finds; a move is two */
+    double nearest; /* searches for the k nearest */
+    size_t k;
+    double ranges; /* boxes, balls, collisions */
+    size_t hits;   /* points that a range finds, on average */
+} octree_mix;
+
+/* As many changes as searches for the nearest point as ranges of 10 points. */
+octree_mix octree_mix_default(void);
+
+/* Choose the leaf capacity, a power of two from 4 to 256, for the points in the tree and a mix (null: the default one),
+ * and divide the leaves anew. Each capacity is tried on a sample of whole cells with 128 operations of each kind of the
+ * mix, and what they visited is weighed; nothing is timed, so that the choice is the same on every machine.
+ * Errors: NULL_ARGUMENT, BAD_CAPACITY (the tree is under OCTREE_REFUSE), NOT_FINITE and BAD_SIZE (a share; all of them
+ * zero), NO_MEMORY; the tree is then unchanged. Cost: seven bulk builds of at most some 40,000 points, and one of all.
+ */
+octree_status octree_tune(octree *tree, const octree_mix *mix);
 
 /* ---- Change ------------------------------------------------------------------------------------------------- */
 

@@ -1,4 +1,5 @@
-/* reworld.c - the same points in another world. */
+/* rebuild.c - the same points in another world, or with another capacity. */
+#include "rebuild.h"
 #include "search.h"
 
 static bool copy_point(const octree_point *point, void *context)
@@ -35,14 +36,10 @@ static void exchange(octree *a, octree *b)
     b->nodes.memory = b->points.memory = &b->memory;
 }
 
-octree_status octree_reworld(octree *tree, const octree_box *world)
+octree_status rebuild(octree *tree, const octree_def *def)
 {
-    if (!tree || !world)
-        return OCTREE_NULL_ARGUMENT;
-    octree_def def = tree->def;
-    def.world = *world;
     octree *other;
-    octree_status status = octree_create(&def, &other);
+    octree_status status = octree_create(def, &other);
     if (status != OCTREE_OK)
         return status;
     const size_t size = (octree_count(tree) + 1) * sizeof(octree_point);
@@ -56,7 +53,17 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
     if (status == OCTREE_OK) {
         exchange(tree, other);
         tree->version = other->version + 1;
+        tree->tuning = other->tuning;
     }
     octree_destroy(other);
     return status;
+}
+
+octree_status octree_reworld(octree *tree, const octree_box *world)
+{
+    if (!tree || !world)
+        return OCTREE_NULL_ARGUMENT;
+    octree_def def = tree->def;
+    def.world = *world;
+    return rebuild(tree, &def);
 }
