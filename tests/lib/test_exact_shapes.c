@@ -1,16 +1,21 @@
 /* test_exact_shapes.c - for the same contents, leaf capacity and depth never change an answer: every capacity from 1 to
  * 64 at every depth from 0 to 21 says what a scan says that decides by whole numbers.
  *
- * (There is one path of code for all processors, so that there is no second to be compared.)
+ * It is built twice, the second time with the library's portable path; with --costs it prints a digest of what all its
+ * queries cost, which must be the same of both.
  */
 #include "fixture.h"
 
+#include <float.h>
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "brute.h"
 #include "exact_oracle.h"
+#include "octree/digest.h"
 #include "octree/sample.h"
 
 enum { POINTS = 190, CAPACITIES = 64, QUESTIONS = 42 };
@@ -56,8 +61,10 @@ static void ask_neighbors(const octree *tree, const question *q, answer *a)
 {
     octree_neighbor found[POINTS];
     octree_status status = OCTREE_OK;
-    if (q->kind == NEAREST)
+    if (q->kind == NEAREST && q->how.cost == NULL)
         status = octree_nearest(tree, q->at, q->how.skip, q->how.skip_id, found);
+    else if (q->kind == NEAREST)
+        status = octree_nearest_within(tree, q->at, DBL_MAX, &q->how, found);
     else if (q->kind == WITHIN)
         status = octree_nearest_within(tree, q->at, q->length, &q->how, found);
     else
@@ -74,9 +81,9 @@ static void ask(const octree *tree, const question *q, answer *a)
     const octree_box box = box_about(q);
     a->count = 0;
     if (q->kind == RADIUS)
-        assert_int_equal(octree_radius(tree, q->at, q->length, NULL, add, a), OCTREE_OK);
+        assert_int_equal(octree_radius(tree, q->at, q->length, &q->how, add, a), OCTREE_OK);
     else if (q->kind == RANGE)
-        assert_int_equal(octree_range(tree, &box, add, a), OCTREE_OK);
+        assert_int_equal(octree_range_search(tree, &box, &q->how, add, a), OCTREE_OK);
     else if (q->kind == COLLIDE)
         assert_int_equal(octree_collide(tree, q->at, q->length, NULL, add, a), OCTREE_OK);
     else if (q->kind == SWEPT)
@@ -192,63 +199,103 @@ static octree *tree_of(const brute *all, size_t capacity, size_t depth)
     return tree;
 }
 
+/* The points, the questions, and the true answers. */
+typedef struct examination {
+    brute all;
+    question questions[QUESTIONS];
+    answer truths[QUESTIONS];
+} examination;
+
+static void prepare(examination *e)
+{
+    const double focus[3] = {0.1, 0.2, 0.3};
+    uint64_t random = 17;
+    e->all = (brute){0};
+    fill(&e->all, focus, &random);
+    think_of_questions(&e->all, focus, e->questions, &random);
+    for (size_t i = 0; i < QUESTIONS; i++)
+        scan(&e->all, &e->questions[i], &e->truths[i]);
+}
+
+static bool is_true(const answer *said, const answer *truth)
+{
+    return said->count == truth->count &&
+           memcmp(said->points, truth->points, said->count * sizeof said->points[0]) == 0;
+}
+
+static void examine(const examination *e, const octree *tree, size_t capacity, size_t depth)
+{
+    static answer said;
+    for (size_t i = 0; i < QUESTIONS; i++) {
+        ask(tree, &e->questions[i], &said);
+        if (!is_true(&said, &e->truths[i]))
+            fail_msg("capacity %zu, depth %zu: number %zu, %s, gives another answer", capacity, depth, i,
+                     names[e->questions[i].kind]);
+    }
+}
+
 static void every_capacity_and_depth_gives_the_true_answers(void **state)
 {
     (void)state;
-    static question questions[QUESTIONS];
-    static answer truths[QUESTIONS], said;
-    const double focus[3] = {0.1, 0.2, 0.3};
-    uint64_t random = 17;
-    size_t deepest = 0;
-    brute all = {0};
-    fill(&all, focus, &random);
-    think_of_questions(&all, focus, questions, &random);
-    for (size_t i = 0; i < QUESTIONS; i++)
-        scan(&all, &questions[i], &truths[i]);
+    static examination e;
+    prepare(&e);
     for (size_t capacity = 1; capacity <= CAPACITIES; capacity++)
         for (size_t depth = 0; depth <= OCTREE_MAX_DEPTH; depth++) {
-            octree *tree = tree_of(&all, capacity, depth);
+            octree *tree = tree_of(&e.all, capacity, depth);
             octree_stats stats;
             assert_int_equal(octree_statistics(tree, &stats), OCTREE_OK);
-            deepest += stats.depth == depth;
-            for (size_t i = 0; i < QUESTIONS; i++) {
-                ask(tree, &questions[i], &said);
-                if (said.count != truths[i].count ||
-                    memcmp(said.points, truths[i].points, said.count * sizeof said.points[0]) != 0)
-                    fail_msg("capacity %zu, depth %zu: number %zu, %s, gives another answer", capacity, depth, i,
-                             names[questions[i].kind]);
-            }
+            assert_int_equal(stats.depth, depth); /* the equal points: no two depths are one shape */
+            examine(&e, tree, capacity, depth);
             octree_destroy(tree);
         }
-    assert_int_equal(deepest, CAPACITIES * (OCTREE_MAX_DEPTH + 1)); /* no two depths are one shape */
-    brute_free(&all);
+    brute_free(&e.all);
 }
 
 static void every_kind_of_question_has_points_in_its_answers(void **state)
 {
     (void)state;
-    static question questions[QUESTIONS];
-    static answer truth;
-    const double focus[3] = {0.1, 0.2, 0.3};
-    uint64_t random = 17;
+    static examination e;
     size_t found[KINDS] = {0};
-    brute all = {0};
-    fill(&all, focus, &random);
-    think_of_questions(&all, focus, questions, &random);
-    for (size_t i = 0; i < QUESTIONS; i++) {
-        scan(&all, &questions[i], &truth);
-        found[questions[i].kind] += truth.count > 0;
-    }
+    prepare(&e);
+    for (size_t i = 0; i < QUESTIONS; i++)
+        found[e.questions[i].kind] += e.truths[i].count > 0;
     for (int i = 0; i < KINDS; i++)
         assert_true(found[i] >= 3);
-    brute_free(&all);
+    brute_free(&e.all);
 }
 
-int main(void)
+/* A digest of what the questions cost that can be asked with a report, of every fifth shape. */
+static void print_costs(void)
+{
+    static examination e;
+    static answer said;
+    uint64_t digest = OCTREE_DIGEST_START;
+    prepare(&e);
+    for (size_t shape = 0; shape < CAPACITIES * (OCTREE_MAX_DEPTH + 1); shape += 5) {
+        octree *tree = tree_of(&e.all, 1 + shape % CAPACITIES, shape / CAPACITIES);
+        for (size_t i = 0; i < QUESTIONS; i++) {
+            octree_cost cost = {0};
+            question q = e.questions[i];
+            q.how.cost = &cost;
+            ask(tree, &q, &said);
+            digest = octree_digest_word(octree_digest_word(digest, cost.nodes), cost.leaves);
+            digest = octree_digest_word(octree_digest_word(digest, cost.points), cost.pruned);
+        }
+        octree_destroy(tree);
+    }
+    brute_free(&e.all);
+    printf("%016" PRIx64 "\n", digest);
+}
+
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_capacity_and_depth_gives_the_true_answers),
         cmocka_unit_test(every_kind_of_question_has_points_in_its_answers),
     };
+    if (argc == 2 && strcmp(argv[1], "--costs") == 0) {
+        print_costs();
+        return 0;
+    }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
