@@ -128,7 +128,7 @@ static double extent(const trial *t)
     return most; /* half of it: twice that may overflow */
 }
 
-/* Lengths are asked for up to here. */
+/* Lengths are asked for up to here: beyond, the corners of boxes are not rounded rightly yet. */
 static const double longest = 0x1.fffp1023;
 
 static double beside(trial *t, double length)
