@@ -264,25 +264,6 @@ static void a_sphere_is_decided_by_whole_numbers(void **state)
     }
 }
 
-static void every_capacity_and_depth_gives_the_true_answer(void **state)
-{
-    (void)state;
-    uint64_t random = 17;
-    octree_box world = cube(-1, 1);
-    const double target[3] = {0.1, 0.2, 0.3}, offset[3] = {0.3, 0.1, 0.2};
-    brute all = {0};
-    brute_sample(&all, OCTREE_SAMPLE_LATTICE, 0, &world, 27);
-    for (int i = 0; i < 60; i++)
-        add_mirrored(&all, &world, target, offset, &random);
-    for (size_t capacity = 1; capacity <= 64; capacity++) {
-        octree *tree = brute_tree(&all, world, capacity, capacity % 22);
-        assert_all(tree, &all, target, &random);
-        assert_all(tree, &all, all.points[capacity % all.count].position, &random);
-        octree_destroy(tree);
-    }
-    brute_free(&all);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -294,7 +275,6 @@ int main(void)
         cmocka_unit_test(every_magnitude_in_one_tree_is_answered_exactly),
         cmocka_unit_test(distances_whose_squares_vanish_are_told_apart),
         cmocka_unit_test(a_sphere_is_decided_by_whole_numbers),
-        cmocka_unit_test(every_capacity_and_depth_gives_the_true_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

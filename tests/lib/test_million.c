@@ -1,5 +1,12 @@
-/* test_million.c - a million points, equal or not: linear memory, constant time a point. */
+/* test_million.c - a million points, equal or not: linear memory, constant time a point, and 64 KiB of stack for all of
+ * it, the tests themselves included.
+ */
 #include "fixture.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include "counting_allocator.h"
 #include "octree/sample.h"
@@ -57,6 +64,85 @@ static void a_million_equal_points_grow_one_leaf_in_linear_memory(void **state)
     grow_and_shrink(50000, 49999, 1); /* descending */
 }
 
+/* A million points at one place, numbered from 0, in memory to be freed. */
+static octree_point *million_equal(void)
+{
+    octree_point *points = malloc(million * sizeof *points);
+    assert_non_null(points);
+    for (uint64_t id = 0; id < million; id++)
+        points[id] = (octree_point){{0.3, 0.3, 0.3}, id};
+    return points;
+}
+
+static void a_batch_of_a_million_equal_points_is_refused_but_for_a_leaf_of_them(void **state)
+{
+    (void)state;
+    counting_allocator counts = {0};
+    octree_point *points = million_equal();
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 2, 21, OCTREE_REFUSE);
+    size_t done = 0;
+    assert_int_equal(octree_insert_many(tree, points, million, NULL, &done), OCTREE_OK);
+    assert_int_equal(done, 2);
+    assert_true(octree_contains(tree, points[0].position, 0) && octree_contains(tree, points[1].position, 1));
+    assert_true(counts.peak < 200 * (size_t)million);
+    assert_true(counts.bytes < 1 << 20);
+    octree_destroy(tree);
+    free(points);
+    assert_all_returned(&counts);
+}
+
+static bool count_visit(const octree_point *point, void *context)
+{
+    (void)point;
+    ++*(size_t *)context;
+    return true;
+}
+
+/* Every query, of a tree that holds a million points at one place and nothing else. */
+static void ask_a_million_equal_points(const octree *tree)
+{
+    const double at[3] = {0.3, 0.3, 0.3}, aside[3] = {0.3, 0.3, 0.55}, away[3] = {-1, -1, -1};
+    const octree_box all = cube(-1, 1), there = cube(0.3, 0.3), beside = cube(-1, next_down(0.3));
+    size_t count = 0, visits = 0;
+    octree_neighbor nearest;
+    assert_int_equal(octree_range_count(tree, &all, &count), OCTREE_OK);
+    assert_int_equal(count, million);
+    assert_int_equal(octree_range(tree, &there, count_visit, &visits), OCTREE_OK);
+    assert_int_equal(octree_range(tree, &beside, count_visit, &visits), OCTREE_OK);
+    assert_int_equal(octree_radius(tree, aside, 0.125, NULL, count_visit, &visits), OCTREE_OK);
+    assert_int_equal(octree_radius(tree, aside, 0.5, NULL, count_visit, &visits), OCTREE_OK);
+    assert_int_equal(octree_collide(tree, aside, 0.125, NULL, count_visit, &visits), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, aside, away, 0.75, NULL, count_visit, &visits), OCTREE_OK);
+    assert_int_equal(visits, 3 * million);
+    assert_int_equal(octree_nearest(tree, aside, OCTREE_SKIP_NONE, 0, &nearest), OCTREE_OK); /* a million ties */
+    assert_int_equal(nearest.point.id, 0);
+    assert_int_equal(octree_nearest(tree, at, OCTREE_SKIP_COINCIDENT, 0, &nearest), OCTREE_NOT_FOUND);
+}
+
+static void a_batch_of_a_million_equal_points_grows_one_leaf_that_answers(void **state)
+{
+    (void)state;
+    counting_allocator counts = {0};
+    octree_point *points = million_equal();
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 2, 21, OCTREE_GROW);
+    size_t done = 0;
+    octree_stats stats;
+    assert_int_equal(octree_insert_many(tree, points, million, NULL, &done), OCTREE_OK);
+    assert_int_equal(done, million);
+    assert_int_equal(octree_statistics(tree, &stats), OCTREE_OK);
+    assert_int_equal(stats.largest_leaf, million);
+    assert_int_equal(stats.nodes, 22);
+    assert_true(counts.bytes < 100 * (size_t)million);
+    assert_true(counts.peak < 300 * (size_t)million);
+    ask_a_million_equal_points(tree);
+    assert_int_equal(octree_remove_many(tree, points, million, NULL, &done), OCTREE_OK);
+    assert_int_equal(done, million);
+    assert_int_equal(octree_count(tree), 0);
+    octree_destroy(tree);
+    free(points);
+    assert_all_returned(&counts);
+}
+
 static void a_large_grown_leaf_passes_the_validator(void **state)
 {
     (void)state;
@@ -85,13 +171,50 @@ static void a_million_uniform_points_take_less_than_a_hundred_bytes_each(void **
     assert_all_returned(&counts);
 }
 
-int main(void)
+static void *run_all(void *failed)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_million_equal_points_are_refused_without_taking_memory),
         cmocka_unit_test(a_million_equal_points_grow_one_leaf_in_linear_memory),
+        cmocka_unit_test(a_batch_of_a_million_equal_points_is_refused_but_for_a_leaf_of_them),
+        cmocka_unit_test(a_batch_of_a_million_equal_points_grows_one_leaf_that_answers),
         cmocka_unit_test(a_large_grown_leaf_passes_the_validator),
         cmocka_unit_test(a_million_uniform_points_take_less_than_a_hundred_bytes_each),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    *(int *)failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return NULL;
+}
+
+/* Set the size of a thread's stack: 64 KiB, or what the machine asks for at least. */
+static bool use_little_stack(pthread_attr_t *attributes)
+{
+#if defined(OCTREEL_SANITIZED)
+    (void)attributes;
+    puts("The stack is as large as ever: what sanitizers add to it does not fit 64 KiB.");
+    return true;
+#else
+    enum { KIBIBYTES = 64 };
+#if defined(_SC_THREAD_STACK_MIN)
+    const long least = sysconf(_SC_THREAD_STACK_MIN);
+#else
+    const long least = 0;
+#endif
+    const size_t size = least > KIBIBYTES * 1024 ? (size_t)least : KIBIBYTES * 1024;
+    printf("All runs on %zu KiB of stack.\n", size / 1024);
+    return pthread_attr_setstacksize(attributes, size) == 0;
+#endif
+}
+
+/* The tests run in a thread of their own, whose stack ends in a page that must not be touched. */
+int main(void)
+{
+    pthread_t thread;
+    pthread_attr_t attributes;
+    int failed = 1;
+    if (pthread_attr_init(&attributes) != 0 || !use_little_stack(&attributes) ||
+        pthread_create(&thread, &attributes, run_all, &failed) != 0 || pthread_join(thread, NULL) != 0) {
+        fputs("test_million: there is no thread\n", stderr);
+        return 2;
+    }
+    return failed;
 }

@@ -101,9 +101,9 @@ bool brute_within(double center, double size, double p)
     double low = fmin(center, p);
     double distance = high - low;
     if (distance != size)
-        return distance < size;    /* rounding is monotone, so it cannot carry the distance past a double */
-    double back = distance - high; /* Knuth's TwoSum: the part that rounding took off the distance */
-    double lost = (high - (distance - back)) - (low + back);
+        return distance < size; /* rounding is monotone, so it cannot carry the distance past a double */
+    /* The part that rounding took off the distance (Dekker's Fast2Sum, which does not overflow as TwoSum does). */
+    double lost = fabs(high) >= fabs(low) ? -low - (distance - high) : high - (distance + low);
     return lost <= 0;
 }
 

@@ -36,8 +36,10 @@ static void random_start(random_session *made, uint64_t *state)
         world.min[axis] = -(double)(8 + random_below(state, 40));
         world.max[axis] = (double)(8 + random_below(state, 40));
     }
-    *session =
-        (octree_session){.tree = define(world, 1 + random_below(state, 8), random_below(state, 9), OCTREE_REFUSE)};
+    /* One after the other: compilers differ in the order of arguments. */
+    const size_t depth = random_below(state, 9);
+    const size_t capacity = 1 + random_below(state, 8);
+    *session = (octree_session){.tree = define(world, capacity, depth, OCTREE_REFUSE)};
     session->player.id = 1000;
     random_position(state, &world, session->player.position);
     session->player.step = quarter(state, 1, 12);

@@ -1,0 +1,241 @@
+/* changes.c - random changes, the same to the tree and to the model, some of them with an allocation that fails first.
+ */
+#include "arguments.h"
+#include "fixture.h"
+#include "octree/sample.h"
+#include "operations.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+enum { BATCH_AT_MOST = 64 };
+
+typedef enum change_kind { INSERT, REMOVE, MOVE, INSERT_MANY, REMOVE_MANY, REWORLD, CLEAR } change_kind;
+
+static const char *const change_names[] = {"insert",      "remove",  "move", "insert_many",
+                                           "remove_many", "reworld", "clear"};
+
+typedef struct change {
+    change_kind kind;
+    octree_point points[BATCH_AT_MOST]; /* one of them, but for many */
+    size_t count;
+    double to[3];     /* move */
+    octree_box world; /* reworld */
+    octree_status statuses[BATCH_AT_MOST];
+    size_t done;     /* many: what the tree says */
+    size_t happened; /* what the model says: changes that were made */
+} change;
+
+static octree_status apply(octree *tree, change *c)
+{
+    const octree_point *p = c->points;
+    switch (c->kind) {
+    case INSERT:
+        return octree_insert(tree, p->position, p->id);
+    case REMOVE:
+        return octree_remove(tree, p->position, p->id);
+    case MOVE:
+        return octree_move(tree, p->position, p->id, c->to);
+    case INSERT_MANY:
+        return octree_insert_many(tree, p, c->count, c->statuses, &c->done);
+    case REMOVE_MANY:
+        return octree_remove_many(tree, p, c->count, c->statuses, &c->done);
+    case REWORLD:
+        return octree_reworld(tree, &c->world);
+    default:
+        return octree_clear(tree);
+    }
+}
+
+/* One point of many: what the model says, and whether it happened. */
+static octree_status apply_one(model *m, const change *c, size_t i)
+{
+    const octree_point *p = &c->points[i];
+    return c->kind == INSERT_MANY ? model_insert(m, p->position, p->id) : model_remove(m, p->position, p->id);
+}
+
+static bool compare_many(trial *t, change *c)
+{
+    c->happened = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const octree_status expected = apply_one(&t->model, c, i);
+        c->happened += expected == OCTREE_OK;
+        if (c->statuses[i] != expected)
+            return trial_fail(t, "%s: point %zu of %zu is said to be %s, and is %s", change_names[c->kind], i, c->count,
+                              octree_status_name(c->statuses[i]), octree_status_name(expected));
+    }
+    return c->done == c->happened || trial_fail(t, "%s: %zu points are said to be done, and %zu are",
+                                                change_names[c->kind], c->done, c->happened);
+}
+
+/* What the tree said, against the model. */
+static bool compare(trial *t, change *c, octree_status status)
+{
+    octree_status expected = OCTREE_OK;
+    const octree_point *p = c->points;
+    switch (c->kind) {
+    case INSERT:
+        expected = model_insert(&t->model, p->position, p->id);
+        break;
+    case REMOVE:
+        expected = model_remove(&t->model, p->position, p->id);
+        break;
+    case MOVE:
+        expected = model_move(&t->model, p->position, p->id, c->to);
+        break;
+    case REWORLD:
+        expected = model_reworld(&t->model, &c->world);
+        break;
+    case CLEAR:
+        model_clear(&t->model);
+        break;
+    default:
+        break;
+    }
+    if (status != expected)
+        return trial_fail(t, "%s of (%a, %a, %a), to (%a, %a, %a): the answer is %s and not %s", change_names[c->kind],
+                          p->position[0], p->position[1], p->position[2], c->to[0], c->to[1], c->to[2],
+                          octree_status_name(status), octree_status_name(expected));
+    if (c->kind == INSERT_MANY || c->kind == REMOVE_MANY)
+        return compare_many(t, c);
+    c->happened = status == OCTREE_OK;
+    return true;
+}
+
+/* Let an allocation fail, if there is one: the change is then refused, and the tree as it was. */
+static bool fail_first(trial *t, change *c, octree_status *status)
+{
+    const uint64_t version = octree_version(t->tree);
+    counting_allocator_fail_at(&t->memory, below(t, 5));
+    *status = apply(t->tree, c);
+    counting_allocator_heal(&t->memory);
+    if (*status != OCTREE_NO_MEMORY)
+        return true;
+    if (octree_version(t->tree) != version || octree_count(t->tree) != t->model.count)
+        return trial_fail(t, "%s without memory changes the tree", change_names[c->kind]);
+    if (!trial_audit(t))
+        return false;
+    *status = apply(t->tree, c);
+    return true;
+}
+
+static bool do_change(trial *t, change *c)
+{
+    const uint64_t version = octree_version(t->tree);
+    octree_status status;
+    if (below(t, 32) > 0)
+        status = apply(t->tree, c);
+    else if (!fail_first(t, c, &status))
+        return false;
+    if (!compare(t, c, status))
+        return false;
+    if (octree_count(t->tree) != t->model.count)
+        return trial_fail(t, "%s leaves %zu points and not %zu", change_names[c->kind], octree_count(t->tree),
+                          t->model.count);
+    t->answers = c->happened;
+    if (c->happened == 0 && octree_version(t->tree) != version)
+        return trial_fail(t, "%s does nothing, and the version tells of a change", change_names[c->kind]);
+    if (c->happened > 0 && octree_version(t->tree) <= version) /* a lower one will be met again with other contents */
+        return trial_fail(t, "%s is told by version %" PRIu64 " after %" PRIu64, change_names[c->kind],
+                          octree_version(t->tree), version);
+    return true;
+}
+
+/* Insertions and removals keep the number of points about the population. */
+static bool has_enough(trial *t)
+{
+    return below(t, 2 * t->population) < t->model.count;
+}
+
+static bool insert_one(trial *t)
+{
+    change c = {.kind = INSERT};
+    any_position(t, c.points[0].position);
+    c.points[0].id = any_id(t);
+    return do_change(t, &c);
+}
+
+static bool remove_one(trial *t)
+{
+    change c = {.kind = REMOVE};
+    c.points[0] = any_pair(t);
+    return do_change(t, &c);
+}
+
+bool change_one(trial *t)
+{
+    return has_enough(t) ? remove_one(t) : insert_one(t);
+}
+
+bool change_move(trial *t)
+{
+    change c = {.kind = MOVE};
+    c.points[0] = any_pair(t);
+    any_position(t, c.to);
+    return do_change(t, &c);
+}
+
+bool change_insert_many(trial *t)
+{
+    change c = {.kind = INSERT_MANY};
+    const size_t most = has_enough(t) ? 3 : BATCH_AT_MOST + 1;
+    for (size_t left = below(t, most); left > 0; left--) {
+        octree_point *p = &c.points[c.count++];
+        any_position(t, p->position);
+        p->id = any_id(t);
+        if (c.count > 1 && below(t, 8) == 0)
+            *p = c.points[below(t, c.count - 1)]; /* twice in one batch */
+    }
+    return do_change(t, &c);
+}
+
+bool change_remove_many(trial *t)
+{
+    change c = {.kind = REMOVE_MANY};
+    const size_t most = has_enough(t) ? BATCH_AT_MOST + 1 : 3;
+    for (size_t left = below(t, most); left > 0; left--)
+        c.points[c.count++] = any_pair(t);
+    return do_change(t, &c);
+}
+
+/* A larger world: by a part, or so much that all points crowd together in it. */
+static octree_box larger(trial *t, octree_box world)
+{
+    const int doublings = below(t, 2) == 0 ? 0 : (int)below(t, 22);
+    for (int i = 0; i < 3; i++) {
+        const double half = world.max[i] / 2 - world.min[i] / 2;
+        world.min[i] = scene_nudge(world.min[i] - ldexp(half * octree_random_unit(&t->random), doublings), -1);
+        world.max[i] = scene_nudge(world.max[i] + ldexp(half * octree_random_unit(&t->random), doublings), 1);
+    }
+    return world;
+}
+
+/* The scene's own, a larger one, one that is cut off, or a bad one. */
+static octree_box another_world(trial *t)
+{
+    octree_box world = t->model.def.world;
+    const size_t kind = below(t, 8), axis = below(t, 3);
+    if (kind < 2)
+        return t->scene.world;
+    if (kind > 4)
+        return larger(t, world);
+    if (kind == 2)
+        world.max[axis] = world.min[axis] / 2 + world.max[axis] / 2;
+    else if (kind == 3)
+        world.max[axis] = world.min[axis];
+    else
+        world.min[axis] = scene_nudge(world.min[axis], -1 - (int)below(t, 3));
+    return world;
+}
+
+bool change_reworld(trial *t)
+{
+    change c = {.kind = REWORLD, .world = another_world(t)};
+    return do_change(t, &c);
+}
+
+bool change_clear(trial *t)
+{
+    change c = {.kind = CLEAR};
+    return do_change(t, &c);
+}

@@ -1,0 +1,46 @@
+/* model.h - what a tree must hold and refuse: a plain list of points, and the paper's rule of full leaves without a
+ * tree.
+ */
+#ifndef CAMPAIGN_MODEL_H
+#define CAMPAIGN_MODEL_H
+
+#include "octree/octree.h"
+
+typedef struct model {
+    octree_def def; /* as in force */
+    octree_point *points;
+    octree_address *cells; /* of each point: the smallest that a leaf can have there; 0 where no leaf refuses */
+    uint64_t *seals;       /* of each point: a digest of its bits */
+    size_t count, room;
+} model;
+
+/* No such point. */
+#define MODEL_NONE SIZE_MAX
+
+void model_begin(model *m, const octree_def *def);
+void model_end(model *m);
+
+/* What the function of the library must return, done to the model where that is OCTREE_OK. */
+octree_status model_insert(model *m, const double at[3], uint64_t id);
+octree_status model_remove(model *m, const double at[3], uint64_t id);
+octree_status model_move(model *m, const double from[3], uint64_t id, const double to[3]);
+octree_status model_reworld(model *m, const octree_box *world);
+void model_clear(model *m);
+
+/* The index of a pair, compared as numbers; and of a point with the very same bits. Or MODEL_NONE. */
+size_t model_find(const model *m, const double at[3], uint64_t id);
+size_t model_find_bits(const model *m, const octree_point *point);
+
+/* NOT_FINITE, OUTSIDE or OK. */
+octree_status model_check(const model *m, const double at[3]);
+
+/* The order of "sorted" results: by id, then by position. */
+int model_order(const octree_point *a, const octree_point *b);
+
+/* A digest of a point's bits. */
+uint64_t model_seal(const octree_point *point);
+
+/* Memory, or the program ends with a sentence and status 2. */
+void *model_memory(void *old, size_t size);
+
+#endif

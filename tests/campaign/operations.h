@@ -1,0 +1,23 @@
+/* operations.h - all that a campaign does to a tree and asks of it. */
+#ifndef CAMPAIGN_OPERATIONS_H
+#define CAMPAIGN_OPERATIONS_H
+
+#include "trial.h"
+
+/* Do it once, with random arguments, to the tree and to the model. False when they differ; trial.fault says how. */
+typedef bool operation(trial *t);
+
+/* changes.c */
+operation change_one, change_move, change_insert_many, change_remove_many, change_reworld, change_clear;
+
+/* ask_places.c */
+operation ask_find, ask_contains, ask_look;
+
+/* ask_boxes.c */
+operation ask_range, ask_range_stopped, ask_range_count, ask_range_collect, ask_range_collect_sorted, ask_collide,
+    ask_collide_swept;
+
+/* ask_neighbors.c */
+operation ask_nearest, ask_nearest_k, ask_nearest_within, ask_nearest_batch, ask_radius;
+
+#endif

@@ -1,0 +1,29 @@
+/* scenes.h - worlds, and the places in them where a campaign puts its points: one table of all that is ordinary and all
+ * that is extreme.
+ */
+#ifndef CAMPAIGN_SCENES_H
+#define CAMPAIGN_SCENES_H
+
+#include "octree/octree.h"
+
+enum { PLACES_AT_MOST = 1024 };
+
+typedef struct scene {
+    const char *name;
+    octree_box world;
+    double places[PLACES_AT_MOST][3]; /* in the world; points share them, queries aim at them */
+    size_t count;
+    double focus[3]; /* what mirrored places are mirrored about; elsewhere any place of the world */
+} scene;
+
+/* The number of scenes, and the name of each: null from there on. */
+size_t scene_kinds(void);
+const char *scene_name(size_t kind);
+
+/* Fill a scene with at most PLACES_AT_MOST places. */
+void scene_make(scene *s, size_t kind, size_t count, uint64_t *random);
+
+/* The double a number of steps up or down, zeros of either sign being one, and not beyond the finite ones. */
+double scene_nudge(double value, int steps);
+
+#endif
