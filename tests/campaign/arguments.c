@@ -128,12 +128,9 @@ static double extent(const trial *t)
     return most; /* half of it: twice that may overflow */
 }
 
-/* Lengths are asked for up to here: beyond, the corners of boxes are not rounded rightly yet. */
-static const double longest = 0x1.fffp1023;
-
 static double beside(trial *t, double length)
 {
-    return fmin(fmax(scene_nudge(length, (int)below(t, 3) - 1), 0), longest);
+    return fmin(fmax(scene_nudge(length, (int)below(t, 3) - 1), 0), DBL_MAX);
 }
 
 static double some_length(trial *t)
@@ -141,7 +138,7 @@ static double some_length(trial *t)
     const size_t kind = below(t, 16);
     const int halvings = (int)below(t, 6);
     const double length = kind == 1 ? DBL_MAX : ldexp(extent(t) * octree_random_unit(&t->random), -halvings);
-    return kind == 0 ? 0 : fmin(length, longest);
+    return kind == 0 ? 0 : fmin(length, DBL_MAX);
 }
 
 double any_radius(trial *t, const double center[3])

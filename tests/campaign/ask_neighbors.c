@@ -251,8 +251,7 @@ bool ask_radius(trial *t)
 {
     question q;
     any_question(t, &q, "radius", true);
-    q.how.epsilon =
-        fmin(any_slack(t, q.target), 0x1.fffp1023 - q.radius); /* a sum that overflows reaches too far yet */
+    q.how.epsilon = any_slack(t, q.target);
     judge_ball(t, &q, q.how.epsilon, false);
     gather_begin(t, 0);
     const octree_status status = octree_radius(t->tree, q.target, q.radius, &q.how, gather, &t->found);

@@ -187,6 +187,19 @@ static void the_collision_box_is_the_largest_box_of_doubles_within(void **state)
         }
 }
 
+static void a_box_as_large_as_doubles_allow_ends_within_its_size(void **state)
+{
+    (void)state;
+    const double center = -0x1.776bca69c02d8p+1019, last = 0x1.e889435963fd1p+1023;
+    octree_box box;
+    assert_int_equal(octree_collision_box((double[3]){center, -center, 0}, DBL_MAX, &box), OCTREE_OK);
+    assert_true(box.max[0] == last && box.min[1] == -last); /* the next one is half an ulp beyond */
+    octree *tree = make_tree(cube(-DBL_MAX, DBL_MAX), 1, 21, OCTREE_REFUSE);
+    assert_int_equal(octree_insert(tree, (double[3]){next_up(last), 0, 0}, 1), OCTREE_OK);
+    assert_int_equal(hits(tree, (double[3]){center, 0, 0}, DBL_MAX, NULL), 0);
+    octree_destroy(tree);
+}
+
 /* A centre and a size whose sum rounds, and a point within two ulps of the edge. */
 static void random_near_edge(uint64_t *random, double *center, double *size, double *p)
 {
@@ -251,6 +264,7 @@ int main(void)
         cmocka_unit_test(the_centre_may_lie_far_outside_the_world),
         cmocka_unit_test(the_visitor_can_stop),
         cmocka_unit_test(the_collision_box_is_the_largest_box_of_doubles_within),
+        cmocka_unit_test(a_box_as_large_as_doubles_allow_ends_within_its_size),
         cmocka_unit_test(collide_is_exact_within_two_ulps_of_its_faces),
         cmocka_unit_test(collide_agrees_with_a_scan),
     };

@@ -197,6 +197,28 @@ static void any_finite_radius_and_center_are_taken(void **state)
     }
 }
 
+static bool count_one(const octree_point *point, void *context)
+{
+    (void)point;
+    ++*(size_t *)context;
+    return true;
+}
+
+static void a_radius_and_an_epsilon_may_reach_beyond_doubles(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-DBL_MAX, DBL_MAX), 4, 21, OCTREE_REFUSE);
+    const double far_off[3] = {-DBL_MAX, 0, 0}, center[3] = {DBL_MAX, 0, 0};
+    assert_int_equal(octree_insert(tree, far_off, 1), OCTREE_OK);
+    for (int mode = 0; mode < 2; mode++) {
+        octree_search how = {.epsilon = 0x1p1023, .mode = (octree_mode)mode};
+        size_t count = 0;
+        assert_int_equal(octree_radius(tree, center, 0x1.8p1023, &how, count_one, &count), OCTREE_OK);
+        assert_int_equal(count, 0); /* the point is 2 DBL_MAX away, and the reach is 1.25 DBL_MAX */
+    }
+    octree_destroy(tree);
+}
+
 static void the_center_may_lie_outside(void **state)
 {
     (void)state;
@@ -288,6 +310,7 @@ int main(void)
         cmocka_unit_test(radius_zero_is_the_place_itself),
         cmocka_unit_test(within_heeds_the_skip_rule_and_a_ball_does_not),
         cmocka_unit_test(any_finite_radius_and_center_are_taken),
+        cmocka_unit_test(a_radius_and_an_epsilon_may_reach_beyond_doubles),
         cmocka_unit_test(the_center_may_lie_outside),
         cmocka_unit_test(a_visitor_that_stops_is_not_called_again),
         cmocka_unit_test(a_ball_agrees_with_a_scan_for_every_depth_and_capacity),
