@@ -343,6 +343,11 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--size 0x0", "1 to 16384"},
         {"--camera up", "up"},
         {"--layers walls", "walls"},
+        {"--color-by rainbow", "depth, occupancy, plain"},
+        {"--slice z=99", "outside the world"},
+        {"--region 9,9,9,10,10,10", "outside the world"},
+        {"--depth 2:5", "--depths"},
+        {"--depth 3 --depths 4", "the tree ends at depth 3"},
         {"second.txt", "one point cloud"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");

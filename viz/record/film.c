@@ -1,5 +1,6 @@
 /* film.c - see film.h. */
 #include "film.h"
+#include "filter.h"
 #include "folder_files.h"
 #include "picture.h"
 #include "tick_scene.h"
@@ -38,6 +39,12 @@ static bool open_ticks(filming *f, record_error *error)
     return f->ticks != NULL;
 }
 
+static bool check_view(const view *v, const octree_def *tree, record_error *error)
+{
+    char reason[FILTER_TEXT];
+    return !filter_refusal(&v->filter, tree, reason) || record_fail(error, "%s", reason);
+}
+
 /* Everything that can refuse a session or a view comes before the folder is touched. */
 static bool begin(filming *f, const octree_session *session, record_error *error)
 {
@@ -45,7 +52,8 @@ static bool begin(filming *f, const octree_session *session, record_error *error
     const octree_status status = octree_game_create(session, &f->game);
     if (status != OCTREE_OK)
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
-    if (!picture_open(&f->picture, options->view.width, options->view.height, error))
+    if (!check_view(&options->view, &session->tree, error) ||
+        !picture_open(&f->picture, options->view.width, options->view.height, error))
         return false;
     const renderer_info info = renderer_about(f->picture.renderer);
     if (!folder_prepare(options->folder, error))
@@ -175,7 +183,8 @@ bool film_tree(const octree *tree, const char *title, const view *v, const char 
 {
     picture p;
     scene s = {0};
-    if (!picture_open(&p, v->width, v->height, error))
+    const octree_def def = octree_definition(tree);
+    if (!check_view(v, &def, error) || !picture_open(&p, v->width, v->height, error))
         return false;
     char digests[2][DIGEST_TEXT];
     bool ok = tree_scene_build(&s, v, tree, title) || record_fail(error, "there is no memory for a scene");

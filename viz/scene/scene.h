@@ -69,6 +69,11 @@ typedef struct scene_panel {
         size_t count, room;                                                                                            \
     }
 
+/* How much of a tree is in a scene. */
+typedef struct scene_tally {
+    size_t nodes, points; /* shown */
+} scene_tally;
+
 typedef struct scene {
     view view;
     camera camera;
@@ -78,6 +83,7 @@ typedef struct scene {
     SCENE_ARRAY(scene_marker) markers;
     SCENE_ARRAY(scene_label) labels;
     SCENE_ARRAY(scene_panel) panels;
+    scene_tally tally;
     size_t refused;     /* elements with NaN or infinite geometry: counted, never drawn */
     bool out_of_memory; /* set by scene_add_*: the scene is not whole */
 } scene;

@@ -6,8 +6,10 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define SHAPES "world,nodes,points,range,nearest,player,box"
+#define TREE "world,nodes,points"
 
 const golden_frame golden_frames[] = {
     {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},        {"first_split", "iso", SHAPES, 0, "three", 0, 0},
@@ -17,9 +19,33 @@ const golden_frame golden_frames[] = {
     {"range", "side", SHAPES, 219, NULL, 0, 0},         {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
     {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0}, {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
+    {"slice", "iso", TREE, 0, "clustered", 0, 0},       {"region", "iso", TREE, 0, "clustered", 0, 0},
+    {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
+
+/* What else the views of some frames have. */
+static const struct {
+    const char *name;
+    view look;
+} looks[] = {
+    {"slice", {.filter = {.slice = 'z', .slice_at = -600}}},
+    {"region", {.filter = {.by_region = true, .region = {{-900, -900, -300}, {100, 0, 300}}}}},
+    {"left_out",
+     {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
+};
+
+static view view_of_frame(const golden_frame *frame)
+{
+    view v = {0};
+    for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++)
+        if (strcmp(looks[i].name, frame->name) == 0)
+            v = looks[i].look;
+    v.width = frame->width ? frame->width : 320;
+    v.height = frame->height ? frame->height : 180;
+    return v;
+}
 
 static const octree_body few[] = {{.id = 1, .position = {500, 500, 500}}, {.id = 2, .position = {-500, -500, -500}}};
 
@@ -79,7 +105,7 @@ bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t
 {
     octree_body bodies[400];
     const octree_session session = session_of(frame, bodies);
-    view v = {.width = frame->width ? frame->width : 320, .height = frame->height ? frame->height : 180};
+    view v = view_of_frame(frame);
     const char *bad;
     octree_game *game;
     if (!view_camera_parse(frame->camera, &v.camera) || !view_layers_parse(frame->layers, &v.layers, &bad))

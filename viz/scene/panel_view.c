@@ -1,0 +1,70 @@
+/* panel_view.c - see panel_view.h. */
+#include "panel_view.h"
+#include "filter.h"
+#include "number_text.h"
+
+#include <stdio.h>
+
+/* "from to to" of one axis of the region. */
+static void write_region_axis(pen *p, const char *name, const octree_box *region, int axis)
+{
+    char from[NUMBER_WORDS], to[NUMBER_WORDS];
+    write_row(p, name, "%c %s to %s", "xyz"[axis], number_text(region->min[axis], 6, from),
+              number_text(region->max[axis], 6, to));
+}
+
+static void write_filter(pen *p, const view_filter *f)
+{
+    char at[NUMBER_WORDS];
+    if (f->slice)
+        write_row(p, "slice", "%c = %s", f->slice, number_text(f->slice_at, 9, at));
+    if (f->by_depth && f->min_depth == f->max_depth)
+        write_row(p, "depth", "%u alone", f->min_depth);
+    else if (f->by_depth)
+        write_row(p, "depths", "%u to %u", f->min_depth, f->max_depth);
+    if (f->leaves)
+        write_row(p, "only", "leaves");
+    for (int axis = 0; f->by_region && axis < 3; axis++)
+        write_region_axis(p, axis ? "" : "region", &f->region, axis);
+}
+
+void write_left_out(pen *p)
+{
+    const scene *s = p->scene;
+    const view_filter *f = &s->view.filter;
+    if (!filter_is_on(f))
+        return;
+    p->y += LINE / 2;
+    write_filter(p, f);
+    if (view_shows(&s->view, LAYER_NODES))
+        write_row(p, "shown", "%zu nodes", s->tally.nodes);
+    if (view_shows(&s->view, LAYER_POINTS))
+        write_row(p, view_shows(&s->view, LAYER_NODES) ? "" : "shown", "%zu points", s->tally.points);
+}
+
+/* One strip of a colour a step, from the ramp's first. */
+static void fill_ramp(pen *p, int steps)
+{
+    for (int step = 0; step < steps; step++)
+        fill(p, MARGIN + step * SWATCH / steps, p->y + 1, SWATCH / steps + 1, 6, theme_node_role((unsigned)step));
+}
+
+void write_node_legend(pen *p, size_t max_depth)
+{
+    const char *text = "node";
+    switch (p->scene->view.coloring) {
+    case COLORING_DEPTH: /* down to the deepest that the tree allows */
+        fill_ramp(p, max_depth + 1 < THEME_NODE_DEPTHS ? (int)max_depth + 1 : THEME_NODE_DEPTHS);
+        text = "node, shallow to deep";
+        break;
+    case COLORING_OCCUPANCY:
+        fill_ramp(p, THEME_NODE_DEPTHS);
+        text = "node, 0-256+ points";
+        break;
+    default:
+        fill(p, MARGIN, p->y + 3, SWATCH, 2, ROLE_NODE_PLAIN);
+        break;
+    }
+    write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, text);
+    p->y += LINE;
+}
