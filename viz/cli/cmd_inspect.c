@@ -161,10 +161,11 @@ static int inspect_it(arguments *a)
 
 int cmd_inspect(int argc, char **argv)
 {
-    arguments a = {.def = octree_def_default()};
+    arguments a = {.def = octree_def_default(), .view = view_default()};
     struct option options[COMMAND_OPTIONS];
     join_options(own_options, options);
     a.def.full_leaf = OCTREE_GROW;
+    a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
     optind = 1;
     for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         if (option == 'h') {

@@ -96,7 +96,7 @@ static int play(arguments *a)
 
 int cmd_record(int argc, char **argv)
 {
-    arguments a = {.film = {.every = 1}};
+    arguments a = {.film = {.view = view_default(), .every = 1}};
     struct option options[COMMAND_OPTIONS];
     join_options(own_options, options);
     optind = 1;

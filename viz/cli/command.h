@@ -43,7 +43,8 @@ void join_options(const struct option *own, struct option all[COMMAND_OPTIONS]);
 /* Take an option that getopt_long found; false when it is none of a view's. */
 bool take_view_option(view_options *given, int option);
 
-/* The view that was asked for; false, with the sentence said, when a value does not fit. */
+/* Change a command's own default view to the one that was asked for; false, with the sentence said, when a value does
+ * not fit. */
 bool read_view(const view_options *given, view *v);
 
 /* The part of a --help text that those options share. */

@@ -1,6 +1,7 @@
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "command.h"
 #include "number.h"
+#include "view_file.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -83,6 +84,12 @@ static const char *coloring_at(int i)
     return view_coloring_name((view_coloring)i);
 }
 
+static const char *fit_at(int i)
+{
+    static const char *const names[] = {[FIT_WORLD] = "world", [FIT_POINTS] = "points"};
+    return i < (int)(sizeof names / sizeof names[0]) ? names[i] : NULL;
+}
+
 static void print_names(FILE *out, name_at *name)
 {
     for (int i = 0; name(i); i++)
@@ -111,9 +118,26 @@ static bool read_size(const char *text, view *v)
     return true;
 }
 
+static bool read_camera_from(const char *text, view *v)
+{
+    record_error error;
+    return view_read(text, v, &error) || refuse("%s", error.text);
+}
+
 static bool read_camera(const char *text, view *v)
 {
     return view_camera_parse(text, &v->camera) || no_such("camera", text, (int)strlen(text), camera_at);
+}
+
+static bool read_fit(const char *text, view *v)
+{
+    for (int i = 0; fit_at(i); i++) {
+        if (strcmp(text, fit_at(i)) == 0) {
+            v->fit = (view_fit)i;
+            return true;
+        }
+    }
+    return no_such("fit", text, (int)strlen(text), fit_at);
 }
 
 static bool read_layers(const char *text, view *v)
@@ -165,16 +189,19 @@ static bool read_region(const char *text, view *v)
     return v->filter.by_region = read_box("--region", text, &v->filter.region);
 }
 
-/* Each option: its name, what stands for its value in the help (null: it takes none), what reads it, and what it does;
- * where there are names to choose from, these are listed behind that. */
+/* Each option, in the order in which they are read: its name, what stands for its value in the help (null: it takes
+ * none), what reads it, and what it does; where there are names to choose from, these are listed behind that. */
 static const struct {
     const char *name, *value;
     bool (*read)(const char *text, view *v);
     const char *help;
     name_at *names;
 } rows[] = {
+    {"camera-from", "DIR", read_camera_from, "the whole view of a recording; other options here change it", NULL},
     {"size", "WxH", read_size, "picture in pixels (default 1280x720; a side is 1 to 16384)", NULL},
     {"camera", "NAME", read_camera, "(default iso) one of", camera_at},
+    {"fit", "WHAT", read_fit, "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
+     NULL},
     {"layers", "LIST", read_layers, "(default all; -text leaves one out) with commas between, of", layer_at},
     {"color-by", "MODE", read_coloring, "what the colour of a node tells (default depth): one of", coloring_at},
     {"slice", "AXIS=AT", read_slice, "only nodes that cut a plane, as in z=100, and the points of such leaves", NULL},
@@ -207,7 +234,6 @@ bool take_view_option(view_options *given, int option)
 
 bool read_view(const view_options *given, view *v)
 {
-    *v = view_default();
     for (size_t i = 0; i < ROWS; i++)
         if (given->values[i] && !rows[i].read(given->values[i], v))
             return false;

@@ -1,6 +1,7 @@
 /* film.c - see film.h. */
 #include "film.h"
 #include "filter.h"
+#include "fit.h"
 #include "folder_files.h"
 #include "picture.h"
 #include "tick_scene.h"
@@ -18,6 +19,7 @@
 /* A recording while it is made. */
 typedef struct filming {
     const film_options *options;
+    view view; /* that of the options, fitted to tick 0 */
     octree_game *game;
     picture picture;
     scene scene;
@@ -52,13 +54,14 @@ static bool begin(filming *f, const octree_session *session, record_error *error
     const octree_status status = octree_game_create(session, &f->game);
     if (status != OCTREE_OK)
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
-    if (!check_view(&options->view, &session->tree, error) ||
-        !picture_open(&f->picture, options->view.width, options->view.height, error))
+    fit_view(&f->view, octree_game_tree(f->game));
+    if (!check_view(&f->view, &session->tree, error) ||
+        !picture_open(&f->picture, f->view.width, f->view.height, error))
         return false;
     const renderer_info info = renderer_about(f->picture.renderer);
     if (!folder_prepare(options->folder, error))
         return false;
-    if (write_recording_file(options->folder, &options->view, options->every, error) &&
+    if (write_recording_file(options->folder, &f->view, options->every, error) &&
         write_session_file(options->folder, session, &f->session_digest, error) &&
         write_renderer_file(options->folder, &info, error) && open_ticks(f, error))
         return true;
@@ -86,7 +89,7 @@ static bool write_frame(filming *f, const char *name, record_error *error)
 
 static bool draw_frame(filming *f, const char *name, record_error *error)
 {
-    if (!tick_scene_build(&f->scene, &f->options->view, f->game))
+    if (!tick_scene_build(&f->scene, &f->view, f->game))
         return record_fail(error, "there is no memory for a scene");
     f->extras.scene_digest = scene_digest(&f->scene);
     return picture_draw(&f->picture, &f->scene, error) && write_frame(f, name, error);
@@ -173,17 +176,19 @@ static bool end(filming *f, bool ok, record_error *error)
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   record_error *error)
 {
-    filming f = {.options = options};
+    filming f = {.options = options, .view = options->view};
     *summary = (film_summary){0};
     const bool ok = begin(&f, session, error) && film_all(&f, session, summary, error);
     return end(&f, ok, error);
 }
 
-bool film_tree(const octree *tree, const char *title, const view *v, const char *path, record_error *error)
+bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, record_error *error)
 {
     picture p;
     scene s = {0};
+    view fitted = *wanted, *v = &fitted;
     const octree_def def = octree_definition(tree);
+    fit_view(v, tree);
     if (!check_view(v, &def, error) || !picture_open(&p, v->width, v->height, error))
         return false;
     char digests[2][DIGEST_TEXT];

@@ -27,6 +27,6 @@ bool film_session(const octree_session *session, const film_options *options, fi
                   record_error *error);
 
 /* Draw one tree and write it as a PNG. */
-bool film_tree(const octree *tree, const char *title, const view *v, const char *path, record_error *error);
+bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, record_error *error);
 
 #endif

@@ -70,7 +70,7 @@ static void stand(camera *c, const double target[3], double distance)
         c->eye[i] = target[i] - distance * c->forward[i];
 }
 
-/* Half the extent of the world in unit coordinates, as seen along an axis of the camera. */
+/* Half the extent of what is framed in unit coordinates, as seen along an axis of the camera. */
 static double half_span(const double axis[3], const double half[3])
 {
     return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
@@ -127,7 +127,7 @@ void camera_unit(const camera *c, const double position[3], double result[3])
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
-    measure(&c, world);
+    measure(&c, v->fit == FIT_BOX ? &v->focus : world);
     double target[3] = {0, 0, 0};
     if (v->camera == CAMERA_FOLLOW)
         camera_unit(&c, player, target);

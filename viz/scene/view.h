@@ -66,10 +66,19 @@ typedef struct view_filter {
     octree_box region;
 } view_filter;
 
+/* What the camera frames. */
+typedef enum view_fit {
+    FIT_WORLD,
+    FIT_POINTS, /* those that are shown at tick 0; fit_view() makes a box of them */
+    FIT_BOX,
+} view_fit;
+
 typedef struct view {
     int width, height; /* pixels */
     view_camera camera;
-    unsigned layers; /* bit 1 << view_layer */
+    view_fit fit;
+    octree_box focus; /* under FIT_BOX: the box */
+    unsigned layers;  /* bit 1 << view_layer */
     view_coloring coloring;
     view_filter filter;
 } view;

@@ -1,5 +1,6 @@
 /* golden_frames.c - see golden_frames.h. */
 #include "golden_frames.h"
+#include "fit.h"
 #include "picture.h"
 #include "octree/sample.h"
 #include "tick_scene.h"
@@ -20,7 +21,7 @@ const golden_frame golden_frames[] = {
     {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0}, {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
     {"slice", "iso", TREE, 0, "clustered", 0, 0},       {"region", "iso", TREE, 0, "clustered", 0, 0},
-    {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
+    {"fit", "iso", TREE, 0, "clustered", 0, 0},         {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
@@ -32,6 +33,7 @@ static const struct {
 } looks[] = {
     {"slice", {.filter = {.slice = 'z', .slice_at = -600}}},
     {"region", {.filter = {.by_region = true, .region = {{-900, -900, -300}, {100, 0, 300}}}}},
+    {"fit", {.fit = FIT_POINTS, .filter = {.by_region = true, .region = {{-900, -900, -900}, {0, 0, 0}}}}},
     {"left_out",
      {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
 };
@@ -112,6 +114,7 @@ bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t
         return record_fail(error, "%s: no such camera or layer", frame->name);
     if (octree_game_create(&session, &game) != OCTREE_OK)
         return record_fail(error, "%s: the session cannot be played", frame->name);
+    fit_view(&v, octree_game_tree(game));
     for (uint64_t tick = 0; tick < frame->tick; tick++)
         octree_game_advance(game);
     const bool ok = draw_game(game, &v, drawn, renderer, size, error);
