@@ -40,6 +40,8 @@ static view random_view(uint64_t *random)
     v.filter.by_region = random_below(random, 2);
     if (v.filter.by_region)
         v.filter.region = random_box(random);
+    v.lod = random_below(random, 2) ? random_between(random, 0, 16384) : 0;
+    v.budget = random_below(random, UINT64_C(1) << 53);
     return v;
 }
 
@@ -47,6 +49,7 @@ static void assert_same_view(const view *a, const view *b)
 {
     assert_true(a->width == b->width && a->height == b->height && a->camera == b->camera && a->layers == b->layers);
     assert_true(a->coloring == b->coloring && a->fit == b->fit);
+    assert_true(a->lod == b->lod && a->budget == b->budget);
     assert_memory_equal(&a->focus, &b->focus, sizeof a->focus);
     const view_filter *f = &a->filter, *g = &b->filter;
     assert_true(f->slice == g->slice && f->slice_at == g->slice_at && f->leaves == g->leaves);
@@ -115,6 +118,8 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {VIEW ", \"region\": {\"min\": [0, 2, 0], \"max\": [1, 1, 1]}}", "region: min is above max on y"},
         {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [0, 0, 0]}}", "fit: the box has no extent"},
         {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [1e999, 0, 0]}}", "recording.json:"},
+        {VIEW ", \"lod\": -1}", "lod: expected pixels from 0 to 16384, found -1"},
+        {VIEW ", \"budget\": 0.5}", "budget: expected a whole number"},
         {VIEW ", \"theme\": \"day\"}", "theme: expected the theme that there is"},
     };
     const temp_folder *folder = *state;

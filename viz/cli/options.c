@@ -1,6 +1,8 @@
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "command.h"
+#include "draw.h"
 #include "number.h"
+#include "session_file.h"
 #include "view_file.h"
 
 #include <errno.h>
@@ -189,6 +191,19 @@ static bool read_region(const char *text, view *v)
     return v->filter.by_region = read_box("--region", text, &v->filter.region);
 }
 
+static bool read_lod(const char *text, view *v)
+{
+    const char *limit = text + strlen(text), *end = text;
+    if (number_parse(text, limit, &end, &v->lod) && end == limit && v->lod >= 0 && v->lod <= DRAW_MAX_SIDE)
+        return true;
+    return refuse("--lod takes pixels from 0 to %d, not \"%s\"", DRAW_MAX_SIDE, text);
+}
+
+static bool read_budget(const char *text, view *v)
+{
+    return read_count("--budget", text, 0, SESSION_ID_LIMIT - 1, &v->budget);
+}
+
 /* Each option, in the order in which they are read: its name, what stands for its value in the help (null: it takes
  * none), what reads it, and what it does; where there are names to choose from, these are listed behind that. */
 static const struct {
@@ -208,6 +223,9 @@ static const struct {
     {"depths", "A:B", read_depths, "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", NULL},
     {"leaves", NULL, read_leaves, "only leaves", NULL},
     {"region", "BOX", read_region, "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", NULL},
+    {"lod", "PX", read_lod, "leave out boxes below PX pixels whose ancestor is drawn (default 2; 0: none)", NULL},
+    {"budget", "N", read_budget,
+     "at most N boxes and N points a frame, which says what it leaves out (default 250000; 0: all)", NULL},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])

@@ -84,6 +84,9 @@ void view_write(json_writer *w, const view *v)
     write_layers(w, v);
     write_name(w, "color_by", view_coloring_name(v->coloring));
     write_filter(w, &v->filter);
+    write_key(w, "lod");
+    json_write_number(w, v->lod);
+    write_whole(w, "budget", v->budget);
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
@@ -211,6 +214,15 @@ static bool read_depths(session_reader *reader, json_t *value, const json_place 
     return true;
 }
 
+static bool read_lod(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const double pixels = json_real_value(value);
+    if (!json_is_real(value) || !(pixels >= 0 && pixels <= DRAW_MAX_SIDE))
+        return session_expected(reader, value, at, "pixels from 0 to 16384");
+    *(double *)into = pixels;
+    return true;
+}
+
 static bool read_truth(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     *(bool *)into = json_is_true(value);
@@ -230,6 +242,8 @@ static const session_member members[] = {
     {"depths", read_depths, offsetof(view, filter), false},
     {"leaves", read_truth, offsetof(view, filter.leaves), false},
     {"region", read_region, offsetof(view, filter), false},
+    {"lod", read_lod, offsetof(view, lod), false},
+    {"budget", session_read_id, offsetof(view, budget), false},
     {"theme", read_theme, 0, false},
     {"every", pass_over, 0, false},
     {0},

@@ -162,3 +162,33 @@ void camera_project(const camera *c, const double seen[3], double pixel[2])
     pixel[0] = c->middle[0] + seen[0] * scale;
     pixel[1] = c->middle[1] - seen[1] * scale;
 }
+
+/* Under parallel rays a box appears as large wherever it is. */
+static double parallel_box_pixels(const camera *c, const octree_box *box)
+{
+    double half[3];
+    for (int i = 0; i < 3; i++)
+        half[i] = (box->max[i] * c->scale - box->min[i] * c->scale) / c->size;
+    return 2 * c->zoom * fmax(half_span(c->right, half), half_span(c->up, half));
+}
+
+double camera_box_pixels(const camera *c, const octree_box *box)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    if (!c->perspective)
+        return parallel_box_pixels(c, box);
+    for (unsigned corner = 0; corner < 8; corner++) {
+        double position[3], seen[3], pixel[2];
+        for (int i = 0; i < 3; i++)
+            position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
+        camera_transform(c, position, seen);
+        if (!(seen[2] >= c->near))
+            return INFINITY;
+        camera_project(c, seen, pixel);
+        for (int i = 0; i < 2; i++) {
+            low[i] = fmin(low[i], pixel[i]);
+            high[i] = fmax(high[i], pixel[i]);
+        }
+    }
+    return fmax(high[0] - low[0], high[1] - low[1]);
+}

@@ -41,6 +41,10 @@ void camera_transform(const camera *c, const double position[3], double result[3
 /* Camera coordinates to pixels, y down. The depth must be at least `near` under perspective. */
 void camera_project(const camera *c, const double seen[3], double pixel[2]);
 
+/* How large a box appears: the longer side, in pixels, of the smallest upright rectangle around its picture. What lies
+ * in the box appears no larger. Infinite where some of it is nearer than `near`. */
+double camera_box_pixels(const camera *c, const octree_box *box);
+
 /* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */
 void camera_turn(double turns, double *cosine, double *sine);
 

@@ -28,18 +28,43 @@ static void write_filter(pen *p, const view_filter *f)
         write_region_axis(p, axis ? "" : "region", &f->region, axis);
 }
 
+/* A value that is not to be passed over. */
+static void write_warning(pen *p, const char *name, const char *value)
+{
+    write_text(p, MARGIN, ROLE_FAINT, 1, name);
+    write_text(p, VALUE, ROLE_WARNING, 1, value);
+    p->y += LINE;
+}
+
+static void write_budget(pen *p, const scene_tally *tally)
+{
+    char text[SCENE_TEXT];
+    if (tally->beyond) {
+        snprintf(text, sizeof text, tally->deepest < 0 ? "no nodes" : "nodes to depth %d", tally->deepest);
+        write_warning(p, "budget", text);
+    }
+    if (tally->thinned) {
+        snprintf(text, sizeof text, "1 point in %llu", (unsigned long long)tally->one_in);
+        write_warning(p, tally->beyond ? "" : "budget", text);
+    }
+}
+
 void write_left_out(pen *p)
 {
     const scene *s = p->scene;
-    const view_filter *f = &s->view.filter;
-    if (!filter_is_on(f))
+    const scene_tally *tally = &s->tally;
+    char lod[NUMBER_WORDS];
+    if (!filter_is_on(&s->view.filter) && !tally->small && !tally->beyond && !tally->thinned)
         return;
     p->y += LINE / 2;
-    write_filter(p, f);
+    write_filter(p, &s->view.filter);
     if (view_shows(&s->view, LAYER_NODES))
-        write_row(p, "shown", "%zu nodes", s->tally.nodes);
+        write_row(p, "shown", "%zu nodes", tally->nodes);
     if (view_shows(&s->view, LAYER_POINTS))
-        write_row(p, view_shows(&s->view, LAYER_NODES) ? "" : "shown", "%zu points", s->tally.points);
+        write_row(p, view_shows(&s->view, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
+    if (tally->small)
+        write_row(p, "lod", "%zu below %s px", tally->small, number_text(s->view.lod, 3, lod));
+    write_budget(p, tally);
 }
 
 /* One strip of a colour a step, from the ramp's first. */

@@ -72,6 +72,11 @@ typedef struct scene_panel {
 /* How much of a tree is in a scene. */
 typedef struct scene_tally {
     size_t nodes, points; /* shown */
+    size_t small;         /* nodes left out by the view's lod */
+    size_t beyond;        /* nodes left out by its budget: all below `deepest` */
+    int deepest;          /* the depth that nodes are shown to where the budget bites */
+    size_t thinned;       /* points left out by the budget */
+    uint64_t one_in;      /* what is left is about one point in so many */
 } scene_tally;
 
 typedef struct scene {

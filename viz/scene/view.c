@@ -12,7 +12,12 @@ static const char *const coloring_names[COLORING_COUNT] = {VIEW_COLORING_MAP(VIE
 
 view view_default(void)
 {
-    return (view){.width = 1280, .height = 720, .camera = CAMERA_ISO, .layers = VIEW_ALL_LAYERS};
+    return (view){.width = 1280,
+                  .height = 720,
+                  .camera = CAMERA_ISO,
+                  .layers = VIEW_ALL_LAYERS,
+                  .lod = 2,          /* smaller boxes are specks: at 100,000 points no difference is seen up to 4 */
+                  .budget = 250000}; /* some 300 MB and a few seconds a frame at worst */
 }
 
 int view_unit(const view *v)

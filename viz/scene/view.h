@@ -81,11 +81,14 @@ typedef struct view {
     unsigned layers;  /* bit 1 << view_layer */
     view_coloring coloring;
     view_filter filter;
+    double lod;      /* pixels: boxes of nodes that appear smaller are left out where an ancestor's is drawn; 0: none */
+    uint64_t budget; /* the most boxes of nodes, and the most points, of a frame; 0: any number */
 } view;
 
 #define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
 
-/* 1280 x 720, iso, all layers, nodes coloured by depth, nothing left out. */
+/* 1280 x 720, iso, all layers, nodes coloured by depth; nothing left out but boxes below two pixels and what is beyond a
+ * budget of 250,000. */
 view view_default(void);
 
 /* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6

@@ -22,6 +22,7 @@ const golden_frame golden_frames[] = {
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
     {"slice", "iso", TREE, 0, "clustered", 0, 0},       {"region", "iso", TREE, 0, "clustered", 0, 0},
     {"fit", "iso", TREE, 0, "clustered", 0, 0},         {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
+    {"lod", "orbit", TREE, 0, "clustered", 0, 0},       {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
@@ -34,6 +35,8 @@ static const struct {
     {"slice", {.filter = {.slice = 'z', .slice_at = -600}}},
     {"region", {.filter = {.by_region = true, .region = {{-900, -900, -300}, {100, 0, 300}}}}},
     {"fit", {.fit = FIT_POINTS, .filter = {.by_region = true, .region = {{-900, -900, -900}, {0, 0, 0}}}}},
+    {"lod", {.lod = 12}},
+    {"budget", {.budget = 100}},
     {"left_out",
      {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
 };
