@@ -204,6 +204,14 @@ static bool read_budget(const char *text, view *v)
     return read_count("--budget", text, 0, SESSION_ID_LIMIT - 1, &v->budget);
 }
 
+static bool read_aa(const char *text, view *v)
+{
+    if (text[0] == 0 || text[1] != 0 || !strchr("124", text[0]))
+        return refuse("--aa takes 1, 2 or 4 samples on each side of a pixel, not \"%s\"", text);
+    v->aa = text[0] - '0';
+    return true;
+}
+
 /* Each option, in the order in which they are read: its name, what stands for its value in the help (null: it takes
  * none), what reads it, and what it does; where there are names to choose from, these are listed behind that. */
 static const struct {
@@ -223,6 +231,7 @@ static const struct {
     {"depths", "A:B", read_depths, "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", NULL},
     {"leaves", NULL, read_leaves, "only leaves", NULL},
     {"region", "BOX", read_region, "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", NULL},
+    {"aa", "N", read_aa, "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", NULL},
     {"lod", "PX", read_lod, "leave out boxes below PX pixels whose ancestor is drawn (default 2; 0: none)", NULL},
     {"budget", "N", read_budget,
      "at most N boxes and N points a frame, which says what it leaves out (default 250000; 0: all)", NULL},

@@ -56,7 +56,7 @@ static bool begin(filming *f, const octree_session *session, record_error *error
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
     fit_view(&f->view, octree_game_tree(f->game));
     if (!check_view(&f->view, &session->tree, error) ||
-        !picture_open(&f->picture, f->view.width, f->view.height, error))
+        !picture_open(&f->picture, &f->view, error))
         return false;
     const renderer_info info = renderer_about(f->picture.renderer);
     if (!folder_prepare(options->folder, error))
@@ -189,7 +189,7 @@ bool film_tree(const octree *tree, const char *title, const view *wanted, const 
     view fitted = *wanted, *v = &fitted;
     const octree_def def = octree_definition(tree);
     fit_view(v, tree);
-    if (!check_view(v, &def, error) || !picture_open(&p, v->width, v->height, error))
+    if (!check_view(v, &def, error) || !picture_open(&p, v, error))
         return false;
     char digests[2][DIGEST_TEXT];
     bool ok = tree_scene_build(&s, v, tree, title) || record_fail(error, "there is no memory for a scene");

@@ -87,6 +87,7 @@ void view_write(json_writer *w, const view *v)
     write_key(w, "lod");
     json_write_number(w, v->lod);
     write_whole(w, "budget", v->budget);
+    write_whole(w, "aa", (uint64_t)view_samples(v));
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
@@ -223,6 +224,15 @@ static bool read_lod(session_reader *reader, json_t *value, const json_place *at
     return true;
 }
 
+static bool read_aa(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    uint64_t samples;
+    if (!session_read_whole(reader, value, at, 1, 4, &samples))
+        return false;
+    *(int *)into = (int)samples;
+    return samples != 3 || session_expected(reader, value, at, "1, 2 or 4");
+}
+
 static bool read_truth(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     *(bool *)into = json_is_true(value);
@@ -244,6 +254,7 @@ static const session_member members[] = {
     {"region", read_region, offsetof(view, filter), false},
     {"lod", read_lod, offsetof(view, lod), false},
     {"budget", session_read_id, offsetof(view, budget), false},
+    {"aa", read_aa, offsetof(view, aa), false},
     {"theme", read_theme, 0, false},
     {"every", pass_over, 0, false},
     {0},

@@ -1,7 +1,7 @@
 /* view_file.h - a view as members of recording.json.
  *
  *   "width": 1280, "height": 720, "camera": "iso", "layers": ["world", "nodes", ...], "color_by": "depth",
- *   "lod": 2, "budget": 250000,
+ *   "lod": 2, "budget": 250000, "aa": 1,
  * and, where something of the tree is left out,
  *   "slice": {"z": 100}, "depths": [2, 5], "leaves": true, "region": {"min": [x, y, z], "max": [x, y, z]}
  * and, where the camera frames a box and not the world,

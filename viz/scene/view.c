@@ -16,6 +16,7 @@ view view_default(void)
                   .height = 720,
                   .camera = CAMERA_ISO,
                   .layers = VIEW_ALL_LAYERS,
+                  .aa = 1,
                   .lod = 2,          /* smaller boxes are specks: at 100,000 points no difference is seen up to 4 */
                   .budget = 250000}; /* some 300 MB and a few seconds a frame at worst */
 }

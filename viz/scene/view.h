@@ -82,18 +82,25 @@ typedef struct view {
     view_coloring coloring;
     view_filter filter;
     double lod;      /* pixels: boxes of nodes that appear smaller are left out where an ancestor's is drawn; 0: none */
+    int aa;          /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
     uint64_t budget; /* the most boxes of nodes, and the most points, of a frame; 0: any number */
 } view;
 
 #define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
 
-/* 1280 x 720, iso, all layers, nodes coloured by depth; nothing left out but boxes below two pixels and what is beyond a
- * budget of 250,000. */
+/* 1280 x 720, iso, all layers, nodes coloured by depth; nothing left out but boxes below two pixels and what is beyond
+ * a budget of 250,000. */
 view view_default(void);
 
 /* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6
  * at 2160; a narrow picture counts as its 16:9 part. */
 int view_unit(const view *v);
+
+/* Samples a pixel on each axis. */
+static inline int view_samples(const view *v)
+{
+    return v->aa > 1 ? v->aa : 1;
+}
 
 static inline bool view_shows(const view *v, view_layer layer)
 {
