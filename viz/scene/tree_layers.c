@@ -1,5 +1,6 @@
 /* tree_layers.c - see tree_layers.h: where a scene begins, and its world. */
 #include "tree_layers.h"
+#include "axes.h"
 
 #include <string.h>
 
@@ -31,11 +32,5 @@ void add_world(scene *s, const octree_box *world)
     const scene_look look = {.layer = LAYER_WORLD, .role = ROLE_WORLD, .width = 1};
     scene_add_box(s, (scene_box){.id = 0, .box = *world, .look = look});
     add_filter(s, world);
-    for (int i = 0; i < 3; i++) {
-        scene_label letter = {.id = (uint64_t)i, .in_world = true, .look = look, .text = {(char)('x' + i), 0}};
-        letter.look.role = ROLE_FAINT;
-        memcpy(letter.at, world->min, sizeof letter.at);
-        letter.at[i] = world->max[i];
-        scene_add_label(s, letter);
-    }
+    add_axes(s, world);
 }
