@@ -40,6 +40,7 @@ static view random_view(uint64_t *random)
     v.filter.by_region = random_below(random, 2);
     if (v.filter.by_region)
         v.filter.region = random_box(random);
+    v.labels = random_below(random, 2);
     v.aa = 1 << random_below(random, 3);
     v.lod = random_below(random, 2) ? random_between(random, 0, 16384) : 0;
     v.budget = random_below(random, UINT64_C(1) << 53);
@@ -50,7 +51,7 @@ static void assert_same_view(const view *a, const view *b)
 {
     assert_true(a->width == b->width && a->height == b->height && a->camera == b->camera && a->layers == b->layers);
     assert_true(a->coloring == b->coloring && a->fit == b->fit);
-    assert_true(a->lod == b->lod && a->budget == b->budget && view_samples(a) == view_samples(b));
+    assert_true(a->labels == b->labels && a->lod == b->lod && a->budget == b->budget && view_samples(a) == view_samples(b));
     assert_memory_equal(&a->focus, &b->focus, sizeof a->focus);
     const view_filter *f = &a->filter, *g = &b->filter;
     assert_true(f->slice == g->slice && f->slice_at == g->slice_at && f->leaves == g->leaves);

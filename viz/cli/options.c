@@ -186,6 +186,12 @@ static bool read_leaves(const char *text, view *v)
     return v->filter.leaves = true;
 }
 
+static bool read_labels(const char *text, view *v)
+{
+    (void)text;
+    return v->labels = true;
+}
+
 static bool read_region(const char *text, view *v)
 {
     return v->filter.by_region = read_box("--region", text, &v->filter.region);
@@ -231,6 +237,7 @@ static const struct {
     {"depths", "A:B", read_depths, "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", NULL},
     {"leaves", NULL, read_leaves, "only leaves", NULL},
     {"region", "BOX", read_region, "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", NULL},
+    {"labels", NULL, read_labels, "write paths such as 0/3/7 on nodes, where there is room", NULL},
     {"aa", "N", read_aa, "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", NULL},
     {"lod", "PX", read_lod, "leave out boxes below PX pixels whose ancestor is drawn (default 2; 0: none)", NULL},
     {"budget", "N", read_budget,

@@ -42,7 +42,7 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
     memcpy(text, label->text, sizeof text);
     const int count = stb_easy_font_print(0, 0, text, NULL, corners, sizeof corners);
     const int pixel = QUAD_SUBPIXELS * view_samples(&s->view), scale = s->unit * label->look.width * pixel;
-    quad q = {.color = theme_index(label->look.role, 0), .order = quad_order(label->look.layer, 0, 0)};
+    quad q = {.color = theme_index(label->look.role, 0), .order = quad_order_of_text(label->look.layer)};
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < 4; j++) {
             q.x[j] = left * pixel + (int)corners[4 * i + j].x * scale;

@@ -161,6 +161,6 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
 
 void stroke_panel(quad_list *list, const scene_panel *panel, int samples)
 {
-    const quad q = {.color = theme_index(panel->look.role, 0), .order = quad_order(panel->look.layer, 0, 0)};
+    const quad q = {.color = theme_index(panel->look.role, 0), .order = quad_order_of_text(panel->look.layer)};
     add_rectangle(list, q, panel->x * samples, panel->y * samples, panel->width * samples, panel->height * samples);
 }

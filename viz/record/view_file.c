@@ -84,6 +84,10 @@ void view_write(json_writer *w, const view *v)
     write_layers(w, v);
     write_name(w, "color_by", view_coloring_name(v->coloring));
     write_filter(w, &v->filter);
+    if (v->labels) {
+        write_key(w, "labels");
+        json_write_bool(w, true);
+    }
     write_key(w, "lod");
     json_write_number(w, v->lod);
     write_whole(w, "budget", v->budget);
@@ -252,6 +256,7 @@ static const session_member members[] = {
     {"depths", read_depths, offsetof(view, filter), false},
     {"leaves", read_truth, offsetof(view, filter.leaves), false},
     {"region", read_region, offsetof(view, filter), false},
+    {"labels", read_truth, offsetof(view, labels), false},
     {"lod", read_lod, offsetof(view, lod), false},
     {"budget", session_read_id, offsetof(view, budget), false},
     {"aa", read_aa, offsetof(view, aa), false},

@@ -53,8 +53,9 @@ void write_left_out(pen *p)
 {
     const scene *s = p->scene;
     const scene_tally *tally = &s->tally;
+    const bool unlabelled = s->view.labels && tally->labels < tally->nodes;
     char lod[NUMBER_WORDS];
-    if (!filter_is_on(&s->view.filter) && !tally->small && !tally->beyond && !tally->thinned)
+    if (!filter_is_on(&s->view.filter) && !tally->small && !tally->beyond && !tally->thinned && !unlabelled)
         return;
     p->y += LINE / 2;
     write_filter(p, &s->view.filter);
@@ -65,6 +66,8 @@ void write_left_out(pen *p)
     if (tally->small)
         write_row(p, "lod", "%zu below %s px", tally->small, number_text(s->view.lod, 3, lod));
     write_budget(p, tally);
+    if (unlabelled)
+        write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
 }
 
 /* One strip of a colour a step, from the ramp's first. */

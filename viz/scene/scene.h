@@ -72,6 +72,7 @@ typedef struct scene_panel {
 /* How much of a tree is in a scene. */
 typedef struct scene_tally {
     size_t nodes, points; /* shown */
+    size_t labels;        /* nodes with their path on them */
     size_t small;         /* nodes left out by the view's lod */
     size_t beyond;        /* nodes left out by its budget: all below `deepest` */
     int deepest;          /* the depth that nodes are shown to where the budget bites */

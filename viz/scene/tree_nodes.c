@@ -2,6 +2,7 @@
  */
 #include "camera.h"
 #include "filter.h"
+#include "node_labels.h"
 #include "octree/digest.h"
 #include "tree_layers.h"
 
@@ -169,4 +170,5 @@ void add_tree(scene *s, const octree *tree, size_t expected)
     octree_walk(tree, add_node, &w);
     s->tally.deepest = w.deepest;
     s->tally.one_in = w.sieve + 1;
+    add_node_labels(s);
 }

@@ -81,6 +81,7 @@ typedef struct view {
     unsigned layers;  /* bit 1 << view_layer */
     view_coloring coloring;
     view_filter filter;
+    bool labels;     /* the paths of nodes on their boxes */
     double lod;      /* pixels: boxes of nodes that appear smaller are left out where an ancestor's is drawn; 0: none */
     int aa;          /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
     uint64_t budget; /* the most boxes of nodes, and the most points, of a frame; 0: any number */

@@ -13,26 +13,17 @@
 #define TREE "world,nodes,points"
 
 const golden_frame golden_frames[] = {
-    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},
-    {"first_split", "iso", SHAPES, 0, "three", 0, 0},
-    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},
-    {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
-    {"collision", "follow", SHAPES, 193, NULL, 0, 0},
-    {"refused_step", "iso", "all", 74, NULL, 0, 0},
-    {"full_leaf", "follow", "all", 214, NULL, 0, 0},
-    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
-    {"range", "side", SHAPES, 219, NULL, 0, 0},
-    {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
-    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0},
-    {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
+    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},        {"first_split", "iso", SHAPES, 0, "three", 0, 0},
+    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},  {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
+    {"collision", "follow", SHAPES, 193, NULL, 0, 0},   {"refused_step", "iso", "all", 74, NULL, 0, 0},
+    {"full_leaf", "follow", "all", 214, NULL, 0, 0},    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
+    {"range", "side", SHAPES, 219, NULL, 0, 0},         {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
+    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0}, {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
-    {"slice", "iso", TREE, 0, "clustered", 0, 0},
-    {"region", "iso", TREE, 0, "clustered", 0, 0},
-    {"fit", "iso", TREE, 0, "clustered", 0, 0},
-    {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
-    {"aa", "orbit", SHAPES, 219, NULL, 160, 90},
-    {"lod", "orbit", TREE, 0, "clustered", 0, 0},
-    {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
+    {"slice", "iso", TREE, 0, "clustered", 0, 0},       {"region", "iso", TREE, 0, "clustered", 0, 0},
+    {"fit", "iso", TREE, 0, "clustered", 0, 0},         {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
+    {"labels", "iso", TREE, 0, NULL, 640, 360},         {"aa", "orbit", SHAPES, 219, NULL, 160, 90},
+    {"lod", "orbit", TREE, 0, "clustered", 0, 0},       {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
@@ -45,6 +36,7 @@ static const struct {
     {"slice", {.filter = {.slice = 'z', .slice_at = -600}}},
     {"region", {.filter = {.by_region = true, .region = {{-900, -900, -300}, {100, 0, 300}}}}},
     {"fit", {.fit = FIT_POINTS, .filter = {.by_region = true, .region = {{-900, -900, -900}, {0, 0, 0}}}}},
+    {"labels", {.labels = true}},
     {"aa", {.aa = 4}},
     {"lod", {.lod = 12}},
     {"budget", {.budget = 100}},
