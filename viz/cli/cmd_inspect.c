@@ -123,12 +123,15 @@ static const char *base_name(const char *path)
 static int report(const arguments *a, const inspection *made)
 {
     record_error error;
+    film_summary drawn = {0};
     octree_node node;
     const char *name = base_name(a->cloud);
     if (a->node && !inspect_find_node(made, a->node, &node, &error))
         return trouble("%s", error.text);
-    if (a->picture && !film_tree(made->tree, name, &a->view, a->picture, &error))
+    if (a->picture && !film_tree(made->tree, name, &a->view, a->picture, &drawn, &error))
         return trouble("%s", error.text);
+    if (drawn.over_budget)
+        fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);
     if (a->nodes && !inspect_write_nodes(made, a->nodes, &error))
         return trouble("%s", error.text);
     if (a->node)

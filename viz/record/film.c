@@ -55,8 +55,7 @@ static bool begin(filming *f, const octree_session *session, record_error *error
     if (status != OCTREE_OK)
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
     fit_view(&f->view, octree_game_tree(f->game));
-    if (!check_view(&f->view, &session->tree, error) ||
-        !picture_open(&f->picture, &f->view, error))
+    if (!check_view(&f->view, &session->tree, error) || !picture_open(&f->picture, &f->view, error))
         return false;
     const renderer_info info = renderer_about(f->picture.renderer);
     if (!folder_prepare(options->folder, error))
@@ -128,6 +127,13 @@ static bool write_line(filming *f, record_error *error)
     return true;
 }
 
+static void count_frame(film_summary *summary, const renderer *r, const scene_tally *tally)
+{
+    summary->frames++;
+    summary->left_out += renderer_left_out(r);
+    summary->over_budget += tally->beyond || tally->thinned;
+}
+
 static bool film_tick(filming *f, film_summary *summary, record_error *error)
 {
     const octree_tick *tick = octree_game_tick(f->game);
@@ -139,8 +145,8 @@ static bool film_tick(filming *f, film_summary *summary, record_error *error)
     if ((filmed && !draw_frame(f, name, error)) || !write_line(f, error))
         return false;
     summary->ticks++;
-    summary->frames += filmed;
-    summary->left_out += filmed ? renderer_left_out(f->picture.renderer) : 0;
+    if (filmed)
+        count_frame(summary, f->picture.renderer, &f->scene.tally);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         summary->events[i] += tick->events >> i & 1;
     return true;
@@ -182,13 +188,15 @@ bool film_session(const octree_session *session, const film_options *options, fi
     return end(&f, ok, error);
 }
 
-bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, record_error *error)
+bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, film_summary *summary,
+               record_error *error)
 {
     picture p;
     scene s = {0};
     view fitted = *wanted, *v = &fitted;
     const octree_def def = octree_definition(tree);
     fit_view(v, tree);
+    *summary = (film_summary){0};
     if (!check_view(v, &def, error) || !picture_open(&p, v, error))
         return false;
     char digests[2][DIGEST_TEXT];
@@ -200,6 +208,7 @@ bool film_tree(const octree *tree, const char *title, const view *wanted, const 
             {"octreel-pixels", digest_print(image_digest(&p.frame), digests[1])},
         };
         ok = picture_write(&p, path, texts, sizeof texts / sizeof texts[0], error);
+        count_frame(summary, p.renderer, &s.tally);
     }
     scene_release(&s);
     picture_close(&p);

@@ -101,8 +101,8 @@ static void add_ticks(axes *a, int axis)
     if (step == 0)
         return;
     const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
-    for (double i = first; i <= last; i++)
-        add_tick(a, axis, i * step, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
+    for (double i = first; i <= last; i++) /* + 0.0: no minus zero */
+        add_tick(a, axis, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
 /* The letter at the end of an axis. Numbers keep away from it. */
