@@ -158,6 +158,24 @@ static void without_text_or_world_there_are_none(void **state)
     }
 }
 
+static void an_axis_that_is_seen_end_on_has_no_numbers(void **state)
+{
+    (void)state;
+    static const struct {
+        view_camera camera;
+        uint64_t axis;
+    } rows[] = {{CAMERA_TOP, 2}, {CAMERA_FRONT, 1}, {CAMERA_SIDE, 0}};
+    const octree_box world = cube(-1000, 1000);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const view v = view_of(1280, 720, rows[i].camera, VIEW_ALL_LAYERS);
+        scene s = scene_of_world(&world, &v);
+        for (size_t j = 0; j < s.segments.count; j++)
+            assert_true(s.segments.items[j].id / FIRST_ID != rows[i].axis + 1);
+        assert_true(count_numbers(&s) >= 6);
+        scene_release(&s);
+    }
+}
+
 /* Numbers of an orbit do not come and go with another distance between them. */
 static void an_orbit_keeps_its_ticks(void **state)
 {
@@ -210,6 +228,7 @@ int main(void)
         cmocka_unit_test(numbers_are_round_and_stand_at_their_ticks_and_apart),
         cmocka_unit_test(a_fitted_box_has_the_axes_and_not_the_world),
         cmocka_unit_test(without_text_or_world_there_are_none),
+        cmocka_unit_test(an_axis_that_is_seen_end_on_has_no_numbers),
         cmocka_unit_test(an_orbit_keeps_its_ticks),
         cmocka_unit_test(worlds_without_room_for_numbers_have_none),
     };

@@ -10,6 +10,7 @@
 #define TICK_SPACE 44     /* units of the picture that a number takes at least */
 #define MOST_TICKS 10     /* of one axis, about */
 #define TICK_LENGTH 0.012 /* of the box's longest side */
+#define END_ON 0.1        /* of its length seen from the side */
 #define DIGITS 9          /* of a number */
 #define FIRST_ID 1000     /* of the first axis's ticks */
 
@@ -95,10 +96,22 @@ static void add_tick(axes *a, int axis, double at, uint64_t id)
         scene_add_label(s, number);
 }
 
+/* An axis that is seen end on would have all of its numbers at one place. */
+static bool is_end_on(const axes *a, int axis)
+{
+    double end[3], pixels[2][2];
+    memcpy(end, a->box->min, sizeof end);
+    end[axis] = a->box->max[axis];
+    if (!text_place(a->scene, a->box->min, pixels[0]) || !text_place(a->scene, end, pixels[1]))
+        return false; /* the camera is beside it */
+    const double x = pixels[1][0] - pixels[0][0], y = pixels[1][1] - pixels[0][1];
+    return sqrt(x * x + y * y) < side_length(&a->scene->camera, axis) * END_ON;
+}
+
 static void add_ticks(axes *a, int axis)
 {
     const double step = step_of(a, axis);
-    if (step == 0)
+    if (step == 0 || is_end_on(a, axis))
         return;
     const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
     for (double i = first; i <= last; i++) /* + 0.0: no minus zero */
