@@ -2,12 +2,6 @@
 #include "batch.h"
 #include "float_mode.h"
 
-#include <string.h>
-
-#define DIGIT_BITS 11
-#define DIGITS (1u << DIGIT_BITS)
-#define PASSES 6 /* 63 bits */
-
 static void *take_array(octree *tree, size_t count, size_t size)
 {
     return count <= SIZE_MAX / size ? arena_take(&tree->memory, (count ? count : 1) * size) : NULL;
@@ -18,48 +12,24 @@ static void give_array(octree *tree, void *array, size_t count, size_t size)
     arena_give(&tree->memory, array, (count ? count : 1) * size);
 }
 
-/* One pass of a radix sort, least digit first: stable. False when all items have the same digit. */
-static bool sort_pass(const batch_item *from, batch_item *to, size_t count, unsigned shift)
-{
-    size_t starts[DIGITS] = {0};
-    for (size_t i = 0; i < count; i++)
-        starts[from[i].code >> shift & (DIGITS - 1)]++;
-    if (count == 0 || starts[from[0].code >> shift & (DIGITS - 1)] == count)
-        return false;
-    size_t next = 0;
-    for (size_t digit = 0; digit < DIGITS; digit++) {
-        const size_t here = starts[digit];
-        starts[digit] = next;
-        next += here;
-    }
-    for (size_t i = 0; i < count; i++)
-        to[starts[from[i].code >> shift & (DIGITS - 1)]++] = from[i];
-    return true;
-}
-
 static bool sort_items(batch *b)
 {
-    batch_item *other = take_array(b->tree, b->room, sizeof *other);
-    if (!other)
+    morton_item *spare = take_array(b->tree, b->room, sizeof *spare);
+    if (!spare)
         return false;
-    for (unsigned pass = 0; pass < PASSES; pass++) {
-        if (sort_pass(b->items, other, b->count, pass * DIGIT_BITS)) {
-            batch_item *sorted = other;
-            other = b->items;
-            b->items = sorted;
-        }
-    }
-    give_array(b->tree, other, b->room, sizeof *other);
+    morton_sort(b->items, spare, b->count);
+    give_array(b->tree, spare, b->room, sizeof *spare);
     return true;
 }
 
 static void collect(batch *b)
 {
+    const octree_box world = b->tree->def.world;
     for (size_t i = 0; i < b->point_count; i++) {
-        b->statuses[i] = check_position(b->tree, b->points[i].position);
+        const double *position = b->points[i].position;
+        b->statuses[i] = box_contains(&world, position) ? OCTREE_OK : check_position(b->tree, position);
         if (b->statuses[i] == OCTREE_OK)
-            b->items[b->count++] =
-                (batch_item){morton_code(b->tree->axes, b->points[i].position), &b->points[i], (uint32_t)i};
+            b->items[b->count++] = (morton_item){morton_code(b->tree->axes, position), (uint32_t)i, false};
     }
 }
 
@@ -68,7 +38,7 @@ octree_status batch_begin(batch *b, octree *tree, const octree_point *points, si
     *b = (batch){.tree = tree, .points = points, .statuses = statuses, .point_count = count, .room = count};
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    if (count >= BATCH_STORED)
+    if (count >= UINT32_MAX)
         return OCTREE_TOO_MANY;
     b->items = take_array(tree, count, sizeof *b->items);
     if (!statuses) {
@@ -96,7 +66,7 @@ size_t batch_done(const batch *b)
     return done;
 }
 
-size_t batch_share(const batch_item *items, size_t count, unsigned depth)
+size_t batch_share(const morton_item *items, size_t count, unsigned depth)
 {
     const unsigned octant = morton_octant(items[0].code, depth);
     size_t low = 1, high = count; /* the first that lies elsewhere is in [low, high] */

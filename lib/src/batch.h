@@ -2,23 +2,17 @@
 #ifndef OCTREE_BATCH_H
 #define OCTREE_BATCH_H
 
+#include "morton_sort.h"
 #include "tree.h"
-
-#define BATCH_STORED UINT32_MAX
-
-typedef struct batch_item {
-    uint64_t code;
-    const octree_point *point;
-    uint32_t place; /* in the caller's array; BATCH_STORED for a point that was in the tree before */
-} batch_item;
 
 typedef struct batch {
     octree *tree;
     const octree_point *points;
-    octree_status *statuses; /* the caller's, or of its own: one a point */
+    const octree_point *stored; /* of the leaf whose points are among the items, when there is one */
+    octree_status *statuses;    /* the caller's, or of its own: one a point */
     bool owns_statuses;
     size_t point_count;
-    batch_item *items; /* those that lie in the world, by code, then by place */
+    morton_item *items; /* those that lie in the world, by code, then by place */
     size_t count, room;
 } batch;
 
@@ -26,9 +20,14 @@ typedef struct batch {
 octree_status batch_begin(batch *b, octree *tree, const octree_point *points, size_t count, octree_status *statuses);
 void batch_end(batch *b);
 
-static inline void batch_set(const batch *b, const batch_item *item, octree_status status)
+static inline const octree_point *batch_point(const batch *b, const morton_item *item)
 {
-    if (item->place != BATCH_STORED)
+    return (item->stored ? b->stored : b->points) + item->place;
+}
+
+static inline void batch_set(const batch *b, const morton_item *item, octree_status status)
+{
+    if (!item->stored)
         b->statuses[item->place] = status;
 }
 
@@ -36,6 +35,6 @@ static inline void batch_set(const batch *b, const batch_item *item, octree_stat
 size_t batch_done(const batch *b);
 
 /* How many of the sorted items lie in an octant of a cell of this depth that begins with the first of them. */
-size_t batch_share(const batch_item *items, size_t count, unsigned depth);
+size_t batch_share(const morton_item *items, size_t count, unsigned depth);
 
 #endif

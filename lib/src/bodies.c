@@ -65,7 +65,7 @@ bool bodies_add(bodies *b, const octree_body *body, uint64_t tick)
     moving_body *added = list_append(b->memory, &b->items, sizeof *added);
     if (!added)
         return false;
-    *added = (moving_body){.id = body->id, .since = tick};
+    *added = (moving_body){.id = body->id, .since = tick, .moved = UINT64_MAX};
     memcpy(added->position, body->position, sizeof added->position);
     memcpy(added->origin, body->position, sizeof added->origin);
     memcpy(added->velocity, body->velocity, sizeof added->velocity);
@@ -98,6 +98,14 @@ void bodies_remove(bodies *b, moving_body *body)
         *body = *last;
     }
     b->items.count--;
+}
+
+void body_store(moving_body *body, const double to[3], uint64_t tick)
+{
+    if (body->moved != tick)
+        memcpy(body->before, body->position, sizeof body->before);
+    body->moved = tick;
+    memcpy(body->position, to, sizeof body->position);
 }
 
 /* Fold a straight path into an interval: a triangle wave of period 2 * (max - min). Quarters where that overflows; a

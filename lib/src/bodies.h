@@ -11,7 +11,9 @@ typedef struct moving_body {
     double position[3]; /* as stored in the tree */
     double origin[3];
     double velocity[3];
-    uint64_t since; /* the tick of the origin */
+    uint64_t since;   /* the tick of the origin */
+    uint64_t moved;   /* the last tick that moved it; UINT64_MAX before there is one */
+    double before[3]; /* where it was stored before that tick */
 } moving_body;
 
 typedef struct bodies {
@@ -37,6 +39,9 @@ bool bodies_add(bodies *b, const octree_body *body, uint64_t tick);
 
 /* Take a body out; the last one takes its place. */
 void bodies_remove(bodies *b, moving_body *body);
+
+/* Note that a body is stored elsewhere from this tick on. */
+void body_store(moving_body *body, const double to[3], uint64_t tick);
 
 /* Where the body is at a tick: reflected at the world's faces as often as it must be. */
 void body_position(const moving_body *body, const octree_box *world, uint64_t tick, double position[3]);

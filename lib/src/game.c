@@ -3,9 +3,7 @@
 #include "float_mode.h"
 #include "game_parts.h"
 #include "node_set.h"
-#include "tree.h"
 
-#include <math.h>
 #include <string.h>
 
 static octree_status load_bodies(octree_game *game)
@@ -19,48 +17,10 @@ static octree_status load_bodies(octree_game *game)
     return OCTREE_OK;
 }
 
-static octree_status check_player(const octree_player *player, const octree *tree)
-{
-    if (!isfinite(player->step) || !isfinite(player->box_size))
-        return OCTREE_NOT_FINITE;
-    if (player->step < 0 || player->box_size < 0)
-        return OCTREE_BAD_SIZE;
-    return check_position(tree, player->position);
-}
-
-static octree_status check_timing(const octree_session *session)
-{
-    for (size_t i = 0; i < session->edit_count; i++) {
-        if ((unsigned)session->edits[i].kind > OCTREE_EDIT_MOVE)
-            return OCTREE_BAD_OPTION;
-        if (session->edits[i].tick == 0 || (i > 0 && session->edits[i].tick < session->edits[i - 1].tick))
-            return OCTREE_BAD_ORDER;
-    }
-    for (size_t i = 0; i < session->query_count; i++) {
-        if ((unsigned)session->queries[i].kind > OCTREE_QUERY_NEAREST)
-            return OCTREE_BAD_OPTION;
-        if (i > 0 && session->queries[i].tick < session->queries[i - 1].tick)
-            return OCTREE_BAD_ORDER;
-    }
-    return OCTREE_OK;
-}
-
-static octree_status check_keys(const octree_session *session)
-{
-    for (const char *key = session->keys; key && *key && *key != 'q'; key++)
-        if (!game_is_key(*key))
-            return OCTREE_BAD_KEY;
-    return OCTREE_OK;
-}
-
 static octree_status start(octree_game *game)
 {
     const octree_session *session = game->session;
-    octree_status status = check_player(&session->player, game->tree);
-    if (status == OCTREE_OK)
-        status = check_keys(session);
-    if (status == OCTREE_OK)
-        status = check_timing(session);
+    octree_status status = game_check_session(session, game->tree);
     if (status == OCTREE_OK)
         status = octree_insert(game->tree, session->player.position, session->player.id);
     memcpy(game->tick.player, session->player.position, sizeof game->tick.player);
@@ -107,7 +67,9 @@ void octree_game_destroy(octree_game *game)
     bodies_release(&game->bodies);
     arena memory = game->memory;
     list_release(&memory, &game->hits, sizeof(octree_point));
+    list_release(&memory, &game->hit_from, sizeof(double[3]));
     list_release(&memory, &game->found, sizeof(octree_point));
+    list_release(&memory, &game->near, sizeof(octree_neighbor));
     list_release(&memory, &game->refusals, sizeof(octree_refusal));
     list_release(&memory, &game->answers, sizeof(octree_answer));
     list_release(&memory, &game->inner, sizeof(octree_address));
@@ -119,7 +81,8 @@ void octree_game_destroy(octree_game *game)
 
 static void begin_tick(octree_game *game, char key)
 {
-    game->hits.count = game->found.count = game->refusals.count = game->answers.count = 0;
+    game->hits.count = game->found.count = game->near.count = 0;
+    game->refusals.count = game->answers.count = 0;
     game->splits.count = game->merges.count = 0;
     game->tick.number++;
     game->tick.key = key;

@@ -65,7 +65,7 @@ static octree_status move_body(octree_game *game, const octree_edit *edit)
     if (body)
         status = octree_move(game->tree, body->position, body->id, edit->body.position);
     if (status == OCTREE_OK) {
-        memcpy(body->position, edit->body.position, sizeof body->position);
+        body_store(body, edit->body.position, game->tick.number);
         memcpy(body->origin, edit->body.position, sizeof body->origin);
         body->since = origin_tick(game);
     }
@@ -105,7 +105,7 @@ octree_status game_move_bodies(octree_game *game)
             continue;
         const octree_status status = octree_move(game->tree, body->position, body->id, to);
         if (status == OCTREE_OK)
-            memcpy(body->position, to, sizeof to);
+            body_store(body, to, game->tick.number);
         if (note_unless_done(game, body->id, status, to) == OCTREE_NO_MEMORY)
             return OCTREE_NO_MEMORY;
     }

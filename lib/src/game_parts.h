@@ -17,13 +17,18 @@ struct octree_game {
     bool has_set;
     octree_tick tick;
     list hits;                                /* octree_point */
-    list found;                               /* octree_point: the range results of all answers, one after the other */
+    list hit_from;                            /* double[3]: of each hit, when swept */
+    list found;                               /* octree_point: those of all answers, one after the other */
+    list near;                                /* octree_neighbor: the same */
     list refusals;                            /* octree_refusal */
     list answers;                             /* octree_answer */
     list inner, inner_before, splits, merges; /* octree_address */
 };
 
 bool game_is_key(char key);
+
+/* OK, or what octree_game_create says of a session whose tree could be made. */
+octree_status game_check_session(const octree_session *session, const octree *tree);
 
 /* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
 octree_status game_add_body(octree_game *game, const octree_body *body);
@@ -40,8 +45,8 @@ octree_status game_finish_tick(octree_game *game);
 /* Note that the tree did not take a body. NO_MEMORY, or OK. */
 octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
-/* Collect what lies within the player's box about a centre into `hits`, by id. */
-octree_status game_collide(octree_game *game, const double center[3]);
+/* Collect what the player's box meets into `hits`, by id: about the end of its step or, swept, on the way there. */
+octree_status game_collide(octree_game *game, const double to[3]);
 
 /* A visitor that appends points to a list of octree_point; it stops, and says so, when there is no memory. */
 typedef struct point_collector {

@@ -32,26 +32,18 @@ bool game_is_key(char key)
     return key_index(key) < KEY_COUNT;
 }
 
-octree_status game_collide(octree_game *game, const double center[3])
-{
-    const octree_player *player = &game->session->player;
-    octree_point self = {.id = player->id};
-    memcpy(self.position, game->tick.player, sizeof self.position);
-    memcpy(game->tick.attempt, center, sizeof game->tick.attempt);
-    point_collector hits = {&game->memory, &game->hits, false};
-    const octree_status status =
-        octree_collide(game->tree, game->tick.attempt, player->box_size, &self, collect_point, &hits);
-    game_sort_points(game->hits.items, game->hits.count);
-    if (game->hits.count)
-        game->tick.events |= OCTREE_EVENT_COLLIDED;
-    return hits.failed ? OCTREE_NO_MEMORY : status;
-}
-
 /* The player's place after a net number of steps on each axis. */
 static void place_after(const octree_player *player, const int64_t steps[3], double position[3])
 {
     for (int i = 0; i < 3; i++)
         position[i] = player->position[i] + (double)steps[i] * player->step;
+}
+
+/* The player stays. Swept, the test is made anew for it as for one that waits: what comes its way is not missed. */
+static octree_status refuse_step(octree_game *game, octree_status why, const double to[3])
+{
+    const octree_status status = game_note_refusal(game, game->session->player.id, why, to);
+    return status == OCTREE_OK && game->session->player.sweep ? game_collide(game, game->tick.player) : status;
 }
 
 /* A step whose end is inside the world and free of hits: it can still meet a full leaf. */
@@ -62,7 +54,7 @@ static octree_status make_step(octree_game *game, const int64_t steps[3], const 
     if (status == OCTREE_NO_MEMORY)
         return status;
     if (status != OCTREE_OK)
-        return game_note_refusal(game, id, status, to);
+        return refuse_step(game, status, to);
     memcpy(game->steps, steps, sizeof game->steps);
     memcpy(game->tick.player, to, sizeof game->tick.player);
     game->tick.events |= OCTREE_EVENT_MOVED;

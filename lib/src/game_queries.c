@@ -4,16 +4,41 @@
 
 #include <string.h>
 
-static octree_status answer_range(octree_game *game, const octree_query *query, octree_answer *answer)
+const char *octree_query_name(octree_query_kind kind)
 {
-    answer->box = query->box;
+    static const char *const names[OCTREE_QUERY_KINDS] = {"range", "nearest", "knearest", "radius"};
+    return (unsigned)kind < OCTREE_QUERY_KINDS ? names[kind] : NULL;
+}
+
+/* The answers of boxes and balls are points, those of the others neighbours. */
+static bool finds_points(octree_query_kind kind)
+{
+    return kind == OCTREE_QUERY_RANGE || kind == OCTREE_QUERY_RADIUS;
+}
+
+/* Begin with what is asked, in world coordinates. */
+static octree_answer pose(const octree_query *query, const double player[3])
+{
+    octree_answer answer = {.kind = query->kind, .box = query->box, .k = query->k, .radius = query->radius};
+    if (query->kind == OCTREE_QUERY_NEAREST)
+        answer.k = 1;
+    memcpy(answer.target, query->at_player ? player : query->target, sizeof answer.target);
     for (int i = 0; query->at_player && i < 3; i++) {
-        answer->box.min[i] += game->tick.player[i];
-        answer->box.max[i] += game->tick.player[i];
+        answer.box.min[i] += player[i];
+        answer.box.max[i] += player[i];
     }
+    return answer;
+}
+
+/* The points in a box or a ball. */
+static octree_status find_points(octree_game *game, octree_answer *answer)
+{
     const size_t before = game->found.count;
     point_collector found = {&game->memory, &game->found, false};
-    octree_status status = octree_range(game->tree, &answer->box, collect_point, &found);
+    const octree_status status =
+        answer->kind == OCTREE_QUERY_RANGE
+            ? octree_range(game->tree, &answer->box, collect_point, &found)
+            : octree_radius(game->tree, answer->target, answer->radius, NULL, collect_point, &found);
     answer->count = game->found.count - before;
     if (status != OCTREE_OK || found.failed)
         return found.failed ? OCTREE_NO_MEMORY : status;
@@ -22,14 +47,19 @@ static octree_status answer_range(octree_game *game, const octree_query *query, 
     return OCTREE_OK;
 }
 
-static octree_status answer_nearest(octree_game *game, const octree_query *query, octree_answer *answer)
+static octree_status find_neighbors(octree_game *game, octree_answer *answer, bool at_player)
 {
-    memcpy(answer->target, query->at_player ? game->tick.player : query->target, sizeof answer->target);
-    const octree_skip skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
-    const octree_status status =
-        octree_nearest(game->tree, answer->target, skip, game->session->player.id, &answer->neighbor);
-    answer->found = status == OCTREE_OK;
-    return status == OCTREE_NOT_FOUND ? OCTREE_OK : status;
+    const octree_search how = {.skip = at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE,
+                               .skip_id = game->session->player.id};
+    const size_t before = game->near.count, all = octree_count(game->tree);
+    const size_t k = answer->k < all ? answer->k : all;
+    while (game->near.count < before + k)
+        if (!list_append(&game->memory, &game->near, sizeof(octree_neighbor)))
+            return OCTREE_NO_MEMORY;
+    octree_neighbor *neighbors = k ? (octree_neighbor *)game->near.items + before : NULL;
+    const octree_status status = octree_nearest_k(game->tree, answer->target, k, &how, neighbors, &answer->count);
+    game->near.count = before + answer->count;
+    return status;
 }
 
 static octree_status ask(octree_game *game, const octree_query *query, bool by_key)
@@ -37,10 +67,11 @@ static octree_status ask(octree_game *game, const octree_query *query, bool by_k
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return OCTREE_NO_MEMORY;
-    *answer = (octree_answer){.kind = query->kind, .by_key = by_key};
-    if (query->kind == OCTREE_QUERY_RANGE)
-        return answer_range(game, query, answer);
-    return answer_nearest(game, query, answer);
+    *answer = pose(query, game->tick.player);
+    answer->by_key = by_key;
+    if (finds_points(answer->kind))
+        return find_points(game, answer);
+    return find_neighbors(game, answer, query->at_player);
 }
 
 static octree_status ask_all(octree_game *game)
@@ -79,27 +110,40 @@ static octree_status compare_node_sets(octree_game *game)
     return OCTREE_OK;
 }
 
-/* The lists do not grow any more: let the tick point into them. */
+/* Let each answer point to its part of the lists, which do not grow any more. */
+static void publish_answers(octree_game *game)
+{
+    octree_answer *answers = game->answers.items;
+    size_t points = 0, neighbors = 0;
+    for (size_t i = 0; i < game->answers.count; i++) {
+        octree_answer *answer = &answers[i];
+        if (answer->count == 0)
+            continue;
+        if (finds_points(answer->kind)) {
+            answer->points = (const octree_point *)game->found.items + points;
+            points += answer->count;
+        } else {
+            answer->neighbors = (const octree_neighbor *)game->near.items + neighbors;
+            neighbors += answer->count;
+        }
+    }
+    game->tick.answers = answers;
+    game->tick.answer_count = game->answers.count;
+}
+
 static void publish(octree_game *game)
 {
     octree_tick *tick = &game->tick;
-    octree_answer *answers = game->answers.items;
-    const octree_point *found = game->found.items;
-    for (size_t i = 0; i < game->answers.count; i++) {
-        answers[i].points = answers[i].count ? found : NULL;
-        if (answers[i].count)
-            found += answers[i].count;
-    }
+    publish_answers(game);
     tick->hits = game->hits.items;
     tick->hit_count = game->hits.count;
+    tick->hit_from = game->hit_from.items;
     tick->refusals = game->refusals.items;
     tick->refusal_count = game->refusals.count;
     tick->splits = game->splits.items;
     tick->split_count = game->splits.count;
     tick->merges = game->merges.items;
     tick->merge_count = game->merges.count;
-    tick->answers = answers;
-    tick->answer_count = game->answers.count;
 }
 
 octree_status game_finish_tick(octree_game *game)

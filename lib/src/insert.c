@@ -25,40 +25,48 @@ static octree_status add_child(octree *tree, node *parent, unsigned octant, cons
     return OCTREE_OK;
 }
 
-/* The depth at which a full leaf of depth `*depth` and a new point come apart, or the depth of the cell that holds them
- * all and cannot be divided. True in the first case. */
-static bool parting_depth(const octree *tree, const node *leaf, uint64_t code, unsigned *depth)
-{
-    if (!may_split(tree, path_cell(code, *depth)))
-        return false;    /* before its points are read: a crowd has many */
-    uint64_t unlike = 0; /* the bits in which any point's code differs from the new one's */
-    for (uint32_t i = 0; i < leaf->count; i++)
-        unlike |= morton_code(tree->axes, leaf_points(leaf)[i].position) ^ code;
-    for (cell c = path_cell(code, *depth);; c = cell_child(c, morton_octant(code, c.depth))) {
-        *depth = c.depth;
-        if (!may_split(tree, c))
-            return false;
-        if (morton_octant(unlike, c.depth) != 0)
-            return true;
-    }
-}
-
-/* How many points of a full leaf, and of a new one, each octant of a node of this depth receives. */
+/* How many points of a full leaf, and of a new one, each octant of a cell receives. */
 typedef struct shares {
+    double planes[3]; /* that cut the cell */
     uint32_t counts[8];
     uint8_t mask;
 } shares;
 
-static shares count_shares(const octree *tree, const node *full, uint64_t code, unsigned depth)
+/* The octant of a position, by the planes that keys come from. */
+static unsigned octant_of(const shares *s, const double p[3])
 {
-    shares s = {.mask = (uint8_t)(1u << morton_octant(code, depth))};
-    s.counts[morton_octant(code, depth)] = 1;
-    for (uint32_t i = 0; i < full->count; i++) {
-        const unsigned octant = morton_octant(morton_code(tree->axes, leaf_points(full)[i].position), depth);
-        s.counts[octant]++;
-        s.mask |= (uint8_t)(1u << octant);
-    }
+    return (unsigned)(p[0] >= s->planes[0]) << 2 | (unsigned)(p[1] >= s->planes[1]) << 1 |
+           (unsigned)(p[2] >= s->planes[2]);
+}
+
+static void add_share(shares *s, const octree_point *point)
+{
+    const unsigned octant = octant_of(s, point->position);
+    s->counts[octant]++;
+    s->mask |= (uint8_t)(1u << octant);
+}
+
+static shares count_shares(const octree *tree, cell c, const node *full, const octree_point *point)
+{
+    shares s = {.mask = 0};
+    for (int i = 0; i < 3; i++)
+        s.planes[i] = plane_at(&tree->axes[i], c.low[i] + cell_size(c.depth + 1));
+    for (uint32_t i = 0; i < full->count; i++)
+        add_share(&s, &leaf_points(full)[i]);
+    add_share(&s, point);
     return s;
+}
+
+/* From the cell of a full leaf down to the one in which its points and a new one come apart, or that holds them all and
+ * cannot be divided. True in the first case. */
+static bool find_parting(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
+{
+    for (; may_split(tree, *c); *c = cell_child(*c, bits_lowest(s->mask))) {
+        *s = count_shares(tree, *c, full, point);
+        if (s->mask & (s->mask - 1))
+            return true;
+    }
+    return false;
 }
 
 static bool make_leaves(octree *tree, node *group, const shares *s)
@@ -70,26 +78,22 @@ static bool make_leaves(octree *tree, node *group, const shares *s)
 }
 
 /* An inner node whose leaves share the points of a full leaf and a new one. No memory: nothing is left behind. */
-static bool make_parting(octree *tree, node *made, const node *full, const octree_point *point, uint64_t code,
-                         unsigned depth)
+static bool make_parting(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
 {
-    const shares s = count_shares(tree, full, code, depth);
-    const unsigned children = bits_count8(s.mask);
+    const unsigned children = bits_count8(s->mask);
     node *group = pool_take(&tree->nodes, children);
     if (!group)
         return false;
     memset(group, 0, children * sizeof(node));
-    *made = (node){.below = group, .count = full->count + 1, .octants = s.mask};
-    if (!make_leaves(tree, group, &s)) {
+    *made = (node){.below = group, .count = full->count + 1, .octants = s->mask};
+    if (!make_leaves(tree, group, s)) {
         node_release(tree, made);
         return false;
     }
-    for (uint32_t i = 0; i < full->count; i++) {
-        const octree_point *next = &leaf_points(full)[i];
-        const unsigned octant = morton_octant(morton_code(tree->axes, next->position), depth);
-        leaf_append(tree, child_at(made, octant), next); /* there is room */
-    }
-    return leaf_append(tree, child_at(made, morton_octant(code, depth)), point);
+    for (uint32_t i = 0; i < full->count; i++)
+        leaf_put(child_at(made, octant_of(s, leaf_points(full)[i].position)), &leaf_points(full)[i]);
+    leaf_put(child_at(made, octant_of(s, point->position)), point);
+    return true;
 }
 
 /* A leaf of the points of a full leaf and a new one. */
@@ -98,8 +102,9 @@ static bool make_grown(octree *tree, node *made, const node *full, const octree_
     if (!leaf_create(tree, made, full->count + 1))
         return false;
     for (uint32_t i = 0; i < full->count; i++)
-        leaf_append(tree, made, &leaf_points(full)[i]); /* there is room */
-    return leaf_append(tree, made, point);
+        leaf_put(made, &leaf_points(full)[i]);
+    leaf_put(made, point);
+    return true;
 }
 
 /* Put `bottom`, a node of depth `from`, under a chain of only children up to depth `to`. */
@@ -122,16 +127,16 @@ static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from,
  * that nothing has happened when memory runs out. */
 static octree_status overflow(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth)
 {
-    unsigned bottom = depth;
-    const bool parts = parting_depth(tree, leaf, code, &bottom);
+    cell bottom = path_cell(code, depth);
+    shares s;
+    const bool parts = find_parting(tree, leaf, point, &bottom, &s);
     if (!parts && tree->def.full_leaf == OCTREE_REFUSE)
         return OCTREE_FULL;
-    if (!parts && bottom == depth)
+    if (!parts && bottom.depth == depth)
         return leaf_append(tree, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
     node made;
-    const bool enough =
-        parts ? make_parting(tree, &made, leaf, point, code, bottom) : make_grown(tree, &made, leaf, point);
-    if (!enough || !make_chain(tree, &made, code, bottom, depth))
+    const bool enough = parts ? make_parting(tree, &made, leaf, point, &s) : make_grown(tree, &made, leaf, point);
+    if (!enough || !make_chain(tree, &made, code, bottom.depth, depth))
         return OCTREE_NO_MEMORY;
     leaf_release(tree, leaf);
     *leaf = made;

@@ -15,12 +15,12 @@ typedef struct insertion {
 /* What was stored comes first, then the caller's points in their order: so leaves refuse as one by one. */
 static int by_place(const void *a, const void *b)
 {
-    const uint32_t p = ((const batch_item *)a)->place + 1, q = ((const batch_item *)b)->place + 1; /* stored: 0 */
-    return (p > q) - (p < q);
+    const morton_item *p = a, *q = b;
+    return p->stored != q->stored ? q->stored - p->stored : (p->place > q->place) - (p->place < q->place);
 }
 
 /* A leaf of those of the items that it takes; the others are told why not. */
-static bool make_leaf(insertion *in, batch_item *items, size_t count, node *made)
+static bool make_leaf(insertion *in, morton_item *items, size_t count, node *made)
 {
     const size_t capacity = in->tree->def.leaf_capacity;
     size_t taken = count;
@@ -31,19 +31,21 @@ static bool make_leaf(insertion *in, batch_item *items, size_t count, node *made
     if (!journal_make_leaf(&in->journal, made, (uint32_t)taken))
         return false;
     for (size_t i = 0; i < taken; i++)
-        leaf_append(in->tree, made, items[i].point); /* there is room */
+        prefetch(batch_point(in->batch, &items[i])); /* they lie in the caller's order, far apart */
+    for (size_t i = 0; i < taken; i++)
+        leaf_put(made, batch_point(in->batch, &items[i]));
     for (size_t i = taken; i < count; i++)
         batch_set(in->batch, &items[i], OCTREE_FULL);
     return true;
 }
 
 /* The children that the items' octants become, and those that are there already. `old` is an inner node, or null. */
-static bool build_children(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made);
+static bool build_children(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made);
 
 /* Whether sorted items share one cell that cannot be divided: dividing this one would not part them. A leaf that
  * refuses asks this first, so that nothing is divided for points that are refused then; and where items do part, more
  * than a leaf's worth of them are taken, so that no division is in vain. */
-static bool inseparable(const octree *tree, cell c, const batch_item *items, size_t count)
+static bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count)
 {
     const uint64_t unlike = items[0].code ^ items[count - 1].code;
     for (; may_split(tree, c); c = cell_child(c, morton_octant(items[0].code, c.depth)))
@@ -53,7 +55,7 @@ static bool inseparable(const octree *tree, cell c, const batch_item *items, siz
 }
 
 /* What a cell without anything stored, or with all that was stored among the items, becomes. */
-static bool build(insertion *in, cell c, batch_item *items, size_t count, node *made)
+static bool build(insertion *in, cell c, morton_item *items, size_t count, node *made)
 {
     const octree_def *def = &in->tree->def;
     if (count <= def->leaf_capacity || !may_split(in->tree, c) ||
@@ -64,19 +66,17 @@ static bool build(insertion *in, cell c, batch_item *items, size_t count, node *
 
 static int by_code(const void *a, const void *b)
 {
-    const uint64_t p = ((const batch_item *)a)->code, q = ((const batch_item *)b)->code;
+    const uint64_t p = ((const morton_item *)a)->code, q = ((const morton_item *)b)->code;
     return (p > q) - (p < q);
 }
 
 /* A leaf's points and its share of the batch, in one order by code where the cell can be divided; where it cannot, as
  * in a crowd, nobody reads the order. */
-static void merge_items(const octree *tree, const node *leaf, cell c, const batch_item *items, size_t count,
-                        batch_item *all)
+static void merge_items(const octree *tree, const node *leaf, cell c, const morton_item *items, size_t count,
+                        morton_item *all)
 {
-    for (uint32_t i = 0; i < leaf->count; i++) {
-        const octree_point *point = &leaf_points(leaf)[i];
-        all[i] = (batch_item){morton_code(tree->axes, point->position), point, BATCH_STORED};
-    }
+    for (uint32_t i = 0; i < leaf->count; i++)
+        all[i] = (morton_item){morton_code(tree->axes, leaf_points(leaf)[i].position), i, true};
     if (may_split(tree, c))
         qsort(all, leaf->count, sizeof *all, by_code);
     size_t stored = leaf->count, new = count;
@@ -89,11 +89,12 @@ static void merge_items(const octree *tree, const node *leaf, cell c, const batc
 }
 
 /* Leave out those that the leaf holds already. Returns how many are left. */
-static size_t drop_stored(const insertion *in, const node *leaf, batch_item *items, size_t count)
+static size_t drop_stored(const insertion *in, const node *leaf, morton_item *items, size_t count)
 {
     size_t left = 0;
     for (size_t i = 0; i < count; i++) {
-        if (leaf_find(leaf, items[i].point->position, items[i].point->id) == LEAF_NONE)
+        const octree_point *point = batch_point(in->batch, &items[i]);
+        if (leaf_find(leaf, point->position, point->id) == LEAF_NONE)
             items[left++] = items[i];
         else
             batch_set(in->batch, &items[i], OCTREE_DUPLICATE);
@@ -101,25 +102,26 @@ static size_t drop_stored(const insertion *in, const node *leaf, batch_item *ite
     return left;
 }
 
-static bool add_to_leaf(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made)
+static bool add_to_leaf(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
+    if (old->count == 0)
+        return build(in, c, items, count, made) && journal_replace(&in->journal, old);
     count = drop_stored(in, old, items, count);
     if (count == 0)
         return true;
-    if (old->count == 0)
-        return build(in, c, items, count, made) && journal_replace(&in->journal, old);
-    const size_t room = (old->count + count) * sizeof(batch_item);
-    batch_item *all = arena_take(&in->tree->memory, room);
+    const size_t room = (old->count + count) * sizeof(morton_item);
+    morton_item *all = arena_take(&in->tree->memory, room);
     if (!all)
         return false;
     merge_items(in->tree, old, c, items, count, all);
+    in->batch->stored = leaf_points(old);
     const bool ok = build(in, c, all, old->count + count, made) && journal_replace(&in->journal, old);
     arena_give(&in->tree->memory, all, room);
     return ok;
 }
 
 /* What a node becomes. */
-static bool add(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made)
+static bool add(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     *made = *old;
     if (count == 0)
@@ -127,7 +129,7 @@ static bool add(insertion *in, const node *old, cell c, batch_item *items, size_
     return old->octants ? build_children(in, old, c, items, count, made) : add_to_leaf(in, old, c, items, count, made);
 }
 
-static bool build_children(insertion *in, const node *old, cell c, batch_item *items, size_t count, node *made)
+static bool build_children(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     static const node empty = {0};
     size_t shares[8] = {0};
@@ -188,13 +190,13 @@ static bool note_repetitions(insertion *in, const placed *sorted, size_t count)
 }
 
 /* Items of one code: find those that repeat an earlier one. */
-static bool find_repetitions(insertion *in, const batch_item *items, size_t count)
+static bool find_repetitions(insertion *in, const morton_item *items, size_t count)
 {
     placed *sorted = arena_take(&in->tree->memory, count * sizeof *sorted);
     if (!sorted)
         return false;
     for (size_t i = 0; i < count; i++)
-        sorted[i] = (placed){*items[i].point, items[i].place};
+        sorted[i] = (placed){*batch_point(in->batch, &items[i]), items[i].place};
     qsort(sorted, count, sizeof *sorted, compare_placed);
     const bool ok = note_repetitions(in, sorted, count);
     arena_give(&in->tree->memory, sorted, count * sizeof *sorted);
@@ -209,7 +211,11 @@ static bool drop_repetitions(insertion *in)
     for (size_t start = 0, end; start < b->count; start = end) {
         for (end = start + 1; end < b->count && b->items[end].code == b->items[start].code; end++)
             ;
-        if (end - start > 1 && !find_repetitions(in, b->items + start, end - start))
+        if (end - start == 1) {
+            b->items[left++] = b->items[start];
+            continue;
+        }
+        if (!find_repetitions(in, b->items + start, end - start))
             return false;
         for (size_t i = start; i < end; i++)
             if (b->statuses[b->items[i].place] == OCTREE_OK)

@@ -70,7 +70,7 @@ bool journal_collapse(journal *j, node *n)
     node leaf;
     if (!journal_make_leaf(j, &leaf, n->count))
         return false;
-    leaf_gather(j->tree, &leaf, n, NULL);
+    leaf_gather(&leaf, n, NULL);
     if (!journal_replace_all(j, n))
         return false;
     *n = leaf;

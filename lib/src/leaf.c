@@ -1,13 +1,12 @@
 /* leaf.c - see leaf.h. */
 #include "leaf.h"
-#include "crowd.h"
 
 #include <string.h>
 
-/* Rooms grow by about an eighth: 1..8, 10, 12, 14, 16, 20 ... 64. */
+/* Rooms grow by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
 static unsigned room_for(uint32_t count)
 {
-    const unsigned step = count <= 8 ? 1 : count <= 16 ? 2 : count <= 32 ? 4 : 8;
+    const unsigned step = count <= 4 ? 1 : count <= 8 ? 2 : count <= 32 ? 4 : 8;
     return (count + step - 1) / step * step;
 }
 
@@ -53,15 +52,6 @@ void leaf_release(octree *tree, node *leaf)
     leaf->below = NULL;
 }
 
-static void append_in_place(node *leaf, const octree_point *point)
-{
-    if (is_crowd(leaf))
-        crowd_append(leaf->below, leaf->count, point);
-    else
-        leaf_points(leaf)[leaf->count] = *point;
-    leaf->count++;
-}
-
 static uint32_t room_of(const node *leaf)
 {
     return is_crowd(leaf) ? crowd_room(leaf->below) : leaf->room;
@@ -75,7 +65,7 @@ static bool change_room(octree *tree, node *leaf, uint32_t count)
         return false;
     if (is_crowd(&moved)) {
         for (uint32_t i = 0; i < leaf->count; i++)
-            append_in_place(&moved, &leaf_points(leaf)[i]);
+            leaf_put(&moved, &leaf_points(leaf)[i]);
     } else {
         memcpy(moved.below, leaf->below, leaf->count * sizeof(octree_point));
         moved.count = leaf->count;
@@ -98,7 +88,7 @@ bool leaf_append(octree *tree, node *leaf, const octree_point *point)
         if (!change_room(tree, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
             return false;
     }
-    append_in_place(leaf, point);
+    leaf_put(leaf, point);
     return true;
 }
 
@@ -129,7 +119,7 @@ void leaf_replace(node *leaf, uint32_t index, const octree_point *point)
         leaf_points(leaf)[index] = *point;
 }
 
-void leaf_gather(octree *tree, node *leaf, const node *from, const octree_point *left_out)
+void leaf_gather(node *leaf, const node *from, const octree_point *left_out)
 {
     const node *pending[STACK_ROOM];
     size_t size = 0;
@@ -141,6 +131,6 @@ void leaf_gather(octree *tree, node *leaf, const node *from, const octree_point 
             pending[size++] = &children_of(next)[i];
         for (uint32_t i = 0; children == 0 && i < next->count; i++)
             if (&leaf_points(next)[i] != left_out)
-                leaf_append(tree, leaf, &leaf_points(next)[i]); /* there is room */
+                leaf_put(leaf, &leaf_points(next)[i]);
     }
 }

@@ -6,6 +6,7 @@
 #ifndef OCTREE_LEAF_H
 #define OCTREE_LEAF_H
 
+#include "crowd.h"
 #include "tree.h"
 
 #define LEAF_CROWD 255
@@ -25,6 +26,16 @@ bool leaf_create(octree *tree, node *leaf, uint32_t count);
 /* Append a pair that is not there yet. False when there is no memory; nothing has changed then. */
 bool leaf_append(octree *tree, node *leaf, const octree_point *point);
 
+/* Append a pair that is not there yet to a leaf that has room for it. */
+static inline void leaf_put(node *leaf, const octree_point *point)
+{
+    if (leaf->room == LEAF_CROWD)
+        crowd_append(leaf->below, leaf->count, point);
+    else
+        leaf_points(leaf)[leaf->count] = *point;
+    leaf->count++;
+}
+
 /* Take the point at an index out; the last one takes its place. Cannot fail. */
 void leaf_take(octree *tree, node *leaf, uint32_t index);
 
@@ -32,7 +43,7 @@ void leaf_take(octree *tree, node *leaf, uint32_t index);
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 
 /* Append all points in and below `from` to a leaf with room for them, but for the one to be left out (or null). */
-void leaf_gather(octree *tree, node *leaf, const node *from, const octree_point *left_out);
+void leaf_gather(node *leaf, const node *from, const octree_point *left_out);
 
 void leaf_release(octree *tree, node *leaf);
 

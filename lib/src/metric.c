@@ -66,6 +66,8 @@ double metric_distance(const double a[3], const double b[3])
         gap[i] = fabs(a[i] * unit - b[i] * unit);
         largest = gap[i] > largest ? gap[i] : largest;
     }
+    if (0x1p-480 < largest && largest < 0x1p480)
+        return sqrt((gap[0] * gap[0] + gap[1] * gap[1]) + gap[2] * gap[2]) / unit;
     int exponent;
     frexp(largest, &exponent);
     double square = 0;

@@ -1,229 +1,265 @@
 /* nearest.c - Algorithms 6 and 7: the nearest points, decided by the real numbers.
  *
- * A depth-first search that enters the nearest octant first and leaves out a node when its box is surely farther than
- * the worst of the k best points so far. Squared distances in doubles decide whenever their proven error allows
- * (metric.h); exact arithmetic decides the rest, so that rounding never picks a neighbour.
+ * A depth-first search, nearest octant first. It goes straight to the leaf that the target lies in, by integers alone,
+ * and measures the nodes on the way on its way back, when most of their other octants are out of reach. A child's
+ * distance to the target has one term an axis: that of the half that the target lies in or beside, which the child's
+ * parent has too, or that of the plane between the halves. So the children ascend like the sums of the subsets of three
+ * increments, and the first that is out of reach ends its node.
  */
+#include "nearest.h"
+#include "best.h"
 #include "leaf.h"
 #include "search.h"
 
-#include <math.h>
-#include <stdlib.h>
-
-/* A node to visit, and the square of its box's distance. */
-typedef struct candidate {
+/* An inner node, and which of its children come next. */
+typedef struct frame {
     const node *node;
-    cell cell;
-    double square;
-} candidate;
+    octree_address address;
+    double center[3];     /* of its cell, from -1 to 1 in the world */
+    double squares[3][2]; /* a child's distance on each axis, squared: [axis][0 in the near half, 1 in the far] */
+    uint8_t near;         /* the octant that is nearest */
+    uint8_t flips[8];     /* octant ^ near of the children, nearest first */
+    uint8_t next;         /* of flips */
+} frame;
 
-/* The best points so far are a heap in the caller's array, the worst of them on top; `distance` holds their scaled
- * squares until the end. */
 typedef struct search {
     const octree *tree;
-    octree_search how;
-    metric metric;
-    double
-        shrink; /* 1 / (1 + epsilon)^2, rounded up: a node is left out when it is farther than this part of the worst */
-    bool bounded; /* by a radius */
-    double radius, radius_square;
-    octree_neighbor *best;
-    size_t count, k;
-    octree_cost *cost;
-    size_t size;
-    candidate stack[STACK_ROOM];
+    best best;
+    meter meter;
+    double root_squares[3];         /* from the target to the world on each axis */
+    unsigned open;                  /* frames: the innermost is at depth open - 1 */
+    frame frames[OCTREE_MAX_DEPTH]; /* by depth */
 } search;
 
-static bool is_skipped(const search *s, const octree_point *point)
+static void swap_if(bool condition, double *a, double *b, uint8_t *p, uint8_t *q)
 {
-    switch (s->how.skip) {
-    case OCTREE_SKIP_ID:
-        return point->id == s->how.skip_id;
-    case OCTREE_SKIP_COINCIDENT:
-        return same_position(point->position, s->metric.target);
-    default:
-        return false;
+    const double more = condition ? *a : *b;
+    const uint8_t bit = condition ? *p : *q;
+    *a = condition ? *b : *a;
+    *p = condition ? *q : *p;
+    *b = more;
+    *q = bit;
+}
+
+/* The sums of subsets of three increments ascend like this, a being the least: 0, a, b, the lesser of c and a + b, ...
+ */
+static void sort_flips(frame *f)
+{
+    double a = f->squares[0][1] - f->squares[0][0];
+    double b = f->squares[1][1] - f->squares[1][0];
+    double c = f->squares[2][1] - f->squares[2][0];
+    uint8_t bit_a = 4, bit_b = 2, bit_c = 1;
+    swap_if(b < a, &a, &b, &bit_a, &bit_b);
+    swap_if(c < b, &b, &c, &bit_b, &bit_c);
+    swap_if(b < a, &a, &b, &bit_a, &bit_b);
+    f->flips[0] = 0;
+    f->flips[1] = bit_a;
+    f->flips[2] = bit_b;
+    f->flips[3] = a + b < c ? bit_a | bit_b : bit_c;
+    for (int i = 0; i < 4; i++)
+        f->flips[7 - i] = 7 ^ f->flips[i];
+}
+
+/* Measure the planes that cut a frame's cell. Its center and the squares of its near halves are known. */
+static void measure(const search *s, frame *f)
+{
+    f->near = 0;
+    for (int i = 0; i < 3; i++) {
+        const double plane = plane_inside(&s->tree->axes[i], f->center[i]) * s->best.metric.scale;
+        const double beyond = s->best.metric.scaled[i] - plane;
+        f->squares[i][1] = beyond * beyond;
+        f->near |= beyond >= 0 ? 4 >> i : 0;
     }
 }
 
-/* The order of results: by distance, then by id, then by position. */
-static int compare(const search *s, const octree_neighbor *a, const octree_neighbor *b)
+static void open_child(search *s, unsigned flip, const node *child)
 {
-    if (surely_less(s->how.mode, a->distance, b->distance))
-        return -1;
-    if (surely_less(s->how.mode, b->distance, a->distance))
-        return 1;
-    const int order = is_trusted(s->how.mode, a->distance)
-                          ? 0
-                          : metric_compare(s->metric.target, a->point.position, b->point.position);
-    return order ? order : octree_compare_points(&a->point, &b->point);
-}
-
-static void swap(octree_neighbor *a, octree_neighbor *b)
-{
-    const octree_neighbor kept = *a;
-    *a = *b;
-    *b = kept;
-}
-
-/* Let the item at the top of the first `count` sink to its place. */
-static void sink(const search *s, octree_neighbor *heap, size_t count)
-{
-    for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
-        if (child + 1 < count && compare(s, &heap[child], &heap[child + 1]) < 0)
-            child++;
-        if (compare(s, &heap[at], &heap[child]) >= 0)
-            return;
-        swap(&heap[at], &heap[child]);
+    const frame *parent = &s->frames[s->open - 1];
+    frame *f = &s->frames[s->open];
+    const unsigned octant = parent->near ^ flip;
+    const double half = 1.0 / (double)(1u << s->open++);
+    for (int i = 0; i < 3; i++) {
+        f->center[i] = parent->center[i] + (octant & (4u >> i) ? half : -half);
+        f->squares[i][0] = parent->squares[i][flip >> (2 - i) & 1];
     }
-}
-
-static void rise(const search *s, octree_neighbor *heap, size_t at)
-{
-    for (; at > 0 && compare(s, &heap[(at - 1) / 2], &heap[at]) < 0; at = (at - 1) / 2)
-        swap(&heap[(at - 1) / 2], &heap[at]);
-}
-
-/* The square beyond which nothing counts any more; infinite while there are fewer than k. */
-static double limit(const search *s)
-{
-    return s->count == s->k ? s->best[0].distance : s->bounded ? s->radius_square : INFINITY;
-}
-
-static bool is_within_radius(const search *s, const octree_neighbor *n)
-{
-    if (!s->bounded || surely_less(s->how.mode, n->distance, fmin(s->radius_square, METRIC_FINITE)))
-        return true;
-    if (is_trusted(s->how.mode, n->distance))
-        return n->distance <= s->radius_square;
-    return !metric_surely_less(s->radius_square, n->distance) &&
-           metric_compare_radius(s->metric.target, n->point.position, s->radius) <= 0;
-}
-
-static void consider(search *s, const octree_neighbor *found)
-{
-    if (s->count < s->k) {
-        s->best[s->count] = *found;
-        rise(s, s->best, s->count++);
-    } else if (compare(s, found, &s->best[0]) < 0) {
-        s->best[0] = *found;
-        sink(s, s->best, s->count);
-    }
+    f->node = child;
+    f->address = parent->address << 3 | octant;
+    f->next = 0;
+    measure(s, f);
+    sort_flips(f);
 }
 
 static void scan_leaf(search *s, const node *leaf)
 {
-    s->cost->leaves++;
-    s->cost->points += leaf->count;
+    const octree_point *points = leaf_points(leaf);
+    s->meter.count.leaves++;
+    s->meter.count.points += leaf->count;
+    const metric m = s->best.metric;
+    double reach = s->best.point_reach;
     for (uint32_t i = 0; i < leaf->count; i++) {
-        const octree_point *point = &leaf_points(leaf)[i];
-        const double square = metric_point(&s->metric, point->position);
-        if (surely_less(s->how.mode, limit(s), square) || is_skipped(s, point))
+        const double square = metric_point(&m, points[i].position);
+        if (square > reach)
             continue;
-        const octree_neighbor found = {*point, square};
-        if (is_within_radius(s, &found))
-            consider(s, &found);
+        best_consider(&s->best, &points[i], square);
+        reach = s->best.point_reach;
     }
 }
 
-/* The squares of the distances to both halves of a cell on each axis: [axis][0 below the plane, 1 above]. */
-static void half_squares(const search *s, cell c, double squares[3][2])
+/* The octants of the children that a frame has not come to. */
+static unsigned octants_left(const frame *f)
 {
-    const uint32_t half = cell_size(c.depth + 1);
-    for (int i = 0; i < 3; i++) {
-        const axis *a = &s->tree->axes[i];
-        const double middle = plane_at(a, c.low[i] + half);
-        const double below = metric_gap(&s->metric, i, plane_at(a, c.low[i]), middle);
-        const double above = metric_gap(&s->metric, i, middle, plane_at(a, c.low[i] + 2 * half));
-        squares[i][0] = below * below;
-        squares[i][1] = above * above;
-    }
+    unsigned octants = 0;
+    for (unsigned i = f->next; i < 8; i++)
+        octants |= 1u << (f->near ^ f->flips[i]);
+    return octants & f->node->octants;
 }
 
-static bool is_too_far(const search *s, double square)
+static double square_of(const frame *f, unsigned flip)
 {
-    /* With an epsilon the slack of exact mode serves fast mode too: the bound rests on it. */
-    const octree_mode mode = s->how.epsilon > 0 ? OCTREE_EXACT : s->how.mode;
-    if (s->count == s->k)
-        return surely_less(mode, s->best[0].distance * s->shrink, square);
-    return s->bounded && surely_less(s->how.mode, s->radius_square, square);
+    return (f->squares[0][flip >> 2] + f->squares[1][flip >> 1 & 1]) + f->squares[2][flip & 1];
 }
 
-/* Push the children that may hold something better, the nearest last so that it is popped first. */
-static void push_children(search *s, const candidate *parent)
+/* Take the nearest child that is left of the innermost node, or leave the node. */
+static void step(search *s)
 {
-    double squares[3][2];
-    half_squares(s, parent->cell, squares);
-    const size_t bottom = s->size;
-    const node *child = children_of(parent->node);
-    for (unsigned octant = 0; octant < 8; octant++) {
-        if (!(parent->node->octants >> octant & 1))
-            continue;
-        const double square = (squares[0][octant >> 2] + squares[1][octant >> 1 & 1]) + squares[2][octant & 1];
-        const candidate next = {child++, cell_child(parent->cell, octant), square};
-        if (is_too_far(s, square)) {
-            s->cost->pruned++;
-            continue;
+    frame *f = &s->frames[s->open - 1];
+    while (f->next < 8) {
+        const unsigned flip = f->flips[f->next], octant = f->near ^ flip;
+        const node *child = child_at(f->node, octant);
+        if (child && square_of(f, flip) > s->best.node_reach) {
+            meter_prune(&s->meter, f->address, octants_left(f));
+            break;
         }
-        size_t at = s->size++;
-        for (; at > bottom && s->stack[at - 1].square < square; at--)
-            s->stack[at] = s->stack[at - 1];
-        s->stack[at] = next;
+        f->next++;
+        if (!child)
+            continue;
+        meter_visit(&s->meter, f->address << 3 | octant);
+        if (child->octants) {
+            open_child(s, flip, child);
+            return;
+        }
+        scan_leaf(s, child);
+    }
+    s->open--;
+}
+
+/* Measure a node on the way to the target's leaf, to search it beside the octant that the way took. */
+static frame *measure_way(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
+{
+    frame *f = &s->frames[depth];
+    const uint32_t half = cell_size(depth + 1);
+    for (int i = 0; i < 3; i++) {
+        f->center[i] = (double)((keys[i] & ~(2 * half - 1)) + half) * 0x1p-20 - 1;
+        f->squares[i][0] = s->root_squares[i];
+    }
+    f->node = n;
+    f->address = morton_address(code, depth);
+    measure(s, f);
+    f->near = (uint8_t)morton_octant(code, depth);
+    f->next = 1;
+    return f;
+}
+
+static void search_beside(search *s, frame *f, unsigned depth)
+{
+    const double reach = s->best.node_reach;
+    if (square_of(f, 1) > reach && square_of(f, 2) > reach && square_of(f, 4) > reach) {
+        meter_prune(&s->meter, f->address, f->node->octants & ~(1u << f->near));
+        return;
+    }
+    sort_flips(f);
+    s->open = depth + 1;
+    while (s->open > depth)
+        step(s);
+}
+
+unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, uint64_t codes[3])
+{
+    const uint32_t size = cell_size(depth), quarter = size / 4;
+    unsigned count = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint32_t within = keys[i] & (size - 1);
+        uint32_t beside[3] = {keys[0], keys[1], keys[2]};
+        if (within < quarter)
+            beside[i] -= size;
+        else if (within >= size - quarter)
+            beside[i] += size;
+        if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped */
+            codes[count++] = morton_interleave(beside);
+    }
+    return count;
+}
+
+/* While the target's leaf is on its way from memory, ask for those beside it. */
+static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3])
+{
+    uint64_t codes[3];
+    const unsigned count = nearest_codes_beside(keys, way->depth, codes);
+    for (unsigned i = 0; i < count; i++) {
+        unsigned depth = way->depth;
+        while ((codes[i] ^ code) >> 3 * (OCTREE_MAX_DEPTH - depth))
+            depth--;
+        const node *n = way->nodes[depth];
+        while (n && n->octants)
+            n = child_at(n, morton_octant(codes[i], depth++));
+        if (n)
+            prefetch(n->below);
+    }
+}
+
+void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &tree->axes[i];
+        keys[i] = plane_key(a, target[i] < a->min ? a->min : target[i] > a->max ? a->max : target[i]);
     }
 }
 
 static void run_search(search *s)
 {
-    s->stack[s->size++] = (candidate){&s->tree->root, root_cell(), 0};
-    while (s->size > 0) {
-        const candidate next = s->stack[--s->size];
-        if (is_too_far(s, next.square)) {
-            s->cost->pruned++;
-            continue;
-        }
-        s->cost->nodes++;
-        if (next.node->octants)
-            push_children(s, &next);
-        else
-            scan_leaf(s, next.node);
+    const octree *tree = s->tree;
+    uint32_t keys[3];
+    double squares = 0;
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &tree->axes[i];
+        const double gap = metric_gap(&s->best.metric, i, a->min, a->max);
+        s->root_squares[i] = gap * gap;
+        squares += s->root_squares[i];
     }
+    if (squares > s->best.node_reach) {
+        s->meter.count.pruned++;
+        meter_trace(&s->meter, OCTREE_ROOT, OCTREE_TOUCH_PRUNED);
+        return;
+    }
+    nearest_keys(tree, s->best.metric.target, keys);
+    const uint64_t code = morton_interleave(keys);
+    const path way = path_to(tree, code);
+    for (unsigned depth = 0; depth <= way.depth; depth++)
+        meter_visit(&s->meter, morton_address(code, depth));
+    unsigned depth = way.depth;
+    if (way.nodes[depth]->octants) {
+        depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
+    } else {
+        prefetch_beside(&way, code, keys);
+        scan_leaf(s, way.nodes[depth]);
+    }
+    while (depth-- > 0)
+        search_beside(s, measure_way(s, way.nodes[depth], code, keys, depth), depth);
 }
 
-/* Heap to sorted array; squares to distances. */
-static void finish(const search *s)
+size_t nearest_search(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
+                      octree_neighbor *neighbors)
 {
-    for (size_t left = s->count; left > 1; left--) {
-        swap(&s->best[0], &s->best[left - 1]);
-        sink(s, s->best, left - 1);
-    }
-    for (size_t i = 0; i < s->count; i++) {
-        const double distance = metric_distance(s->metric.target, s->best[i].point.position);
-        /* The order is the real numbers'; rounding must not make it look otherwise. */
-        s->best[i].distance = i > 0 ? fmax(distance, s->best[i - 1].distance) : distance;
-    }
-}
-
-/* A search for k points; a negative radius is none. Returns how many were found. */
-static size_t find_nearest(const octree *tree, const double target[3], size_t k, double radius,
-                           const octree_search *how, octree_neighbor *neighbors)
-{
-    octree_cost unused;
+    const metric m = metric_make(tree->scale, target);
     search s;
     s.tree = tree;
-    s.how = *how;
-    s.metric = metric_make(tree->scale, target);
-    s.shrink = how->epsilon > 0 ? (1 + 0x1p-50) / ((1 + how->epsilon) * (1 + how->epsilon)) : 1;
-    s.bounded = radius >= 0;
-    s.radius = radius;
-    s.radius_square = radius * tree->scale * (radius * tree->scale);
-    s.best = neighbors;
-    s.count = 0;
-    s.k = k;
-    s.cost = cost_or(how, &unused);
-    s.size = 0;
+    s.best = best_make(&m, how, radius, neighbors, k);
+    s.meter = (meter){.how = how};
+    s.open = 0;
     run_search(&s);
-    finish(&s);
-    return s.count;
+    best_finish(&s.best);
+    meter_report(&s.meter);
+    return s.best.count;
 }
 
 static octree_status check_arguments(const octree *tree, const double target[3], const octree_search *how)
@@ -242,7 +278,7 @@ octree_status octree_nearest_k(const octree *tree, const double target[3], size_
         count && (neighbors || k == 0) ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
-    *count = k > 0 ? find_nearest(tree, target, k, -1, &search, neighbors) : 0;
+    *count = k > 0 ? nearest_search(tree, target, k, -1, &search, neighbors) : 0;
     return OCTREE_OK;
 }
 
@@ -257,7 +293,7 @@ octree_status octree_nearest_within(const octree *tree, const double target[3], 
         status = OCTREE_BAD_SIZE;
     if (status != OCTREE_OK)
         return status;
-    return find_nearest(tree, target, 1, radius, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
+    return nearest_search(tree, target, 1, radius, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
 }
 
 octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
@@ -267,5 +303,5 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
     const octree_status status = nearest ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
-    return find_nearest(tree, target, 1, -1, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
+    return nearest_search(tree, target, 1, -1, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
 }

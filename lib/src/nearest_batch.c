@@ -1,28 +1,8 @@
 /* nearest_batch.c - the nearest points of many targets, asked in the order of the tree. */
+#include "leaf.h"
+#include "morton_sort.h"
+#include "nearest.h"
 #include "search.h"
-
-#include <stdlib.h>
-
-/* A target, by where it lies in the world, or by the nearest place of the world to it. */
-typedef struct turn {
-    uint64_t code;
-    uint32_t place;
-} turn;
-
-static int by_code(const void *a, const void *b)
-{
-    const turn *p = a, *q = b;
-    return p->code != q->code ? (p->code > q->code) - (p->code < q->code)
-                              : (p->place > q->place) - (p->place < q->place);
-}
-
-static uint64_t code_near(const octree *tree, const double target[3])
-{
-    double inside[3];
-    for (int i = 0; i < 3; i++)
-        inside[i] = fmin(fmax(target[i], tree->axes[i].min), tree->axes[i].max);
-    return morton_code(tree->axes, inside);
-}
 
 static octree_status check_batch(const octree *tree, const double (*targets)[3], size_t count, const octree_search *how,
                                  const octree_neighbor *neighbors)
@@ -37,17 +17,70 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
     return status;
 }
 
-static void ask_in_turn(const octree *tree, const double (*targets)[3], const turn *turns, size_t count,
+#define GROUP 16
+
+/* On the way to the leaf of a code. */
+typedef struct walker {
+    const node *node;
+    uint64_t code;
+    unsigned depth;
+} walker;
+
+/* Walk to the leaves level by level, all at once: what one walker after the other would wait for is then on its way for
+ * all of them. */
+static void walk_to_leaves(walker *walkers, size_t count)
+{
+    for (bool deeper = true; deeper;) {
+        deeper = false;
+        for (size_t i = 0; i < count; i++) {
+            walker *w = &walkers[i];
+            const node *child = w->node->octants ? child_at(w->node, morton_octant(w->code, w->depth)) : NULL;
+            if (!child)
+                continue;
+            w->node = child;
+            w->depth++;
+            prefetch(child->below);
+            deeper = true;
+        }
+    }
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t j = 2; walkers[i].node->octants == 0 && j < walkers[i].node->count && j < POOL_MAX_UNITS; j += 2)
+            prefetch(&leaf_points(walkers[i].node)[j]);
+}
+
+/* Ask for the memory that a few searches will begin with: the leaves that the targets lie in, then those beside them.
+ */
+static void prefetch_group(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count)
+{
+    walker walkers[GROUP], beside[3 * GROUP];
+    size_t more = 0;
+    for (size_t i = 0; i < count; i++)
+        walkers[i] = (walker){&tree->root, turns[i].code, 0};
+    walk_to_leaves(walkers, count);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t keys[3];
+        nearest_keys(tree, targets[turns[i].place], keys);
+        uint64_t codes[3];
+        const unsigned close = nearest_codes_beside(keys, walkers[i].depth, codes);
+        for (unsigned j = 0; j < close; j++)
+            beside[more++] = (walker){&tree->root, codes[j], 0};
+    }
+    walk_to_leaves(beside, more);
+}
+
+static void ask_in_turn(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count,
                         const octree_search *how, octree_neighbor *neighbors, bool *found)
 {
     for (size_t i = 0; i < count; i++) {
-        size_t one;
+        if (i % GROUP == 0)
+            prefetch_group(tree, targets, turns + i, count - i < GROUP ? count - i : GROUP);
         octree_neighbor nearest;
-        octree_nearest_k(tree, targets[turns[i].place], 1, how, &nearest, &one);
+        const uint32_t place = turns[i].place;
+        const bool one = nearest_search(tree, targets[place], 1, -1, how, &nearest) == 1;
         if (one)
-            neighbors[turns[i].place] = nearest;
+            neighbors[place] = nearest;
         if (found)
-            found[turns[i].place] = one;
+            found[place] = one;
     }
 }
 
@@ -60,14 +93,17 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
         return status;
     /* The tree's own allocator, but not its books: queries change nothing of the tree. */
     const octree_allocator *allocator = &tree->def.allocator;
-    turn *turns =
-        count <= SIZE_MAX / sizeof *turns ? allocator->allocate(count * sizeof *turns, allocator->context) : NULL;
+    const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
+    morton_item *turns = size < SIZE_MAX ? allocator->allocate(size, allocator->context) : NULL;
     if (!turns)
         return OCTREE_NO_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        turns[i] = (turn){code_near(tree, targets[i]), (uint32_t)i};
-    qsort(turns, count, sizeof *turns, by_code);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t keys[3];
+        nearest_keys(tree, targets[i], keys);
+        turns[i] = (morton_item){morton_interleave(keys), (uint32_t)i, false};
+    }
+    morton_sort(turns, turns + count, count);
     ask_in_turn(tree, targets, turns, count, &search, neighbors, found);
-    allocator->release(turns, count * sizeof *turns, allocator->context);
+    allocator->release(turns, size, allocator->context);
     return OCTREE_OK;
 }

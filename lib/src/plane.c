@@ -34,6 +34,7 @@ axis axis_make(double min, double max)
     a.half[0] = first_bits(half[0]);
     a.half[1] = half[0] - a.half[0];
     a.half[2] = half[1];
+    a.doubt = 0x1p-29 + 2 * (fmax(fabs(min), fabs(max)) * 0x1p-52 + 0x1p-1074) * a.keys_per_unit;
     a.plain = a.unit == 1 && a.center[1] == 0 && a.half[1] == 0 && a.half[2] == 0;
     return a;
 }
@@ -61,9 +62,9 @@ static uint32_t key_search(const axis *a, double x)
     return key;
 }
 
-/* A division gives the key up to rounding; planes decide. Where the guess is wild (worlds a few ulps wide, extents
+/* A division gives the key up to rounding, and planes decide. Where the guess is wild (worlds a few ulps wide, extents
  * that overflow) the search is the answer. */
-uint32_t plane_key(const axis *a, double x)
+uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = (x - a->min) * a->keys_per_unit;
     if (!(guess >= 0 && guess < (double)PLANE_GRID))

@@ -20,6 +20,7 @@ typedef struct axis {
     double half[3];       /* (max - min) / 2 as another, whose first term has 31 bits */
     bool plain;           /* two terms and one rounding are enough */
     double keys_per_unit; /* a guess only: may be 0 or infinite in extreme worlds */
+    double doubt;         /* how far that guess can be off, in keys; may be infinite or NaN */
 } axis;
 
 axis axis_make(double min, double max);
@@ -27,21 +28,41 @@ axis axis_make(double min, double max);
 /* Any plane inside the world, at t = -1 .. 1 from its centre, from all the terms. */
 double plane_precise(const axis *a, double t);
 
+/* A grid plane other than the world's own faces. */
+static inline double plane_inside(const axis *a, double t)
+{
+    const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_precise(a, t);
+    if (!(plane < a->max))
+        return a->max;
+    return plane > a->min ? plane : a->min;
+}
+
 /* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with t = k / 2^20 - 1, which is exact. The terms are
  * summed to some 80 bits before the one rounding that shows. So a plane is the paper's (min + max) / 2 of (min + max) /
  * 2 wherever those are doubles; planes are monotone, since neighbours are 2^-21 of the extent apart; nothing overflows.
  */
 static inline double plane_at(const axis *a, uint32_t k)
 {
-    const double t = (double)k * 0x1p-20 - 1;
-    const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_precise(a, t);
-    if (k == PLANE_GRID || !(plane < a->max))
-        return a->max;
-    return k > 0 && plane > a->min ? plane : a->min;
+    return k == 0 ? a->min : k == PLANE_GRID ? a->max : plane_inside(a, (double)k * 0x1p-20 - 1);
 }
 
-/* The key of a coordinate of the world, 0 <= key < PLANE_GRID. */
-uint32_t plane_key(const axis *a, double x);
+/* The key of a coordinate that is near a plane, or that no guess can be trusted for. */
+uint32_t plane_key_near(const axis *a, double x);
+
+/* The key of a coordinate of the world, 0 <= key < PLANE_GRID. The guess has four roundings of a number below 2^21,
+ * which is less than 2^-29 in all, and a plane is off from its ideal place by an ulp of the world's coordinates at
+ * most: a guess farther than that from a whole number is right. */
+static inline uint32_t plane_key(const axis *a, double x)
+{
+    const double guess = (x - a->min) * a->keys_per_unit;
+    if (guess >= 0 && guess < (double)PLANE_GRID) {
+        const uint32_t key = (uint32_t)guess;
+        const double beyond = guess - (double)key;
+        if (beyond > a->doubt && beyond < 1 - a->doubt)
+            return key;
+    }
+    return plane_key_near(a, x);
+}
 
 /* A cell: its lowest grid plane on each axis, and its depth. */
 typedef struct cell {
@@ -68,11 +89,18 @@ octree_box cell_bounds(const axis axes[3], cell c);
 /* True when at least one of the cell's three planes lies strictly inside it: some octants would differ. */
 bool cell_divisible(const axis axes[3], cell c);
 
-/* The Morton code of a position in the world: 63 bits, x in the highest of each three. */
+/* The Morton code of three keys: 63 bits, x in the highest of each three. */
+static inline uint64_t morton_interleave(const uint32_t keys[3])
+{
+    return bits_spread(keys[0]) << 2 | bits_spread(keys[1]) << 1 | bits_spread(keys[2]);
+}
+
+/* The Morton code of a position in the world. */
 static inline uint64_t morton_code(const axis axes[3], const double position[3])
 {
-    return bits_spread(plane_key(&axes[0], position[0])) << 2 | bits_spread(plane_key(&axes[1], position[1])) << 1 |
-           bits_spread(plane_key(&axes[2], position[2]));
+    const uint32_t keys[3] = {plane_key(&axes[0], position[0]), plane_key(&axes[1], position[1]),
+                              plane_key(&axes[2], position[2])};
+    return morton_interleave(keys);
 }
 
 /* The octant that a code takes from a node of this depth. */
@@ -89,8 +117,7 @@ static inline octree_address morton_address(uint64_t code, unsigned depth)
 
 static inline octree_address cell_address(cell c)
 {
-    const uint64_t code = bits_spread(c.low[0]) << 2 | bits_spread(c.low[1]) << 1 | bits_spread(c.low[2]);
-    return morton_address(code, c.depth);
+    return morton_address(morton_interleave(c.low), c.depth);
 }
 
 #endif

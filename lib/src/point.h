@@ -3,6 +3,7 @@
 #define OCTREE_POINT_H
 
 #include "octree/octree.h"
+#include "simd.h"
 
 static inline bool same_position(const double a[3], const double b[3])
 {
@@ -17,8 +18,19 @@ static inline bool is_self(const octree_point *self, const octree_point *point)
 
 static inline bool box_contains(const octree_box *box, const double p[3])
 {
-    return box->min[0] <= p[0] && p[0] <= box->max[0] && box->min[1] <= p[1] && p[1] <= box->max[1] &&
-           box->min[2] <= p[2] && p[2] <= box->max[2];
+#ifdef OCTREE_SSE2
+    const __m128d xy = _mm_loadu_pd(p), z = _mm_set1_pd(p[2]);
+    const __m128d above_min =
+        _mm_and_pd(_mm_cmple_pd(_mm_loadu_pd(box->min), xy), _mm_cmple_pd(_mm_set1_pd(box->min[2]), z));
+    const __m128d below_max =
+        _mm_and_pd(_mm_cmple_pd(xy, _mm_loadu_pd(box->max)), _mm_cmple_pd(z, _mm_set1_pd(box->max[2])));
+    return _mm_movemask_pd(_mm_and_pd(above_min, below_max)) == 3;
+#else
+    bool inside = true;
+    for (int i = 0; i < 3; i++) /* without branches: which way they go cannot be foreseen */
+        inside &= (box->min[i] <= p[i]) & (p[i] <= box->max[i]);
+    return inside;
+#endif
 }
 
 #endif

@@ -1,84 +1,153 @@
 /* radius.c - the points in a closed ball. */
-#include "leaf.h"
+#include "region.h"
 #include "search.h"
 
-#include <math.h>
+/* The squares of the distances from the centre to a cell, axis by axis. */
+typedef struct ball_cell {
+    double center[3]; /* of the cell, from -1 to 1 in the world */
+    double near[3];   /* to its nearest place */
+    double low[3];    /* to its lower plane */
+    double middle[3]; /* to the plane that cuts it */
+    double high[3];   /* to its upper plane */
+    bool above[3];    /* the ball's centre is above the plane that cuts it, or on it */
+} ball_cell;
 
 typedef struct ball {
-    const octree *tree;
-    octree_search how;
     metric metric;
-    double radius;       /* as given */
-    double square;       /* of the radius, scaled */
-    double whole_square; /* of radius + epsilon, scaled */
-    octree_cost *cost;
-    octree_point_visitor visit;
-    void *context;
+    octree_mode mode;
+    double radius; /* as given */
+    double square; /* of the radius, scaled */
+    double reach;  /* what has a square beyond this is outside */
+    double whole;  /* what has a square below this is inside the ball of radius + epsilon */
+    ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;
 
-/* The squares of the distances to the nearest and the farthest place of a cell. */
-static void cell_squares(const ball *b, cell c, double *nearest, double *farthest)
+static double larger(double a, double b)
 {
-    double near[3], far[3];
-    const octree_box box = cell_bounds(b->tree->axes, c);
+    return a > b ? a : b;
+}
+
+/* Of the two halves of a cell on an axis, the squares to the nearest place and to the farthest. */
+static double near_square(const ball_cell *c, int axis, bool upper)
+{
+    return c->above[axis] == upper ? c->near[axis] : c->middle[axis];
+}
+
+static double far_square(const ball_cell *c, int axis, bool upper)
+{
+    return larger(c->middle[axis], upper ? c->high[axis] : c->low[axis]);
+}
+
+static octant_masks masks_of(const ball *b, const ball_cell *c)
+{
+    double near[3][2], far[3][2];
+    for (int i = 0; i < 3; i++)
+        for (int upper = 0; upper < 2; upper++) {
+            near[i][upper] = near_square(c, i, upper);
+            far[i][upper] = far_square(c, i, upper);
+        }
+    unsigned meets = 0, inside = 0;
+    for (unsigned octant = 0; octant < 8; octant++) {
+        const unsigned x = octant >> 2, y = octant >> 1 & 1, z = octant & 1;
+        meets |= !((near[0][x] + near[1][y]) + near[2][z] > b->reach) ? 1u << octant : 0;
+        inside |= (far[0][x] + far[1][y]) + far[2][z] < b->whole ? 1u << octant : 0;
+    }
+    return (octant_masks){(uint8_t)meets, (uint8_t)inside};
+}
+
+static void cut(const ball *b, const octree *tree, ball_cell *c)
+{
     for (int i = 0; i < 3; i++) {
-        near[i] = metric_gap(&b->metric, i, box.min[i], box.max[i]);
-        far[i] = fmax(b->metric.scaled[i] - box.min[i] * b->metric.scale,
-                      box.max[i] * b->metric.scale - b->metric.scaled[i]);
+        const double plane = plane_inside(&tree->axes[i], c->center[i]) * b->metric.scale;
+        const double beyond = b->metric.scaled[i] - plane;
+        c->middle[i] = beyond * beyond;
+        c->above[i] = beyond >= 0;
     }
-    *nearest = (near[0] * near[0] + near[1] * near[1]) + near[2] * near[2];
-    *farthest = (far[0] * far[0] + far[1] * far[1]) + far[2] * far[2];
 }
 
-static bool contains(const ball *b, const octree_point *point)
+static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
-    const double square = metric_point(&b->metric, point->position);
-    if (is_trusted(b->how.mode, square))
-        return square <= b->square;
-    if (metric_surely_less(square, fmin(b->square, METRIC_FINITE)))
-        return true;
-    return !metric_surely_less(b->square, square) &&
-           metric_compare_radius(b->metric.target, point->position, b->radius) <= 0;
-}
-
-static bool scan_leaf(const ball *b, const node *leaf)
-{
-    b->cost->leaves++;
-    b->cost->points += leaf->count;
-    for (uint32_t i = 0; i < leaf->count; i++) {
-        const octree_point *point = &leaf_points(leaf)[i];
-        if (contains(b, point) && !b->visit(point, b->context))
-            return false;
-    }
-    return true;
-}
-
-static void descend(const ball *b)
-{
-    node_stack stack = {.size = 0};
-    stack_push(&stack, &b->tree->root, root_cell());
-    bool go_on = true;
-    while (go_on && stack.size > 0) {
-        const stacked next = stack_pop(&stack);
-        double nearest, farthest;
-        cell_squares(b, next.cell, &nearest, &farthest);
-        if (surely_less(b->how.mode, b->square, nearest)) {
-            b->cost->pruned++;
-        } else if (surely_less(b->how.mode, farthest, b->whole_square)) {
-            go_on = visit_all_below(next.node, b->cost, b->visit, b->context);
-        } else {
-            b->cost->nodes++;
-            if (next.node->octants)
-                stack_push_children(&stack, next);
-            else
-                go_on = scan_leaf(b, next.node);
+    ball *b = shape;
+    ball_cell *c = &b->cells[depth];
+    if (depth > 0) {
+        const ball_cell *parent = c - 1;
+        const double half = 1.0 / (double)(1u << depth);
+        for (int i = 0; i < 3; i++) {
+            const bool upper = octant >> (2 - i) & 1;
+            c->center[i] = parent->center[i] + (upper ? half : -half);
+            c->near[i] = near_square(parent, i, upper);
+            c->low[i] = upper ? parent->middle[i] : parent->low[i];
+            c->high[i] = upper ? parent->high[i] : parent->middle[i];
         }
     }
+    cut(b, tree, c);
+    return masks_of(b, c);
+}
+
+static unsigned scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
+{
+    const ball *b = shape;
+    const metric m = b->metric;
+    const double reach = b->reach;
+    unsigned found = 0, left = 0;
+    for (unsigned i = 0; i < count; i++) {
+        hits[found] = (uint8_t)i;
+        found += !(metric_point(&m, points[i].position) > reach);
+    }
+    for (unsigned i = 0; i < found; i++) {
+        const octree_point *point = &points[hits[i]];
+        hits[left] = hits[i];
+        left += is_within(&m, b->mode, point, metric_point(&m, point->position), b->radius, b->square);
+    }
+    return left;
+}
+
+/* The world's own cell, which nothing has cut yet. */
+static octant_masks measure_root(ball *b, const octree *tree)
+{
+    ball_cell *c = &b->cells[0];
+    double near = 0, far = 0;
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &tree->axes[i];
+        const double low = b->metric.scaled[i] - a->min * b->metric.scale;
+        const double high = a->max * b->metric.scale - b->metric.scaled[i];
+        const double gap = metric_gap(&b->metric, i, a->min, a->max);
+        c->center[i] = 0;
+        c->near[i] = gap * gap;
+        c->low[i] = low * low;
+        c->high[i] = high * high;
+        near += c->near[i];
+        far += larger(c->low[i], c->high[i]);
+    }
+    return (octant_masks){!(near > b->reach), far < b->whole};
 }
 
 static double scaled_square(double length, double scale)
 {
     return length * scale * (length * scale);
+}
+
+static void run_query(const octree *tree, const double center[3], double radius, const octree_search *how,
+                      octree_point_visitor visit, void *context)
+{
+    ball b;
+    b.metric = metric_make(tree->scale, center);
+    b.mode = how->mode;
+    b.radius = radius;
+    b.square = scaled_square(radius, tree->scale);
+    b.reach = metric_above(b.square);
+    b.whole = metric_below(scaled_square(radius + how->epsilon, tree->scale));
+    region r = {
+        .tree = tree,
+        .shape = &b,
+        .enter = enter,
+        .scan = scan,
+        .visit = visit,
+        .context = context,
+        .meter = {.how = how},
+    };
+    region_descend(&r, measure_root(&b, tree));
+    meter_report(&r.meter);
 }
 
 octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,
@@ -92,19 +161,7 @@ octree_status octree_radius(const octree *tree, const double center[3], double r
         status = isfinite(radius) ? check_finite(center) : OCTREE_NOT_FINITE;
     if (status == OCTREE_OK && radius < 0)
         status = OCTREE_BAD_SIZE;
-    if (status != OCTREE_OK)
-        return status;
-    octree_cost unused;
-    descend(&(ball){
-        .tree = tree,
-        .how = search,
-        .metric = metric_make(tree->scale, center),
-        .radius = radius,
-        .square = scaled_square(radius, tree->scale),
-        .whole_square = fmin(scaled_square(radius + search.epsilon, tree->scale), METRIC_FINITE),
-        .cost = cost_or(&search, &unused),
-        .visit = visit,
-        .context = context,
-    });
-    return OCTREE_OK;
+    if (status == OCTREE_OK)
+        run_query(tree, center, radius, &search, visit, context);
+    return status;
 }

@@ -1,7 +1,7 @@
 /* range.c - Algorithm 4: the points in a closed box. */
 #include "exact.h"
 #include "float_mode.h"
-#include "leaf.h"
+#include "region.h"
 #include "search.h"
 
 #include <math.h>
@@ -47,78 +47,58 @@ static bool misses_world(const octree *tree, const octree_box *box)
     return false;
 }
 
-static bool is_apart(const key_box *keys, cell c)
-{
-    const int32_t last = (int32_t)cell_size(c.depth) - 1;
-    for (int i = 0; i < 3; i++)
-        if ((int32_t)c.low[i] + last < keys->min[i] || (int32_t)c.low[i] > keys->max[i])
-            return true;
-    return false;
-}
-
-static bool is_inside(const key_box *keys, cell c)
-{
-    const int32_t last = (int32_t)cell_size(c.depth) - 1;
-    for (int i = 0; i < 3; i++)
-        if ((int32_t)c.low[i] <= keys->min[i] || (int32_t)c.low[i] + last >= keys->max[i])
-            return false;
-    return true;
-}
-
-/* What a box query does with what it meets. */
-typedef struct box_query {
+typedef struct box_shape {
     const octree_box *box;
-    key_box near_keys;          /* of the box: what does not meet it is left out */
-    key_box whole_keys;         /* of the box moved out by epsilon: what is inside is taken whole */
-    octree_point_visitor visit; /* null: points are counted */
-    void *context;
-    size_t count;
-    octree_cost *cost;
-} box_query;
+    key_box near;                     /* of the box: what does not meet it is left out */
+    key_box whole;                    /* of the box moved out by epsilon: what is inside is taken whole */
+    int32_t low[OCTREE_MAX_DEPTH][3]; /* of the cell at each depth */
+} box_shape;
 
-static bool take_whole(box_query *q, const node *n)
+/* The octants below a plane, and those above, on each axis. */
+static const uint8_t below_plane[3] = {0x0f, 0x33, 0x55};
+static const uint8_t above_plane[3] = {0xf0, 0xcc, 0xaa};
+
+static unsigned if_true(bool condition, unsigned mask)
 {
-    if (q->visit)
-        return visit_all_below(n, q->cost, q->visit, q->context);
-    q->cost->nodes++;
-    q->count += n->count;
-    return true;
+    return condition ? mask : 0;
 }
 
-static bool scan_leaf(box_query *q, const node *leaf)
+static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
-    q->cost->leaves++;
-    q->cost->points += leaf->count;
-    for (uint32_t i = 0; i < leaf->count; i++) {
-        const octree_point *point = &leaf_points(leaf)[i];
-        if (!box_contains(q->box, point->position))
-            continue;
-        q->count++;
-        if (q->visit && !q->visit(point, q->context))
-            return false;
+    (void)tree;
+    box_shape *s = shape;
+    const int32_t size = (int32_t)cell_size(depth), half = size / 2;
+    unsigned meets = 0xff, inside = 0xff;
+    for (int i = 0; i < 3; i++) {
+        const int32_t low = depth == 0 ? 0 : s->low[depth - 1][i] + (octant & (4u >> i) ? size : 0);
+        const int32_t middle = low + half, high = low + size;
+        s->low[depth][i] = low;
+        meets &= if_true(s->near.min[i] < middle && low <= s->near.max[i], below_plane[i]) |
+                 if_true(s->near.min[i] < high && middle <= s->near.max[i], above_plane[i]);
+        inside &= if_true(s->whole.min[i] < low && middle <= s->whole.max[i], below_plane[i]) |
+                  if_true(s->whole.min[i] < middle && high <= s->whole.max[i], above_plane[i]);
     }
-    return true;
+    return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
 
-static void descend(const octree *tree, box_query *q)
+static unsigned scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
 {
-    node_stack stack = {.size = 0};
-    stack_push(&stack, &tree->root, root_cell());
-    bool go_on = true;
-    while (go_on && stack.size > 0) {
-        const stacked next = stack_pop(&stack);
-        if (is_apart(&q->near_keys, next.cell)) {
-            q->cost->pruned++;
-        } else if (is_inside(&q->whole_keys, next.cell)) {
-            go_on = take_whole(q, next.node);
-        } else {
-            q->cost->nodes++;
-            if (next.node->octants)
-                stack_push_children(&stack, next);
-            else
-                go_on = scan_leaf(q, next.node);
-        }
+    const octree_box box = *((const box_shape *)shape)->box;
+    unsigned found = 0;
+    for (unsigned i = 0; i < count; i++) {
+        hits[found] = (uint8_t)i;
+        found += box_contains(&box, points[i].position);
     }
+    return found;
+}
+
+static octant_masks measure_root(const box_shape *s)
+{
+    octant_masks root = {1, 1};
+    for (int i = 0; i < 3; i++)
+        if (s->whole.min[i] >= 0 || s->whole.max[i] < (int32_t)PLANE_GRID)
+            root.inside = 0;
+    return root;
 }
 
 /* The box moved out by epsilon, rounded so that nothing beyond it counts as inside. */
@@ -132,16 +112,29 @@ static octree_box widen(const octree_box *box, double epsilon)
     return wide;
 }
 
-static void run_query(const octree *tree, const octree_search *how, box_query *q)
+/* Visit or count. The box has been checked. */
+static size_t run_query(const octree *tree, const octree_box *box, const octree_search *how, octree_point_visitor visit,
+                        void *context)
 {
-    octree_cost unused;
-    q->cost = cost_or(how, &unused);
-    if (misses_world(tree, q->box))
-        return;
-    const octree_box wide = widen(q->box, how->epsilon);
-    q->near_keys = box_keys(tree, q->box);
-    q->whole_keys = box_keys(tree, &wide);
-    descend(tree, q);
+    if (misses_world(tree, box))
+        return 0;
+    const octree_box wide = widen(box, how->epsilon);
+    box_shape shape;
+    shape.box = box;
+    shape.near = box_keys(tree, box);
+    shape.whole = how->epsilon > 0 ? box_keys(tree, &wide) : shape.near;
+    region r = {
+        .tree = tree,
+        .shape = &shape,
+        .enter = enter,
+        .scan = scan,
+        .visit = visit,
+        .context = context,
+        .meter = {.how = how},
+    };
+    region_descend(&r, measure_root(&shape));
+    meter_report(&r.meter);
+    return r.count;
 }
 
 octree_status octree_range_search(const octree *tree, const octree_box *box, const octree_search *how,
@@ -154,7 +147,7 @@ octree_status octree_range_search(const octree *tree, const octree_box *box, con
     if (status == OCTREE_OK)
         status = check_search(&search);
     if (status == OCTREE_OK)
-        run_query(tree, &search, &(box_query){.box = box, .visit = visit, .context = context});
+        run_query(tree, box, &search, visit, context);
     return status;
 }
 
@@ -168,9 +161,6 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
     if (!tree || !count)
         return OCTREE_NULL_ARGUMENT;
     const octree_status status = check_box(box);
-    box_query q = {.box = box};
-    if (status == OCTREE_OK)
-        run_query(tree, &(octree_search){0}, &q);
-    *count = q.count;
+    *count = status == OCTREE_OK ? run_query(tree, box, &(octree_search){0}, NULL, NULL) : 0;
     return status;
 }

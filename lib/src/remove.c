@@ -32,7 +32,7 @@ bool reserve_merge(octree *tree, const found_point *found, merge_room *room)
 
 static void merge(octree *tree, node *n, const octree_point *left_out, node *room)
 {
-    leaf_gather(tree, room, n, left_out);
+    leaf_gather(room, n, left_out);
     node_release(tree, n);
     *n = *room;
 }

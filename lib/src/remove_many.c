@@ -18,11 +18,11 @@ static bool make_rest(removal *r, const node *old, const bool *gone, uint32_t le
         return false;
     for (uint32_t i = 0; i < old->count; i++)
         if (!gone[i])
-            leaf_append(r->tree, made, &leaf_points(old)[i]); /* there is room */
+            leaf_put(made, &leaf_points(old)[i]);
     return journal_replace(&r->journal, old);
 }
 
-static bool take_from_leaf(removal *r, const node *old, const batch_item *items, size_t count, node *made)
+static bool take_from_leaf(removal *r, const node *old, const morton_item *items, size_t count, node *made)
 {
     bool *gone = arena_take(&r->tree->memory, old->count + 1);
     if (!gone)
@@ -30,7 +30,8 @@ static bool take_from_leaf(removal *r, const node *old, const batch_item *items,
     memset(gone, 0, old->count + 1);
     uint32_t left = old->count;
     for (size_t i = 0; i < count; i++) {
-        const uint32_t index = leaf_find(old, items[i].point->position, items[i].point->id);
+        const octree_point *point = batch_point(r->batch, &items[i]);
+        const uint32_t index = leaf_find(old, point->position, point->id);
         if (index == LEAF_NONE || gone[index]) {
             batch_set(r->batch, &items[i], OCTREE_NOT_FOUND);
         } else {
@@ -63,7 +64,7 @@ static bool make_parent(removal *r, const node children[8], unsigned octants, ui
 }
 
 /* What a node becomes; itself where nothing of it is removed. */
-static bool take(removal *r, const node *old, cell c, const batch_item *items, size_t count, node *made)
+static bool take(removal *r, const node *old, cell c, const morton_item *items, size_t count, node *made)
 {
     *made = *old;
     if (!old->octants)

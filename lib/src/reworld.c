@@ -10,7 +10,7 @@ static bool copy_point(const octree_point *point, void *context)
 
 static void copy_all(const octree *tree, octree_point *points)
 {
-    octree_cost unused = {0};
+    meter unused = {.how = NULL};
     visit_all_below(&tree->root, &unused, copy_point, &points);
 }
 

@@ -27,19 +27,21 @@ octree_status check_finite(const double position[3])
     return finite ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
-bool visit_all_below(const node *n, octree_cost *cost, octree_point_visitor visit, void *context)
+bool visit_all_below(const node *n, meter *m, octree_point_visitor visit, void *context)
 {
     const node *pending[STACK_ROOM];
     size_t size = 0;
     pending[size++] = n;
     while (size > 0) {
         const node *next = pending[--size];
-        cost->nodes++;
-        for (unsigned i = bits_count8(next->octants); i-- > 0;)
+        m->count.nodes++;
+        for (unsigned i = bits_count8(next->octants); i-- > 0;) {
             pending[size++] = &children_of(next)[i];
+            prefetch(children_of(next)[i].below);
+        }
         if (next->octants)
             continue;
-        cost->leaves++;
+        m->count.leaves++;
         for (uint32_t i = 0; i < next->count; i++)
             if (!visit(&leaf_points(next)[i], context))
                 return false;

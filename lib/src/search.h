@@ -2,6 +2,7 @@
 #ifndef OCTREE_SEARCH_H
 #define OCTREE_SEARCH_H
 
+#include "meter.h"
 #include "metric.h"
 #include "tree.h"
 
@@ -16,26 +17,24 @@ octree_status check_search(const octree_search *how);
 /* NOT_FINITE when one of three coordinates is. */
 octree_status check_finite(const double position[3]);
 
-/* True when the squares alone say that a is less: in exact mode beyond the reach of rounding. */
-static inline bool surely_less(octree_mode mode, double a, double b)
-{
-    return mode == OCTREE_FAST ? a < b : metric_surely_less(a, b);
-}
-
 /* True when a square is decided by as it is: in fast mode, but for squares that overflow, which say nothing. */
 static inline bool is_trusted(octree_mode mode, double square)
 {
     return mode == OCTREE_FAST && square < HUGE_VAL;
 }
 
-/* Counts go to the caller's report, or here where there is none. */
-static inline octree_cost *cost_or(const octree_search *how, octree_cost *unused)
+/* Is a point with this scaled square within a radius, whose scaled square is given too? */
+static inline bool is_within(const metric *m, octree_mode mode, const octree_point *point, double square, double radius,
+                             double radius_square)
 {
-    *unused = (octree_cost){0};
-    return how->cost ? how->cost : unused;
+    if (is_trusted(mode, square))
+        return square <= radius_square;
+    if (square < metric_below(radius_square))
+        return true;
+    return !(square > metric_above(radius_square)) && metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
-/* Visit every point in and below a node. False when the visitor stopped. */
-bool visit_all_below(const node *n, octree_cost *cost, octree_point_visitor visit, void *context);
+/* Visit every point in and below a node whose cell is inside a range. False when the visitor stopped. */
+bool visit_all_below(const node *n, meter *m, octree_point_visitor visit, void *context);
 
 #endif

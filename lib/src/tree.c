@@ -24,7 +24,7 @@ octree_def octree_def_default(void)
 {
     return (octree_def){
         .world = {{-1000, -1000, -1000}, {1000, 1000, 1000}},
-        .leaf_capacity = 16,
+        .leaf_capacity = 64,
         .max_depth = OCTREE_MAX_DEPTH,
         .full_leaf = OCTREE_REFUSE,
     };

@@ -33,6 +33,16 @@ static inline node *children_of(const node *n)
     return n->below;
 }
 
+/* Ask for memory that will be read soon. Only speed depends on it. */
+static inline void prefetch(const void *memory)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(memory);
+#else
+    (void)memory;
+#endif
+}
+
 static inline unsigned child_index(const node *n, unsigned octant)
 {
     return bits_count8(n->octants & ((1u << octant) - 1));

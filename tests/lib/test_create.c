@@ -16,7 +16,7 @@ static void default_definition_is_the_documented_one(void **state)
         assert_true(def.world.min[axis] == -1000);
         assert_true(def.world.max[axis] == 1000);
     }
-    assert_int_equal(def.leaf_capacity, 16);
+    assert_int_equal(def.leaf_capacity, 64);
     assert_int_equal(def.max_depth, 21);
     assert_int_equal(def.full_leaf, OCTREE_REFUSE);
     assert_null(def.allocator.allocate);

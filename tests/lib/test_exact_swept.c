@@ -2,66 +2,15 @@
 #include "fixture.h"
 
 #include <float.h>
-#include <gmp.h>
 #include <math.h>
 
 #include "brute.h"
+#include "exact_oracle.h"
 
 /* A step, and the box that is carried along. */
 typedef struct sweep {
     double from[3], to[3], size;
 } sweep;
-
-/* Narrow [first, last] to the moments when low <= at + way * t <= high, for offsets low and high and a way > 0. */
-static void narrow(mpq_t first, mpq_t last, mpq_t low, mpq_t high, const mpq_t way)
-{
-    mpq_div(low, low, way);
-    mpq_div(high, high, way);
-    if (mpq_cmp(low, first) > 0)
-        mpq_set(first, low);
-    if (mpq_cmp(high, last) < 0)
-        mpq_set(last, high);
-}
-
-/* Narrow [first, last] to the moments of one axis. False when it is never covered there, at rest. */
-static bool narrow_axis(mpq_t first, mpq_t last, const sweep *s, const double p[3], int axis)
-{
-    mpq_t offset, size, way, low, high;
-    mpq_inits(offset, size, way, low, high, NULL);
-    mpq_set_d(offset, p[axis]);
-    mpq_set_d(low, s->from[axis]);
-    mpq_set_d(way, s->to[axis]);
-    mpq_set_d(size, s->size);
-    mpq_sub(offset, offset, low);
-    mpq_sub(way, way, low);
-    if (mpq_sgn(way) < 0) { /* mirrored, it goes upwards */
-        mpq_neg(offset, offset);
-        mpq_neg(way, way);
-    }
-    mpq_sub(low, offset, size);
-    mpq_add(high, offset, size);
-    bool covered = mpq_sgn(low) <= 0 && mpq_sgn(high) >= 0;
-    if (mpq_sgn(way) > 0) {
-        narrow(first, last, low, high, way);
-        covered = true;
-    }
-    mpq_clears(offset, size, way, low, high, NULL);
-    return covered;
-}
-
-/* The truth: the moments of [0, 1] when the box covers p on the three axes have one in common. */
-static bool truly_touches(const sweep *s, const double p[3])
-{
-    mpq_t first, last;
-    mpq_inits(first, last, NULL);
-    mpq_set_ui(last, 1, 1);
-    bool covered = true;
-    for (int axis = 0; axis < 3 && covered; axis++)
-        covered = narrow_axis(first, last, s, p, axis);
-    covered = covered && mpq_cmp(first, last) <= 0;
-    mpq_clears(first, last, NULL);
-    return covered;
-}
 
 static void find_wrong(const brute *expected, const brute *found, const sweep *s)
 {
@@ -80,7 +29,7 @@ static void assert_swept_in(const octree *tree, const brute *all, const sweep *s
     const sweep back = {{s->to[0], s->to[1], s->to[2]}, {s->from[0], s->from[1], s->from[2]}, s->size};
     brute expected = {0}, found = {0}, reversed = {0};
     for (size_t i = 0; i < all->count; i++)
-        if (truly_touches(s, all->points[i].position))
+        if (exact_touches(s->from, s->to, s->size, all->points[i].position, all->points[i].position))
             brute_collect(&all->points[i], &expected);
     assert_int_equal(octree_collide_swept(tree, s->from, s->to, s->size, NULL, brute_collect, &found), OCTREE_OK);
     assert_int_equal(octree_collide_swept(tree, s->to, s->from, s->size, NULL, brute_collect, &reversed), OCTREE_OK);
@@ -137,7 +86,7 @@ static void grazing_is_decided_to_the_last_bit_at_every_scale(void **state)
             const double unit = ldexp(1, scales[i]);
             sweep s = {{0, 0, 0}, {12 * unit, 12 * unit, 12 * unit}, 4 * unit};
             const double at[3] = {edges[j][0] * unit, edges[j][1] * unit, edges[j][2] * unit};
-            assert_true(truly_touches(&s, at));
+            assert_true(exact_touches(s.from, s.to, s.size, at, at));
             add_around(&all, at, 1);
             assert_swept(&all, &s);
         }

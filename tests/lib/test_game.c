@@ -314,7 +314,7 @@ static void create_refuses_bad_trees_ids_options_and_orders(void **state)
     static const octree_edit odd[] = {{.tick = 1, .kind = (octree_edit_kind)3}};
     static const octree_query back[] = {{.tick = 2, .box = {{0}, {1, 1, 1}}}, {.tick = 1, .box = {{0}, {1, 1, 1}}}};
     static const octree_query every[] = {{.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST}, {.tick = 1}};
-    static const octree_query strange[] = {{.tick = 1, .kind = (octree_query_kind)2}};
+    static const octree_query strange[] = {{.tick = 1, .kind = OCTREE_QUERY_KINDS}};
     octree_session session = small_session(NULL, 0);
     session.tree.world.max[1] = -10;
     assert_int_equal(status_of(&session), OCTREE_BAD_WORLD);
@@ -346,6 +346,46 @@ static void create_refuses_bad_trees_ids_options_and_orders(void **state)
     session.queries = strange;
     session.query_count = 1;
     assert_int_equal(status_of(&session), OCTREE_BAD_OPTION);
+}
+
+static void create_refuses_queries_that_no_tick_can_answer(void **state)
+{
+    (void)state;
+    static const struct {
+        octree_query query;
+        octree_status status;
+    } rows[] = {
+        {{.kind = OCTREE_QUERY_RANGE, .box = {{0, 0, 1}, {1, 1, 0.5}}}, OCTREE_BAD_RANGE},
+        {{.kind = OCTREE_QUERY_RANGE, .at_player = true, .box = {{0, NAN, 0}, {1, 1, 1}}}, OCTREE_NOT_FINITE},
+        {{.kind = OCTREE_QUERY_RANGE, .at_player = true, .box = {{-INFINITY, 0, 0}, {1, INFINITY, 1}}}, OCTREE_OK},
+        {{.kind = OCTREE_QUERY_NEAREST, .target = {0, 0, INFINITY}}, OCTREE_NOT_FINITE},
+        {{.kind = OCTREE_QUERY_NEAREST, .at_player = true, .target = {0, 0, NAN}, .radius = -1}, OCTREE_OK},
+        {{.kind = OCTREE_QUERY_KNEAREST, .target = {NAN, 0, 0}, .k = 3}, OCTREE_NOT_FINITE},
+        {{.kind = OCTREE_QUERY_KNEAREST, .k = 0}, OCTREE_OK},
+        {{.kind = OCTREE_QUERY_KNEAREST, .k = SIZE_MAX}, OCTREE_OK},
+        {{.kind = OCTREE_QUERY_RADIUS, .radius = -1}, OCTREE_BAD_SIZE},
+        {{.kind = OCTREE_QUERY_RADIUS, .radius = INFINITY}, OCTREE_NOT_FINITE},
+        {{.kind = OCTREE_QUERY_RADIUS, .radius = NAN, .at_player = true}, OCTREE_NOT_FINITE},
+        {{.kind = OCTREE_QUERY_RADIUS, .target = {0, -INFINITY, 0}}, OCTREE_NOT_FINITE},
+        {{.kind = OCTREE_QUERY_RADIUS, .radius = 1.7e308, .target = {-1.7e308, 1e308, 0}}, OCTREE_OK},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        octree_session session = small_session(NULL, 0);
+        session.queries = &rows[i].query;
+        session.query_count = 1;
+        assert_int_equal(status_of(&session), rows[i].status);
+    }
+}
+
+static void every_kind_of_query_has_a_name_and_no_other(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"range", "nearest", "knearest", "radius"};
+    assert_int_equal(sizeof names / sizeof names[0], OCTREE_QUERY_KINDS);
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
+        assert_string_equal(octree_query_name((octree_query_kind)kind), names[kind]);
+    assert_null(octree_query_name(OCTREE_QUERY_KINDS));
+    assert_null(octree_query_name((octree_query_kind)-1));
 }
 
 static void create_refuses_arrays_that_are_null(void **state)
@@ -389,6 +429,8 @@ int main(void)
         cmocka_unit_test(keys_that_are_missing_are_waits),
         cmocka_unit_test(create_refuses_bad_players),
         cmocka_unit_test(create_refuses_bad_trees_ids_options_and_orders),
+        cmocka_unit_test(create_refuses_queries_that_no_tick_can_answer),
+        cmocka_unit_test(every_kind_of_query_has_a_name_and_no_other),
         cmocka_unit_test(create_refuses_arrays_that_are_null),
         cmocka_unit_test(each_event_has_a_name),
     };

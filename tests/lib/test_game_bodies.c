@@ -263,11 +263,69 @@ static void queries_are_asked_at_their_ticks_after_the_step(void **state)
     assert_int_equal(tick->answers[1].points[0].id, 100);
     tick = play_key(game, 'd');
     assert_int_equal(tick->answer_count, 2);
-    assert_true(tick->answers[0].found && !tick->answers[0].by_key);
-    assert_int_equal(tick->answers[0].neighbor.point.id, 4);
-    assert_true(tick->answers[0].neighbor.distance == 0.25);
+    assert_true(tick->answers[0].count == 1 && !tick->answers[0].by_key);
+    assert_int_equal(tick->answers[0].neighbors[0].point.id, 4);
+    assert_true(tick->answers[0].neighbors[0].distance == 0.25);
     assert_int_equal(tick->answers[1].count, 3); /* the box moved with the player */
     assert_true(tick->answers[1].box.min[0] == 0 && tick->answers[1].box.max[0] == 3);
+    octree_game_destroy(game);
+}
+
+static void neighbours_come_by_distance_and_then_by_id_without_the_player(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 4, .position = {0, 2, 0}}, {.id = 3, .position = {3, 0, 0}},
+                                         {.id = 7, .position = {0, 0, 2}}, {.id = 5, .position = {2, 0, 0}},
+                                         {.id = 1, .position = {9, 9, 9}}, {.id = 200, .position = {0, 0, 0}}};
+    static const octree_query queries[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 5},
+                                           {.kind = OCTREE_QUERY_KNEAREST, .target = {0, 0, 0}, .k = 2},
+                                           {.kind = OCTREE_QUERY_KNEAREST, .target = {9, 9, 9}, .k = SIZE_MAX},
+                                           {.kind = OCTREE_QUERY_KNEAREST, .target = {9, 9, 9}, .k = 0}};
+    octree_session session = small_session(bodies, 6);
+    session.queries = queries;
+    session.query_count = 4;
+    octree_game *game = start_game(&session);
+    const octree_tick *tick = octree_game_tick(game);
+    static const uint64_t ids[] = {200, 4, 5, 7, 3};
+    static const double distances[] = {0, 2, 2, 2, 3};
+    assert_int_equal(tick->answers[0].count, 5);
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(tick->answers[0].neighbors[i].point.id, ids[i]);
+        assert_true(tick->answers[0].neighbors[i].distance == distances[i]);
+    }
+    assert_int_equal(tick->answers[1].count, 2);
+    assert_int_equal(tick->answers[1].neighbors[0].point.id, 100); /* the player is a neighbour of a place */
+    assert_int_equal(tick->answers[1].neighbors[1].point.id, 200);
+    assert_int_equal(tick->answers[2].count, 7); /* all there are */
+    assert_true(tick->answers[2].k == SIZE_MAX);
+    assert_int_equal(tick->answers[2].neighbors[0].point.id, 1);
+    assert_int_equal(tick->answers[3].count, 0);
+    octree_game_destroy(game);
+}
+
+static void a_ball_is_closed_and_goes_with_the_player(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {
+        {.id = 4, .position = {0, 3, 4}}, {.id = 2, .position = {5, 0, 0}}, {.id = 9, .position = {6, 0, 0}}};
+    static const octree_query queries[] = {
+        {.tick = 0, .kind = OCTREE_QUERY_RADIUS, .target = {0, 3, 4}, .radius = 0},
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 5},
+    };
+    octree_session session = small_session(bodies, 3);
+    session.queries = queries;
+    session.query_count = 2;
+    octree_game *game = start_game(&session);
+    const octree_tick *tick = octree_game_tick(game);
+    assert_int_equal(tick->answers[0].count, 1);
+    assert_int_equal(tick->answers[0].points[0].id, 4);
+    assert_int_equal(tick->answers[1].count, 3); /* by id; the player itself is a point of the ball */
+    assert_true(tick->answers[1].points[0].id == 2 && tick->answers[1].points[1].id == 4);
+    assert_int_equal(tick->answers[1].points[2].id, 100);
+    tick = play_key(game, 'd');
+    assert_int_equal(tick->answers[0].count, 3);
+    assert_true(tick->answers[0].points[0].id == 2 && tick->answers[0].points[1].id == 9);
+    assert_true(tick->answers[0].target[0] == 1 && tick->answers[0].radius == 5);
     octree_game_destroy(game);
 }
 
@@ -287,14 +345,14 @@ static void n_names_the_nearest_neighbour_but_the_player(void **state)
         const octree_answer *answer = &tick->answers[i];
         assert_true(answer->by_key == (i == 0)); /* n first */
         assert_int_equal(answer->kind, OCTREE_QUERY_NEAREST);
-        assert_true(answer->found && answer->neighbor.point.id == 2 && answer->neighbor.distance == 3);
+        assert_true(answer->count == 1 && answer->neighbors[0].point.id == 2 && answer->neighbors[0].distance == 3);
         assert_true(same_position(answer->target, tick->player));
     }
     octree_game_destroy(game);
     session.body_count = 0;
     game = start_game(&session);
     tick = play_key(game, 'n');
-    assert_false(tick->answers[0].found || tick->answers[1].found); /* nobody but the player */
+    assert_int_equal(tick->answers[0].count + tick->answers[1].count, 0); /* nobody but the player */
     octree_game_destroy(game);
 }
 
@@ -305,8 +363,8 @@ static void a_body_at_the_player_is_its_nearest_neighbour(void **state)
     octree_session session = small_session(bodies, 2);
     octree_game *game = start_game(&session);
     const octree_tick *tick = play_key(game, 'n');
-    assert_int_equal(tick->answers[0].neighbor.point.id, 1); /* unlike the paper, which asks for distance != 0 */
-    assert_true(tick->answers[0].neighbor.distance == 0);
+    assert_int_equal(tick->answers[0].neighbors[0].point.id, 1); /* unlike the paper, which asks for distance != 0 */
+    assert_true(tick->answers[0].neighbors[0].distance == 0);
     octree_game_destroy(game);
 }
 
@@ -339,6 +397,8 @@ int main(void)
         cmocka_unit_test(an_edit_moves_a_body_and_keeps_its_velocity),
         cmocka_unit_test(a_body_that_leaves_makes_room_for_a_step_in_the_same_tick),
         cmocka_unit_test(queries_are_asked_at_their_ticks_after_the_step),
+        cmocka_unit_test(neighbours_come_by_distance_and_then_by_id_without_the_player),
+        cmocka_unit_test(a_ball_is_closed_and_goes_with_the_player),
         cmocka_unit_test(n_names_the_nearest_neighbour_but_the_player),
         cmocka_unit_test(a_body_at_the_player_is_its_nearest_neighbour),
         cmocka_unit_test(a_thousand_ticks_of_waiting_cost_no_changes),

@@ -37,10 +37,10 @@ static void compare_nearest(const octree_game *game, const paper_game *theirs)
         assert_true(ours.distance == theirs->distance);
     for (size_t i = 0; i < tick->answer_count; i++) {
         const octree_answer *answer = &tick->answers[i];
-        if (answer->kind != OCTREE_QUERY_NEAREST || !answer->found || answer->neighbor.distance == 0)
+        if (answer->kind != OCTREE_QUERY_NEAREST || answer->count == 0 || answer->neighbors[0].distance == 0)
             continue;
         assert_true(theirs->found);
-        assert_true(answer->neighbor.distance == theirs->distance);
+        assert_true(answer->neighbors[0].distance == theirs->distance);
     }
 }
 
@@ -145,7 +145,7 @@ static void at_fault_the_paper_does_not_name_a_neighbour_at_the_player(void **st
     paper_game_start(&theirs, &session);
     const octree_answer *answer = &play_key(game, 'n')->answers[0];
     assert_false(theirs.found);
-    assert_true(answer->found && answer->neighbor.point.id == 1 && answer->neighbor.distance == 0);
+    assert_true(answer->count == 1 && answer->neighbors[0].point.id == 1 && answer->neighbors[0].distance == 0);
     paper_game_end(&theirs);
     octree_game_destroy(game);
 }

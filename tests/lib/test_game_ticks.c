@@ -77,35 +77,126 @@ static void assert_same_points(const octree_point *points, size_t count, brute *
     brute_free(&given);
 }
 
-static void check_hits(const octree_tick *tick, const octree_player *player, brute *all)
+static const octree_point *find_id(const brute *all, uint64_t id)
 {
-    brute others = {0}, expected = {0};
     for (size_t i = 0; i < all->count; i++)
-        if (all->points[i].id != player->id)
-            brute_collect(&all->points[i], &others);
-    brute_collide(&others, tick->attempt, player->box_size, NULL, &expected);
+        if (all->points[i].id == id)
+            return &all->points[i];
+    return NULL;
+}
+
+/* Whether the tree did not take a body where an edit puts it. */
+static bool is_refused(const octree_tick *tick, const octree_body *body)
+{
+    for (size_t i = 0; i < tick->refusal_count; i++)
+        if (tick->refusals[i].id == body->id && tick->refusals[i].why != OCTREE_DUPLICATE &&
+            same_position(tick->refusals[i].position, body->position))
+            return true;
+    return false;
+}
+
+/* Where each body comes from: where it was at the tick before, or where an edit of this tick has inserted it. */
+static void trace(const octree_session *session, const octree_tick *tick, const brute *before, brute *from)
+{
+    for (size_t i = 0; i < before->count; i++)
+        brute_collect(&before->points[i], from);
+    for (size_t i = 0; i < session->edit_count; i++) {
+        const octree_edit *edit = &session->edits[i];
+        const octree_point *known = find_id(from, edit->body.id);
+        if (edit->tick != tick->number || edit->kind == OCTREE_EDIT_MOVE || edit->body.id == session->player.id)
+            continue;
+        if (edit->kind == OCTREE_EDIT_REMOVE && known)
+            brute_remove(from, known->position, known->id);
+        if (edit->kind == OCTREE_EDIT_INSERT && !known && !is_refused(tick, &edit->body))
+            brute_insert(from, edit->body.position, edit->body.id);
+    }
+}
+
+static bool is_met(const octree_tick *tick, double size, const double from[3], const double at[3])
+{
+    return tick->swept ? brute_touches(tick->from, tick->attempt, size, from, at)
+                       : brute_touches(tick->attempt, tick->attempt, size, at, at);
+}
+
+/* `before` is what there was after the tick before. */
+static void check_hits(const octree_tick *tick, const octree_session *session, const brute *before, const brute *all)
+{
+    const octree_player *player = &session->player;
+    brute from = {0}, expected = {0};
+    trace(session, tick, before, &from);
+    for (size_t i = 0; i < all->count; i++) {
+        const octree_point *point = &all->points[i];
+        if (point->id != player->id &&
+            is_met(tick, player->box_size, find_id(&from, point->id)->position, point->position))
+            brute_collect(point, &expected);
+    }
     assert_same_points(tick->hits, tick->hit_count, &expected);
     assert_true(((tick->events & OCTREE_EVENT_COLLIDED) != 0) == (tick->hit_count > 0));
-    brute_free(&others);
+    assert_true(tick->swept == player->sweep);
+    assert_true(same_position(tick->from, find_id(before, player->id)->position));
+    for (size_t i = 0; tick->swept && i < tick->hit_count; i++)
+        assert_true(same_position(tick->hit_from[i], find_id(&from, tick->hits[i].id)->position));
+    brute_free(&from);
     brute_free(&expected);
 }
 
-static void check_answer(const octree_answer *answer, const octree_tick *tick, const octree_player *player, brute *all)
+static void check_neighbors(const octree_answer *answer, const octree_query *query, const octree_tick *tick,
+                            const octree_player *player, const brute *all)
 {
-    if (answer->kind == OCTREE_QUERY_RANGE) {
+    octree_neighbor *expected;
+    const octree_skip skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
+    const size_t k = query->kind == OCTREE_QUERY_NEAREST ? 1 : query->k;
+    const double *target = query->at_player ? tick->player : query->target;
+    const size_t found = brute_nearest_k(all, target, k, skip, player->id, &expected);
+    assert_int_equal(answer->count, found);
+    assert_true(answer->k == k && same_position(answer->target, target));
+    for (size_t i = 0; i < found; i++)
+        assert_true(answer->neighbors[i].point.id == expected[i].point.id &&
+                    same_position(answer->neighbors[i].point.position, expected[i].point.position) &&
+                    answer->neighbors[i].distance == expected[i].distance);
+    free(expected);
+}
+
+/* Whether the answer is what the query asks for, and is true. */
+static void check_answer(const octree_answer *answer, const octree_query *query, const octree_tick *tick,
+                         const octree_player *player, brute *all)
+{
+    assert_int_equal(answer->kind, query->kind);
+
+    if (query->kind == OCTREE_QUERY_RANGE || query->kind == OCTREE_QUERY_RADIUS) {
         brute expected = {0};
-        brute_range(all, &answer->box, &expected);
+        octree_box box = query->box;
+        for (int axis = 0; query->at_player && axis < 3; axis++) {
+            box.min[axis] += tick->player[axis];
+            box.max[axis] += tick->player[axis];
+        }
+        if (query->kind == OCTREE_QUERY_RANGE)
+            brute_range(all, &box, &expected);
+        else
+            brute_radius(all, query->at_player ? tick->player : query->target, query->radius, &expected);
         assert_same_points(answer->points, answer->count, &expected);
         brute_free(&expected);
         return;
     }
-    octree_neighbor expected;
-    bool of_player = answer->by_key || same_position(answer->target, tick->player);
-    bool found =
-        brute_nearest(all, answer->target, of_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE, player->id, &expected);
-    assert_true(answer->found == found);
-    if (found)
-        assert_true(answer->neighbor.point.id == expected.point.id && answer->neighbor.distance == expected.distance);
+    check_neighbors(answer, query, tick, player, all);
+}
+
+/* The answers are those of the queries that the tick is due, n first. */
+static void check_answers(const octree_tick *tick, const octree_session *session, brute *all)
+{
+    static const octree_query by_key = {.kind = OCTREE_QUERY_NEAREST, .at_player = true};
+    size_t due = 0;
+    if (tick->key == 'n')
+        check_answer(&tick->answers[due++], &by_key, tick, &session->player, all);
+    for (size_t i = 0; i < session->query_count; i++) {
+        const octree_query *query = &session->queries[i];
+        if (query->tick != tick->number && query->tick != OCTREE_EVERY_TICK)
+            continue;
+        assert_true(due < tick->answer_count);
+        assert_true(tick->answers[due].by_key == (tick->key == 'n' && due == 0));
+        check_answer(&tick->answers[due++], query, tick, &session->player, all);
+    }
+    assert_int_equal(tick->answer_count, due);
 }
 
 static int direction_on(char key, int axis)
@@ -129,7 +220,14 @@ static void check_player(const octree_tick *tick, const octree_session *session,
     }
 }
 
-static void check_tick(const octree_game *game, inner_nodes *before, int64_t steps[3])
+/* What a tick is compared with: the tick before it. */
+typedef struct last_tick {
+    inner_nodes nodes;
+    int64_t steps[3];
+    brute points;
+} last_tick;
+
+static void check_tick(const octree_game *game, last_tick *last)
 {
     const octree_tick *tick = octree_game_tick(game);
     const octree_session *session = octree_game_session(game);
@@ -140,39 +238,32 @@ static void check_tick(const octree_game *game, inner_nodes *before, int64_t ste
     assert_int_equal(octree_count(tree), all.count);
     assert_true(brute_contains(&all, tick->player, session->player.id));
     assert_valid(tree);
-    check_player(tick, session, steps);
-    check_nodes(tick, tree, before);
-    check_hits(tick, &session->player, &all);
-    for (size_t i = 0; i < tick->answer_count; i++)
-        check_answer(&tick->answers[i], tick, &session->player, &all);
-    brute_free(&all);
-}
-
-/* The number of answers that a session asks for at a tick. */
-static size_t answers_due(const octree_session *session, uint64_t tick, char key)
-{
-    size_t due = key == 'n' ? 1 : 0;
-    for (size_t i = 0; i < session->query_count; i++)
-        due += session->queries[i].tick == tick || session->queries[i].tick == OCTREE_EVERY_TICK ? 1 : 0;
-    return due;
+    if (tick->number == 0) /* nothing came before it, so it has no splits and nothing has moved */
+        for (size_t i = 0; i < all.count; i++)
+            brute_collect(&all.points[i], &last->points);
+    check_player(tick, session, last->steps);
+    check_nodes(tick, tree, &last->nodes);
+    check_hits(tick, session, &last->points, &all);
+    check_answers(tick, session, &all);
+    brute_free(&last->points);
+    last->points = all;
 }
 
 static void play_and_check(const octree_session *session)
 {
     octree_game *game = start_game(session);
-    inner_nodes before; /* of tick 0 itself: nothing came before it, so it has no splits */
-    look_at_inner(octree_game_tree(game), &before);
-    int64_t steps[3] = {0, 0, 0};
+    last_tick last = {.steps = {0, 0, 0}};
+    look_at_inner(octree_game_tree(game), &last.nodes);
     for (uint64_t number = 0;; number++) {
         const octree_tick *tick = octree_game_tick(game);
         assert_int_equal(tick->number, number);
-        assert_int_equal(tick->answer_count, answers_due(session, number, tick->key));
-        check_tick(game, &before, steps);
+        check_tick(game, &last);
         if (octree_game_over(game))
             break;
         assert_int_equal(octree_game_advance(game), OCTREE_OK);
     }
     assert_int_equal(octree_game_tick(game)->number, octree_session_length(session));
+    brute_free(&last.points);
     octree_game_destroy(game);
 }
 
@@ -209,6 +300,7 @@ static uint64_t digest_tick(uint64_t digest, const octree_tick *tick)
     digest = octree_digest_word(digest, tick->number);
     digest = octree_digest_word(digest, tick->events);
     digest = octree_digest_bytes(digest, tick->player, sizeof tick->player);
+    digest = octree_digest_bytes(digest, tick->from, sizeof tick->from);
     digest = octree_digest_bytes(digest, tick->attempt, sizeof tick->attempt);
     digest = digest_points(digest, tick->hits, tick->hit_count);
     digest = octree_digest_bytes(digest, tick->splits, tick->split_count * sizeof(octree_address));
@@ -217,10 +309,13 @@ static uint64_t digest_tick(uint64_t digest, const octree_tick *tick)
         digest = octree_digest_word(digest, tick->refusals[i].id ^ (uint64_t)tick->refusals[i].why << 32);
     for (size_t i = 0; i < tick->answer_count; i++) {
         const octree_answer *answer = &tick->answers[i];
-        digest = answer->kind == OCTREE_QUERY_RANGE ? digest_points(digest, answer->points, answer->count)
-                                                    : octree_digest_word(digest, answer->found);
-        if (answer->kind == OCTREE_QUERY_NEAREST && answer->found)
-            digest = octree_digest_double(digest, answer->neighbor.distance);
+        digest = octree_digest_word(digest, answer->count);
+        if (answer->points)
+            digest = digest_points(digest, answer->points, answer->count);
+        for (size_t j = 0; answer->neighbors && j < answer->count; j++) {
+            digest = digest_points(digest, &answer->neighbors[j].point, 1);
+            digest = octree_digest_double(digest, answer->neighbors[j].distance);
+        }
     }
     return digest;
 }

@@ -222,13 +222,21 @@ static void churn_does_not_grow_the_memory(void **state)
     assert_all_returned(&counts);
 }
 
-static void a_game_survives_the_failure_of_each_allocation(void **state)
+static void play_under_failures(bool sweep)
 {
-    (void)state;
+    static const octree_query queries[] = {
+        {.tick = 219, .kind = OCTREE_QUERY_RANGE, .box = {{700, 700, 700}, {1000, 1000, 1000}}},
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = SIZE_MAX},
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 900},
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_KNEAREST, .k = 9},
+    };
     octree_status status = OCTREE_NO_MEMORY;
     for (size_t n = 0; status == OCTREE_NO_MEMORY; n++) {
         counting_allocator counts = {0};
         octree_session session = octree_session_default();
+        session.player.sweep = sweep;
+        session.queries = queries;
+        session.query_count = sizeof queries / sizeof queries[0];
         session.tree.allocator = counting_allocator_use(&counts);
         counting_allocator_fail_at(&counts, n);
         octree_game *game = NULL;
@@ -240,6 +248,13 @@ static void a_game_survives_the_failure_of_each_allocation(void **state)
         octree_game_destroy(game);
         assert_all_returned(&counts);
     }
+}
+
+static void a_game_survives_the_failure_of_each_allocation(void **state)
+{
+    (void)state;
+    play_under_failures(false);
+    play_under_failures(true);
 }
 
 int main(void)

@@ -44,32 +44,6 @@ static void collide_at_both_ends(const octree *tree, const double from[3], const
     brute_free(&last);
 }
 
-/* On each axis, for whole numbers: is p within `size` of from + (to - from) * num / den? */
-static bool is_within_at(const double p[3], const double from[3], const double to[3], double size, double num,
-                         double den)
-{
-    for (int axis = 0; axis < 3; axis++)
-        if (fabs((p[axis] - from[axis]) * den - (to[axis] - from[axis]) * num) > size * den)
-            return false;
-    return true;
-}
-
-/* The truth for small whole numbers. The moments of touching are a closed interval: were there any, its first would be
- * 0 or the moment when the box arrives at the point on one of the axes. */
-static bool truly_touches(const double p[3], const double from[3], const double to[3], double size)
-{
-    if (is_within_at(p, from, to, size, 0, 1))
-        return true;
-    for (int axis = 0; axis < 3; axis++) {
-        double way = to[axis] - from[axis];
-        double num = way > 0 ? p[axis] - from[axis] - size : from[axis] - p[axis] - size;
-        double den = fabs(way);
-        if (den > 0 && num >= 0 && num <= den && is_within_at(p, from, to, size, num, den))
-            return true;
-    }
-    return false;
-}
-
 static void swept_refuses_null(void **state)
 {
     (void)state;
@@ -304,7 +278,7 @@ static void assert_true_sweep(const octree *tree, const brute *all, const double
 {
     brute expected = {0}, there = {0}, back = {0};
     for (size_t i = 0; i < all->count; i++)
-        if (truly_touches(all->points[i].position, from, to, size))
+        if (brute_touches(from, to, size, all->points[i].position, all->points[i].position))
             brute_collect(&all->points[i], &expected);
     sweep_into(tree, from, to, size, &there);
     sweep_into(tree, to, from, size, &back);

@@ -44,6 +44,10 @@ bool brute_within(double center, double size, double p);
 /* Add the points within `size` of the centre on each axis, but for the pair `self` (may be null), to `found`. */
 void brute_collide(const brute *all, const double center[3], double size, const octree_point *self, brute *found);
 
+/* Whether a box of this size touches a point on its way from p to q, while it goes from one place to another: true
+ * where products of the coordinates are exact, as for small whole ones. */
+bool brute_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3]);
+
 /* Whether a skip rule leaves this point out. */
 bool brute_skips(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id);
 

@@ -200,6 +200,59 @@ bool exact_within(double center, double size, double p)
     return within;
 }
 
+static void set_difference(mpq_t difference, double a, double b)
+{
+    mpq_t other;
+    mpq_init(other);
+    mpq_set_d(difference, a);
+    mpq_set_d(other, b);
+    mpq_sub(difference, difference, other);
+    mpq_clear(other);
+}
+
+/* Narrow [first, last] to the moments t when -size <= u + (w - u) * t <= size. False when there are none, at rest. */
+static bool narrow(mpq_t first, mpq_t last, const mpq_t u, const mpq_t w, const mpq_t size)
+{
+    mpq_t way, low, high;
+    mpq_inits(way, low, high, NULL);
+    mpq_sub(way, w, u);
+    mpq_neg(low, size);
+    mpq_sub(low, low, u); /* low <= way * t <= high */
+    mpq_sub(high, size, u);
+    bool covered = mpq_sgn(low) <= 0 && mpq_sgn(high) >= 0;
+    if (mpq_sgn(way) != 0) {
+        mpq_div(low, low, way);
+        mpq_div(high, high, way);
+        if (mpq_sgn(way) < 0)
+            mpq_swap(low, high);
+        if (mpq_cmp(low, first) > 0)
+            mpq_set(first, low);
+        if (mpq_cmp(high, last) < 0)
+            mpq_set(last, high);
+        covered = true;
+    }
+    mpq_clears(way, low, high, NULL);
+    return covered;
+}
+
+/* The moments of [0, 1] when the box covers the point on the three axes have one in common. */
+bool exact_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3])
+{
+    mpq_t first, last, u, w, reach;
+    mpq_inits(first, last, u, w, reach, NULL);
+    mpq_set_ui(last, 1, 1);
+    mpq_set_d(reach, size);
+    bool covered = true;
+    for (int axis = 0; axis < 3 && covered; axis++) {
+        set_difference(u, p[axis], from[axis]);
+        set_difference(w, q[axis], to[axis]);
+        covered = narrow(first, last, u, w, reach);
+    }
+    covered = covered && mpq_cmp(first, last) <= 0;
+    mpq_clears(first, last, u, w, reach, NULL);
+    return covered;
+}
+
 /* (low * (2^depth - k) + high * k) * 2^1074, which is the plane times 2^(1074 + depth). */
 static void set_plane(mpz_t plane, double low, double high, uint32_t k, unsigned depth)
 {

@@ -34,6 +34,9 @@ bool exact_distance_is(double distance, unsigned steps, const double a[3], const
 /* Whether |p - center| <= size. */
 bool exact_within(double center, double size, double p);
 
+/* Whether a box position +- size on its way from one place to another touches a point on its way from p to q. */
+bool exact_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3]);
+
 /* Whether the plane k/2^depth of [low, high] is a double; then *plane is that double. */
 bool exact_plane(double low, double high, uint32_t k, unsigned depth, double *plane);
 

@@ -100,13 +100,15 @@ static void random_edits(random_session *made, uint64_t *state)
 
 static void random_query(uint64_t *state, const octree_box *world, octree_query *query)
 {
-    query->kind = (octree_query_kind)random_below(state, 2);
+    query->kind = (octree_query_kind)random_below(state, OCTREE_QUERY_KINDS);
     query->at_player = random_below(state, 2) == 0;
     random_position(state, world, query->target);
     for (int axis = 0; axis < 3; axis++) {
         query->box.min[axis] = quarter(state, -20, 10);
         query->box.max[axis] = query->box.min[axis] + quarter(state, 0, 20);
     }
+    query->k = random_below(state, 2) == 0 ? random_below(state, 6) : random_below(state, 2 * RANDOM_SESSION_BODIES);
+    query->radius = quarter(state, 0, 20);
 }
 
 static void random_queries(random_session *made, uint64_t *state)
@@ -131,5 +133,6 @@ void random_session_full(random_session *made, uint64_t seed)
     random_keys(made, &state);
     random_edits(made, &state);
     random_queries(made, &state);
+    made->session.player.sweep = random_below(&state, 3) == 0;
     made->session.ticks = random_below(&state, 2 * RANDOM_SESSION_KEYS);
 }

@@ -24,7 +24,8 @@ typedef struct random_session {
 /* What the paper can play: resting bodies, no edits; the one query is the player's nearest neighbour, every tick. */
 void random_session_plain(random_session *made, uint64_t seed);
 
-/* The same with velocities, edits (some of them of ids that are taken or unknown) and queries of both kinds. */
+/* The same with velocities, edits (some of them of ids that are taken or unknown) and queries of every kind; a third of
+ * them are swept. */
 void random_session_full(random_session *made, uint64_t seed);
 
 #endif

@@ -273,8 +273,8 @@ static void a_million_equal_points_are_refused_or_one_leaf(void **state)
     free(text);
     json_t *refused = inspect_json(points.path, "--full refuse");
     assert_adds_up(refused);
-    assert_int_equal(whole(refused, "stored"), 16);
-    assert_int_equal(whole(refused, "refused"), COUNT - 16);
+    assert_int_equal(whole(refused, "stored"), 64);
+    assert_int_equal(whole(refused, "refused"), COUNT - 64);
     json_decref(refused);
     json_t *grown = inspect_json(points.path, "");
     assert_adds_up(grown);

@@ -30,14 +30,15 @@ static void frame_name(char text[32], uint64_t tick)
 
 static void default_session_makes_253_whole_frames_and_nothing_else(void **state)
 {
-    static const char *const others[] = {"recording.json", "renderer.json", "session.json", "ticks.jsonl"};
+    static const char *const others[] = {"index.html", "recording.json", "renderer.json", "session.json",
+                                         "ticks.jsonl"};
     const place folder = place_in(*state, "film");
     const film_summary summary = film_default(folder.path);
     assert_int_equal(summary.ticks, DEFAULT_TICKS);
     assert_int_equal(summary.frames, DEFAULT_FRAMES);
     assert_int_equal(summary.left_out, 0);
     listing names = folder_list(folder.path);
-    assert_int_equal(names.count, DEFAULT_FRAMES + 4);
+    assert_int_equal(names.count, DEFAULT_FRAMES + 5);
     for (size_t i = 0; i < names.count; i++) {
         char expected[32];
         frame_name(expected, i);
@@ -176,8 +177,11 @@ static void every_n_th_tick_has_the_frame_that_it_has_in_the_whole_film(void **s
         if (tick % 60 != 0)
             remove(place_below(whole.path, name).path);
     }
-    remove(place_below(whole.path, "ticks.jsonl").path);
-    remove(place_below(part.path, "ticks.jsonl").path);
+    static const char *const named[] = {"ticks.jsonl", "index.html"}; /* these name the frames */
+    for (size_t i = 0; i < 2; i++) {
+        remove(place_below(whole.path, named[i]).path);
+        remove(place_below(part.path, named[i]).path);
+    }
     assert_same_folders(whole.path, part.path, "recording.json");
 }
 

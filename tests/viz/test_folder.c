@@ -75,7 +75,7 @@ static void link_to_a_folder_is_a_folder(void **state)
 static void folder_with_any_file_of_a_recording_is_refused_untouched(void **state)
 {
     static const char *const names[] = {"frame_000000.png", "frame_000252.png", "frame_1000000.png", "ticks.jsonl",
-                                        "recording.json",   "session.json",     "renderer.json"};
+                                        "recording.json",   "session.json",     "renderer.json",     "index.html"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char name[32];
         snprintf(name, sizeof name, "film%zu", i);

@@ -93,9 +93,10 @@ static void the_legend_has_the_colours_of_the_layers_that_are_shown(void **state
     static const struct {
         view_layer layer;
         theme_role role;
-    } rows[] = {{LAYER_NODES, ROLE_NODE},      {LAYER_POINTS, ROLE_POINT},  {LAYER_RANGE, ROLE_RANGE},
-                {LAYER_NEAREST, ROLE_NEAREST}, {LAYER_PLAYER, ROLE_PLAYER}, {LAYER_BOX, ROLE_COLLISION}};
-    const octree_session session = octree_session_default();
+    } rows[] = {{LAYER_NODES, ROLE_NODE},    {LAYER_POINTS, ROLE_POINT},      {LAYER_RANGE, ROLE_RANGE},
+                {LAYER_RADIUS, ROLE_RADIUS}, {LAYER_KNEAREST, ROLE_KNEAREST}, {LAYER_NEAREST, ROLE_NEAREST},
+                {LAYER_PLAYER, ROLE_PLAYER}, {LAYER_BOX, ROLE_COLLISION}};
+    const octree_session session = asking_session();
     octree_game *game = start_game(&session);
     scene s = {0};
     for (unsigned layers = 0; layers <= VIEW_ALL_LAYERS; layers++) {
@@ -104,6 +105,75 @@ static void the_legend_has_the_colours_of_the_layers_that_are_shown(void **state
         for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
             assert_int_equal(has_swatch(&s, rows[i].role), view_shows(&v, rows[i].layer) && view_shows(&v, LAYER_TEXT));
     }
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+static void the_legend_leaves_out_queries_that_the_session_never_asks(void **state)
+{
+    (void)state;
+    static const theme_role roles[OCTREE_QUERY_KINDS] = {ROLE_RANGE, ROLE_NEAREST, ROLE_KNEAREST, ROLE_RADIUS};
+    const view v = view_default();
+    scene s = {0};
+    for (int kind = -1; kind < OCTREE_QUERY_KINDS; kind++) {
+        const octree_query late = {.tick = 99, .kind = (octree_query_kind)(kind < 0 ? 0 : kind)};
+        octree_session session = small_session(NULL, 0);
+        session.queries = &late;
+        session.query_count = kind >= 0;
+        octree_game *game = start_game(&session);
+        build_tick(&s, &v, game);
+        for (int i = 0; i < OCTREE_QUERY_KINDS; i++) /* n names the nearest in every session */
+            assert_int_equal(has_swatch(&s, roles[i]), i == kind || i == OCTREE_QUERY_NEAREST);
+        octree_game_destroy(game);
+    }
+    scene_release(&s);
+}
+
+/* The word, and the line of the legend that a sweep needs. */
+static void a_sweep_is_told(void **state)
+{
+    (void)state;
+    const view v = view_default();
+    for (int sweep = 0; sweep < 2; sweep++) {
+        octree_session session = small_session(NULL, 0);
+        session.player.sweep = sweep;
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        build_tick(&s, &v, game);
+        check_place(&s);
+        assert_int_equal(find_text(&s, "the whole way") != NULL, sweep);
+        assert_int_equal(find_text(&s, "way to a hit, dashed") != NULL, sweep);
+        octree_game_destroy(game);
+        scene_release(&s);
+    }
+}
+
+static bool says(const scene *s, const char *text)
+{
+    return find_text(s, text) != NULL;
+}
+
+static void answers_are_told_in_words(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 41, .position = {3, 4, 0}},
+                                         {.id = 42, .position = {0, 2, 0}},
+                                         {.id = 43, .position = {0, 0, 9}},
+                                         {.id = 44, .position = {0, 0, -9}}};
+    static const octree_query queries[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 2},
+                                           {.kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 4.25},
+                                           {.kind = OCTREE_QUERY_RADIUS, .target = {9, 9, 9}, .radius = 0.5},
+                                           {.kind = OCTREE_QUERY_KNEAREST, .target = {0, 0, 0}, .k = 5}};
+    octree_session session = small_session(bodies, 4);
+    session.queries = queries;
+    session.query_count = 4;
+    const view v = view_default();
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    build_tick(&s, &v, game);
+    check_place(&s);
+    assert_true(says(&s, "2: 42 41") && says(&s, "5: 100 42 41 .."));
+    assert_true(says(&s, "2 within 4.25") && says(&s, "0 within 0.5"));
     octree_game_destroy(game);
     scene_release(&s);
 }
@@ -169,6 +239,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_tick_tells_its_number_and_its_events),
         cmocka_unit_test(the_legend_has_the_colours_of_the_layers_that_are_shown),
+        cmocka_unit_test(the_legend_leaves_out_queries_that_the_session_never_asks),
+        cmocka_unit_test(a_sweep_is_told),
+        cmocka_unit_test(answers_are_told_in_words),
         cmocka_unit_test(the_column_never_takes_more_than_half_the_picture),
         cmocka_unit_test(a_picture_too_small_for_the_column_has_its_facts_all_the_same),
         cmocka_unit_test(numbers_of_any_length_stay_texts),

@@ -127,6 +127,10 @@ static uint64_t roles_of(unsigned layer)
         return one << ROLE_POINT;
     case LAYER_RANGE:
         return one << ROLE_RANGE;
+    case LAYER_RADIUS:
+        return one << ROLE_RADIUS;
+    case LAYER_KNEAREST:
+        return one << ROLE_KNEAREST;
     case LAYER_NEAREST:
         return one << ROLE_NEAREST;
     case LAYER_PLAYER:
@@ -149,7 +153,7 @@ static uint64_t roles_in(const uint8_t *frame)
 static void a_layer_alone_lights_its_own_roles_and_all_of_them_at_some_tick(void **state)
 {
     (void)state;
-    const octree_session session = octree_session_default();
+    const octree_session session = asking_session();
     renderer *r = open_renderer(WIDTH, HEIGHT);
     for (unsigned layer = 0; layer < LAYER_TEXT; layer++) {
         const view v = view_with(CAMERA_ISO, 1u << layer);

@@ -132,7 +132,7 @@ static void session_with_awkward_numbers_plays_again_from_its_recording(void **s
     };
     octree_session session = octree_session_default();
     session.tree.world = (octree_box){{1e15, -1, -1}, {1e15 + 1, 1, 1}};
-    session.player = (octree_player){7, {1e15 + 0.25, 0.3, -0.0}, 0.1, 1.0 / 3};
+    session.player = (octree_player){.id = 7, .position = {1e15 + 0.25, 0.3, -0.0}, .step = 0.1, .box_size = 1.0 / 3};
     session.bodies = bodies;
     session.body_count = sizeof bodies / sizeof bodies[0];
     session.query_count = 0;

@@ -1,8 +1,10 @@
-/* test_scene.c - the draw list of a tick, without any picture: what is in it, how often, and where. */
+/* test_scene.c - the draw list of a tick, without any picture: what is in it, how often, and where. What the tick asked
+ * is in test_answer_layers.c. */
 #include "scenes.h"
 
 #include <math.h>
 
+#include "draw_list.h"
 #include "random_session.h"
 
 /* What a walk over the nodes is compared with. */
@@ -10,57 +12,6 @@ typedef struct node_check {
     const scene *scene;
     size_t nodes, points;
 } node_check;
-
-/* The one box of a layer with this id; the test fails when there is another number of them. */
-static const scene_box *only_box(const scene *s, unsigned layer, uint64_t id)
-{
-    const scene_box *found = NULL;
-    for (size_t i = 0; i < s->boxes.count; i++) {
-        const scene_box *box = &s->boxes.items[i];
-        if (box->look.layer != layer || box->id != id)
-            continue;
-        assert_null(found);
-        found = box;
-    }
-    assert_non_null(found);
-    return found;
-}
-
-static size_t markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->markers.count; i++) {
-        const scene_marker *marker = &s->markers.items[i];
-        count += marker->look.layer == layer && marker->id == id && same_position(marker->at, at);
-    }
-    return count;
-}
-
-/* The elements of a layer, by kind. */
-typedef struct layer_counts {
-    size_t boxes, segments, markers, labels, panels;
-} layer_counts;
-
-static layer_counts count_layer(const scene *s, unsigned layer)
-{
-    layer_counts found = {0};
-    for (size_t i = 0; i < s->boxes.count; i++)
-        found.boxes += s->boxes.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->segments.count; i++)
-        found.segments += s->segments.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->markers.count; i++)
-        found.markers += s->markers.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->labels.count; i++)
-        found.labels += s->labels.items[i].look.layer == layer;
-    for (size_t i = 0; i < s->panels.count; i++)
-        found.panels += s->panels.items[i].look.layer == layer;
-    return found;
-}
-
-static bool same_box(const octree_box *a, const octree_box *b)
-{
-    return same_position(a->min, b->min) && same_position(a->max, b->max);
-}
 
 static octree_walk_order check_node(const octree_node *node, void *context)
 {
@@ -106,12 +57,47 @@ static void check_player(const scene *s, const octree_tick *tick, const octree_p
     assert_int_equal(markers_at(s, LAYER_PLAYER, player->id, tick->player), 1);
 }
 
+/* A dashed line. */
+static bool has_way(const scene *s, uint64_t id, const double from[3], const double to[3])
+{
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *line = &s->segments.items[i];
+        if (line->look.layer == LAYER_BOX && line->id == id)
+            return line->look.style == STYLE_DASHED && same_position(line->ends[0], from) &&
+                   same_position(line->ends[1], to);
+    }
+    return false;
+}
+
+/* The ways of a swept collision: from corner to corner of the player's box, and of the hits that moved. */
+static size_t ways_shown(const scene *s, const octree_tick *tick, double size)
+{
+    size_t ways = 0;
+    for (unsigned corner = 0; tick->swept && corner < 8 && !same_position(tick->from, tick->attempt); corner++) {
+        double from[3], to[3];
+        for (int axis = 0; axis < 3; axis++) {
+            const double side = corner >> axis & 1 ? size : -size;
+            from[axis] = tick->from[axis] + side;
+            to[axis] = tick->attempt[axis] + side;
+        }
+        assert_true(has_way(s, 12 + corner, from, to));
+        ways++;
+    }
+    for (size_t i = 0; tick->swept && i < tick->hit_count; i++) {
+        if (same_position(tick->hit_from[i], tick->hits[i].position))
+            continue;
+        assert_true(has_way(s, 20 + i, tick->hit_from[i], tick->hits[i].position));
+        ways++;
+    }
+    return ways;
+}
+
 static void check_collision(const scene *s, const octree_tick *tick, const octree_player *player)
 {
     const layer_counts found = count_layer(s, LAYER_BOX);
     assert_int_equal(found.markers, tick->hit_count);
     assert_int_equal(found.boxes, tick->hit_count ? 2 : 1);
-    assert_int_equal(found.segments != 0, tick->hit_count != 0);
+    assert_int_equal(found.segments, tick->hit_count ? 12 + ways_shown(s, tick, player->box_size) : 0);
     for (size_t i = 0; i < tick->hit_count; i++)
         assert_int_equal(markers_at(s, LAYER_BOX, tick->hits[i].id, tick->hits[i].position), 1);
     if (tick->hit_count == 0)
@@ -119,43 +105,6 @@ static void check_collision(const scene *s, const octree_tick *tick, const octre
     const scene_box *box = only_box(s, LAYER_BOX, UINT64_MAX);
     assert_int_equal(box->look.role, ROLE_COLLISION);
     check_box_about(&box->box, tick->attempt, player->box_size);
-}
-
-static void check_nearest(const scene *s, const octree_answer *answer, uint64_t id)
-{
-    size_t lines = 0;
-    for (size_t i = 0; i < s->segments.count; i++) {
-        const scene_segment *line = &s->segments.items[i];
-        if (line->look.layer != LAYER_NEAREST || line->id != id)
-            continue;
-        assert_true(same_position(line->ends[0], answer->target));
-        assert_true(same_position(line->ends[1], answer->neighbor.point.position));
-        lines++;
-    }
-    assert_int_equal(lines, 1);
-    assert_true(markers_at(s, LAYER_NEAREST, answer->neighbor.point.id, answer->neighbor.point.position) >= 1);
-}
-
-static void check_answers(const scene *s, const octree_tick *tick)
-{
-    size_t ranges = 0, in_range = 0, nearest = 0;
-    for (size_t i = 0; i < tick->answer_count; i++) {
-        const octree_answer *answer = &tick->answers[i];
-        if (answer->kind == OCTREE_QUERY_RANGE) {
-            assert_true(same_box(&only_box(s, LAYER_RANGE, i)->box, &answer->box));
-            for (size_t j = 0; j < answer->count; j++)
-                assert_true(markers_at(s, LAYER_RANGE, answer->points[j].id, answer->points[j].position) >= 1);
-            ranges++;
-            in_range += answer->count;
-        } else if (answer->found) {
-            check_nearest(s, answer, i);
-            nearest++;
-        }
-    }
-    assert_int_equal(count_layer(s, LAYER_RANGE).boxes, ranges);
-    assert_int_equal(count_layer(s, LAYER_RANGE).markers, in_range);
-    assert_int_equal(count_layer(s, LAYER_NEAREST).segments, nearest);
-    assert_int_equal(count_layer(s, LAYER_NEAREST).markers, nearest);
 }
 
 static void check_red(const scene *s, const octree_tick *tick)
@@ -178,7 +127,6 @@ static void check_tick(const scene *s, const octree_game *game)
     check_tree(s, octree_game_tree(game));
     check_player(s, tick, player);
     check_collision(s, tick, player);
-    check_answers(s, tick);
     check_red(s, tick);
 }
 
@@ -201,7 +149,7 @@ static void check_session(const octree_session *session, view_camera camera)
 static void every_tick_of_the_default_session_shows_what_happened_and_no_more(void **state)
 {
     (void)state;
-    const octree_session session = octree_session_default();
+    const octree_session session = asking_session();
     check_session(&session, CAMERA_ISO);
 }
 
@@ -257,7 +205,7 @@ static void check_without_layer(const scene *all, const octree_game *game, unsig
 static void a_layer_that_is_off_is_absent_and_the_others_stay_as_they_are(void **state)
 {
     (void)state;
-    const octree_session session = octree_session_default();
+    const octree_session session = asking_session();
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS);
     octree_game *game = start_game(&session);
     scene all = {0};

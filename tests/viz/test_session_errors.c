@@ -123,8 +123,9 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"tree\":{\"full\":\"maybe\"}}", "2: tree.full: expected \"refuse\" or \"grow\", found \"maybe\""},
         {HEADER "\"tree\":{\"full\":true}}", "2: tree.full: expected \"refuse\" or \"grow\", found true"},
         {HEADER "\"player\":{\"stepp\":0}}",
-         "2: player: unknown member \"stepp\"; known: id, position, step, box_size"},
+         "2: player: unknown member \"stepp\"; known: id, position, step, box_size, sweep"},
         {HEADER "\"player\":{\"step\":-1}}", "2: player.step: expected a number that is not negative, found -1"},
+        {HEADER "\"player\":{\"sweep\":1}}", "2: player.sweep: expected true or false, found 1"},
         {HEADER "\"player\":{\"box_size\":\"big\"}}", "2: player.box_size: expected a number that is not negative, "
                                                       "found \"big\""},
         {HEADER "\"player\":{\"position\":[0,0,-1001]}}", "2: player.position: the player is outside the world on z"},
@@ -216,7 +217,7 @@ static void bad_ticks_are_refused(void **state)
         {START "{\"tick\":1,\"edits\":[{\"remove\":\"all\"}]}",
          "3: edits[0].remove: expected a whole number from 0 to"},
         {START "{\"tick\":1,\"queries\":[{\"rnge\":1}]}",
-         "3: queries[0]: expected {\"range\": ...} or {\"nearest\": ...}"},
+         "3: queries[0]: expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": ...}"},
         {START "{\"tick\":1,\"queries\":[{\"nearest\":1}]}",
          "3: queries[0].nearest: expected \"player\" or three numbers "
          "[x, y, z], found 1"},
@@ -226,6 +227,18 @@ static void bad_ticks_are_refused(void **state)
          "2: queries[0].range: min must not be above max, and is on z"},
         {HEADER "\"queries\":[{\"range\":{\"min\":[0,0,5],\"max\":[0,0,6]},\"at\":\"home\"}]}",
          "2: queries[0].at: expected \"player\", found \"home\""},
+        {HEADER "\"queries\":[{\"knearest\":1.5,\"at\":\"player\"}]}",
+         "2: queries[0].knearest: expected a whole number from 0 to 4294967295, found 1.5"},
+        {HEADER "\"queries\":[{\"knearest\":8}]}", "2: queries[0]: the member \"at\" is missing"},
+        {HEADER "\"queries\":[{\"knearest\":8,\"at\":\"home\"}]}",
+         "2: queries[0].at: expected \"player\" or three numbers [x, y, z], found \"home\""},
+        {HEADER "\"queries\":[{\"radius\":-1,\"at\":\"player\"}]}",
+         "2: queries[0].radius: expected a number that is not negative, found -1"},
+        {HEADER "\"queries\":[{\"radius\":5}]}", "2: queries[0]: the member \"at\" is missing"},
+        {HEADER "\"queries\":[{\"radius\":5,\"at\":[1,2]}]}",
+         "2: queries[0].at: expected three numbers [x, y, z], found a list of 2"},
+        {HEADER "\"queries\":[{\"radius\":5,\"at\":\"player\",\"k\":1}]}",
+         "2: queries[0]: unknown member \"k\"; known: radius, at"},
     };
     (void)state;
     assert_refuses_each(rows, sizeof rows / sizeof *rows);

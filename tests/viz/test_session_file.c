@@ -60,6 +60,13 @@ static void player_follows_the_world_and_the_box_the_step(void **state)
     session_release(&file);
     file = parse(HEADER ",\"player\":{\"box_size\":7}}");
     assert_true(file.session.player.step == 50 && file.session.player.box_size == 7);
+    assert_false(file.session.player.sweep);
+    session_release(&file);
+    file = parse(HEADER ",\"player\":{\"sweep\":true}}");
+    assert_true(file.session.player.sweep);
+    session_release(&file);
+    file = parse(HEADER ",\"player\":{\"sweep\":false}}");
+    assert_false(file.session.player.sweep);
     session_release(&file);
 }
 
@@ -144,6 +151,22 @@ static void ticks_become_edits_and_queries_in_order(void **state)
     session_release(&file);
 }
 
+static void queries_are_read_in_each_form(void **state)
+{
+    session_file file = parse(HEADER ",\"queries\":[{\"knearest\":8,\"at\":[1,2,3]},{\"at\":\"player\",\"knearest\":0},"
+                                     "{\"radius\":0.25,\"at\":\"player\"},{\"radius\":-0,\"at\":[4,5,6]}]}");
+    const octree_query *queries = file.session.queries;
+    (void)state;
+    assert_int_equal(file.session.query_count, 4);
+    assert_true(queries[0].kind == OCTREE_QUERY_KNEAREST && !queries[0].at_player && queries[0].k == 8);
+    assert_vector(queries[0].target, 1, 2, 3);
+    assert_true(queries[1].kind == OCTREE_QUERY_KNEAREST && queries[1].at_player && queries[1].k == 0);
+    assert_true(queries[2].kind == OCTREE_QUERY_RADIUS && queries[2].at_player && queries[2].radius == 0.25);
+    assert_true(queries[3].kind == OCTREE_QUERY_RADIUS && !queries[3].at_player && queries[3].radius == 0);
+    assert_vector(queries[3].target, 4, 5, 6);
+    session_release(&file);
+}
+
 static void sample_is_that_of_the_library(void **state)
 {
     session_file file = parse(HEADER ",\"points\":{\"sample\":\"clustered\",\"count\":2000,\"seed\":5},"
@@ -224,7 +247,11 @@ static void assert_same_start(const octree_session *a, const octree_session *b)
     assert_int_equal(a->tree.leaf_capacity, b->tree.leaf_capacity);
     assert_int_equal(a->tree.max_depth, b->tree.max_depth);
     assert_int_equal(a->tree.full_leaf, b->tree.full_leaf);
-    assert_memory_equal(&a->player, &b->player, sizeof a->player);
+    assert_int_equal(a->player.id, b->player.id);
+    assert_memory_equal(a->player.position, b->player.position, sizeof a->player.position);
+    assert_memory_equal(&a->player.step, &b->player.step, sizeof a->player.step);
+    assert_memory_equal(&a->player.box_size, &b->player.box_size, sizeof a->player.box_size);
+    assert_int_equal(a->player.sweep, b->player.sweep);
     assert_int_equal(a->ticks, b->ticks);
     assert_int_equal(a->keys != NULL, b->keys != NULL);
     if (a->keys)
@@ -254,6 +281,10 @@ static void assert_same_query(const octree_query *a, const octree_query *b)
         assert_memory_equal(&a->box, &b->box, sizeof a->box);
     else if (!a->at_player)
         assert_memory_equal(a->target, b->target, sizeof a->target);
+    if (a->kind == OCTREE_QUERY_KNEAREST)
+        assert_int_equal(a->k, b->k);
+    if (a->kind == OCTREE_QUERY_RADIUS)
+        assert_memory_equal(&a->radius, &b->radius, sizeof a->radius);
 }
 
 static void assert_same_session(const octree_session *a, const octree_session *b)
@@ -340,6 +371,20 @@ static void options_that_the_tree_clamps_are_written_clamped(void **state)
     assert_true(file.session.tree.leaf_capacity == UINT32_MAX);
     assert_int_equal(file.session.tree.max_depth, OCTREE_MAX_DEPTH);
     assert_int_equal(file.session.tree.full_leaf, OCTREE_GROW);
+    free(text);
+    session_release(&file);
+}
+
+static void neighbours_beyond_what_a_tree_holds_are_written_clamped(void **state)
+{
+    const octree_query all = {.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = SIZE_MAX};
+    octree_session session = octree_session_default();
+    (void)state;
+    session.queries = &all;
+    session.query_count = 1;
+    char *text = write_session(&session);
+    session_file file = parse(text);
+    assert_true(file.session.queries[0].k == UINT32_MAX);
     free(text);
     session_release(&file);
 }
@@ -461,6 +506,8 @@ int main(void)
         cmocka_unit_test(points_are_read_in_each_form),
         cmocka_unit_test(velocities_are_listed_by_id_or_random),
         cmocka_unit_test(ticks_become_edits_and_queries_in_order),
+        cmocka_unit_test(queries_are_read_in_each_form),
+        cmocka_unit_test(neighbours_beyond_what_a_tree_holds_are_written_clamped),
         cmocka_unit_test(sample_is_that_of_the_library),
         cmocka_unit_test_setup_teardown(cloud_is_found_in_the_folder_of_the_session, temp_folder_make,
                                         temp_folder_remove),

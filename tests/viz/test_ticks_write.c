@@ -66,14 +66,22 @@ static void line_is_exactly_this(void **state)
     static const char expected[] =
         "{\"tick\": 3, \"key\": \"w\", \"player\": [0.1, -0, 1e+300], \"events\": [\"moved\", \"split\"], "
         "\"attempt\": [0.1, 50, 1e+300], \"hits\": [4, 9007199254740991], \"answers\": [{\"nearest\": {\"target\": "
-        "[1, 2, 3], \"id\": null}}, {\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4]}}], "
+        "[1, 2, 3], \"id\": null}}, {\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4]}}, "
+        "{\"knearest\": "
+        "{\"target\": [4, 5, 6], \"k\": 8, \"neighbors\": [{\"id\": 9, \"position\": [4, 5, 7], \"distance\": 1}]}}, "
+        "{\"radius\": {\"center\": [7, 8, 9], \"radius\": 0.5, \"ids\": []}}], "
         "\"refusals\": [{\"id\": 7, \"why\": \"outside\", \"position\": [4.94065645841247e-324, 0, 0]}], \"splits\": "
         "[\"root\", \"0/7\"], \"merges\": [], \"tree\": {\"points\": 2, \"nodes\": 5, \"leaves\": 4, \"depth\": 1, "
         "\"digest\": "
         "\"00000000000000ff\"}, \"frame\": \"frame_000003.png\", \"scene\": \"ffffffffffffffff\"}\n";
     const octree_point hits[] = {{.id = 4}, {.id = 9007199254740991}};
-    const octree_answer answers[] = {{.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}},
-                                     {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1}};
+    const octree_neighbor near = {.point = {.position = {4, 5, 7}, .id = 9}, .distance = 1};
+    const octree_answer answers[] = {
+        {.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}},
+        {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1},
+        {.kind = OCTREE_QUERY_KNEAREST, .target = {4, 5, 6}, .k = 8, .neighbors = &near, .count = 1},
+        {.kind = OCTREE_QUERY_RADIUS, .target = {7, 8, 9}, .radius = 0.5},
+    };
     const octree_refusal refused = {7, OCTREE_OUTSIDE, {5e-324, 0, 0}};
     const octree_address splits[] = {OCTREE_ROOT, 0107};
     const octree_tick tick = {.number = 3,
@@ -88,7 +96,7 @@ static void line_is_exactly_this(void **state)
                               .splits = splits,
                               .split_count = 2,
                               .answers = answers,
-                              .answer_count = 2};
+                              .answer_count = 4};
     const tick_extras extras = {.tree_digest = 255,
                                 .stats = {.points = 2, .nodes = 5, .leaves = 4, .depth = 1},
                                 .frame = "frame_000003.png",

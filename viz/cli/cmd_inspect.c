@@ -11,7 +11,7 @@ static const char help[] =
     "usage: octreel inspect CLOUD [-o PICTURE.png] [OPTION ...]\n\n"
     "Build an octree from a point cloud (x y z text, PLY or PCD), print its statistics, and draw its subdivision.\n\n"
     "  -o, --output FILE     draw the tree into this PNG\n"
-    "      --capacity N      points a leaf holds before it splits (default 16)\n"
+    "      --capacity N      points a leaf holds before it splits (default 64)\n"
     "      --depth N         deepest level, 0 to 21 (default 21)\n"
     "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
     "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"

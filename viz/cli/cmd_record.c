@@ -10,7 +10,8 @@
 static const char help[] =
     "usage: octreel record [SESSION] -o DIR [OPTION ...]\n\n"
     "Play a session and film it: DIR/frame_000000.png ..., with ticks.jsonl, session.json, recording.json and\n"
-    "renderer.json beside them. Without SESSION, the paper's own is played.\n\n"
+    "renderer.json beside them, and index.html, a page that shows all of it. Without SESSION, the paper's own is\n"
+    "played.\n\n"
     "  -o, --output DIR      where the recording goes; a new folder, or one without a recording\n"
     "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait\n"
     "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n";
@@ -73,7 +74,7 @@ static int film_it(arguments *a, const octree_session *session)
     progress_end(&p);
     if (!ok)
         return trouble("%s", error.text);
-    film_report(stdout, &summary, a->film.folder, progress_seconds(&p), a->json);
+    film_report(stdout, &summary, &a->film, progress_seconds(&p), a->json);
     return EXIT_DONE;
 }
 

@@ -128,6 +128,17 @@ static void add_diamond(quad_list *list, quad q, int left, int top, int side)
     quads_add(list, &q);
 }
 
+/* A diamond of which only the edge is drawn. */
+static void add_lozenge(quad_list *list, const pencil *with, unsigned band, int left, int top, int side)
+{
+    pencil thin = *with;
+    thin.width = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
+    const double half = (side - with->samples) / 2.0, cx = left + side / 2.0, cy = top + side / 2.0;
+    const double corners[5][2] = {{cx - half, cy}, {cx, cy - half}, {cx + half, cy}, {cx, cy + half}, {cx - half, cy}};
+    for (int i = 0; i < 4; i++)
+        add_line(list, &thin, band, corners[i], corners[i + 1]);
+}
+
 static void add_cross(quad_list *list, const pencil *with, unsigned band, int x, int y, int side)
 {
     pencil thick = *with;
@@ -152,6 +163,9 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
         break;
     case SHAPE_FRAME:
         add_frame(list, q, left, top, side, line);
+        break;
+    case SHAPE_LOZENGE:
+        add_lozenge(list, with, band, left, top, side);
         break;
     case SHAPE_CROSS:
         add_cross(list, with, band, left, top, side);

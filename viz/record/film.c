@@ -6,6 +6,7 @@
 #include "picture.h"
 #include "tick_scene.h"
 #include "ticks_write.h"
+#include "viewer.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -185,7 +186,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
     filming f = {.options = options, .view = options->view};
     *summary = (film_summary){0};
     const bool ok = begin(&f, session, error) && film_all(&f, session, summary, error);
-    return end(&f, ok, error);
+    return end(&f, ok, error) && viewer_write(options->folder, error);
 }
 
 bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, film_summary *summary,

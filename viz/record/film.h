@@ -23,7 +23,7 @@ typedef struct film_summary {
 } film_summary;
 
 /* Film a session into a folder. On failure what is there is whole: frames are written by rename, and ticks.jsonl ends
- * with the last tick that was finished. Nothing is made where the session or the size is refused. */
+ * with the last tick that was finished; index.html comes last. Nothing is made where the session or the size is refused. */
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   record_error *error);
 

@@ -1,5 +1,6 @@
 /* film_report.c - see film_report.h. */
 #include "film_report.h"
+#include "film_commands.h"
 #include "json_write.h"
 
 #include <inttypes.h>
@@ -38,8 +39,9 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_write_end_line(w);
 }
 
-void film_report(FILE *out, const film_summary *summary, const char *folder, double seconds, bool json)
+void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json)
 {
+    const char *folder = options->folder;
     if (json) {
         report_json(out, summary, folder, seconds);
         return;
@@ -54,5 +56,6 @@ void film_report(FILE *out, const film_summary *summary, const char *folder, dou
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(i), summary->events[i]);
-    fputc('\n', out);
+    fputs("\n\nIts index.html shows it in a browser. ffmpeg, where it is installed, makes of it\n", out);
+    film_commands(out, options, summary->frames);
 }

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-/* A few lines for people, or one JSON object on one line. */
-void film_report(FILE *out, const film_summary *summary, const char *folder, double seconds, bool json);
+/* A few lines for people, what to do with the recording among them, or one JSON object on one line. */
+void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json);
 
 #endif

@@ -63,7 +63,8 @@ static bool make_all(const char *folder, record_error *error)
 }
 
 /* A recording's files beside its frames. */
-static const char *const recording_files[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl"};
+static const char *const recording_files[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl",
+                                              "index.html"};
 
 #define RECORDING_FILES (sizeof recording_files / sizeof recording_files[0])
 
@@ -135,6 +136,15 @@ bool part_close(part_file *file, record_error *error)
         remove(file->part);
     free(file->part);
     return ok || record_fail(error, "%s: cannot be written: %s", file->path, strerror(reason));
+}
+
+bool part_abandon(part_file *file)
+{
+    fclose(file->stream);
+    if (strcmp(file->part, file->path) != 0)
+        remove(file->part);
+    free(file->part);
+    return false;
 }
 
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, record_error *error)

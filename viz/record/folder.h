@@ -23,8 +23,8 @@ void folder_abandon(const char *folder);
 /* "folder/name"; owned by the caller, null when there is no memory. */
 char *folder_path(const char *folder, const char *name);
 
-/* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. What is there already and is no
- * regular file, a pipe say, is written to as it is. */
+/* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. What is there already and is
+ * no regular file, a pipe say, is written to as it is. */
 typedef struct part_file {
     FILE *stream;
     const char *path;
@@ -33,6 +33,9 @@ typedef struct part_file {
 
 bool part_open(part_file *file, const char *path, record_error *error);
 bool part_close(part_file *file, record_error *error);
+
+/* Leave no file, and what was there before as it was; always false, so that a caller can return it. */
+bool part_abandon(part_file *file);
 
 /* Write a whole file of the folder so. */
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, record_error *error);

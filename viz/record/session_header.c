@@ -125,6 +125,7 @@ static bool read_player(session_reader *reader, json_t *value, const json_place 
         {"position", read_player_position, offsetof(octree_player, position), false},
         {"step", read_step, 0, false},
         {"box_size", session_read_positive, offsetof(octree_player, box_size), false},
+        {"sweep", session_read_bool, offsetof(octree_player, sweep), false},
         {0},
     };
     return session_read_members(reader, value, at, members, into);

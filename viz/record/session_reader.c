@@ -88,6 +88,14 @@ bool session_read_id(session_reader *reader, json_t *value, const json_place *at
     return session_read_whole(reader, value, at, 0, SESSION_ID_LIMIT - 1, into);
 }
 
+bool session_read_bool(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    if (!json_is_boolean(value))
+        return session_expected(reader, value, at, "true or false");
+    *(bool *)into = json_is_true(value);
+    return true;
+}
+
 bool session_read_number(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     if (!json_is_real(value))

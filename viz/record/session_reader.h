@@ -56,6 +56,7 @@ bool session_read_elements(session_reader *reader, json_t *list, const json_plac
 bool session_read_whole(session_reader *reader, const json_t *value, const json_place *at, uint64_t min, uint64_t max,
                         uint64_t *into);
 
+session_value_reader session_read_bool;
 session_value_reader session_read_number;   /* into double */
 session_value_reader session_read_positive; /* into double; 0 or more */
 session_value_reader session_read_vector;   /* into double[3] */

@@ -65,15 +65,9 @@ static bool read_edits(session_reader *reader, json_t *value, const json_place *
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
-static bool is_player(const json_t *value)
-{
-    return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
-}
-
-static bool read_range(session_reader *reader, json_t *value, const json_place *at, void *into)
+static bool read_box(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
-    query->kind = OCTREE_QUERY_RANGE;
     if (!session_read_box(reader, value, at, &query->box))
         return false;
     for (int i = 0; i < 3; i++)
@@ -82,17 +76,21 @@ static bool read_range(session_reader *reader, json_t *value, const json_place *
     return true;
 }
 
-static bool read_at(session_reader *reader, json_t *value, const json_place *at, void *into)
+static bool is_player(const json_t *value)
+{
+    return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
+}
+
+static bool read_player(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
     query->at_player = is_player(value);
     return query->at_player || session_expected(reader, value, at, "\"player\"");
 }
 
-static bool read_nearest(session_reader *reader, json_t *value, const json_place *at, void *into)
+static bool read_target(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
-    query->kind = OCTREE_QUERY_NEAREST;
     query->at_player = is_player(value);
     if (query->at_player)
         return true;
@@ -101,19 +99,38 @@ static bool read_nearest(session_reader *reader, json_t *value, const json_place
     return session_read_vector(reader, value, at, query->target);
 }
 
+static bool read_k(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    uint64_t k;
+    if (!session_read_whole(reader, value, at, 0, UINT32_MAX, &k))
+        return false;
+    *(size_t *)into = (size_t)k;
+    return true;
+}
+
+/* The members of each kind of query; the first bears its name. */
+static const session_member query_members[OCTREE_QUERY_KINDS][3] = {
+    [OCTREE_QUERY_RANGE] = {{"range", read_box, 0, true}, {"at", read_player, 0, false}},
+    [OCTREE_QUERY_NEAREST] = {{"nearest", read_target, 0, true}},
+    [OCTREE_QUERY_KNEAREST] = {{"knearest", read_k, offsetof(octree_query, k), true}, {"at", read_target, 0, true}},
+    [OCTREE_QUERY_RADIUS] = {{"radius", session_read_positive, offsetof(octree_query, radius), true},
+                             {"at", read_target, 0, true}},
+};
+
 static bool read_query(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
-    static const session_member range[] = {{"range", read_range, 0, true}, {"at", read_at, 0, false}, {0}};
-    static const session_member nearest[] = {{"nearest", read_nearest, 0, true}, {0}};
     session_list *list = into;
-    bool is_range = json_object_get(value, "range");
-    if (!is_range && !json_object_get(value, "nearest"))
-        return session_fail(reader, at, "expected {\"range\": ...} or {\"nearest\": ...}");
+    int kind = 0;
+    while (kind < OCTREE_QUERY_KINDS && !json_object_get(value, query_members[kind][0].name))
+        kind++;
+    if (kind == OCTREE_QUERY_KINDS)
+        return session_fail(reader, at,
+                            "expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": ...}");
     octree_query *query = session_append(reader, at, list, sizeof *query);
     if (!query)
         return false;
-    *query = (octree_query){.tick = reader->tick};
-    return session_read_members(reader, value, at, is_range ? range : nearest, query);
+    *query = (octree_query){.tick = reader->tick, .kind = (octree_query_kind)kind};
+    return session_read_members(reader, value, at, query_members[kind], query);
 }
 
 bool session_read_queries(session_reader *reader, json_t *value, const json_place *at, void *into)

@@ -49,6 +49,10 @@ static void write_player(json_writer *writer, const octree_player *player)
     json_write_number(writer, player->step);
     json_write_key(writer, "box_size");
     json_write_number(writer, player->box_size);
+    if (player->sweep) {
+        json_write_key(writer, "sweep");
+        json_write_bool(writer, true);
+    }
     json_write_end_object(writer);
 }
 
@@ -119,17 +123,38 @@ static void write_edit(json_writer *writer, const octree_edit *edit)
     json_write_end_object(writer);
 }
 
+static void write_place(json_writer *writer, const char *key, const octree_query *query)
+{
+    if (!query->at_player) {
+        write_vector(writer, key, query->target);
+        return;
+    }
+    json_write_key(writer, key);
+    json_write_string(writer, "player");
+}
+
 static void write_query(json_writer *writer, const octree_query *query)
 {
-    const char *player_key = query->kind == OCTREE_QUERY_RANGE ? "at" : "nearest";
+    const char *name = octree_query_name(query->kind);
     json_write_begin_object(writer);
-    if (query->kind == OCTREE_QUERY_RANGE)
-        write_box(writer, "range", &query->box);
-    else if (!query->at_player)
-        write_vector(writer, "nearest", query->target);
-    if (query->at_player) {
-        json_write_key(writer, player_key);
-        json_write_string(writer, "player");
+    switch (query->kind) {
+    case OCTREE_QUERY_RANGE:
+        write_box(writer, name, &query->box);
+        if (query->at_player)
+            write_place(writer, "at", query);
+        break;
+    case OCTREE_QUERY_KNEAREST: /* no tree holds more */
+        write_whole(writer, name, query->k < UINT32_MAX ? query->k : UINT32_MAX);
+        write_place(writer, "at", query);
+        break;
+    case OCTREE_QUERY_RADIUS:
+        json_write_key(writer, name);
+        json_write_number(writer, query->radius);
+        write_place(writer, "at", query);
+        break;
+    default:
+        write_place(writer, name, query);
+        break;
     }
     json_write_end_object(writer);
 }

@@ -68,43 +68,74 @@ static void write_refusals(json_writer *w, const octree_tick *tick)
     json_write_end_array(w);
 }
 
+/* The members of an object that tell a neighbour. */
+static void write_neighbor(json_writer *w, const octree_neighbor *neighbor)
+{
+    json_write_key(w, "id");
+    json_write_integer(w, neighbor->point.id);
+    write_position(w, "position", neighbor->point.position);
+    json_write_key(w, "distance");
+    json_write_number(w, neighbor->distance);
+}
+
 static void write_nearest(json_writer *w, const octree_answer *answer)
 {
-    json_write_key(w, "nearest");
-    json_write_begin_object(w);
     write_position(w, "target", answer->target);
-    json_write_key(w, "id");
-    if (answer->found) {
-        json_write_integer(w, answer->neighbor.point.id);
-        write_position(w, "position", answer->neighbor.point.position);
-        json_write_key(w, "distance");
-        json_write_number(w, answer->neighbor.distance);
+    if (answer->count) {
+        write_neighbor(w, answer->neighbors);
     } else {
+        json_write_key(w, "id");
         json_write_null(w);
     }
-    json_write_end_object(w);
+}
+
+static void write_knearest(json_writer *w, const octree_answer *answer)
+{
+    write_position(w, "target", answer->target);
+    json_write_key(w, "k");
+    json_write_integer(w, answer->k);
+    json_write_key(w, "neighbors");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < answer->count; i++) {
+        json_write_begin_object(w);
+        write_neighbor(w, &answer->neighbors[i]);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
 }
 
 static void write_range(json_writer *w, const octree_answer *answer)
 {
-    json_write_key(w, "range");
-    json_write_begin_object(w);
     write_position(w, "min", answer->box.min);
     write_position(w, "max", answer->box.max);
     write_ids(w, "ids", answer->points, answer->count);
-    json_write_end_object(w);
+}
+
+static void write_radius(json_writer *w, const octree_answer *answer)
+{
+    write_position(w, "center", answer->target);
+    json_write_key(w, "radius");
+    json_write_number(w, answer->radius);
+    write_ids(w, "ids", answer->points, answer->count);
 }
 
 static void write_answers(json_writer *w, const octree_tick *tick)
 {
+    static void (*const writers[OCTREE_QUERY_KINDS])(json_writer *, const octree_answer *) = {
+        [OCTREE_QUERY_RANGE] = write_range,
+        [OCTREE_QUERY_NEAREST] = write_nearest,
+        [OCTREE_QUERY_KNEAREST] = write_knearest,
+        [OCTREE_QUERY_RADIUS] = write_radius,
+    };
     json_write_key(w, "answers");
     json_write_begin_array(w);
     for (size_t i = 0; i < tick->answer_count; i++) {
+        const octree_answer *answer = &tick->answers[i];
         json_write_begin_object(w);
-        if (tick->answers[i].kind == OCTREE_QUERY_RANGE)
-            write_range(w, &tick->answers[i]);
-        else
-            write_nearest(w, &tick->answers[i]);
+        json_write_key(w, octree_query_name(answer->kind));
+        json_write_begin_object(w);
+        writers[answer->kind](w, answer);
+        json_write_end_object(w);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -140,6 +171,8 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
         json_write_null(w);
     write_position(w, "player", tick->player);
     write_events(w, tick->events);
+    if (tick->swept)
+        write_position(w, "from", tick->from);
     write_position(w, "attempt", tick->attempt);
     write_ids(w, "hits", tick->hits, tick->hit_count);
     write_answers(w, tick);

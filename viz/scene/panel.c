@@ -74,14 +74,17 @@ static void write_events(pen *p, const octree_tick *tick)
     p->y += LINE;
 }
 
+/* A row names no more ids than these. */
+#define MOST_IDS 3
+
 /* "name  count: first, second ..." of ids. */
 static void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
 {
     char text[SCENE_TEXT];
     size_t used = (size_t)snprintf(text, sizeof text, "%zu%s", count, count ? ":" : "");
-    for (size_t i = 0; i < count && i < 3 && used < sizeof text; i++)
+    for (size_t i = 0; i < count && i < MOST_IDS && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, " %llu", (unsigned long long)points[i].id);
-    write_row(p, name, "%s%s", text, count > 3 ? " .." : "");
+    write_row(p, name, "%s%s", text, count > MOST_IDS ? " .." : "");
 }
 
 static void write_addresses(pen *p, const char *name, const octree_address *addresses, size_t count)
@@ -92,19 +95,45 @@ static void write_addresses(pen *p, const char *name, const octree_address *addr
     write_row(p, name, "%s%s", octree_address_format(addresses[count - 1], text), count > 1 ? " .." : "");
 }
 
+static void write_nearest(pen *p, const octree_answer *answer)
+{
+    char distance[32];
+    if (answer->count)
+        write_row(p, "nearest", "%llu at %s", (unsigned long long)answer->neighbors[0].point.id,
+                  number_text(answer->neighbors[0].distance, 6, distance));
+    else
+        write_row(p, "nearest", "none");
+}
+
+static void write_knearest(pen *p, const octree_answer *answer)
+{
+    octree_point first[MOST_IDS];
+    for (size_t i = 0; i < answer->count && i < MOST_IDS; i++)
+        first[i] = answer->neighbors[i].point;
+    write_ids(p, "nearest", first, answer->count);
+}
+
+static void write_radius(pen *p, const octree_answer *answer)
+{
+    char radius[32];
+    write_row(p, "radius", "%zu within %s", answer->count, number_text(answer->radius, 6, radius));
+}
+
+static void write_range(pen *p, const octree_answer *answer)
+{
+    write_ids(p, "range", answer->points, answer->count);
+}
+
 static void write_answers(pen *p, const octree_tick *tick)
 {
-    for (size_t i = 0; i < tick->answer_count; i++) {
-        const octree_answer *answer = &tick->answers[i];
-        char distance[32];
-        if (answer->kind == OCTREE_QUERY_RANGE)
-            write_ids(p, "range", answer->points, answer->count);
-        else if (answer->found)
-            write_row(p, "nearest", "%llu at %s", (unsigned long long)answer->neighbor.point.id,
-                      number_text(answer->neighbor.distance, 6, distance));
-        else
-            write_row(p, "nearest", "none");
-    }
+    static void (*const writers[OCTREE_QUERY_KINDS])(pen *, const octree_answer *) = {
+        [OCTREE_QUERY_RANGE] = write_range,
+        [OCTREE_QUERY_NEAREST] = write_nearest,
+        [OCTREE_QUERY_KNEAREST] = write_knearest,
+        [OCTREE_QUERY_RADIUS] = write_radius,
+    };
+    for (size_t i = 0; i < tick->answer_count; i++)
+        writers[tick->answers[i].kind](p, &tick->answers[i]);
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
@@ -136,48 +165,83 @@ static void write_keys(pen *p, const octree_game *game)
 typedef struct legend_entry {
     unsigned layer;
     theme_role role;
-    int height; /* of the swatch: 1 is a dashed line, more a square */
+    int height; /* of the swatch: 1 is a line, more a square */
+    scene_style style;
     const char *text;
+    bool swept; /* in sessions alone that are swept */
 } legend_entry;
 
 static const legend_entry legend[] = {
-    {LAYER_POINTS, ROLE_POINT, 2, "point"},
-    {LAYER_PLAYER, ROLE_PLAYER, 5, "player and its box"},
-    {LAYER_BOX, ROLE_COLLISION, 5, "collision, crossed"},
-    {LAYER_RANGE, ROLE_RANGE, 1, "range query, dashed"},
-    {LAYER_NEAREST, ROLE_NEAREST, 1, "nearest point, dashed"},
+    {LAYER_POINTS, ROLE_POINT, 2, STYLE_SOLID, "point", false},
+    {LAYER_PLAYER, ROLE_PLAYER, 5, STYLE_SOLID, "player and its box", false},
+    {LAYER_BOX, ROLE_COLLISION, 5, STYLE_SOLID, "collision, crossed", false},
+    {LAYER_BOX, ROLE_COLLISION, 1, STYLE_DASHED, "way to a hit, dashed", true},
+    {LAYER_RANGE, ROLE_RANGE, 1, STYLE_DASHED, "range query, dashed", false},
+    {LAYER_RADIUS, ROLE_RADIUS, 1, STYLE_SOLID, "radius query, round", false},
+    {LAYER_KNEAREST, ROLE_KNEAREST, 1, STYLE_SOLID, "k nearest, numbered", false},
+    {LAYER_NEAREST, ROLE_NEAREST, 1, STYLE_DASHED, "nearest point, dashed", false},
 };
 
-static void fill_dashes(pen *p, theme_role role)
+#define LEGEND_ENTRIES (sizeof legend / sizeof legend[0])
+
+/* The layers that a session can show, as bits: those of queries that it never asks are left out. The nearest point is
+ * asked for by a key too. */
+static unsigned layers_of(const octree_session *session)
 {
-    for (int x = 0; x < SWATCH; x += 8)
-        fill(p, MARGIN + x, p->y + 4, 5, 1, role);
+    static const view_layer layers[OCTREE_QUERY_KINDS] = {
+        [OCTREE_QUERY_RANGE] = LAYER_RANGE,
+        [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
+        [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
+        [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
+    };
+    unsigned asked = 1u << LAYER_NEAREST, others = VIEW_ALL_LAYERS;
+    for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++)
+        others &= ~(1u << layers[i]);
+    for (size_t i = 0; i < session->query_count; i++)
+        asked |= 1u << layers[session->queries[i].kind];
+    return asked | others;
 }
 
-static void write_legend(pen *p, size_t max_depth, bool with_game)
+static void fill_line(pen *p, theme_role role, scene_style style)
+{
+    const int step = style == STYLE_DASHED ? 8 : SWATCH;
+    for (int x = 0; x < SWATCH; x += step)
+        fill(p, MARGIN + x, p->y + 4, style == STYLE_DASHED ? 5 : SWATCH, 1, role);
+}
+
+static void write_legend_entry(pen *p, const legend_entry *entry)
+{
+    const int height = entry->height;
+    if (height == 1)
+        fill_line(p, entry->role, entry->style);
+    else
+        fill(p, MARGIN + (SWATCH - height) / 2, p->y + 4 - height / 2, height, height, entry->role);
+    write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, entry->text);
+    p->y += LINE;
+}
+
+static bool is_listed(const legend_entry *entry, unsigned layers, bool swept)
+{
+    return (layers >> entry->layer & 1) && (swept || !entry->swept);
+}
+
+/* The view's layers, of those that there can be. */
+static void write_legend(pen *p, size_t max_depth, unsigned layers, bool swept)
 {
     const scene *s = p->scene;
-    int lines = view_shows(&s->view, LAYER_NODES);
-    const size_t entries = with_game ? sizeof legend / sizeof legend[0] : 1;
-    for (size_t i = 0; i < entries; i++)
-        lines += view_shows(&s->view, legend[i].layer);
+    layers &= s->view.layers;
+    int lines = layers >> LAYER_NODES & 1;
+    for (size_t i = 0; i < LEGEND_ENTRIES; i++)
+        lines += is_listed(&legend[i], layers, swept);
     const int top = s->view.height / s->unit - MARGIN - lines * LINE;
     if (top < p->y + LINE / 2)
         return; /* a low picture has no room for it */
     p->y = top;
-    if (view_shows(&s->view, LAYER_NODES))
+    if (layers >> LAYER_NODES & 1)
         write_node_legend(p, max_depth);
-    for (size_t i = 0; i < entries; i++) {
-        if (!view_shows(&s->view, legend[i].layer))
-            continue;
-        const int height = legend[i].height;
-        if (height == 1)
-            fill_dashes(p, legend[i].role);
-        else
-            fill(p, MARGIN + (SWATCH - height) / 2, p->y + 4 - height / 2, height, height, legend[i].role);
-        write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, legend[i].text);
-        p->y += LINE;
-    }
+    for (size_t i = 0; i < LEGEND_ENTRIES; i++)
+        if (is_listed(&legend[i], layers, swept))
+            write_legend_entry(p, &legend[i]);
 }
 
 static void write_title(pen *p, const char *text)
@@ -216,6 +280,8 @@ void add_tick_panel(scene *s, const octree_game *game)
         write_row(&p, "key", "%c  %s", tick->key, key_meaning(tick->key));
     write_keys(&p, game);
     write_position(&p, "player", tick->player);
+    if (tick->swept)
+        write_row(&p, "tested", "the whole way");
     p.y += LINE / 2;
     write_statistics(&p, octree_game_tree(game));
     write_left_out(&p);
@@ -225,7 +291,7 @@ void add_tick_panel(scene *s, const octree_game *game)
     write_refusals(&p, tick);
     write_addresses(&p, "split", tick->splits, tick->split_count);
     write_addresses(&p, "merged", tick->merges, tick->merge_count);
-    write_legend(&p, session->tree.max_depth, true);
+    write_legend(&p, session->tree.max_depth, layers_of(session), session->player.sweep);
 }
 
 void add_tree_panel(scene *s, const octree *tree, const char *title)
@@ -241,5 +307,5 @@ void add_tree_panel(scene *s, const octree *tree, const char *title)
     p.y += LINE / 2;
     const octree_box world = octree_definition(tree).world;
     write_world(&p, &world);
-    write_legend(&p, octree_definition(tree).max_depth, false);
+    write_legend(&p, octree_definition(tree).max_depth, 1u << LAYER_NODES | 1u << LAYER_POINTS, false);
 }

@@ -35,7 +35,13 @@ typedef struct scene_segment {
     scene_look look;
 } scene_segment;
 
-typedef enum scene_shape { SHAPE_SQUARE, SHAPE_DIAMOND, SHAPE_FRAME, SHAPE_CROSS } scene_shape;
+typedef enum scene_shape {
+    SHAPE_SQUARE,
+    SHAPE_DIAMOND, /* a square on its corner */
+    SHAPE_FRAME,   /* the outline of a square */
+    SHAPE_LOZENGE, /* the outline of a diamond */
+    SHAPE_CROSS,
+} scene_shape;
 
 typedef struct scene_marker {
     uint64_t id; /* a point's in LAYER_POINTS */

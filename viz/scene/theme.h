@@ -22,6 +22,8 @@ typedef enum theme_role {
     ROLE_PLAYER,
     ROLE_COLLISION,
     ROLE_RANGE,
+    ROLE_RADIUS,
+    ROLE_KNEAREST,
     ROLE_NEAREST,
     ROLE_WARNING, /* refused, full: seen beside its word */
     ROLE_NODE,    /* and the THEME_NODE_DEPTHS - 1 roles after it, by depth */

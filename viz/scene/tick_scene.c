@@ -1,36 +1,10 @@
 /* tick_scene.c - a tick of a game as a scene: the tree, and on top of it what the tick asked and met. */
 #include "tick_scene.h"
+#include "answer_layers.h"
 #include "panel.h"
 #include "tree_layers.h"
 
 #include <string.h>
-
-static void add_range(scene *s, const octree_answer *answer, uint64_t id)
-{
-    const scene_look look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = STYLE_DASHED, .width = 1};
-    scene_add_box(s, (scene_box){.id = id, .box = answer->box, .look = look});
-    for (size_t i = 0; i < answer->count; i++) {
-        scene_marker marker = {.id = answer->points[i].id, .look = look, .shape = SHAPE_FRAME};
-        marker.look.width = 5;
-        memcpy(marker.at, answer->points[i].position, sizeof marker.at);
-        scene_add_marker(s, marker);
-    }
-}
-
-static void add_nearest(scene *s, const octree_answer *answer, uint64_t id)
-{
-    if (!answer->found)
-        return;
-    const scene_look look = {.layer = LAYER_NEAREST, .role = ROLE_NEAREST, .style = STYLE_DASHED, .width = 1};
-    scene_segment line = {.id = id, .look = look};
-    memcpy(line.ends[0], answer->target, sizeof line.ends[0]);
-    memcpy(line.ends[1], answer->neighbor.point.position, sizeof line.ends[1]);
-    scene_add_segment(s, line);
-    scene_marker marker = {.id = answer->neighbor.point.id, .look = look, .shape = SHAPE_FRAME};
-    marker.look.width = 7;
-    memcpy(marker.at, answer->neighbor.point.position, sizeof marker.at);
-    scene_add_marker(s, marker);
-}
 
 static octree_box box_about(const double center[3], double size)
 {
@@ -68,6 +42,9 @@ static void add_player(scene *s, const octree_tick *tick, const octree_session *
                      });
 }
 
+/* The ids of the lines of a collision, in this order. */
+enum { CROSS_LINES = 12, CORNERS = 8 };
+
 /* The diagonals of a box's six faces: what is crossed out is told apart without its colour. */
 static void add_crossed_faces(scene *s, const octree_box *box, scene_look look)
 {
@@ -85,6 +62,37 @@ static void add_crossed_faces(scene *s, const octree_box *box, scene_look look)
     }
 }
 
+static void add_way(scene *s, uint64_t id, const double from[3], const double to[3], scene_look look)
+{
+    if (from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
+        return;
+    scene_segment line = {.id = id, .look = look};
+    memcpy(line.ends[0], from, sizeof line.ends[0]);
+    memcpy(line.ends[1], to, sizeof line.ends[1]);
+    scene_add_segment(s, line);
+}
+
+static void pick_corner(const octree_box *box, unsigned corner, double position[3])
+{
+    for (unsigned i = 0; i < 3; i++)
+        position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
+}
+
+/* The ways that met: of the corners of the player's box, which is drawn at both ends, and of each hit that moved. */
+static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, scene_look look)
+{
+    const octree_box start = box_about(tick->from, box_size), end = box_about(tick->attempt, box_size);
+    double from[3], to[3];
+    look.style = STYLE_DASHED;
+    for (unsigned corner = 0; corner < CORNERS; corner++) {
+        pick_corner(&start, corner, from);
+        pick_corner(&end, corner, to);
+        add_way(s, CROSS_LINES + corner, from, to, look);
+    }
+    for (size_t i = 0; i < tick->hit_count; i++)
+        add_way(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, look);
+}
+
 /* The box that was tested, crossed out, and a cross on everything in it. */
 static void add_collision(scene *s, const octree_tick *tick, const octree_session *session)
 {
@@ -96,6 +104,8 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
     outline.look.width = 2;
     scene_add_box(s, outline);
     add_crossed_faces(s, &box, look);
+    if (tick->swept)
+        add_swept_ways(s, tick, session->player.box_size, look);
     for (size_t i = 0; i < tick->hit_count; i++) {
         scene_marker marker = {.id = tick->hits[i].id, .look = look, .shape = SHAPE_CROSS};
         marker.look.width = 6;
@@ -111,12 +121,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game)
     begin_scene(s, v, &session->tree.world, tick->player, tick->number, panel_width(v));
     add_world(s, &session->tree.world);
     add_tree(s, octree_game_tree(game), session->body_count);
-    for (size_t i = 0; i < tick->answer_count; i++) {
-        if (tick->answers[i].kind == OCTREE_QUERY_RANGE)
-            add_range(s, &tick->answers[i], i);
-        else
-            add_nearest(s, &tick->answers[i], i);
-    }
+    add_answers(s, tick);
     add_player(s, tick, session);
     add_collision(s, tick, session);
     add_tick_panel(s, game);

@@ -23,6 +23,8 @@
     X(NODES, "nodes")                                                                                                  \
     X(POINTS, "points")                                                                                                \
     X(RANGE, "range")                                                                                                  \
+    X(RADIUS, "radius")                                                                                                \
+    X(KNEAREST, "knearest")                                                                                            \
     X(NEAREST, "nearest")                                                                                              \
     X(PLAYER, "player")                                                                                                \
     X(BOX, "box") /* the player's collision box, and what is in it */                                                  \

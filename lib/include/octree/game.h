@@ -4,6 +4,12 @@
  * state before any key. The order within a tick: edits, points that move by velocity, the player's step, the
  * collision test, the queries.
  *
+ * A point may jump over the player, and the player over a point, in one tick. With octree_player.sweep the collision
+ * test covers the whole way: straight, at constant speed, from the place that is stored at the end of a tick to that at
+ * the end of the next, for the player and for every body that is moved, by its velocity, by an edit or by both. A body
+ * that bounces is taken along the straight line too; one that is inserted begins where it is put. A step is tested on
+ * its way there whether or not it is taken back.
+ *
  * Keys: w/s = +y/-y, d/a = +x/-x, e/f = +z/-z, n names the nearest neighbour, . waits, q ends the session (no tick is
  * played for it).
  */
@@ -29,6 +35,8 @@ typedef struct octree_player {
     double position[3];
     double step;     /* distance of one key, >= 0 */
     double box_size; /* the collision box is position +- box_size, >= 0 */
+    bool sweep; /* test the whole way. Without, as in the paper, the step's end alone: sure to miss nothing only where
+                   player and point move relative to each other by at most 2 * box_size a tick, along one axis */
 } octree_player;
 
 typedef enum octree_edit_kind { OCTREE_EDIT_INSERT, OCTREE_EDIT_REMOVE, OCTREE_EDIT_MOVE } octree_edit_kind;
@@ -40,17 +48,29 @@ typedef struct octree_edit {
     octree_body body; /* remove reads the id alone; move reads id and position, and keeps the velocity */
 } octree_edit;
 
-typedef enum octree_query_kind { OCTREE_QUERY_RANGE, OCTREE_QUERY_NEAREST } octree_query_kind;
+typedef enum octree_query_kind {
+    OCTREE_QUERY_RANGE,    /* the points in a box */
+    OCTREE_QUERY_NEAREST,  /* the point nearest to a place */
+    OCTREE_QUERY_KNEAREST, /* the k points nearest to it */
+    OCTREE_QUERY_RADIUS,   /* the points in a ball */
+    OCTREE_QUERY_KINDS
+} octree_query_kind;
+
+/* "range", "nearest", "knearest", "radius": the name that files use. Null from OCTREE_QUERY_KINDS on. */
+const char *octree_query_name(octree_query_kind kind);
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
-/* A question asked at the end of a tick. */
+/* A question asked at the end of a tick. The player is no neighbour of itself; boxes and balls have it as they have
+ * every other point. */
 typedef struct octree_query {
     uint64_t tick; /* or OCTREE_EVERY_TICK */
     octree_query_kind kind;
-    bool at_player;   /* range: the box is relative to the player; nearest: the target is the player, itself left out */
+    bool at_player;   /* range: the box is relative to the player; others: the target is the player */
     octree_box box;   /* range */
-    double target[3]; /* nearest, unless at_player */
+    double target[3]; /* nearest, k nearest, and the ball's centre; unless at_player */
+    size_t k;         /* k nearest: how many; where there are fewer, all */
+    double radius;    /* of the closed ball, >= 0 */
 } octree_query;
 
 /* All that is needed to play. The arrays are borrowed: they must outlive the game. */
@@ -98,13 +118,14 @@ typedef struct octree_refusal {
 
 typedef struct octree_answer {
     octree_query_kind kind;
-    bool by_key;                /* asked by n */
-    octree_box box;             /* range: as asked, in world coordinates */
-    double target[3];           /* nearest: as asked */
-    bool found;                 /* nearest */
-    octree_neighbor neighbor;   /* nearest, when found */
-    const octree_point *points; /* range: the result, by id */
-    size_t count;
+    bool by_key;                      /* asked by n */
+    octree_box box;                   /* range: as asked, in world coordinates */
+    double target[3];                 /* nearest, k nearest, and the ball's centre: as asked */
+    size_t k;                         /* k nearest: as asked; nearest: 1 */
+    double radius;                    /* radius: as asked */
+    const octree_point *points;       /* range, radius: the result, by id */
+    const octree_neighbor *neighbors; /* nearest, k nearest: the result, by distance and then by id */
+    size_t count;                     /* of points or neighbours; nearest: 0 or 1 */
 } octree_answer;
 
 /* One tick. The arrays are owned by the game and valid until its next step. */
@@ -114,8 +135,11 @@ typedef struct octree_tick {
     unsigned events;          /* bits of octree_event */
     double player[3];         /* after the tick */
     double attempt[3];        /* where the collision test was made: the step's end, taken back or not */
+    bool swept;               /* the test was made all the way from `from` to `attempt` */
+    double from[3];           /* where the player was before the tick */
     const octree_point *hits; /* what the collision test found, by id */
     size_t hit_count;
+    const double (*hit_from)[3];    /* swept: where each hit was before the tick; else null */
     const octree_refusal *refusals; /* in the order they happened */
     size_t refusal_count;
     const octree_address *splits; /* inner now and not at the tick before; in pre-order, none at tick 0 */
@@ -130,13 +154,14 @@ typedef struct octree_game octree_game;
 
 /* Start a session and play tick 0. Bodies that the tree refuses are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
- * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; NO_MEMORY. *game is then null.
- * Cost: one insertion a body. */
+ * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
+ * BAD_RANGE, BAD_SIZE; NO_MEMORY. *game is then null. Cost: one insertion a body. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key, whatever the session's keys say. After an error the game must not be stepped again.
- * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries; nodes, when the tree changed). */
+ * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries; all bodies, when
+ * swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */

@@ -105,7 +105,7 @@ typedef struct octree_def {
     octree_allocator allocator; /* null functions mean malloc and free */
 } octree_def;
 
-/* World [-1000, 1000]^3, capacity 16, depth 21, OCTREE_REFUSE, malloc. */
+/* World [-1000, 1000]^3, capacity 64, depth 21, OCTREE_REFUSE, malloc. */
 octree_def octree_def_default(void);
 
 /* Make an empty tree into *tree. The definition is copied.
@@ -154,6 +154,10 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
  * would be outside), FULL (a point would be refused), NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_reworld(octree *tree, const octree_box *world);
 
+/* A node's address: a leading 1 bit, then three bits an octant from the root down (Morton order). The root is 1. */
+typedef uint64_t octree_address;
+#define OCTREE_ROOT ((octree_address)1)
+
 /* ---- Ask ---------------------------------------------------------------------------------------------------- */
 
 /* Called with each point that answers a query. The point is owned by the tree and valid during the call. Return
@@ -189,14 +193,26 @@ typedef struct octree_cost {
     uint64_t pruned; /* nodes left out by their box, with all below them */
 } octree_cost;
 
+/* How a query met a node. */
+typedef enum octree_touch {
+    OCTREE_TOUCH_VISITED, /* its children or its points were looked at one by one */
+    OCTREE_TOUCH_PRUNED,  /* left out by its box, with all below it */
+    OCTREE_TOUCH_TAKEN,   /* its box is inside the range: all below it was taken without looking */
+} octree_touch;
+
+/* Called with each node that a query met. It must not change the tree. */
+typedef void (*octree_tracer)(octree_address node, octree_touch touch, void *context);
+
 /* How a query is answered: what trades accuracy for speed. All zero, which is also what a null pointer stands for, is
  * exact and counts every point. */
 typedef struct octree_search {
-    octree_skip skip;  /* nearest neighbours only */
-    uint64_t skip_id;  /* read under OCTREE_SKIP_ID alone */
-    octree_mode mode;  /* distances only; boxes are exact in both modes */
-    double epsilon;    /* finite, >= 0; for neighbours a ratio, for ranges a length: see each function */
-    octree_cost *cost; /* null: not counted */
+    octree_skip skip;    /* nearest neighbours only */
+    uint64_t skip_id;    /* read under OCTREE_SKIP_ID alone */
+    octree_mode mode;    /* distances only; boxes are exact in both modes */
+    double epsilon;      /* finite, >= 0; for neighbours a ratio, for ranges a length: see each function */
+    octree_cost *cost;   /* null: not counted */
+    octree_tracer trace; /* null: not traced */
+    void *trace_context;
 } octree_search;
 
 /* Algorithm 4. Visit every point in a closed box, in no stated order. The box may reach beyond the world; infinite
@@ -276,8 +292,7 @@ octree_status octree_nearest_k(const octree *tree, const double target[3], size_
 /* The nearest point of each of `count` targets, rows of three doubles, into neighbors[i]; found[i] (may be null) tells
  * whether there is one, and neighbors[i] is untouched where there is none. The targets are asked in Morton order, so
  * that those close by share what is in the cache. Errors: as octree_nearest_k, TOO_MANY and NO_MEMORY; a target that is
- * not finite is NOT_FINITE before anything is written. Cost: `count` searches, and some 32 bytes a target while it
- * runs. */
+ * not finite is NOT_FINITE before anything is written. Cost: `count` searches, and 32 bytes a target while it runs. */
 octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
                                    const octree_search *how, octree_neighbor *neighbors, bool *found);
 
@@ -291,10 +306,6 @@ octree_status octree_nearest_within(const octree *tree, const double target[3], 
 int octree_compare_points(const void *a, const void *b);
 
 /* ---- Look --------------------------------------------------------------------------------------------------- */
-
-/* A node's address: a leading 1 bit, then three bits an octant from the root down (Morton order). The root is 1. */
-typedef uint64_t octree_address;
-#define OCTREE_ROOT ((octree_address)1)
 
 /* One node as the tree sees it. `points` holds a leaf's points, in no stated order, and is null for inner nodes; it
  * is owned by the tree and valid until the next change. */

@@ -69,12 +69,12 @@ static channel open_output(const command_setting *setting)
     return made;
 }
 
-/* The arguments of a line, in place. */
+/* A program and the arguments of a line, in place; the path of the program comes first. */
 static void split(char *line, char *arguments[ARGUMENTS])
 {
-    static char name[] = "octreel";
+    static char program[] = OCTREEL_PROGRAM;
     size_t count = 0;
-    arguments[count++] = name;
+    arguments[count++] = program;
     for (char *word = strtok(line, " "); word != NULL; word = strtok(NULL, " ")) {
         assert_true(count < ARGUMENTS - 1);
         arguments[count++] = word;
@@ -118,12 +118,12 @@ static bool set_limit(size_t bytes)
     return setrlimit(RLIMIT_FSIZE, &limit) == 0;
 }
 
-static void become_octreel(const command_setting *setting, char **arguments, int out, int err)
+static void become_program(const command_setting *setting, char **arguments, int out, int err)
 {
     const bool ready = dup2(out, STDOUT_FILENO) >= 0 && dup2(err, STDERR_FILENO) >= 0 && leave_leaks() &&
                        set_environment(setting) && set_limit(setting->file_limit);
     if (ready)
-        execv(OCTREEL_PROGRAM, arguments);
+        execv(arguments[0], arguments);
     _exit(127);
 }
 
@@ -171,7 +171,7 @@ static command_result run(const command_setting *setting, char **arguments)
     if (child == 0) {
         close(out.test);
         close(err.test);
-        become_octreel(setting, arguments, out.child, err.child);
+        become_program(setting, arguments, out.child, err.child);
     }
     close(out.child);
     close(err.child);
@@ -197,6 +197,26 @@ command_result run_octreel(const command_setting *setting, const char *format, .
     assert_true(length >= 0 && length < LINE);
     split(line, arguments);
     return run(setting == NULL ? &plain : setting, arguments);
+}
+
+command_result run_shell(const char *line)
+{
+    static char shell[] = "/bin/sh", option[] = "-c";
+    static const command_setting plain = {.output = NULL};
+    char copy[LINE];
+    const int length = snprintf(copy, sizeof copy, "%s", line);
+    assert_true(length >= 0 && length < LINE);
+    return run(&plain, (char *[]){shell, option, copy, NULL});
+}
+
+bool program_is_there(const char *name)
+{
+    char line[128];
+    snprintf(line, sizeof line, "command -v %s", name);
+    command_result result = run_shell(line);
+    const bool there = result.status == 0;
+    command_release(&result);
+    return there;
 }
 
 void command_release(command_result *result)

@@ -1,4 +1,4 @@
-/* commands.h - the program octreel, run as a child: what it says, and how it ends. */
+/* commands.h - the program octreel, or a line of shell, run as a child: what it says, and how it ends. */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
@@ -22,6 +22,13 @@ typedef struct command_result {
 /* Run octreel with the arguments that a format gives, blanks between them. `setting` may be null. The test fails when
  * the program cannot be run. */
 command_result run_octreel(const command_setting *setting, const char *format, ...);
+
+/* Run a line as a shell does. The test fails when there is no shell. */
+command_result run_shell(const char *line);
+
+/* Whether a shell finds a program of this name. */
+bool program_is_there(const char *name);
+
 void command_release(command_result *result);
 
 /* It ended with status 0 and said nothing on stderr. */

@@ -9,24 +9,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SHAPES "world,nodes,points,range,nearest,player,box"
+#define SHAPES "world,nodes,points,range,radius,knearest,nearest,player,box"
 #define TREE "world,nodes,points"
 
 const golden_frame golden_frames[] = {
-    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},        {"first_split", "iso", SHAPES, 0, "three", 0, 0},
-    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},  {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
-    {"collision", "follow", SHAPES, 193, NULL, 0, 0},   {"refused_step", "iso", "all", 74, NULL, 0, 0},
-    {"full_leaf", "follow", "all", 214, NULL, 0, 0},    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
-    {"range", "side", SHAPES, 219, NULL, 0, 0},         {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
-    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0}, {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
+    {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},
+    {"first_split", "iso", SHAPES, 0, "three", 0, 0},
+    {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},
+    {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
+    {"collision", "follow", SHAPES, 193, NULL, 0, 0},
+    {"refused_step", "iso", "all", 74, NULL, 0, 0},
+    {"full_leaf", "follow", "all", 214, NULL, 0, 0},
+    {"nearest", "front", SHAPES, 7, NULL, 0, 0},
+    {"range", "side", SHAPES, 219, NULL, 0, 0},
+    {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
+    {"camera_orbit", "orbit", SHAPES, 120, NULL, 0, 0},
+    {"clustered", "iso", SHAPES, 0, "clustered", 0, 0},
+    {"knearest", "follow", SHAPES, 0, "knearest", 0, 0},
+    {"radius", "follow", SHAPES, 0, "radius", 0, 0},
+    {"swept", "front", SHAPES, 1, "swept", 0, 0},
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
-    {"slice", "iso", TREE, 0, "clustered", 0, 0},       {"region", "iso", TREE, 0, "clustered", 0, 0},
-    {"fit", "iso", TREE, 0, "clustered", 0, 0},         {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
-    {"labels", "iso", TREE, 0, NULL, 640, 360},         {"aa", "orbit", SHAPES, 219, NULL, 160, 90},
-    {"lod", "orbit", TREE, 0, "clustered", 0, 0},       {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
+    {"slice", "iso", TREE, 0, "clustered", 0, 0},
+    {"region", "iso", TREE, 0, "clustered", 0, 0},
+    {"fit", "iso", TREE, 0, "clustered", 0, 0},
+    {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
+    {"labels", "iso", TREE, 0, NULL, 640, 360},
+    {"aa", "orbit", SHAPES, 219, NULL, 160, 90},
+    {"lod", "orbit", TREE, 0, "clustered", 0, 0},
+    {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
+
+#define MOST_BODIES 400
 
 /* What else the views of some frames have. */
 static const struct {
@@ -60,30 +75,64 @@ static const octree_body few[] = {{.id = 1, .position = {500, 500, 500}}, {.id =
 static const octree_query around[] = {
     {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-900, -400, -300}, {100, 600, 300}}}};
 
-/* 400 clustered points, and a region that some of them are in. */
-static octree_session clustered_session(octree_body *bodies, size_t count)
+static const octree_query neighbors[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 6}};
+static const octree_query ball[] = {{.kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 500}};
+
+static const octree_body crossing[] = {
+    {.id = 1, .position = {50, -50, -250}},
+    {.id = 2, .position = {300, 0, 600}, .velocity = {-100, 0, -1400}},
+    {.id = 3, .position = {50, 0, 0}},
+    {.id = 4, .position = {-200, 0, 900}, .velocity = {700, 0, -200}},
+};
+
+/* Many points of a kind, and one query. */
+static octree_session sampled_session(octree_sample_kind kind, const octree_query *query, octree_body *bodies,
+                                      size_t count)
 {
     octree_session session = octree_session_default();
-    double positions[400][3];
-    octree_sample(OCTREE_SAMPLE_CLUSTERED, 5, &session.tree.world, count, positions);
+    double positions[MOST_BODIES][3];
+    octree_sample(kind, 5, &session.tree.world, count, positions);
     for (size_t i = 0; i < count; i++)
         bodies[i] = (octree_body){.id = i + 100, .position = {positions[i][0], positions[i][1], positions[i][2]}};
     session.tree.leaf_capacity = 4;
     session.tree.max_depth = OCTREE_MAX_DEPTH;
     session.bodies = bodies;
     session.body_count = count;
-    session.queries = around;
+    session.queries = query;
     session.query_count = 1;
     return session;
 }
 
-static octree_session session_of(const golden_frame *frame, octree_body bodies[400])
+/* A step over one point and past another, which comes along the same way from above. */
+static octree_session swept_session(void)
+{
+    octree_session session = octree_session_default();
+    session.player =
+        (octree_player){.id = 6, .position = {-600, 0, -300}, .step = 1200, .box_size = 100, .sweep = true};
+    session.keys = "d";
+    session.bodies = crossing;
+    session.body_count = sizeof crossing / sizeof crossing[0];
+    session.query_count = 0;
+    return session;
+}
+
+static octree_session session_of(const golden_frame *frame, octree_body bodies[MOST_BODIES])
 {
     octree_session session = octree_session_default();
     if (!frame->points)
         return session;
-    if (frame->points[0] == 'c')
-        return clustered_session(bodies, 400);
+    switch (frame->points[0]) {
+    case 'c': /* 400 clustered points, and a region that some of them are in */
+        return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, MOST_BODIES);
+    case 'k':
+        return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
+    case 'r':
+        return sampled_session(OCTREE_SAMPLE_UNIFORM, ball, bodies, 60);
+    case 's':
+        return swept_session();
+    default:
+        break;
+    }
     session.bodies = few;
     session.body_count = frame->points[1] == 'w' ? 1 : 2; /* the player is a point too */
     session.queries = NULL;
@@ -111,7 +160,7 @@ static bool draw_game(const octree_game *game, const view *v, image *drawn, char
 
 bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error)
 {
-    octree_body bodies[400];
+    octree_body bodies[MOST_BODIES];
     const octree_session session = session_of(frame, bodies);
     view v = view_of_frame(frame);
     const char *bad;

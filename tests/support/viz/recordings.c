@@ -83,6 +83,10 @@ static void assert_whole_file(const char *folder, const char *name)
         if (!session_read(file.path, &session, &error))
             fail_msg("%s", error.text);
         session_release(&session);
+    } else if (strcmp(name, "index.html") == 0) {
+        char *text = file_read(file.path, NULL);
+        assert_non_null(strstr(text, "</html>\n"));
+        free(text);
     } else {
         char *text = file_read(file.path, NULL);
         json_decref(json_read(text));

@@ -18,6 +18,23 @@ scene empty_scene(const view *v, const octree_box *world)
     return s;
 }
 
+/* The default session's queries, which are ranges at ticks 212 to 223, and two at every tick. */
+octree_session asking_session(void)
+{
+    static octree_query queries[32];
+    octree_session session = octree_session_default();
+    size_t count = session.query_count;
+    assert_true(count + 2 <= sizeof queries / sizeof queries[0]);
+    memcpy(queries, session.queries, count * sizeof *queries);
+    queries[count++] =
+        (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 4};
+    queries[count++] =
+        (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 450};
+    session.queries = queries;
+    session.query_count = count;
+    return session;
+}
+
 static void scale_positions(double (*positions)[3], size_t count, double scale, double offset)
 {
     for (size_t i = 0; i < count; i++)
@@ -42,6 +59,7 @@ void scale_session(scaled_session *made, double scale, double offset)
         scale_positions(&query->box.min, 1, scale, base);
         scale_positions(&query->box.max, 1, scale, base);
         scale_positions(&query->target, 1, scale, offset);
+        query->radius *= scale;
     }
     scale_positions(&session->tree.world.min, 1, scale, offset);
     scale_positions(&session->tree.world.max, 1, scale, offset);

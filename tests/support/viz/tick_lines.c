@@ -113,30 +113,61 @@ static void assert_range(const json_t *range, const octree_answer *answer)
     assert_ids(json_member(range, "ids"), answer->points, answer->count);
 }
 
+static void assert_neighbor(const json_t *object, const octree_neighbor *neighbor)
+{
+    assert_whole_number(json_member(object, "id"), neighbor->point.id);
+    assert_position(object, "position", neighbor->point.position);
+    assert_number(json_member(object, "distance"), neighbor->distance);
+}
+
 static void assert_nearest(const json_t *nearest, const octree_answer *answer)
 {
-    assert_members(nearest, answer->found ? "target id position distance" : "target id");
+    assert_members(nearest, answer->count ? "target id position distance" : "target id");
     assert_position(nearest, "target", answer->target);
-    if (!answer->found) {
+    if (answer->count)
+        assert_neighbor(nearest, &answer->neighbors[0]);
+    else
         assert_true(json_is_null(json_member(nearest, "id")));
-        return;
+}
+
+static void assert_knearest(const json_t *knearest, const octree_answer *answer)
+{
+    const json_t *neighbors = json_member(knearest, "neighbors");
+    assert_members(knearest, "target k neighbors");
+    assert_position(knearest, "target", answer->target);
+    assert_whole_number(json_member(knearest, "k"), answer->k);
+    assert_int_equal(json_array_size(neighbors), answer->count);
+    for (size_t i = 0; i < answer->count; i++) {
+        assert_members(json_array_get(neighbors, i), "id position distance");
+        assert_neighbor(json_array_get(neighbors, i), &answer->neighbors[i]);
     }
-    assert_whole_number(json_member(nearest, "id"), answer->neighbor.point.id);
-    assert_position(nearest, "position", answer->neighbor.point.position);
-    assert_number(json_member(nearest, "distance"), answer->neighbor.distance);
+}
+
+static void assert_radius(const json_t *radius, const octree_answer *answer)
+{
+    assert_members(radius, "center radius ids");
+    assert_position(radius, "center", answer->target);
+    assert_number(json_member(radius, "radius"), answer->radius);
+    assert_ids(json_member(radius, "ids"), answer->points, answer->count);
 }
 
 static void assert_answers(const json_t *list, const octree_tick *tick)
 {
+    static const struct {
+        const char *name;
+        void (*assert_told)(const json_t *, const octree_answer *);
+    } kinds[OCTREE_QUERY_KINDS] = {
+        [OCTREE_QUERY_RANGE] = {"range", assert_range},
+        [OCTREE_QUERY_NEAREST] = {"nearest", assert_nearest},
+        [OCTREE_QUERY_KNEAREST] = {"knearest", assert_knearest},
+        [OCTREE_QUERY_RADIUS] = {"radius", assert_radius},
+    };
     assert_int_equal(json_array_size(list), tick->answer_count);
     for (size_t i = 0; i < tick->answer_count; i++) {
-        const bool range = tick->answers[i].kind == OCTREE_QUERY_RANGE;
         const json_t *answer = json_array_get(list, i);
-        assert_members(answer, range ? "range" : "nearest");
-        if (range)
-            assert_range(json_member(answer, "range"), &tick->answers[i]);
-        else
-            assert_nearest(json_member(answer, "nearest"), &tick->answers[i]);
+        const octree_query_kind kind = tick->answers[i].kind;
+        assert_members(answer, kinds[kind].name);
+        kinds[kind].assert_told(json_member(answer, kinds[kind].name), &tick->answers[i]);
     }
 }
 
@@ -180,9 +211,12 @@ static void assert_key(const json_t *value, char key)
 void assert_line_tells(const json_t *line, const octree_tick *tick, const octree *tree)
 {
     static const char always[] = "tick key player events attempt hits answers refusals splits merges tree";
-    char filmed[128];
-    snprintf(filmed, sizeof filmed, "%s frame scene", always);
-    assert_members(line, json_object_get(line, "frame") == NULL ? always : filmed);
+    char names[128];
+    snprintf(names, sizeof names, "%s%s%s", always, json_object_get(line, "frame") == NULL ? "" : " frame scene",
+             tick->swept ? " from" : "");
+    assert_members(line, names);
+    if (tick->swept)
+        assert_position(line, "from", tick->from);
     assert_whole_number(json_member(line, "tick"), tick->number);
     assert_key(json_member(line, "key"), tick->key);
     assert_position(line, "player", tick->player);

@@ -1,0 +1,81 @@
+/* game_check.c - what a session must be before it is played. */
+#include "game_parts.h"
+#include "search.h"
+
+#include <math.h>
+
+static octree_status check_player(const octree_player *player, const octree *tree)
+{
+    if (!isfinite(player->step) || !isfinite(player->box_size))
+        return OCTREE_NOT_FINITE;
+    if (player->step < 0 || player->box_size < 0)
+        return OCTREE_BAD_SIZE;
+    return check_position(tree, player->position);
+}
+
+static octree_status check_keys(const octree_session *session)
+{
+    for (const char *key = session->keys; key && *key && *key != 'q'; key++)
+        if (!game_is_key(*key))
+            return OCTREE_BAD_KEY;
+    return OCTREE_OK;
+}
+
+static octree_status check_edits(const octree_session *session)
+{
+    for (size_t i = 0; i < session->edit_count; i++) {
+        if ((unsigned)session->edits[i].kind > OCTREE_EDIT_MOVE)
+            return OCTREE_BAD_OPTION;
+        if (session->edits[i].tick == 0 || (i > 0 && session->edits[i].tick < session->edits[i - 1].tick))
+            return OCTREE_BAD_ORDER;
+    }
+    return OCTREE_OK;
+}
+
+static octree_status check_box(const octree_box *box)
+{
+    for (int i = 0; i < 3; i++) {
+        if (isnan(box->min[i]) || isnan(box->max[i]))
+            return OCTREE_NOT_FINITE;
+        if (box->min[i] > box->max[i])
+            return OCTREE_BAD_RANGE;
+    }
+    return OCTREE_OK;
+}
+
+/* What the tree would refuse is refused here: an error in the middle of a game would be its end. */
+static octree_status check_query(const octree_query *query)
+{
+    if ((unsigned)query->kind >= OCTREE_QUERY_KINDS)
+        return OCTREE_BAD_OPTION;
+    if (query->kind == OCTREE_QUERY_RANGE)
+        return check_box(&query->box);
+    if (query->kind == OCTREE_QUERY_RADIUS && !isfinite(query->radius))
+        return OCTREE_NOT_FINITE;
+    if (query->kind == OCTREE_QUERY_RADIUS && query->radius < 0)
+        return OCTREE_BAD_SIZE;
+    return query->at_player ? OCTREE_OK : check_finite(query->target);
+}
+
+static octree_status check_queries(const octree_session *session)
+{
+    octree_status status = OCTREE_OK;
+    for (size_t i = 0; status == OCTREE_OK && i < session->query_count; i++) {
+        status = check_query(&session->queries[i]);
+        if (i > 0 && session->queries[i].tick < session->queries[i - 1].tick)
+            status = OCTREE_BAD_ORDER;
+    }
+    return status;
+}
+
+octree_status game_check_session(const octree_session *session, const octree *tree)
+{
+    octree_status status = check_player(&session->player, tree);
+    if (status == OCTREE_OK)
+        status = check_keys(session);
+    if (status == OCTREE_OK)
+        status = check_edits(session);
+    if (status == OCTREE_OK)
+        status = check_queries(session);
+    return status;
+}

@@ -1,0 +1,177 @@
+/* test_trace.c - the trace of a query names each node that it met, once, and why the others were left out. */
+#include "fixture.h"
+
+#include <math.h>
+
+#include "brute.h"
+
+static bool box_contains(const octree_box *box, const double p[3])
+{
+    bool inside = true;
+    for (int i = 0; i < 3; i++)
+        inside &= box->min[i] <= p[i] && p[i] <= box->max[i];
+    return inside;
+}
+
+typedef struct touched {
+    octree_address node;
+    octree_touch touch;
+} touched;
+
+typedef struct trace {
+    touched items[20000];
+    size_t count;
+} trace;
+
+static void note(octree_address node, octree_touch touch, void *context)
+{
+    trace *t = context;
+    assert_true(t->count < sizeof t->items / sizeof t->items[0]);
+    t->items[t->count++] = (touched){node, touch};
+}
+
+static bool ignore(const octree_point *point, void *context)
+{
+    (void)point;
+    (void)context;
+    return true;
+}
+
+static size_t count_of(const trace *t, octree_touch touch)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < t->count; i++)
+        count += t->items[i].touch == touch;
+    return count;
+}
+
+/* How a query met a node, or below which node it stopped: -1 where it never came near. */
+static int touch_of(const trace *t, octree_address address)
+{
+    for (; address; address >>= 3)
+        for (size_t i = 0; i < t->count; i++)
+            if (t->items[i].node == address)
+                return (int)t->items[i].touch;
+    return -1;
+}
+
+static void assert_nodes_exist_and_differ(const octree *tree, const trace *t)
+{
+    octree_node node;
+    for (size_t i = 0; i < t->count; i++) {
+        assert_int_equal(octree_node_at(tree, t->items[i].node, &node), OCTREE_OK);
+        for (size_t j = 0; j < i; j++)
+            assert_true(t->items[i].node != t->items[j].node);
+    }
+}
+
+/* Where the leaf of an answer is, the query has looked or has taken the whole; elsewhere it may have. */
+static void assert_answer_was_met(const octree *tree, const trace *t, const double position[3])
+{
+    octree_node leaf;
+    assert_int_equal(octree_locate(tree, position, &leaf), OCTREE_OK);
+    const int touch = touch_of(t, leaf.address);
+    assert_true(touch == OCTREE_TOUCH_VISITED || touch == OCTREE_TOUCH_TAKEN);
+}
+
+static octree *sampled_tree(brute *all, octree_sample_kind kind)
+{
+    const octree_box world = cube(-1, 1);
+    brute_sample(all, kind, 4, &world, 600);
+    return brute_tree(all, world, 6, 21);
+}
+
+static void a_range_names_what_it_visits_takes_and_leaves_out(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    for (int kind = 0; kind < OCTREE_SAMPLE_KINDS; kind++) {
+        brute all = {0};
+        octree *tree = sampled_tree(&all, (octree_sample_kind)kind);
+        for (int i = 0; i < 30; i++) {
+            const double at = random_between(&random, -1.2, 1.2), reach = random_between(&random, 0, 0.8);
+            static trace t;
+            t.count = 0;
+            octree_cost cost = {0};
+            const octree_search how = {.cost = &cost, .trace = note, .trace_context = &t};
+            const octree_box box = cube(at - reach, at + reach);
+            assert_int_equal(octree_range_search(tree, &box, &how, ignore, NULL), OCTREE_OK);
+            assert_nodes_exist_and_differ(tree, &t);
+            assert_int_equal(count_of(&t, OCTREE_TOUCH_PRUNED), cost.pruned);
+            assert_true(count_of(&t, OCTREE_TOUCH_VISITED) + count_of(&t, OCTREE_TOUCH_TAKEN) <= cost.nodes);
+            for (size_t j = 0; j < t.count; j++) {
+                octree_node node;
+                octree_node_at(tree, t.items[j].node, &node);
+                const bool within = box_contains(&box, node.box.min) && box_contains(&box, node.box.max);
+                assert_true(t.items[j].touch != OCTREE_TOUCH_TAKEN || within);
+            }
+            for (size_t j = 0; j < all.count; j++)
+                if (box_contains(&box, all.points[j].position))
+                    assert_answer_was_met(tree, &t, all.points[j].position);
+        }
+        octree_destroy(tree);
+        brute_free(&all);
+    }
+}
+
+static void a_ball_and_neighbors_name_every_node_that_they_count(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    for (int kind = 0; kind < OCTREE_SAMPLE_KINDS; kind++) {
+        brute all = {0};
+        octree *tree = sampled_tree(&all, (octree_sample_kind)kind);
+        for (int i = 0; i < 30; i++) {
+            double at[3];
+            for (int axis = 0; axis < 3; axis++)
+                at[axis] = random_between(&random, -1.2, 1.2);
+            static trace t;
+            octree_cost cost = {0};
+            const octree_search how = {.cost = &cost, .trace = note, .trace_context = &t};
+            t.count = 0;
+            assert_int_equal(octree_radius(tree, at, random_between(&random, 0, 0.8), &how, ignore, NULL), OCTREE_OK);
+            assert_nodes_exist_and_differ(tree, &t);
+            assert_int_equal(count_of(&t, OCTREE_TOUCH_PRUNED), cost.pruned);
+            octree_neighbor found[5];
+            size_t count;
+            cost = (octree_cost){0};
+            t.count = 0;
+            assert_int_equal(octree_nearest_k(tree, at, 5, &how, found, &count), OCTREE_OK);
+            assert_nodes_exist_and_differ(tree, &t);
+            assert_int_equal(count_of(&t, OCTREE_TOUCH_PRUNED), cost.pruned);
+            assert_int_equal(count_of(&t, OCTREE_TOUCH_VISITED), cost.nodes);
+            for (size_t j = 0; j < count; j++)
+                assert_answer_was_met(tree, &t, found[j].point.position);
+        }
+        octree_destroy(tree);
+        brute_free(&all);
+    }
+}
+
+static void what_lies_apart_from_the_world_prunes_the_root(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 1, 21, OCTREE_REFUSE);
+    insert_all(tree, (const double[][3]){{0.5, 0.5, 0.5}, {-0.5, 0.5, 0.5}}, 2);
+    static trace t;
+    t.count = 0;
+    octree_neighbor found;
+    const octree_search how = {.trace = note, .trace_context = &t};
+    const double far_off[3] = {9, 9, 9};
+    assert_int_equal(octree_radius(tree, far_off, 1, &how, ignore, NULL), OCTREE_OK);
+    assert_int_equal(octree_nearest_within(tree, far_off, 1, &how, &found), OCTREE_NOT_FOUND);
+    assert_int_equal(t.count, 2);
+    for (size_t i = 0; i < t.count; i++)
+        assert_true(t.items[i].node == OCTREE_ROOT && t.items[i].touch == OCTREE_TOUCH_PRUNED);
+    octree_destroy(tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_range_names_what_it_visits_takes_and_leaves_out),
+        cmocka_unit_test(a_ball_and_neighbors_name_every_node_that_they_count),
+        cmocka_unit_test(what_lies_apart_from_the_world_prunes_the_root),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,175 @@
+/* drive_viewer.js - uses a recording's page as people do, and says what it shows: a line "what<tab>value" each. */
+"use strict";
+
+const said = [];
+
+function say(what, value)
+{
+    said.push(`${what}\t${value}\n`);
+}
+
+const wait = ms => new Promise(done => setTimeout(done, ms));
+const tickShown = () => document.querySelector('[data-fact="tick"]').textContent;
+
+function press(key)
+{
+    document.body.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true}));
+}
+
+function slideTo(tick)
+{
+    const slider = document.getElementById("slider");
+    slider.value = tick;
+    slider.dispatchEvent(new Event("input"));
+}
+
+/* A fact without its decoration: the sign of an event, the meaning of a key. */
+function reading(fact)
+{
+    const badges = [...fact.querySelectorAll(".badge")];
+    if (badges.length > 0)
+        return badges.map(badge => badge.dataset.event).join(", ");
+    return (fact.querySelector("kbd") ?? fact).textContent;
+}
+
+function sayFacts()
+{
+    for (let tick = 0; tick <= Number(document.getElementById("slider").max); tick++) {
+        slideTo(tick);
+        for (const fact of document.querySelectorAll("[data-fact]"))
+            if (!fact.querySelector("dl"))
+                say(`${tick} ${fact.dataset.fact}`, reading(fact));
+        for (const value of document.querySelectorAll("#timeline .curve + output"))
+            say(`${tick} curve ${value.dataset.lane}`, value.textContent);
+    }
+}
+
+function sayKeys()
+{
+    for (const key of ["Home", "ArrowLeft", "ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "PageUp",
+                       "PageDown", "PageUp", "Home", "PageDown"]) {
+        press(key);
+        say(`key ${key}`, tickShown());
+    }
+}
+
+/* Where a key leads until it leads no further. */
+function sayWalk(name, key)
+{
+    const ticks = [];
+    for (let before = ""; before !== tickShown(); press(key))
+        ticks.push(before = tickShown());
+    say(name, ticks.join(" "));
+}
+
+function sayMatches()
+{
+    press("Home");
+    sayWalk("walk any", "n");
+    press("3");
+    press("Home");
+    sayWalk("walk collided", "n");
+    sayWalk("walk back", "p");
+    say("filtered", document.getElementById("filtered").textContent);
+    say("chosen", [...document.querySelectorAll('[aria-pressed="true"]')].map(label => label.dataset.event).join(" "));
+    document.querySelector('.lane-label[data-event="merged"]').click();
+    press("Home");
+    sayWalk("walk collided or merged", "n");
+    press("0");
+    say("chosen none", document.querySelectorAll('[aria-pressed="true"]').length);
+}
+
+function sayPointer()
+{
+    const scrub = document.getElementById("scrub"), box = scrub.getBoundingClientRect();
+    const typed = document.getElementById("tick");
+    scrub.setPointerCapture = () => {}; /* there is no pointer to capture */
+    scrub.dispatchEvent(new PointerEvent("pointerdown", {clientX: box.left + box.width / 2, button: 0, buttons: 1}));
+    say("click in the middle", tickShown());
+    scrub.dispatchEvent(new PointerEvent("pointermove", {clientX: box.right, buttons: 1}));
+    say("drag to the end", tickShown());
+    typed.value = "77";
+    typed.dispatchEvent(new Event("change"));
+    say("typed", tickShown());
+    document.querySelector('[data-does="next"]').click();
+    say("button", tickShown());
+}
+
+async function sayFrame(name)
+{
+    await wait(500);
+    const frame = document.querySelector("#stage img");
+    say(name, `${tickShown()} ${frame.getAttribute("src")} ${frame.naturalWidth}x${frame.naturalHeight}`);
+}
+
+async function sayPlayed(name)
+{
+    const seen = [];
+    press(" ");
+    for (let i = 0; i < 80; i++) {
+        await wait(10);
+        if (seen.at(-1) !== tickShown())
+            seen.push(tickShown());
+    }
+    say(name, seen.join(" "));
+    if (document.body.classList.contains("playing"))
+        press(" ");
+    const paused = tickShown();
+    await wait(500);
+    say(`${name}, paused`, paused === tickShown());
+}
+
+async function sayAddress()
+{
+    press("3");
+    slideTo(41);
+    await wait(500);
+    say("address", location.hash);
+    location.hash = "#t=12&filter=full,split,unheard-of";
+    await wait(100);
+    say("from address", `${tickShown()} ${document.querySelectorAll('[aria-pressed="true"]').length}`);
+    location.hash = "#t=99999999";
+    await wait(100);
+    say("beyond the end", tickShown());
+    location.hash = "#t=nonsense";
+    await wait(100);
+    say("from nonsense", tickShown());
+}
+
+function sayHelp()
+{
+    const help = document.getElementById("help");
+    say("help before", help.open);
+    press("?");
+    say("help", help.open);
+    say("keys listed", [...help.querySelectorAll("kbd")].map(key => key.textContent).join(" "));
+    press("End");
+    say("behind the help", tickShown());
+    help.close();
+}
+
+async function drive()
+{
+    sayFacts();
+    sayKeys();
+    sayMatches();
+    sayPointer();
+    await sayFrame("frame");
+    press("Home");
+    await sayPlayed("played");
+    press("Home");
+    press("3");
+    await sayPlayed("played collided");
+    press("0");
+    await sayAddress();
+    sayHelp();
+    say("elements", document.querySelectorAll("*").length);
+    say("errors", errors.length);
+    const list = document.body.appendChild(document.createElement("pre"));
+    list.id = "said";
+    list.textContent = said.join("");
+}
+
+const errors = [];
+addEventListener("error", event => errors.push(event.message));
+drive();

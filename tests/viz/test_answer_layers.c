@@ -1,0 +1,228 @@
+/* test_answer_layers.c - what a tick asked, in its draw list: each answer in the layer of its kind, and nothing else.
+ */
+#include "scenes.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "answer_layers.h"
+#include "draw_list.h"
+#include "random_session.h"
+
+static void check_marked(const scene *s, unsigned layer, const octree_answer *answer)
+{
+    for (size_t i = 0; i < answer->count; i++)
+        assert_true(markers_at(s, layer, answer->points[i].id, answer->points[i].position) >= 1);
+}
+
+static void check_range(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
+{
+    assert_true(same_box(&only_box(s, LAYER_RANGE, place)->box, &answer->box));
+    check_marked(s, LAYER_RANGE, answer);
+    due->boxes++;
+    due->markers += answer->count;
+}
+
+static void check_nearest(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
+{
+    for (size_t i = 0; i < answer->count; i++) {
+        const octree_point *nearest = &answer->neighbors[i].point;
+        assert_int_equal(lines_between(s, LAYER_NEAREST, place, answer->target, nearest->position), 1);
+        assert_true(markers_at(s, LAYER_NEAREST, nearest->id, nearest->position) >= 1);
+    }
+    due->segments += answer->count;
+    due->markers += answer->count;
+}
+
+/* The rank that a label of this id tells beside a place, or null. */
+static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, const double at[3])
+{
+    char number[24];
+    snprintf(number, sizeof number, " %zu", rank);
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label *label = &s->labels.items[i];
+        if (label->look.layer != LAYER_KNEAREST || label->id != id)
+            continue;
+        assert_true(label->in_world && strcmp(label->text, number) == 0 && same_position(label->at, at));
+        return label;
+    }
+    return NULL;
+}
+
+/* Whether two numbers are so close that one would cover the other. */
+static bool are_crowded(const scene *s, const double a[3], const double b[3])
+{
+    double p[2], q[2];
+    pixel_of(s, a, p);
+    pixel_of(s, b, q);
+    return fabs(p[0] - q[0]) < 8 * s->unit && fabs(p[1] - q[1]) < 9 * s->unit;
+}
+
+static bool is_behind_the_eye(const scene *s, const double at[3])
+{
+    double seen[3];
+    camera_transform(&s->camera, at, seen);
+    return s->camera.perspective && seen[2] < s->camera.near;
+}
+
+/* A line from the target to each neighbour, and beside the first nine their ranks, but where one covers another's. */
+static void check_knearest(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
+{
+    const double *numbered[9];
+    size_t numbers = 0;
+    for (size_t i = 0; i < answer->count; i++) {
+        const double *at = answer->neighbors[i].point.position;
+        const uint64_t id = (uint64_t)place << 32 | i;
+        assert_int_equal(lines_between(s, LAYER_KNEAREST, id, answer->target, at), 1);
+        bool room = i < 9 && !is_behind_the_eye(s, at);
+        for (size_t j = 0; room && j < numbers; j++)
+            room = !are_crowded(s, at, numbered[j]);
+        assert_int_equal(rank_of(s, id, i + 1, at) != NULL, room);
+        if (room)
+            numbered[numbers++] = at;
+    }
+    due->segments += answer->count;
+    due->labels += numbers;
+}
+
+/* Three closed chains of chords: each in a plane through the centre, and its ends at the radius from it. */
+static void check_radius(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
+{
+    size_t in_plane[3] = {0, 0, 0};
+    const double *last = NULL;
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *chord = &s->segments.items[i];
+        if (chord->look.layer != LAYER_RADIUS || chord->id >> 32 != place)
+            continue;
+        const size_t number = chord->id & UINT32_MAX, plane = number / BALL_CHORDS;
+        double square = 0;
+        for (int axis = 0; axis < 3; axis++)
+            square += pow((chord->ends[0][axis] - answer->target[axis]) / (answer->radius > 0 ? answer->radius : 1), 2);
+        assert_true(fabs(square - (answer->radius > 0)) < 1e-12);
+        assert_true(chord->ends[0][plane] == answer->target[plane] && chord->ends[1][plane] == answer->target[plane]);
+        assert_true(number % BALL_CHORDS == 0 || same_position(chord->ends[0], last));
+        in_plane[plane]++;
+        last = chord->ends[1];
+        if (number % BALL_CHORDS == BALL_CHORDS - 1)
+            assert_int_equal(lines_between(s, LAYER_RADIUS, chord->id - (BALL_CHORDS - 1), last,
+                                           s->segments.items[i - (BALL_CHORDS - 1)].ends[1]),
+                             1);
+    }
+    for (int plane = 0; plane < 3; plane++)
+        assert_int_equal(in_plane[plane], BALL_CHORDS);
+    check_marked(s, LAYER_RADIUS, answer);
+    due->segments += 3 * (size_t)BALL_CHORDS;
+    due->markers += answer->count;
+}
+
+/* Each answer is shown in the layer of its kind, and that layer shows nothing else. */
+static void check_answers(const scene *s, const octree_tick *tick)
+{
+    static const struct {
+        view_layer layer;
+        void (*check)(const scene *, const octree_answer *, size_t, layer_counts *);
+    } kinds[OCTREE_QUERY_KINDS] = {
+        [OCTREE_QUERY_RANGE] = {LAYER_RANGE, check_range},
+        [OCTREE_QUERY_NEAREST] = {LAYER_NEAREST, check_nearest},
+        [OCTREE_QUERY_KNEAREST] = {LAYER_KNEAREST, check_knearest},
+        [OCTREE_QUERY_RADIUS] = {LAYER_RADIUS, check_radius},
+    };
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
+        layer_counts due = {0}, found = count_layer(s, kinds[kind].layer);
+        for (size_t i = 0; i < tick->answer_count; i++)
+            if ((int)tick->answers[i].kind == kind)
+                kinds[kind].check(s, &tick->answers[i], i, &due);
+        assert_true(found.boxes == due.boxes && found.segments == due.segments && found.markers == due.markers &&
+                    found.labels == due.labels && found.panels == 0);
+    }
+}
+
+static void check_session(const octree_session *session, view_camera camera)
+{
+    const view v = view_of(320, 180, camera, VIEW_ALL_LAYERS);
+    octree_game *game = start_game(session);
+    scene s = {0};
+    for (;; play_tick(game)) {
+        build_tick(&s, &v, game);
+        check_answers(&s, octree_game_tick(game));
+        if (octree_game_over(game))
+            break;
+    }
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
+static void every_answer_of_a_session_is_shown_in_its_layer(void **state)
+{
+    (void)state;
+    const octree_session session = asking_session();
+    check_session(&session, CAMERA_ISO);
+}
+
+static void every_answer_of_random_sessions_is_shown_in_its_layer(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 24; seed++) {
+        random_session made;
+        random_session_full(&made, seed);
+        check_session(&made.session, (view_camera)(seed % CAMERA_COUNT));
+    }
+}
+
+/* Points at one pixel: the nearest of them is numbered, and those elsewhere. */
+static void a_number_never_covers_that_of_a_nearer_one(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 1, .position = {5, 0, 5}},
+                                         {.id = 2, .position = {5, 2, 5}},
+                                         {.id = 3, .position = {5, -4, 5.01}},
+                                         {.id = 4, .position = {-5, 0, -7}}};
+    static const octree_query query = {.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 4};
+    const view v = view_of(1280, 720, CAMERA_FRONT, VIEW_ALL_LAYERS);
+    octree_session session = small_session(bodies, 4);
+    session.queries = &query;
+    session.query_count = 1;
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    build_tick(&s, &v, game);
+    const octree_answer *answer = &octree_game_tick(game)->answers[0];
+    assert_non_null(rank_of(&s, 0, 1, answer->neighbors[0].point.position));
+    assert_null(rank_of(&s, 1, 2, answer->neighbors[1].point.position));
+    assert_null(rank_of(&s, 2, 3, answer->neighbors[2].point.position));
+    assert_non_null(rank_of(&s, 3, 4, answer->neighbors[3].point.position));
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+/* Where the ball reaches beyond all doubles, its chords are counted and left out; the points in it are marked. */
+static void a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn(void **state)
+{
+    (void)state;
+    static const octree_query query = {.kind = OCTREE_QUERY_RADIUS, .target = {DBL_MAX, 0, 0}, .radius = DBL_MAX};
+    const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
+    octree_session session = small_session(NULL, 0);
+    session.queries = &query;
+    session.query_count = 1;
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    assert_true(tick_scene_build(&s, &v, game));
+    const layer_counts found = count_layer(&s, LAYER_RADIUS);
+    assert_true(s.refused > 0);
+    assert_int_equal(found.segments + s.refused, BALL_CIRCLES * BALL_CHORDS);
+    assert_int_equal(found.markers, octree_game_tick(game)->answers[0].count);
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_answer_of_a_session_is_shown_in_its_layer),
+        cmocka_unit_test(every_answer_of_random_sessions_is_shown_in_its_layer),
+        cmocka_unit_test(a_number_never_covers_that_of_a_nearer_one),
+        cmocka_unit_test(a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,285 @@
+/* test_film_commands.c - the lines that record prints for ffmpeg: run in a shell, they make of every frame what they
+ * say. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "files.h"
+#include "film_commands.h"
+#include "film_report.h"
+#include "fixture.h"
+#include "images.h"
+#include "recordings.h"
+
+static const char KEYS[] = "ddddeeeewwwwaaaassssffff.n.dewaf"; /* 33 ticks */
+
+static bool has_ffmpeg(void)
+{
+    return program_is_there("ffmpeg") && program_is_there("ffprobe") && program_is_there("seq");
+}
+
+static void need_ffmpeg(void)
+{
+    if (has_ffmpeg())
+        return;
+    print_message("ffmpeg is not installed: the lines are not run\n");
+    skip();
+}
+
+/* Film, and say what the program says. The caller frees it. */
+static char *filmed_and_told(const film_options *options)
+{
+    char *text;
+    size_t size;
+    octree_session session = octree_session_default();
+    session.keys = KEYS;
+    session.query_count = 0;
+    const film_summary summary = assert_filmed(&session, options);
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    film_report(out, &summary, options, 1, false);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void assert_shell_done(const char *format, ...)
+{
+    char line[4096];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(line, sizeof line, format, values);
+    va_end(values);
+    command_result result = run_shell(line);
+    if (result.status != 0)
+        fail_msg("%s\nended with %d: %s", line, result.status, result.err);
+    command_release(&result);
+}
+
+/* The commands are the lines that are set in by four blanks. Returns how many there were. */
+static size_t run_commands(char *told)
+{
+    size_t count = 0;
+    for (char *line = strtok(told, "\n"); line != NULL; line = strtok(NULL, "\n"))
+        if (strncmp(line, "    ", 4) == 0 && ++count > 0)
+            assert_shell_done("{ %s; } </dev/null", line);
+    return count;
+}
+
+/* What ffprobe sees in a file. */
+typedef struct probe {
+    int width, height, frames;
+    char pixels[16];
+} probe;
+
+static probe probe_file(const char *path)
+{
+    char line[2048];
+    probe seen = {0};
+    snprintf(line, sizeof line,
+             "ffprobe -v error -count_frames -show_entries stream=width,height,pix_fmt,nb_read_frames -of csv=p=0 "
+             "\"%s\" </dev/null",
+             path);
+    command_result result = run_shell(line);
+    if (sscanf(result.out, "%d,%d,%15[^,],%d", &seen.width, &seen.height, seen.pixels, &seen.frames) != 4)
+        fail_msg("%s: %s%s", path, result.out, result.err);
+    command_release(&result);
+    return seen;
+}
+
+static void assert_film(const char *path, const view *v, int frames)
+{
+    const probe film = probe_file(path);
+    assert_int_equal(film.width, (v->width + 1) / 2 * 2);
+    assert_int_equal(film.height, (v->height + 1) / 2 * 2);
+    assert_string_equal(film.pixels, "yuv420p");
+    assert_int_equal(film.frames, frames);
+}
+
+static image frame_at(const film_options *options, uint64_t index)
+{
+    char name[32];
+    snprintf(name, sizeof name, "frame_%06" PRIu64 ".png", index * options->every);
+    return assert_read(place_below(options->folder, name).path);
+}
+
+/* Frame by frame, the pictures of the animation are those of the recording. */
+static void assert_animation(const temp_folder *own, const char *path, const film_options *options, int frames)
+{
+    char folder[32];
+    snprintf(folder, sizeof folder, "parts%d", frames);
+    const place parts = place_in(own, folder);
+    assert_int_equal(probe_file(path).frames, frames);
+    assert_int_equal(mkdir(parts.path, 0777), 0);
+    assert_shell_done("ffmpeg -v error -i \"%s\" \"%s/%%d.png\" </dev/null", path, parts.path);
+    for (int i = 0; i < frames; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%d.png", i + 1);
+        image expected = frame_at(options, (uint64_t)i), shown = assert_read(place_below(parts.path, name).path);
+        const image_difference difference = image_compare(&expected, &shown);
+        assert_true(image_same(&difference));
+        image_release(&expected);
+        image_release(&shown);
+    }
+}
+
+static bool is_black(image_color color)
+{
+    return color.r == 0 && color.g == 0 && color.b == 0;
+}
+
+/* Every step-th frame is a tile, in reading order and in its own size; beyond the last there is black. */
+static void assert_sheet(const char *path, const film_options *options, int frames, int columns, int rows)
+{
+    image sheet = assert_read(path);
+    const int width = options->view.width, height = options->view.height, step = (frames + 24) / 25;
+    assert_int_equal(sheet.width, columns * width);
+    assert_int_equal(sheet.height, rows * height);
+    for (int tile = 0; tile < columns * rows; tile++) {
+        const int left = tile % columns * width, top = tile / columns * height;
+        if (tile * step >= frames) {
+            assert_true(is_black(image_color_at(&sheet, left + width / 2, top + height / 2)));
+            continue;
+        }
+        image frame = frame_at(options, (uint64_t)(tile * step));
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < width; x++) {
+                const image_color a = image_color_at(&frame, x, y), b = image_color_at(&sheet, left + x, top + y);
+                assert_memory_equal(&a, &b, sizeof a);
+            }
+        image_release(&frame);
+    }
+    image_release(&sheet);
+}
+
+/* A recording, and what must come of it. */
+typedef struct row {
+    const char *name; /* of the folder */
+    uint64_t every;
+    int width, height, frames;
+    int columns, rows; /* of the sheet */
+} row;
+
+static void assert_row(const temp_folder *own, const row *r)
+{
+    const place folder = place_in(own, r->name);
+    film_options options = small_film(folder.path);
+    options.every = r->every;
+    options.view.width = r->width;
+    options.view.height = r->height;
+    char *told = filmed_and_told(&options), path[1200];
+    assert_int_equal(run_commands(told), 3);
+    free(told);
+    snprintf(path, sizeof path, "%s.mp4", folder.path);
+    assert_film(path, &options.view, r->frames);
+    snprintf(path, sizeof path, "%s.apng", folder.path);
+    assert_animation(own, path, &options, r->frames);
+    snprintf(path, sizeof path, "%s_sheet.png", folder.path);
+    assert_sheet(path, &options, r->frames, r->columns, r->rows);
+}
+
+static void printed_lines_take_every_frame(void **state)
+{
+    need_ffmpeg();
+    assert_row(*state, &(row){"film", 1, 160, 90, 33, 5, 4});
+}
+
+static void printed_lines_take_every_frame_of_a_recording_with_gaps(void **state)
+{
+    need_ffmpeg();
+    assert_row(*state, &(row){"gaps", 4, 63, 37, 9, 5, 2}); /* and yuv420p takes no odd sides */
+}
+
+static void printed_lines_take_a_single_frame(void **state)
+{
+    need_ffmpeg();
+    assert_row(*state, &(row){"one", 1000, 64, 36, 1, 1, 1});
+}
+
+static void printed_lines_survive_names_that_shells_and_ffmpeg_read_otherwise(void **state)
+{
+    need_ffmpeg();
+    assert_row(*state, &(row){"-it's a:b 50%d 5$ [x]*", 1, 64, 36, 33, 5, 4});
+    assert_row(*state, &(row){"-it's c:d 50%d 5$ [x]*", 8, 64, 36, 5, 5, 1});
+}
+
+/* The same, from the program. */
+static void program_prints_the_lines(void **state)
+{
+    need_ffmpeg();
+    const place folder = place_in(*state, "film");
+    command_result result = run_octreel(NULL, "record --keys wdwd --size 64x36 -o %s//", folder.path);
+    assert_done(&result);
+    assert_int_equal(run_commands(result.out), 3);
+    command_release(&result);
+    const film_options options = {.folder = folder.path, .view = {.width = 64, .height = 36}, .every = 1};
+    assert_film(place_in(*state, "film.mp4").path, &options.view, 5);
+    assert_animation(*state, place_in(*state, "film.apng").path, &options, 5);
+    assert_sheet(place_in(*state, "film_sheet.png").path, &options, 5, 5, 1);
+}
+
+/* ---- Without ffmpeg ----------------------------------------------------------------------------------------- */
+
+static void assert_told(const film_options *options, uint64_t frames, const char *part)
+{
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    film_commands(out, options, frames);
+    assert_int_equal(fclose(out), 0);
+    if (strstr(text, part) == NULL)
+        fail_msg("%s\nhas not %s", text, part);
+    free(text);
+}
+
+static void results_lie_beside_the_folder_or_in_one_without_a_name(void **state)
+{
+    static const char *const rows[][2] = {
+        {"film", " './film.mp4'\n"},       {"film//", " './film.mp4'\n"},
+        {"a/b", " './a/b_sheet.png'\n"},   {".", " '././film.mp4'\n"},
+        {"..", " './../film.apng'\n"},     {"a/..", " './a/../film.mp4'\n"},
+        {"/", " '/film.mp4'\n"},           {"/a/", " '/a.apng'\n"},
+        {".hidden", " './.hidden.mp4'\n"}, {"/a/.", " '/a/./film_sheet.png'\n"},
+        {"-x", " './-x.mp4'\n"},           {"a:b", " './a:b.mp4'\n"},
+        {"a'b", " './a'\\''b.mp4'\n"},     {"50%", " './50%%/frame_%06d.png' "},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const film_options options = {.folder = rows[i][0], .view = view_default(), .every = 1};
+        assert_told(&options, 10, rows[i][1]);
+    }
+}
+
+/* Seven digits where there are more than a million ticks, and tiles that fit however long a picture is. */
+static void long_and_large_recordings_have_their_lines(void **state)
+{
+    film_options options = {.folder = "film", .view = view_default(), .every = 10};
+    (void)state;
+    assert_told(&options, 120001, "seq -f 'frame_%06.0f.png' 0 10 1200000 |");
+    assert_told(&options, 120001, "select=not(mod(n\\,4801)),scale=320:180,tile=5x5");
+    options.view.width = 16384;
+    options.view.height = 1;
+    assert_told(&options, 2, "scale=320:1,tile=2x1");
+    options.view.width = 1000;
+    options.view.height = 4000;
+    assert_told(&options, 7, "scale=80:320,tile=5x2");
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(printed_lines_take_every_frame),
+        IN_FOLDER(printed_lines_take_every_frame_of_a_recording_with_gaps),
+        IN_FOLDER(printed_lines_take_a_single_frame),
+        IN_FOLDER(printed_lines_survive_names_that_shells_and_ffmpeg_read_otherwise),
+        IN_FOLDER(program_prints_the_lines),
+        cmocka_unit_test(results_lie_beside_the_folder_or_in_one_without_a_name),
+        cmocka_unit_test(long_and_large_recordings_have_their_lines),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

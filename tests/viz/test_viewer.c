@@ -1,0 +1,296 @@
+/* test_viewer.c - index.html of a recording: the facts of ticks.jsonl, safe within a page that needs nothing else;
+ * there whole or not at all. What the page does with them is test_viewer_page.c. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "recordings.h"
+#include "tick_lines.h"
+#include "viewer.h"
+
+/* The user that owns nothing, for tests that run as root, whom no permission stops. */
+enum { NOBODY = 65534 };
+
+static const char ABOUT[] = "{\"octreel\": \"recording\",\n\"width\": 160, \"height\": 90, \"every\": 1\n}\n";
+static const char TICK[] = "{\"tick\": 0, \"key\": null, \"events\": [], \"tree\": {\"nodes\": 1}}\n";
+
+/* A recording by hand. */
+static place recording_of(void **state, const char *ticks)
+{
+    const place folder = place_in(*state, "film");
+    assert_int_equal(mkdir(folder.path, 0777), 0);
+    file_write_text(place_below(folder.path, "recording.json").path, ABOUT);
+    file_write_text(place_below(folder.path, "ticks.jsonl").path, ticks);
+    return folder;
+}
+
+static void assert_viewer_written(const char *folder)
+{
+    record_error error = {""};
+    if (!viewer_write(folder, &error))
+        fail_msg("%s", error.text);
+}
+
+/* The sentence holds both parts, and no page is there, nor a part of one. */
+static void assert_no_viewer(const char *folder, const char *part, const char *reason)
+{
+    record_error error = {""};
+    assert_false(viewer_write(folder, &error));
+    if (strstr(error.text, part) == NULL || strstr(error.text, reason) == NULL)
+        fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, part, reason);
+    assert_false(file_exists(place_below(folder, "index.html").path));
+    assert_false(file_exists(place_below(folder, "index.html.part").path));
+}
+
+static char *page_of(const char *folder)
+{
+    return file_read(place_below(folder, "index.html").path, NULL);
+}
+
+/* What stands in the page between the tags of the facts; the caller frees it. */
+static char *facts_of(const char *folder)
+{
+    static const char tag[] = "<script type=\"application/x-ndjson\" id=\"facts\">";
+    char *page = page_of(folder), *facts = strstr(page, tag);
+    assert_non_null(facts);
+    facts += sizeof tag - 1;
+    *strstr(facts, "</script>") = '\0';
+    memmove(page, facts, strlen(facts) + 1);
+    return page;
+}
+
+/* The next line at *at, which is moved behind it. */
+static char *next_line(char **at)
+{
+    char *line = *at, *end = strchr(line, '\n');
+    assert_non_null(end);
+    *end = '\0';
+    *at = end + 1;
+    return line;
+}
+
+static void assert_embedded(const char *line, size_t number, void *context)
+{
+    json_t *written = json_read(line), *embedded = json_read(next_line(context));
+    if (!json_equal(written, embedded))
+        fail_msg("tick %zu: the page has other facts than %s", number, line);
+    json_decref(written);
+    json_decref(embedded);
+}
+
+static void page_has_the_facts_of_every_tick(void **state)
+{
+    const place folder = place_in(*state, "film");
+    const octree_session session = octree_session_default();
+    film_options options = small_film(folder.path);
+    options.every = 50;
+    assert_filmed(&session, &options);
+    char *facts = facts_of(folder.path), *at = facts;
+    json_t *about = json_read(next_line(&at));
+    assert_whole_number(json_member(about, "width"), SMALL_WIDTH);
+    assert_whole_number(json_member(about, "every"), 50);
+    json_decref(about);
+    assert_int_equal(for_each_line(folder.path, assert_embedded, &at), 253);
+    assert_string_equal(at, "");
+    free(facts);
+}
+
+/* From a recording that lies there, the same bytes come once more. */
+static void page_can_be_written_again_later(void **state)
+{
+    const place folder = place_in(*state, "film");
+    const octree_session session = octree_session_default();
+    const film_options options = small_film(folder.path);
+    assert_filmed(&session, &options);
+    char *first = page_of(folder.path);
+    file_write_text(place_below(folder.path, "index.html").path, "something else");
+    assert_viewer_written(folder.path);
+    char *second = page_of(folder.path);
+    assert_string_equal(first, second);
+    free(first);
+    free(second);
+}
+
+/* No address, no import, no further file but those that are named by the facts. */
+static void page_needs_nothing_from_anywhere(void **state)
+{
+    static const char *const foreign[] = {"http:", "https:", "//cdn", "src=\"", "@import", "url(", "import(", "fetch("};
+    const place folder = recording_of(state, TICK);
+    assert_viewer_written(folder.path);
+    char *page = page_of(folder.path);
+    for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++)
+        if (strstr(page, foreign[i]) != NULL)
+            fail_msg("the page has %s", foreign[i]);
+    assert_non_null(strstr(page, "default-src 'none'"));
+    assert_null(strstr(page, "rel=\"stylesheet\""));
+    assert_string_equal(page + strlen(page) - 8, "</html>\n");
+    free(page);
+}
+
+static void nothing_in_a_tick_ends_the_facts(void **state)
+{
+    const place folder = recording_of(state, "{\"tick\": 0, \"key\": \"</script><script>alert(1)</script>\"}\n"
+                                             "{\"tick\": 1, \"key\": \"<!--\xe2\x80\xa8\"}\n");
+    assert_viewer_written(folder.path);
+    char *facts = facts_of(folder.path), *at = facts;
+    next_line(&at);
+    json_t *first = json_read(next_line(&at)), *second = json_read(next_line(&at));
+    assert_string_equal(json_string_value(json_member(first, "key")), "</script><script>alert(1)</script>");
+    assert_string_equal(json_string_value(json_member(second, "key")), "<!--\xe2\x80\xa8");
+    assert_string_equal(at, "");
+    json_decref(first);
+    json_decref(second);
+    assert_null(strchr(facts, '<'));
+    free(facts);
+}
+
+static void torn_last_line_is_no_tick(void **state)
+{
+    char ticks[256];
+    snprintf(ticks, sizeof ticks, "%s{\"tick\": 1, \"key\": \"w", TICK);
+    const place folder = recording_of(state, ticks);
+    assert_viewer_written(folder.path);
+    char *facts = facts_of(folder.path), *at = facts;
+    next_line(&at);
+    json_decref(json_read(next_line(&at)));
+    assert_string_equal(at, "");
+    free(facts);
+}
+
+static void recording_without_ticks_has_a_page(void **state)
+{
+    const place folder = recording_of(state, "{\"tick\": 0");
+    assert_viewer_written(folder.path);
+    char *facts = facts_of(folder.path), *at = facts;
+    next_line(&at);
+    assert_string_equal(at, "");
+    free(facts);
+}
+
+/* A tick that refused a million points: the page stays small, and tells how many there were. */
+static void a_million_refusals_are_counted_and_not_embedded(void **state)
+{
+    enum { COUNT = 1000000 };
+    const place folder = recording_of(state, "");
+    FILE *ticks = fopen(place_below(folder.path, "ticks.jsonl").path, "w");
+    fprintf(ticks, "{\"tick\": 0, \"refusals\": [");
+    for (int i = 0; i < COUNT; i++)
+        fprintf(ticks, "%s{\"id\": %d, \"position\": [1, 2, 3]}", i > 0 ? ", " : "", i);
+    fprintf(ticks, "]}\n%s", TICK);
+    assert_int_equal(fclose(ticks), 0);
+    assert_viewer_written(folder.path);
+    struct stat status;
+    assert_int_equal(stat(place_below(folder.path, "index.html").path, &status), 0);
+    assert_true(status.st_size < 100000);
+    char *facts = facts_of(folder.path), *at = facts;
+    next_line(&at);
+    json_t *tick = json_read(next_line(&at));
+    const json_t *refusals = json_member(tick, "refusals");
+    assert_int_equal(json_array_size(refusals), VIEWER_LIST + 1);
+    assert_whole_number(json_member(json_array_get(refusals, VIEWER_LIST - 1), "id"), VIEWER_LIST - 1);
+    assert_whole_number(json_member(json_array_get(refusals, VIEWER_LIST), "more"), COUNT - VIEWER_LIST);
+    json_decref(tick);
+    free(facts);
+}
+
+static void recording_that_cannot_be_read_gets_no_page(void **state)
+{
+    static const char *const ticks[][2] = {
+        {"{\"tick\": 0}\n{\"tick\": 1\n", "ticks.jsonl:2: "},
+        {"nonsense\n", "ticks.jsonl:1: "},
+        {"[]\n", "ticks.jsonl:1: "},
+        {"{\"tick\": 0} {}\n", "ticks.jsonl:1: "},
+        {"{\"tick\": 0}\n\n{\"tick\": 1}\n", "ticks.jsonl:2: "},
+        {"{\"tick\": 00}\n", "ticks.jsonl:1: "},
+    };
+    const place folder = recording_of(state, "");
+    const place lines = place_below(folder.path, "ticks.jsonl"), about = place_below(folder.path, "recording.json");
+    for (size_t i = 0; i < sizeof ticks / sizeof ticks[0]; i++) {
+        file_write_text(lines.path, ticks[i][0]);
+        assert_no_viewer(folder.path, ticks[i][1], "is no JSON object");
+    }
+    remove(lines.path);
+    assert_no_viewer(folder.path, lines.path, "No such file or directory");
+    assert_int_equal(mkdir(lines.path, 0777), 0);
+    assert_no_viewer(folder.path, lines.path, "Is a directory");
+    file_write_text(about.path, "");
+    assert_no_viewer(folder.path, about.path, "is no JSON object");
+    remove(about.path);
+    assert_no_viewer(folder.path, about.path, "No such file or directory");
+    assert_no_viewer(place_in(*state, "nowhere").path, "nowhere/index.html", "No such file or directory");
+}
+
+/* The .part is a device that is always full. */
+static void page_that_cannot_be_written_leaves_the_one_before(void **state)
+{
+    record_error error = {""};
+    const place folder = recording_of(state, TICK), page = place_below(folder.path, "index.html");
+    const place part = place_below(folder.path, "index.html.part");
+    file_write_text(page.path, "mine");
+    assert_int_equal(symlink("/dev/full", part.path), 0);
+    assert_false(viewer_write(folder.path, &error));
+    assert_non_null(strstr(error.text, page.path));
+    assert_non_null(strstr(error.text, "No space left on device"));
+    assert_false(file_exists(part.path));
+    char *text = page_of(folder.path);
+    assert_string_equal(text, "mine");
+    free(text);
+}
+
+static void folder_that_cannot_be_written_is_named(void **state)
+{
+    const temp_folder *own = *state;
+    const place folder = recording_of(state, TICK);
+    assert_int_equal(chmod(folder.path, 0555), 0);
+    assert_int_equal(chmod(own->name, 0755), 0);
+    const bool root = geteuid() == 0;
+    if (root && seteuid(NOBODY) != 0)
+        skip(); /* root of a container that has no other user */
+    record_error error = {""};
+    const bool written = viewer_write(folder.path, &error);
+    if (root)
+        assert_int_equal(seteuid(0), 0);
+    assert_int_equal(chmod(folder.path, 0755), 0);
+    assert_false(written);
+    assert_non_null(strstr(error.text, place_below(folder.path, "index.html").path));
+    assert_non_null(strstr(error.text, "Permission denied"));
+}
+
+/* A disk that is full when everything else is written: the recording is whole, and the page is what is missed. */
+static void record_tells_that_its_page_cannot_be_written(void **state)
+{
+    const place folder = place_in(*state, "film"), part = place_below(folder.path, "index.html.part");
+    assert_int_equal(mkdir(folder.path, 0777), 0);
+    assert_int_equal(symlink("/dev/full", part.path), 0);
+    command_result result = run_octreel(NULL, "record --keys wd --size 160x90 -o %s", folder.path);
+    assert_non_null(strstr(result.err, place_below(folder.path, "index.html").path));
+    assert_trouble(&result, "No space left on device");
+    assert_false(file_exists(part.path));
+    assert_nothing_half_written(folder.path);
+    assert_true(file_exists(place_below(folder.path, "frame_000002.png").path));
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(page_has_the_facts_of_every_tick),
+        IN_FOLDER(page_can_be_written_again_later),
+        IN_FOLDER(page_needs_nothing_from_anywhere),
+        IN_FOLDER(nothing_in_a_tick_ends_the_facts),
+        IN_FOLDER(torn_last_line_is_no_tick),
+        IN_FOLDER(recording_without_ticks_has_a_page),
+        IN_FOLDER(a_million_refusals_are_counted_and_not_embedded),
+        IN_FOLDER(recording_that_cannot_be_read_gets_no_page),
+        IN_FOLDER(page_that_cannot_be_written_leaves_the_one_before),
+        IN_FOLDER(folder_that_cannot_be_written_is_named),
+        IN_FOLDER(record_tells_that_its_page_cannot_be_written),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

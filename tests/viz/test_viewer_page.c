@@ -1,0 +1,406 @@
+/* test_viewer_page.c - index.html in headless Chromium: it opens from the disk, steps, plays and filters, and shows
+ * what ticks.jsonl says. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "browser.h"
+#include "files.h"
+#include "fixture.h"
+#include "recordings.h"
+#include "tick_lines.h"
+#include "viewer.h"
+
+enum { LAST = 252 }; /* tick of the default session */
+
+static const char ABSENT[] = "\xe2\x80\x93";
+
+/* A film of the default session, and what its page said while tests/support/viz/drive_viewer.js used it. */
+typedef struct driven {
+    void *folder; /* a temp_folder */
+    char *said;   /* null without a browser */
+} driven;
+
+/* &amp; &lt; and &gt; in place. */
+static void decode(char *text)
+{
+    static const struct {
+        const char *name;
+        char character;
+    } names[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}};
+    char *to = text;
+    while (*text != '\0') {
+        size_t length = 1;
+        char character = *text;
+        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+            if (strncmp(text, names[i].name, strlen(names[i].name)) == 0) {
+                length = strlen(names[i].name);
+                character = names[i].character;
+            }
+        *to++ = character;
+        text += length;
+    }
+    *to = '\0';
+}
+
+/* The page with a script behind it. */
+static void write_driven_page(const char *folder)
+{
+    char *page = file_read(place_below(folder, "index.html").path, NULL), *script = file_read(OCTREEL_DRIVE, NULL);
+    FILE *file = fopen(place_below(folder, "driven.html").path, "w");
+    assert_non_null(file);
+    fprintf(file, "%s<script>\n%s</script>\n", page, script);
+    assert_int_equal(fclose(file), 0);
+    free(page);
+    free(script);
+}
+
+static int drive_page(void **state)
+{
+    driven *d = calloc(1, sizeof *d);
+    *state = d;
+    if (d == NULL || temp_folder_make(&d->folder) != 0)
+        return -1;
+    if (!browser_is_there())
+        return 0;
+    const place film = place_in(d->folder, "film");
+    const octree_session session = octree_session_default();
+    const film_options options = small_film(film.path);
+    assert_filmed(&session, &options);
+    write_driven_page(film.path);
+    char *page = browser_open(d->folder, place_below(film.path, "driven.html").path, "");
+    char *said = strstr(page, "<pre id=\"said\">");
+    if (said == NULL)
+        fail_msg("the page did not come to its end: %.2000s", page);
+    *strstr(said, "</pre>") = '\0';
+    decode(said);
+    d->said = strdup(said + strlen("<pre id=\"said\">"));
+    free(page);
+    return d->said == NULL ? -1 : 0;
+}
+
+static int forget_page(void **state)
+{
+    driven *d = *state;
+    const int status = nested_folder_remove(&d->folder);
+    free(d->said);
+    free(d);
+    return status;
+}
+
+/* What was said about something; the caller frees it. */
+static char *said_about(const driven *d, const char *what)
+{
+    char line[128];
+    const int length = snprintf(line, sizeof line, "\n%s\t", what);
+    const char *found = strstr(d->said, line);
+    if (found == NULL)
+        fail_msg("nothing is said about %s", what);
+    found += length;
+    return strndup(found, strcspn(found, "\n"));
+}
+
+static void assert_said(const driven *d, const char *what, const char *expected)
+{
+    char *value = said_about(d, what);
+    if (strcmp(value, expected) != 0)
+        fail_msg("%s: \"%s\" and not \"%s\"", what, value, expected);
+    free(value);
+}
+
+/* ---- Facts -------------------------------------------------------------------------------------------------- */
+
+/* The line that comes next; its value. */
+static char *take_value(char **at, const char *what)
+{
+    char *line = *at;
+    const size_t length = strlen(what);
+    *at = line + strcspn(line, "\n");
+    if (**at == '\n')
+        *(*at)++ = '\0';
+    if (strncmp(line, what, length) != 0 || line[length] != '\t')
+        fail_msg("\"%s\" and not %s", line, what);
+    return line + length + 1;
+}
+
+static void assert_shown(const char *what, const char *shown, const json_t *value)
+{
+    char *end;
+    const bool same = json_is_string(value) ? strcmp(shown, json_string_value(value)) == 0
+                      : json_is_null(value) ? strcmp(shown, ABSENT) == 0
+                                            : strtod(shown, &end) == json_real_value(value) && *end == '\0';
+    if (!same)
+        fail_msg("%s: \"%s\" is shown", what, shown);
+}
+
+/* Entries with ", " between them. */
+static void assert_entries_shown(const char *what, char *shown, const json_t *list)
+{
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        char *comma = strstr(shown, ", ");
+        if ((comma != NULL) != (i + 1 < json_array_size(list)))
+            fail_msg("%s: other entries than in ticks.jsonl", what);
+        if (comma != NULL)
+            *comma = '\0';
+        assert_shown(what, shown, json_array_get(list, i));
+        shown = comma != NULL ? comma + 2 : shown;
+    }
+}
+
+/* All that a value of ticks.jsonl holds comes next, in its order. */
+static void assert_facts_said(char **at, const char *what, const json_t *value)
+{
+    char inner[160];
+    if (json_is_object(value)) {
+        const char *name;
+        json_t *member;
+        json_object_foreach((json_t *)(uintptr_t)value, name, member)
+        {
+            snprintf(inner, sizeof inner, "%s%s%s", what, strchr(what, ' ')[1] == '\0' ? "" : ".", name);
+            assert_facts_said(at, inner, member);
+        }
+    } else if (json_is_array(value) && json_is_object(json_array_get(value, 0))) {
+        for (size_t i = 0; i < json_array_size(value); i++) {
+            snprintf(inner, sizeof inner, "%s.%zu", what, i);
+            assert_facts_said(at, inner, json_array_get(value, i));
+        }
+    } else if (json_is_array(value) && json_array_size(value) > 0) {
+        assert_entries_shown(what, take_value(at, what), value);
+    } else {
+        char *shown = take_value(at, what);
+        assert_shown(what, shown, json_is_array(value) ? json_null() : value);
+    }
+}
+
+static void assert_tick_said(const char *line, size_t number, void *context)
+{
+    static const char *const curves[] = {"nodes", "depth", "points"};
+    char what[64];
+    json_t *tick = json_read(line);
+    snprintf(what, sizeof what, "%zu ", number);
+    assert_facts_said(context, what, tick);
+    for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) {
+        snprintf(what, sizeof what, "%zu curve %s", number, curves[i]);
+        assert_shown(what, take_value(context, what), json_member(json_member(tick, "tree"), curves[i]));
+    }
+    json_decref(tick);
+}
+
+static void shows_at_every_tick_what_ticks_jsonl_says(void **state)
+{
+    need_browser();
+    const driven *d = *state;
+    char *said = strdup(d->said), *at = said;
+    assert_int_equal(for_each_line(place_in(d->folder, "film").path, assert_tick_said, &at), LAST + 1);
+    free(said);
+}
+
+/* ---- Steps -------------------------------------------------------------------------------------------------- */
+
+/* The keys one after the other, and where each leads; a page is a twentieth of 253 ticks. */
+static void keys_step_through_the_ticks(void **state)
+{
+    static const char expected[] = "\nkey Home\t0\nkey ArrowLeft\t0\nkey ArrowRight\t1\nkey ArrowRight\t2\n"
+                                   "key ArrowLeft\t1\nkey End\t252\nkey ArrowRight\t252\nkey PageUp\t239\n"
+                                   "key PageDown\t252\nkey PageUp\t239\nkey Home\t0\nkey PageDown\t13\n";
+    need_browser();
+    assert_non_null(strstr(((driven *)*state)->said, expected));
+}
+
+static void pointer_and_typing_lead_to_a_tick(void **state)
+{
+    need_browser();
+    assert_said(*state, "click in the middle", "126");
+    assert_said(*state, "drag to the end", "252");
+    assert_said(*state, "typed", "77");
+    assert_said(*state, "button", "78");
+}
+
+static void frame_is_that_of_the_tick(void **state)
+{
+    need_browser();
+    assert_said(*state, "frame", "78 frame_000078.png 160x90");
+}
+
+/* Ticks that have one of some events, in order, after those that lie before `from`. */
+typedef struct chosen {
+    const char *events; /* with blanks around each */
+    size_t from;
+    char ticks[2048];
+} chosen;
+
+static void choose(const char *line, size_t number, void *context)
+{
+    chosen *c = context;
+    json_t *tick = json_read(line);
+    const json_t *events = json_member(tick, "events");
+    bool wanted = false;
+    for (size_t i = 0; i < json_array_size(events); i++) {
+        char name[32];
+        snprintf(name, sizeof name, " %s ", json_string_value(json_array_get(events, i)));
+        wanted = wanted || strstr(c->events, name) != NULL;
+    }
+    if (wanted && number >= c->from)
+        snprintf(c->ticks + strlen(c->ticks), sizeof c->ticks - strlen(c->ticks), "%s%zu", *c->ticks ? " " : "",
+                 number);
+    json_decref(tick);
+}
+
+/* The key led from `start` to all ticks with the events behind it. */
+static void assert_walk(const driven *d, const char *what, const char *start, const char *events)
+{
+    char expected[2100];
+    chosen c = {.events = events, .from = 1};
+    for_each_line(place_in(d->folder, "film").path, choose, &c);
+    snprintf(expected, sizeof expected, "%s%s", start, c.ticks);
+    assert_said(d, what, expected);
+}
+
+static void filter_leads_from_match_to_match(void **state)
+{
+    need_browser();
+    assert_walk(*state, "walk any", "0 ", " refused collided full split merged ");
+    assert_walk(*state, "walk collided", "0 ", " collided ");
+    assert_walk(*state, "walk collided or merged", "0 ", " collided merged ");
+    assert_said(*state, "walk back", "234 193 121 120 11 10 6 2 1 0");
+    assert_said(*state, "filtered", "10 ticks collided: n and p go from one to the next.");
+    assert_said(*state, "chosen", "collided");
+    assert_said(*state, "chosen none", "0");
+}
+
+static void plays_frame_by_frame_until_paused(void **state)
+{
+    need_browser();
+    char *played = said_about(*state, "played"), *at = played;
+    long count = 0;
+    for (char *end; *at != '\0'; at = end)
+        assert_int_equal(strtol(at, &end, 10), ++count);
+    assert_true(count >= 8 && count <= 16); /* in 0.8 s at 15 a second */
+    assert_said(*state, "played, paused", "true");
+    free(played);
+}
+
+static void plays_chosen_ticks_alone_and_ends_with_the_last(void **state)
+{
+    need_browser();
+    assert_walk(*state, "played collided", "", " collided ");
+    assert_said(*state, "played collided, paused", "true");
+}
+
+static void address_names_the_place_and_leads_to_it(void **state)
+{
+    need_browser();
+    assert_said(*state, "address", "#t=41&filter=collided");
+    assert_said(*state, "from address", "12 2");
+    assert_said(*state, "beyond the end", "252");
+    assert_said(*state, "from nonsense", "0");
+}
+
+static void question_mark_lists_the_keys(void **state)
+{
+    need_browser();
+    assert_said(*state, "help before", "false");
+    assert_said(*state, "help", "true");
+    assert_said(*state, "behind the help", "0");
+    assert_said(*state, "keys listed",
+                "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - n p 1 2 3 4 5 6 0 ?");
+}
+
+/* However many ticks there are, the page has a few hundred elements. */
+static void page_stays_small_and_free_of_errors(void **state)
+{
+    need_browser();
+    char *elements = said_about(*state, "elements");
+    assert_true(strtol(elements, NULL, 10) < 400);
+    free(elements);
+    assert_said(*state, "errors", "0");
+}
+
+/* ---- Other recordings, as they are opened ------------------------------------------------------------------- */
+
+static void assert_has(const char *page, const char *part)
+{
+    if (strstr(page, part) == NULL)
+        fail_msg("the page has no %s", part);
+}
+
+static void tick_without_a_frame_shows_the_one_before_and_says_so(void **state)
+{
+    need_browser();
+    const driven *d = *state;
+    const place film = place_in(d->folder, "gaps");
+    const octree_session session = octree_session_default();
+    film_options options = small_film(film.path);
+    options.every = 40;
+    assert_filmed(&session, &options);
+    char *page = browser_open(d->folder, place_below(film.path, "index.html").path, "t=43&filter=collided,full");
+    assert_has(page, "data-tick=\"43\"");
+    assert_has(page, "<dd data-fact=\"tick\">43</dd>");
+    assert_has(page, "Tick 43 was not filmed: this is the frame of tick 40.");
+    assert_has(page, "src=\"frame_000040.png\"");
+    assert_has(page, "11 ticks collided or full");
+    assert_has(page, "253 ticks \xc2\xb7 7 frames");
+    free(page);
+}
+
+static place recording_by_hand(const driven *d, const char *name, const char *ticks)
+{
+    record_error error = {""};
+    const place folder = place_in(d->folder, name);
+    assert_int_equal(mkdir(folder.path, 0777), 0);
+    file_write_text(place_below(folder.path, "recording.json").path, "{\"width\": 160, \"height\": 90}\n");
+    file_write_text(place_below(folder.path, "ticks.jsonl").path, ticks);
+    if (!viewer_write(folder.path, &error))
+        fail_msg("%s", error.text);
+    return place_below(folder.path, "index.html");
+}
+
+/* Text is text, long lists are cut and say so, facts without a name here are shown, and a frame may be missing. */
+static void page_takes_what_it_does_not_expect(void **state)
+{
+    need_browser();
+    const driven *d = *state;
+    char ticks[1024] = "{\"tick\": 0, \"key\": \"</script><script>document.title = 'mine'</script>\", \"hits\": [0";
+    for (int i = 1; i < VIEWER_LIST + 8; i++)
+        snprintf(ticks + strlen(ticks), sizeof ticks - strlen(ticks), ", %d", i);
+    strcat(ticks, "], \"unheard_of\": {\"weight\": -0, \"of\": [true, \"x\"]}, \"frame\": \"frame_000000.png\"}\n");
+    char *page = browser_open(d->folder, recording_by_hand(d, "a #%41?b", ticks).path, "t=0");
+    assert_has(page, "<title>a #%41?b \xe2\x80\x93 Octreel</title>");
+    assert_has(page, "&lt;/script&gt;&lt;script&gt;document.title");
+    assert_has(page, "30, 31<p class=\"more\">\xe2\x80\xa6 and 8 more, in ticks.jsonl</p></dd>");
+    assert_has(page, "<span class=\"count\">40</span>");
+    assert_has(page, "<dd data-fact=\"unheard_of.weight\">-0</dd>");
+    assert_has(page, "<dd data-fact=\"unheard_of.of\">true, x</dd>");
+    assert_has(page, "frame_000000.png is not beside this page");
+    free(page);
+}
+
+static void recording_without_ticks_says_so(void **state)
+{
+    need_browser();
+    const driven *d = *state;
+    char *page = browser_open(d->folder, recording_by_hand(d, "empty", "").path, "t=3");
+    assert_has(page, "This recording has no ticks.");
+    free(page);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shows_at_every_tick_what_ticks_jsonl_says),
+        cmocka_unit_test(keys_step_through_the_ticks),
+        cmocka_unit_test(pointer_and_typing_lead_to_a_tick),
+        cmocka_unit_test(frame_is_that_of_the_tick),
+        cmocka_unit_test(filter_leads_from_match_to_match),
+        cmocka_unit_test(plays_frame_by_frame_until_paused),
+        cmocka_unit_test(plays_chosen_ticks_alone_and_ends_with_the_last),
+        cmocka_unit_test(address_names_the_place_and_leads_to_it),
+        cmocka_unit_test(question_mark_lists_the_keys),
+        cmocka_unit_test(page_stays_small_and_free_of_errors),
+        cmocka_unit_test(tick_without_a_frame_shows_the_one_before_and_says_so),
+        cmocka_unit_test(page_takes_what_it_does_not_expect),
+        cmocka_unit_test(recording_without_ticks_says_so),
+    };
+    return cmocka_run_group_tests(tests, drive_page, forget_page);
+}

@@ -1,0 +1,116 @@
+/* viewer.c - see viewer.h. */
+#include "viewer.h"
+#include "json_thin.h"
+#include "viewer_page.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+/* A file of the recording while it is read. */
+typedef struct source {
+    char *path;
+    FILE *stream;
+    off_t end;      /* of its last whole line */
+    uintmax_t line; /* counted from 1 */
+} source;
+
+/* A line that was torn when a recording broke off is not a tick. */
+static off_t end_of_lines(FILE *stream)
+{
+    char block[16384];
+    off_t at = 0, end = 0;
+    for (size_t size; (size = fread(block, 1, sizeof block, stream)) > 0; at += (off_t)size)
+        for (size_t i = size; i > 0; i--)
+            if (block[i - 1] == '\n') {
+                end = at + (off_t)i;
+                break;
+            }
+    return end;
+}
+
+static bool fail_to_read(const source *s, record_error *error)
+{
+    return record_fail(error, "%s: cannot be read: %s", s->path, strerror(errno));
+}
+
+static bool open_source(source *s, const char *folder, const char *name, record_error *error)
+{
+    *s = (source){.path = folder_path(folder, name), .line = 1};
+    if (!s->path)
+        return record_fail(error, "there is no memory");
+    s->stream = fopen(s->path, "rb");
+    if (!s->stream)
+        return fail_to_read(s, error);
+    s->end = end_of_lines(s->stream);
+    return (!ferror(s->stream) && fseeko(s->stream, 0, SEEK_SET) == 0) || fail_to_read(s, error);
+}
+
+static void close_source(source *s)
+{
+    if (s->stream)
+        fclose(s->stream);
+    free(s->path);
+}
+
+static bool ends_line(FILE *stream)
+{
+    int c;
+    do
+        c = getc(stream);
+    while (c == ' ' || c == '\t' || c == '\r');
+    return c == '\n';
+}
+
+/* An object and the end of its line, as one line of the page. */
+static bool copy_object(source *s, FILE *page, record_error *error)
+{
+    const bool opens = ungetc(getc(s->stream), s->stream) == '{';
+    if (opens && json_thin(s->stream, page, VIEWER_LIST) && ends_line(s->stream)) {
+        putc('\n', page);
+        s->line++;
+        return true;
+    }
+    if (ferror(s->stream))
+        return fail_to_read(s, error);
+    return record_fail(error, "%s:%ju: is no JSON object, so index.html cannot be written", s->path, s->line);
+}
+
+static bool copy_recording(const char *folder, FILE *page, record_error *error)
+{
+    source s;
+    const bool ok = open_source(&s, folder, "recording.json", error) && copy_object(&s, page, error);
+    close_source(&s);
+    return ok;
+}
+
+static bool copy_ticks(const char *folder, FILE *page, record_error *error)
+{
+    source s;
+    bool ok = open_source(&s, folder, "ticks.jsonl", error);
+    while (ok && ftello(s.stream) < s.end)
+        ok = copy_object(&s, page, error);
+    close_source(&s);
+    return ok;
+}
+
+static bool write_page(const char *folder, FILE *page, record_error *error)
+{
+    fwrite(viewer_page_head, 1, viewer_page_head_size, page);
+    const bool ok = copy_recording(folder, page, error) && copy_ticks(folder, page, error);
+    fwrite(viewer_page_tail, 1, viewer_page_tail_size, page);
+    return ok;
+}
+
+bool viewer_write(const char *folder, record_error *error)
+{
+    char *path = folder_path(folder, "index.html");
+    part_file file;
+    bool ok = path ? part_open(&file, path, error) : record_fail(error, "there is no memory");
+    if (ok)
+        ok = write_page(folder, file.stream, error) ? part_close(&file, error) : part_abandon(&file);
+    free(path);
+    return ok;
+}

@@ -1,0 +1,39 @@
+# embed.cmake - the page as a C array: index.html with its style and scripts put where it names them, cut in two where
+# a recording's facts go.  cmake -D SOURCE=index.html -D OUTPUT=viewer_page.c -P embed.cmake
+get_filename_component(folder ${SOURCE} DIRECTORY)
+file(READ ${SOURCE} page)
+
+# inline(ELEMENT REGEX): each tag that the expression finds becomes an <ELEMENT> with the text of the file it names.
+macro(inline element regex)
+  string(REGEX MATCHALL "${regex}" tags "${page}")
+  foreach(tag ${tags})
+    string(REGEX REPLACE "${regex}" "\\1" name "${tag}")
+    file(READ ${folder}/${name} text)
+    if(text MATCHES "</${element}")
+      message(FATAL_ERROR "${name}: \"</${element}\" would end the element that it is put into")
+    endif()
+    string(REPLACE "${tag}" "<${element}>\n${text}</${element}>" page "${page}")
+  endforeach()
+endmacro()
+inline(style "<link rel=\"stylesheet\" href=\"([^\"]*)\">")
+inline(script "<script src=\"([^\"]*)\"></script>")
+
+string(FIND "${page}" "@FACTS@" cut)
+if(cut EQUAL -1)
+  message(FATAL_ERROR "${SOURCE}: there is no @FACTS@")
+endif()
+math(EXPR behind "${cut} + 7")
+string(SUBSTRING "${page}" 0 ${cut} head)
+string(SUBSTRING "${page}" ${behind} -1 tail)
+
+# Bytes and not a string literal, of which C promises 4095 characters and no more.
+string(REPEAT "." 80 row) # sixteen bytes
+set(source "#include \"viewer_page.h\"\n")
+foreach(part head tail)
+  string(HEX "${${part}}" bytes)
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+  string(REGEX REPLACE "(${row})" "\\1\n" bytes "${bytes}")
+  string(APPEND source "\nconst unsigned char viewer_page_${part}[] = {\n${bytes}\n};\n"
+                       "const size_t viewer_page_${part}_size = sizeof viewer_page_${part};\n")
+endforeach()
+file(WRITE ${OUTPUT} "${source}")

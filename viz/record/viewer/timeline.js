@@ -1,0 +1,191 @@
+/* timeline.js - a lane an event and a lane a curve, above each other on one scale of ticks, with the tick marked. */
+"use strict";
+
+const THUMB = 8; /* half the slider's thumb, in CSS pixels: what the lanes are set in by, to agree with it */
+
+function colorOf(name)
+{
+    return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
+}
+
+/* Clear a canvas that is to be as sharp as the screen; its context measures in CSS pixels. */
+function prepareCanvas(canvas)
+{
+    const ratio = window.devicePixelRatio, context = canvas.getContext("2d");
+    canvas.width = Math.round(canvas.clientWidth * ratio);
+    canvas.height = Math.round(canvas.clientHeight * ratio);
+    context.scale(ratio, ratio);
+    return context;
+}
+
+/* Where ticks lie across a lane. */
+class Scale {
+    constructor(ticks, width)
+    {
+        this.last = ticks - 1;
+        this.width = width - 2 * THUMB;
+    }
+
+    x(tick)
+    {
+        return THUMB + (this.last > 0 ? tick / this.last * this.width : 0);
+    }
+
+    tick(x)
+    {
+        const tick = Math.round((x - THUMB) / this.width * this.last);
+        return Math.min(Math.max(tick || 0, 0), this.last);
+    }
+}
+
+/* Ticks in a row that have the event are one bar: a lane is a few rectangles, however many ticks there are. */
+function drawEvents(context, scale, height, events, bit)
+{
+    const half = Math.max(Math.min(scale.width / Math.max(scale.last, 1) * 0.4, 5), 0.75);
+    for (let i = 0; i < events.length; i++) {
+        if (!(events[i] & bit))
+            continue;
+        const first = i;
+        while (i + 1 < events.length && events[i + 1] & bit)
+            i++;
+        context.fillRect(scale.x(first) - half, 2, scale.x(i) - scale.x(first) + 2 * half, height - 4);
+    }
+}
+
+/* Steps, not slopes: between two ticks there is nothing. A tick without the fact is a gap. */
+function traceCurve(context, scale, y, values)
+{
+    let gap = true;
+    values.forEach((value, i) => {
+        const x = scale.x(i);
+        if (!isNaN(value)) {
+            if (gap)
+                context.moveTo(x, y(value));
+            else
+                context.lineTo(x, y(values[i - 1]));
+            context.lineTo(x, y(value));
+        }
+        gap = isNaN(value);
+    });
+}
+
+function rangeOf(values)
+{
+    let low = Infinity, high = -Infinity;
+    for (const value of values) {
+        low = value < low ? value : low; /* false for NaN */
+        high = value > high ? value : high;
+    }
+    return [low, high];
+}
+
+function drawCurve(context, scale, height, values, [low, high])
+{
+    const room = height - 10;
+    const y = value => high > low ? 5 + room * (high - value) / (high - low) : height / 2;
+    context.beginPath();
+    traceCurve(context, scale, y, values);
+    context.lineWidth = 1.5;
+    context.lineJoin = "round";
+    context.stroke();
+}
+
+class Timeline {
+    /* `goTo` is called with a tick, `toggle` with the bit of an event. */
+    constructor(recording, {goTo, toggle})
+    {
+        this.recording = recording;
+        this.root = document.getElementById("timeline");
+        this.scrub = document.getElementById("scrub");
+        this.cursor = document.getElementById("cursor");
+        this.tick = 0;
+        this.lanes = [...EVENTS.map((event, i) => this.eventLane(event, 1 << i, toggle)),
+                      ...recording.curves.map(curve => this.curveLane(curve))];
+        this.lanes.forEach((lane, i) => this.place(lane, i + 2));
+        this.scrub.style.gridRow = `2 / span ${this.lanes.length}`;
+        this.followPointer(goTo);
+        this.measure(); /* once and at each change of size: asking at each tick costs a layout */
+        new ResizeObserver(() => this.draw()).observe(this.root);
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+    }
+
+    eventLane([name, sign], bit, toggle)
+    {
+        const count = this.recording.count(bit);
+        const label = element("button", name, {type: "button", class: "lane-label", "data-event": name,
+                                               "aria-pressed": "false", title: `Show ticks that ${name}`});
+        label.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
+        label.disabled = count === 0;
+        label.addEventListener("click", () => toggle(bit));
+        const paint = (context, scale, height) => drawEvents(context, scale, height, this.recording.events, bit);
+        return {name, bit, label, paint, value: () => grouped(count), kind: "event"};
+    }
+
+    curveLane({name, values})
+    {
+        const range = rangeOf(values), [low, high] = range;
+        const label = element("span", name, {class: "lane-label"});
+        if (low < high)
+            label.append(element("small", `${grouped(low)}–${grouped(high)}`));
+        const paint = (context, scale, height) => drawCurve(context, scale, height, values, range);
+        const value = tick => isNaN(values[tick]) ? ABSENT : grouped(values[tick]);
+        return {name, bit: 0, label, paint, value, kind: low < high ? "curve" : "curve constant"};
+    }
+
+    place(lane, row)
+    {
+        lane.canvas = element("canvas", "", {class: `lane ${lane.kind}`, "aria-hidden": "true"});
+        lane.shown = element("output", "", {class: "lane-value", "data-lane": lane.name});
+        for (const part of [lane.label, lane.canvas, lane.shown]) {
+            part.style.gridRow = row;
+            this.root.append(part);
+        }
+    }
+
+    followPointer(goTo)
+    {
+        const follow = event => goTo(this.scale.tick(event.clientX - this.scrub.getBoundingClientRect().left));
+        this.scrub.addEventListener("pointerdown", event => {
+            if (event.button !== 0)
+                return;
+            this.scrub.setPointerCapture?.(event.pointerId);
+            follow(event);
+        });
+        this.scrub.addEventListener("pointermove", event => event.buttons & 1 && follow(event));
+    }
+
+    measure()
+    {
+        this.scale = new Scale(this.recording.length, this.scrub.clientWidth);
+    }
+
+    draw()
+    {
+        this.measure();
+        for (const {name, bit, canvas, paint} of this.lanes) {
+            const context = prepareCanvas(canvas);
+            context.fillStyle = context.strokeStyle = colorOf(bit ? name : "curve");
+            paint(context, this.scale, canvas.clientHeight);
+        }
+        this.mark(this.tick);
+    }
+
+    mark(tick)
+    {
+        this.tick = tick;
+        this.cursor.style.transform = `translateX(${this.scale.x(tick)}px)`;
+        for (const lane of this.lanes)
+            lane.shown.textContent = lane.value(tick);
+    }
+
+    /* Lanes that the filter leaves out fade. */
+    choose(bits)
+    {
+        for (const {bit, label, canvas} of this.lanes) {
+            if (!bit)
+                continue;
+            label.setAttribute("aria-pressed", String((bits & bit) !== 0));
+            canvas.classList.toggle("faded", bits !== 0 && !(bits & bit));
+        }
+    }
+}

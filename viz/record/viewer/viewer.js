@@ -1,0 +1,333 @@
+/* viewer.js - where the viewer is, how it gets elsewhere, and what follows from that. The place is in the address:
+ * #t=41&filter=collided,full. */
+"use strict";
+
+const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; /* frames a second */
+const START_SPEED = 15;
+const FRAMES_AHEAD = 6;
+const SHORTEST_WAIT = 4; /* ms */
+const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes with each frame */
+
+const byId = id => document.getElementById(id);
+
+class Viewer {
+    constructor(recording)
+    {
+        this.recording = recording;
+        this.last = recording.length - 1;
+        this.page = Math.max(10, Math.round(recording.length / 20));
+        this.tick = 0;
+        this.filter = 0; /* bits of the events that are chosen; 0: none is */
+        this.playing = false;
+        this.stage = new Frames(byId("stage"), tick => recording.tick(tick).frame);
+        this.timeline = new Timeline(recording, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
+    }
+
+    /* ---- Where to ------------------------------------------------------------------------------------------- */
+
+    goTo(tick)
+    {
+        this.tick = Math.min(Math.max(tick, 0), this.last);
+        this.show();
+    }
+
+    step(ticks)
+    {
+        this.pause();
+        this.goTo(this.tick + ticks);
+    }
+
+    /* The nearest tick in a direction that is wanted, or -1. */
+    seek(from, direction, wanted)
+    {
+        for (let i = from + direction; i >= 0 && i <= this.last; i += direction)
+            if (wanted(i))
+                return i;
+        return -1;
+    }
+
+    /* Without a filter every event counts but the common one. */
+    matches(tick)
+    {
+        return (this.recording.events[tick] & (this.filter || ~MOVED)) !== 0;
+    }
+
+    seekMatch(direction)
+    {
+        const found = this.seek(this.tick, direction, tick => this.matches(tick));
+        this.pause();
+        if (found >= 0)
+            this.goTo(found);
+    }
+
+    toggle(bit)
+    {
+        this.filter ^= bit;
+        this.show();
+    }
+
+    clearFilter()
+    {
+        this.filter = 0;
+        this.show();
+    }
+
+    /* ---- Playing -------------------------------------------------------------------------------------------- */
+
+    /* What is played: the chosen ticks, or all that have a frame. */
+    isPlayed(tick)
+    {
+        return this.filter ? this.matches(tick) : this.recording.hasFrame(tick);
+    }
+
+    nextPlayed(from)
+    {
+        return this.seek(from, 1, tick => this.isPlayed(tick));
+    }
+
+    play()
+    {
+        if (this.nextPlayed(this.tick) < 0)
+            this.goTo(Math.max(this.nextPlayed(-1), 0));
+        this.playing = true;
+        this.due = performance.now();
+        this.showPlaying();
+        this.beat();
+    }
+
+    pause()
+    {
+        this.playing = false;
+        clearTimeout(this.timer);
+        this.showPlaying();
+    }
+
+    /* A frame that is not decoded yet is waited for, so that none is skipped. */
+    beat()
+    {
+        const now = performance.now();
+        if (now >= this.due && !this.stage.busy) {
+            this.due = Math.max(this.due + 1000 / Number(byId("speed").value), now);
+            this.playNext();
+        }
+        if (this.playing)
+            this.timer = setTimeout(() => this.beat(), Math.max(this.due - now, SHORTEST_WAIT));
+    }
+
+    playNext()
+    {
+        const next = this.nextPlayed(this.tick);
+        if (next >= 0)
+            this.goTo(next);
+        if (this.nextPlayed(this.tick) < 0)
+            this.pause();
+    }
+
+    changeSpeed(direction)
+    {
+        const select = byId("speed");
+        select.selectedIndex = Math.min(Math.max(select.selectedIndex + direction, 0), SPEEDS.length - 1);
+    }
+
+    /* ---- What is seen --------------------------------------------------------------------------------------- */
+
+    show()
+    {
+        const tick = this.recording.tick(this.tick);
+        byId("slider").value = byId("tick").value = this.tick;
+        byId("slider").setAttribute("aria-valuetext", `tick ${this.tick} of ${this.last}`);
+        document.body.dataset.tick = this.tick;
+        showTick(byId("facts-of-tick"), tick);
+        this.timeline.mark(this.tick);
+        this.showFrame();
+        this.showFilter();
+        if (!this.playing)
+            byId("spoken").textContent = `Tick ${this.tick}: ${(tick.events ?? []).join(", ") || "nothing happened"}`;
+        this.writeAddressSoon();
+    }
+
+    showFrame()
+    {
+        const filmed = this.recording.filmed[this.tick], caption = byId("caption");
+        this.stage.show(filmed).then(() => this.prepareFrames());
+        caption.hidden = filmed === this.tick;
+        caption.textContent = filmed < 0 ? "No tick so far has a frame." :
+            `Tick ${this.tick} was not filmed: this is the frame of tick ${filmed}.`;
+        byId("stage").classList.toggle("stale", filmed !== this.tick);
+    }
+
+    prepareFrames()
+    {
+        const ahead = [];
+        for (let at = this.tick; ahead.length < FRAMES_AHEAD && (at = this.nextPlayed(at)) >= 0;)
+            if (this.recording.filmed[at] >= 0)
+                ahead.push(this.recording.filmed[at]);
+        this.stage.prepare(ahead);
+    }
+
+    showFilter()
+    {
+        if (this.filter === this.shownFilter)
+            return;
+        this.shownFilter = this.filter;
+        this.timeline.choose(this.filter);
+        const count = this.recording.count(this.filter);
+        byId("filtered").textContent = this.filter === 0 ? "" :
+            `${grouped(count)} ${count === 1 ? "tick" : "ticks"} ${this.filterNames().join(" or ")}: n and p go from one to the next.`;
+    }
+
+    showPlaying()
+    {
+        document.body.classList.toggle("playing", this.playing);
+    }
+
+    filterNames()
+    {
+        return EVENTS.filter((event, i) => this.filter & 1 << i).map(([name]) => name);
+    }
+
+    /* ---- The address ---------------------------------------------------------------------------------------- */
+
+    readAddress()
+    {
+        const address = new URLSearchParams(location.hash.slice(1));
+        this.filter = eventBits((address.get("filter") ?? "").split(","));
+        this.goTo(Math.trunc(Number(address.get("t"))) || 0);
+    }
+
+    writeAddressSoon()
+    {
+        clearTimeout(this.writing);
+        this.writing = setTimeout(() => this.writeAddress(), ADDRESS_DELAY);
+    }
+
+    writeAddress()
+    {
+        const filter = this.filter ? `&filter=${this.filterNames().join(",")}` : "";
+        history.replaceState(null, "", `#t=${this.tick}${filter}`);
+    }
+}
+
+/* ---- Keys and buttons --------------------------------------------------------------------------------------- */
+
+/* Keys as KeyboardEvent names them, as people read them, what they do in words, and what they do. */
+const KEYS = [
+    [["ArrowRight"], "→", "next tick", viewer => viewer.step(1)],
+    [["ArrowLeft"], "←", "previous tick", viewer => viewer.step(-1)],
+    [["PageDown"], "Page Down", "forward by a twentieth, ten ticks at least", viewer => viewer.step(viewer.page)],
+    [["PageUp"], "Page Up", "back as far", viewer => viewer.step(-viewer.page)],
+    [["Home"], "Home", "first tick", viewer => viewer.step(-Infinity)],
+    [["End"], "End", "last tick", viewer => viewer.step(Infinity)],
+    [[" "], "space", "play or pause", viewer => viewer.playing ? viewer.pause() : viewer.play()],
+    [["+", "="], "+", "faster", viewer => viewer.changeSpeed(1)],
+    [["-"], "-", "slower", viewer => viewer.changeSpeed(-1)],
+    [["n"], "n", "next chosen event; with none chosen, any but moved", viewer => viewer.seekMatch(1)],
+    [["p"], "p", "previous chosen event", viewer => viewer.seekMatch(-1)],
+    ...EVENTS.map(([name], i) =>
+        [[String(i + 1)], String(i + 1), `choose ${name}, or no longer`, viewer => viewer.toggle(1 << i)]),
+    [["0"], "0", "choose no event: show all", viewer => viewer.clearFilter()],
+    [["?"], "?", "these keys", () => byId("help").showModal()],
+];
+
+const BUTTONS = {"previous-match": "p", previous: "ArrowLeft", play: " ", next: "ArrowRight", "next-match": "n"};
+
+function actionOf(key)
+{
+    return KEYS.find(([names]) => names.includes(key))?.[3];
+}
+
+/* What the focused control would do with the key by itself goes before. */
+function isTaken(event)
+{
+    const control = event.target.closest?.("button, select, a, input, dialog");
+    if (event.ctrlKey || event.altKey || event.metaKey || byId("help").open)
+        return true;
+    if (!control || control.type === "range")
+        return false;
+    return control.matches("input, select, dialog") || [" ", "Enter"].includes(event.key);
+}
+
+function listenToKeys(viewer)
+{
+    document.addEventListener("keydown", event => {
+        const action = actionOf(event.key);
+        if (!action || isTaken(event))
+            return;
+        event.preventDefault();
+        action(viewer);
+    });
+}
+
+/* What is no number leaves the tick, and is written over by it. */
+function typeTick(viewer, tick)
+{
+    viewer.step(isNaN(tick) ? 0 : Math.trunc(tick) - viewer.tick);
+}
+
+function listenToControls(viewer)
+{
+    for (const button of document.querySelectorAll("[data-does]"))
+        button.addEventListener("click", () => actionOf(BUTTONS[button.dataset.does])(viewer));
+    /* After a click the space bar is for playing again, and not for the button that was clicked. */
+    document.addEventListener("click", event => event.detail > 0 && event.target.closest("button")?.blur());
+    byId("speed").addEventListener("change", event => event.target.blur());
+    byId("slider").addEventListener("input", event => viewer.goTo(Number(event.target.value)));
+    byId("tick").addEventListener("change", event => typeTick(viewer, event.target.valueAsNumber));
+    byId("tick").addEventListener("keydown", event => event.key === "Enter" && event.target.blur());
+    byId("stage").addEventListener("click", () => actionOf(" ")(viewer));
+    byId("help-open").addEventListener("click", () => actionOf("?")(viewer));
+    addEventListener("hashchange", () => viewer.readAddress());
+}
+
+/* ---- The page ----------------------------------------------------------------------------------------------- */
+
+function folderName()
+{
+    const name = location.pathname.split("/").at(-2) ?? "";
+    try {
+        return decodeURIComponent(name);
+    } catch {
+        return name; /* a % that stands for itself */
+    }
+}
+
+function describeRecording(recording)
+{
+    const {width, height, camera} = recording.about, folder = folderName();
+    const frames = recording.filmed.reduce((count, filmed, i) => count + (filmed === i ? 1 : 0), 0);
+    const parts = [`${grouped(recording.length)} ticks`, `${grouped(frames)} frames`, `${width} × ${height}`, camera];
+    byId("about").append(element("strong", folder), " ", parts.filter(Boolean).join(" · "));
+    document.title = folder ? `${folder} – Octreel` : "Octreel recording";
+    byId("stage").style.setProperty("--ratio", width / height || 16 / 9);
+}
+
+function fillControls(recording)
+{
+    byId("slider").max = byId("tick").max = byId("last").textContent = recording.length - 1;
+    for (const speed of SPEEDS)
+        byId("speed").append(new Option(`${speed} / s`, speed, speed === START_SPEED, speed === START_SPEED));
+    for (const [, shown, words] of KEYS) {
+        const row = element("tr", element("td", element("kbd", shown)));
+        row.append(element("td", words));
+        byId("help-keys").append(row);
+    }
+}
+
+function openRecording()
+{
+    const recording = new Recording(byId("facts").textContent);
+    if (recording.length === 0) {
+        byId("message").textContent = "This recording has no ticks.";
+        byId("message").hidden = false;
+        return;
+    }
+    byId("viewer").hidden = false;
+    describeRecording(recording);
+    fillControls(recording);
+    const viewer = new Viewer(recording);
+    listenToKeys(viewer);
+    listenToControls(viewer);
+    viewer.readAddress();
+}
+
+openRecording();

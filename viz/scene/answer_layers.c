@@ -1,0 +1,134 @@
+/* answer_layers.c - see answer_layers.h. */
+#include "answer_layers.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Of the answer at `place`, the part at `part`. */
+static uint64_t part_id(size_t place, size_t part)
+{
+    return (uint64_t)place << 32 | (uint64_t)part;
+}
+
+static void add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_look look)
+{
+    scene_segment line = {.id = id, .look = look};
+    memcpy(line.ends[0], from, sizeof line.ends[0]);
+    memcpy(line.ends[1], to, sizeof line.ends[1]);
+    scene_add_segment(s, line);
+}
+
+/* A marker on a point; `half` is half its size. */
+static void mark(scene *s, const octree_point *point, scene_look look, scene_shape shape, uint8_t half)
+{
+    scene_marker marker = {.id = point->id, .look = look, .shape = (uint8_t)shape};
+    marker.look.width = half;
+    memcpy(marker.at, point->position, sizeof marker.at);
+    scene_add_marker(s, marker);
+}
+
+static void mark_points(scene *s, const octree_answer *answer, scene_look look, scene_shape shape, uint8_t half)
+{
+    for (size_t i = 0; i < answer->count; i++)
+        mark(s, &answer->points[i], look, shape, half);
+}
+
+static void add_range(scene *s, const octree_answer *answer, size_t place)
+{
+    const scene_look look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = STYLE_DASHED, .width = 1};
+    scene_add_box(s, (scene_box){.id = place, .box = answer->box, .look = look});
+    mark_points(s, answer, look, SHAPE_FRAME, 5);
+}
+
+/* The point at a part of the way round the circle about a centre that does not leave the plane of two axes. */
+static void point_on_circle(const octree_answer *ball, int plane, int part, double position[3])
+{
+    double cosine, sine;
+    camera_turn((double)part / BALL_CHORDS, &cosine, &sine);
+    memcpy(position, ball->target, sizeof ball->target);
+    position[(plane + 1) % 3] += ball->radius * cosine;
+    position[(plane + 2) % 3] += ball->radius * sine;
+}
+
+static void add_circle(scene *s, const octree_answer *ball, size_t place, int plane, scene_look look)
+{
+    double from[3], to[3];
+    point_on_circle(ball, plane, 0, from);
+    for (int i = 0; i < BALL_CHORDS; i++) {
+        point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
+        add_line(s, part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, look);
+        memcpy(from, to, sizeof from);
+    }
+}
+
+static void add_ball(scene *s, const octree_answer *answer, size_t place)
+{
+    const scene_look look = {.layer = LAYER_RADIUS, .role = ROLE_RADIUS, .width = 1};
+    for (int plane = 0; plane < BALL_CIRCLES; plane++)
+        add_circle(s, answer, place, plane, look);
+    mark_points(s, answer, look, SHAPE_LOZENGE, 8);
+}
+
+static void add_nearest(scene *s, const octree_answer *answer, size_t place)
+{
+    const scene_look look = {.layer = LAYER_NEAREST, .role = ROLE_NEAREST, .style = STYLE_DASHED, .width = 1};
+    for (size_t i = 0; i < answer->count; i++) {
+        add_line(s, place, answer->target, answer->neighbors[i].point.position, look);
+        mark(s, &answer->neighbors[i].point, look, SHAPE_FRAME, 7);
+    }
+}
+
+/* Units that a digit takes, and its distance from the next. */
+#define DIGIT_WIDTH 8
+#define DIGIT_HEIGHT 9
+
+/* True when a number beside this place would cover one of those beside earlier places. */
+static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
+{
+    bool crowded = false;
+    for (size_t i = 0; i < earlier; i++)
+        crowded |= fabs(pixels[i][0] - pixels[earlier][0]) < DIGIT_WIDTH * s->unit &&
+                   fabs(pixels[i][1] - pixels[earlier][1]) < DIGIT_HEIGHT * s->unit;
+    return crowded;
+}
+
+/* The ranks of the first few, each beside its neighbour; where two would overlap, that of the nearer alone. */
+static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_look look)
+{
+    double pixels[NUMBERED_RANKS][2], seen[3];
+    size_t numbered = 0;
+    for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
+        scene_label rank = {.id = part_id(place, i), .in_world = true, .look = look};
+        memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
+        camera_transform(&s->camera, rank.at, seen);
+        if (s->camera.perspective && seen[2] < s->camera.near)
+            continue; /* behind the eye */
+        camera_project(&s->camera, seen, pixels[numbered]);
+        if (is_crowded(s, pixels, numbered))
+            continue;
+        numbered++;
+        snprintf(rank.text, sizeof rank.text, " %zu", i + 1); /* the blank keeps clear of a marker */
+        scene_add_label(s, rank);
+    }
+}
+
+static void add_knearest(scene *s, const octree_answer *answer, size_t place)
+{
+    const scene_look look = {.layer = LAYER_KNEAREST, .role = ROLE_KNEAREST, .width = 1};
+    for (size_t i = 0; i < answer->count; i++)
+        add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, look);
+    add_ranks(s, answer, place, look);
+}
+
+void add_answers(scene *s, const octree_tick *tick)
+{
+    static void (*const adders[OCTREE_QUERY_KINDS])(scene *, const octree_answer *, size_t) = {
+        [OCTREE_QUERY_RANGE] = add_range,
+        [OCTREE_QUERY_NEAREST] = add_nearest,
+        [OCTREE_QUERY_KNEAREST] = add_knearest,
+        [OCTREE_QUERY_RADIUS] = add_ball,
+    };
+    for (size_t i = 0; i < tick->answer_count; i++)
+        adders[tick->answers[i].kind](s, &tick->answers[i], i);
+}

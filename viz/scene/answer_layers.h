@@ -1,0 +1,18 @@
+/* answer_layers.h - the layers of a tick's queries: what was asked, and what was found. Private. */
+#ifndef SCENE_ANSWER_LAYERS_H
+#define SCENE_ANSWER_LAYERS_H
+
+#include "octree/game.h"
+#include "scene.h"
+
+/* The great circles of a ball, and the chords that each is drawn by. */
+#define BALL_CIRCLES 3
+#define BALL_CHORDS 96
+
+/* Neighbours are numbered up to this rank. */
+#define NUMBERED_RANKS 9
+
+/* Each answer in the layer of its kind. Ids begin with the answer's place in the tick; markers have their point's. */
+void add_answers(scene *s, const octree_tick *tick);
+
+#endif
