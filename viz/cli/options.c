@@ -11,19 +11,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void say(const char *format, va_list arguments)
+{
+    fputs("octreel: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+}
+
 int trouble(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    fputs("octreel: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    say(format, arguments);
     va_end(arguments);
     return EXIT_TROUBLE;
 }
 
 /* The same for a reader of values: false. */
-#define refuse(...) (trouble(__VA_ARGS__), false)
+static bool refuse(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(format, arguments);
+    va_end(arguments);
+    return false;
+}
 
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 

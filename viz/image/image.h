@@ -73,13 +73,9 @@ bool image_read_png(const char *path, image *image, image_error *error);
  * there is none or the file cannot be read that far. The pixels are not decoded. */
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size);
 
-/* An indexed image, `factor` times smaller on each side, as RGB: each pixel is the mean of factor * factor, rounded to the
- * nearest. *small is created. False, and *small zeroed, when there is no memory, `from` is not indexed, or its sides are
- * not multiples of factor, which is 1 to 16. */
+/* Fill an RGB image from an indexed one whose sides are `factor` times (1 to 16) as long: each pixel is the mean of
+ * factor * factor, rounded to the nearest. False, and nothing done, when the two do not fit together so. */
 bool image_shrink(const image *from, int factor, image *small);
-
-/* The same into an image that has been created, in RGB and of the right size. */
-void image_shrink_into(const image *from, int factor, image *small);
 
 /* How two images differ: counting only. Judging is image_same(). */
 typedef struct image_difference {

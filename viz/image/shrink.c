@@ -1,8 +1,6 @@
 /* shrink.c - many samples become one pixel: a box filter in whole numbers, the same on every machine. */
 #include "image.h"
 
-#include <string.h>
-
 /* One block of samples, whose first is at `at`. */
 typedef struct block {
     const uint8_t *at;
@@ -35,8 +33,11 @@ static image_color mean_of(const block *b, const image_palette *palette)
     return (image_color){(uint8_t)(sums[0] / count), (uint8_t)(sums[1] / count), (uint8_t)(sums[2] / count)};
 }
 
-void image_shrink_into(const image *from, int factor, image *small)
+bool image_shrink(const image *from, int factor, image *small)
 {
+    if (factor < 1 || factor > 16 || from->channels != 1 || small->channels != 3 ||
+        from->width != small->width * factor || from->height != small->height * factor)
+        return false;
     block b = {.row = (size_t)from->width, .side = factor};
     uint8_t *out = small->pixels;
     for (int y = 0; y < small->height; y++) {
@@ -48,14 +49,5 @@ void image_shrink_into(const image *from, int factor, image *small)
             out[2] = color.b;
         }
     }
-}
-
-bool image_shrink(const image *from, int factor, image *small)
-{
-    memset(small, 0, sizeof *small);
-    if (factor < 1 || factor > 16 || from->channels != 1 || from->width % factor != 0 || from->height % factor != 0 ||
-        !image_create(small, from->width / factor, from->height / factor, 3))
-        return false;
-    image_shrink_into(from, factor, small);
     return true;
 }

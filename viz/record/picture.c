@@ -64,9 +64,8 @@ bool picture_draw(picture *p, const scene *s, record_error *error)
     image *drawn = p->samples.pixels ? &p->samples : &p->frame;
     if (!renderer_draw(p->renderer, s, drawn->pixels, &why))
         return record_fail(error, "%s", why.text);
-    if (drawn == &p->samples)
-        image_shrink_into(drawn, view_samples(&s->view), &p->frame);
-    return true;
+    return drawn == &p->frame || image_shrink(drawn, view_samples(&s->view), &p->frame) ||
+           record_fail(error, "the scene is not of the picture's anti-aliasing");
 }
 
 bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, record_error *error)

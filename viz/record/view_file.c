@@ -113,9 +113,10 @@ static bool read_version(session_reader *reader, json_t *value, const json_place
 static bool read_theme(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     const char *name = json_string_value(value);
+    char what[80];
     (void)into;
-    return (name && strcmp(name, theme_name()) == 0) ||
-           session_expected(reader, value, at, "the theme that there is, \"night\"");
+    snprintf(what, sizeof what, "the theme that there is, \"%s\"", theme_name());
+    return (name && strcmp(name, theme_name()) == 0) || session_expected(reader, value, at, what);
 }
 
 /* What belongs to the recording and not to its view. */
