@@ -8,10 +8,12 @@
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
+#include "images.h"
 #include "octree/sample.h"
 #include "recordings.h"
 #include "tick_lines.h"
 #include "ticks_write.h"
+#include "view.h"
 
 enum { POINTS = 500 };
 
@@ -343,6 +345,11 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--size 0x0", "1 to 16384"},
         {"--camera up", "up"},
         {"--layers walls", "walls"},
+        {"--color-by rainbow", "depth, occupancy, plain"},
+        {"--slice z=99", "outside the world"},
+        {"--region 9,9,9,10,10,10", "outside the world"},
+        {"--depth 2:5", "--depths"},
+        {"--depth 3 --depths 4", "the tree ends at depth 3"},
         {"second.txt", "one point cloud"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
@@ -354,6 +361,33 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
     }
     command_result result = run_octreel(NULL, "inspect -o %s", picture.path);
     assert_trouble(&result, "one point cloud");
+}
+
+/* What has no extent is seen all the same. */
+static void clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures(void **state)
+{
+    static const char *const clouds[] = {"1 2 3\n", "5 5 5\n5 5 5\n5 5 5\n5 5 5\n5 5 5\n",
+                                         "0 7 7\n1 7 7\n2 7 7\n9 7 7\n"};
+    const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
+    for (size_t i = 0; i < 3; i++) {
+        file_write_text(points.path, clouds[i]);
+        for (int camera = 0; camera < CAMERA_COUNT; camera++) {
+            command_result result = run_octreel(
+                NULL, "inspect %s --capacity 2 --size 160x90 --layers points --camera %s --fit %s -o %s", points.path,
+                view_camera_name((view_camera)camera), camera % 2 ? "world" : "points", picture.path);
+            assert_done(&result);
+            command_release(&result);
+            image drawn = assert_read(picture.path);
+            const image_color ground = image_color_at(&drawn, 0, 0);
+            size_t lit = 0;
+            for (int at = 0; at < 160 * 90; at++) {
+                const image_color color = image_color_at(&drawn, at % 160, at / 160);
+                lit += memcmp(&color, &ground, sizeof color) != 0;
+            }
+            assert_true(lit >= 9 || camera == CAMERA_FOLLOW); /* a mark of three pixels; a close-up need not have one */
+            image_release(&drawn);
+        }
+    }
 }
 
 static void clouds_and_places_that_are_none_are_refused_in_one_sentence(void **state)
@@ -414,6 +448,7 @@ int main(void)
         IN_FOLDER(picture_is_whole_and_traced),
         IN_FOLDER(bad_clouds_are_refused_with_file_and_reason),
         IN_FOLDER(options_that_do_not_fit_are_refused_in_one_sentence),
+        IN_FOLDER(clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures),
         IN_FOLDER(clouds_and_places_that_are_none_are_refused_in_one_sentence),
         IN_FOLDER(what_is_no_file_is_not_replaced_by_a_picture),
         IN_FOLDER(statistics_need_no_renderer),

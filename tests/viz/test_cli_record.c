@@ -87,9 +87,29 @@ static void values_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--size 160x90x", "160x90x"},
         {"--size 160X90", "160X90"},
         {"--size=", "--size"},
-        {"--camera up", "up"},
+        {"--camera up", "there is no camera \"up\"; there are iso, top, front, side, follow, orbit"},
         {"--camera=", "camera"},
-        {"--layers nodes,walls", "walls"},
+        {"--color-by rainbow", "there is no colour mode \"rainbow\"; there are depth, occupancy, plain"},
+        {"--slice 100", "z=100"},
+        {"--slice w=1", "w=1"},
+        {"--slice z=", "z="},
+        {"--slice z=1x", "z=1x"},
+        {"--slice z=nan", "z=nan"},
+        {"--slice z=1000.5", "z = 1000.5 lies outside the world, which reaches from -1000 to 1000"},
+        {"--depths 5:2", "5:2"},
+        {"--depths :", "2:5"},
+        {"--depths=", "2:5"},
+        {"--depths 1:22", "0 to 21"},
+        {"--depths 6:9", "the tree ends at depth 5"},
+        {"--lod -1", "pixels from 0 to 16384"},
+        {"--lod many", "many"},
+        {"--lod 1e9", "1e9"},
+        {"--budget -1", "-1"},
+        {"--budget 1e6", "1e6"},
+        {"--region 1,2,3", "six numbers"},
+        {"--region 0,0,0,1,-1,1", "below"},
+        {"--region 2000,0,0,3000,1,1", "on x it reaches from 2000 to 3000"},
+        {"--layers nodes,walls", "there is no layer \"walls\"; there are world, nodes, points, "},
         {"--layers nodes,,text", "layer"},
         {"--layers=", "layer"},
         {"--layers --", "layer"},
@@ -249,7 +269,7 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
     assert_done(&result);
     assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
     json_t *summary = json_read(result.out);
-    assert_members(summary, "folder ticks frames left_out seconds frames_per_second events");
+    assert_members(summary, "folder ticks frames left_out over_budget seconds frames_per_second events");
     assert_string_equal(json_string_value(json_member(summary, "folder")), folder.path);
     assert_whole_number(json_member(summary, "ticks"), 253);
     assert_whole_number(json_member(summary, "frames"), 6);
@@ -257,6 +277,23 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
     assert_true(json_real_value(json_member(summary, "seconds")) > 0);
     assert_members(json_member(summary, "events"), "moved refused collided full split merged");
     json_decref(summary);
+    command_release(&result);
+}
+
+/* Where there is no text in the frame to say so, too. */
+static void a_budget_that_bites_is_told(void **state)
+{
+    const place film = place_in(*state, "film"), points = place_in(*state, "p.txt"),
+                picture = place_in(*state, "p.png");
+    command_result result =
+        run_octreel(NULL, "record --every 100 --budget 5 --layers -text " SMALL " -o %s", film.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "3 frames leave out what is beyond --budget"));
+    command_release(&result);
+    file_write_text(points.path, "1 2 3\n4 5 6\n7 8 9\n");
+    result = run_octreel(NULL, "inspect %s --budget 1 --layers points " SMALL " -o %s", points.path, picture.path);
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.err, "leaves out what is beyond --budget"));
     command_release(&result);
 }
 
@@ -348,6 +385,7 @@ int main(void)
         IN_FOLDER(renderer_that_is_not_llvmpipe_is_refused),
         IN_FOLDER(machine_without_osmesa_is_told_what_to_install),
         IN_FOLDER(json_summary_is_one_object_that_agrees_with_the_recording),
+        IN_FOLDER(a_budget_that_bites_is_told),
         IN_FOLDER(keys_replace_those_of_the_session),
         IN_FOLDER(progress_is_silent_without_a_terminal),
         IN_FOLDER(progress_is_shown_on_a_terminal),

@@ -226,6 +226,9 @@ static void recording_json_keeps_the_view(void **state)
     options.every = 7;
     options.view.camera = CAMERA_ORBIT;
     options.view.layers = 1u << LAYER_NODES | 1u << LAYER_TEXT;
+    options.view.coloring = COLORING_OCCUPANCY;
+    options.view.filter = (view_filter){
+        .slice = 'y', .slice_at = 0.1, .by_depth = true, .max_depth = 4, .leaves = true, .by_region = true};
     assert_filmed(&session, &options);
     char *text = file_read(place_below(folder.path, "recording.json").path, NULL);
     json_t *object = json_read(text);
@@ -238,6 +241,12 @@ static void recording_json_keeps_the_view(void **state)
     assert_int_equal(json_array_size(layers), 2);
     assert_string_equal(json_string_value(json_array_get(layers, 0)), "nodes");
     assert_string_equal(json_string_value(json_array_get(layers, 1)), "text");
+    assert_string_equal(json_string_value(json_member(object, "color_by")), "occupancy");
+    assert_true(json_real_value(json_member(json_member(object, "slice"), "y")) == 0.1);
+    assert_whole_number(json_array_get(json_member(object, "depths"), 0), 0);
+    assert_whole_number(json_array_get(json_member(object, "depths"), 1), 4);
+    assert_true(json_is_true(json_member(object, "leaves")));
+    assert_members(json_member(object, "region"), "min max");
     json_decref(object);
     free(text);
 }

@@ -188,7 +188,8 @@ static uint64_t layer_digest(const scene *s, unsigned layer)
     return digest;
 }
 
-/* The text tells what the other layers show: it alone may change with them. */
+/* The text tells what the other layers show: it alone may change with them. The numbers of the world's axes are text too.
+ */
 static void check_without_layer(const scene *all, const octree_game *game, unsigned off)
 {
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS & ~(1u << off));
@@ -196,7 +197,7 @@ static void check_without_layer(const scene *all, const octree_game *game, unsig
     build_tick(&s, &v, game);
     assert_int_equal(elements(count_layer(&s, off)), 0);
     for (unsigned layer = 0; layer < LAYER_TEXT; layer++)
-        if (layer != off)
+        if (layer != off && !(off == LAYER_TEXT && layer == LAYER_WORLD))
             assert_true(layer_digest(&s, layer) == layer_digest(all, layer));
     scene_release(&s);
 }

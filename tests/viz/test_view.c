@@ -25,6 +25,18 @@ static void unknown_cameras_are_refused(void **state)
     }
 }
 
+static void every_colour_mode_is_found_by_its_name(void **state)
+{
+    (void)state;
+    view_coloring coloring;
+    for (int i = 0; i < COLORING_COUNT; i++) {
+        assert_true(view_coloring_parse(view_coloring_name((view_coloring)i), &coloring));
+        assert_int_equal(coloring, i);
+    }
+    assert_null(view_coloring_name(COLORING_COUNT));
+    assert_false(view_coloring_parse("", &coloring) || view_coloring_parse("Depth", &coloring));
+}
+
 static void every_layer_is_found_by_its_name(void **state)
 {
     (void)state;
@@ -121,6 +133,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_camera_is_found_by_its_name),
         cmocka_unit_test(unknown_cameras_are_refused),
+        cmocka_unit_test(every_colour_mode_is_found_by_its_name),
         cmocka_unit_test(every_layer_is_found_by_its_name),
         cmocka_unit_test(lists_of_layers_are_read_from_left_to_right),
         cmocka_unit_test(unknown_layers_are_pointed_at_and_change_nothing),

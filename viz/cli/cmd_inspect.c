@@ -4,11 +4,8 @@
 #include "inspect.h"
 
 #include <getopt.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "number.h"
 
 static const char help[] =
     "usage: octreel inspect CLOUD [-o PICTURE.png] [OPTION ...]\n\n"
@@ -30,41 +27,24 @@ typedef struct arguments {
     const char *cloud, *picture, *node, *nodes;
     octree_def def;
     bool has_world, json;
+    view_options view_options;
     view view;
 } arguments;
 
-static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"capacity", required_argument, NULL, 'C'},
-    {"depth", required_argument, NULL, 'd'},
-    {"full", required_argument, NULL, 'f'},
-    {"world", required_argument, NULL, 'w'},
-    {"node", required_argument, NULL, 'n'},
-    {"nodes", required_argument, NULL, 'N'},
-    {"size", required_argument, NULL, 's'},
-    {"camera", required_argument, NULL, 'c'},
-    {"layers", required_argument, NULL, 'l'},
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
+static const struct option own_options[] = {
+    {"output", required_argument, NULL, 'o'}, {"capacity", required_argument, NULL, 'C'},
+    {"depth", required_argument, NULL, 'd'},  {"full", required_argument, NULL, 'f'},
+    {"world", required_argument, NULL, 'w'},  {"node", required_argument, NULL, 'n'},
+    {"nodes", required_argument, NULL, 'N'},  {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0},
 };
 
 static bool read_world(const char *text, octree_box *world)
 {
-    const char *at = text, *limit = text + strlen(text);
-    double values[6];
-    for (int i = 0; i < 6; i++) {
-        const bool read = number_parse(at, limit, &at, &values[i]);
-        if (!read || *at != (i < 5 ? ',' : 0)) {
-            trouble("--world takes six numbers as in -10,-10,-10,10,10,10, not \"%s\"", text);
-            return false;
-        }
-        at++;
-    }
+    if (!read_box("--world", text, world))
+        return false;
     for (int i = 0; i < 3; i++) {
-        world->min[i] = values[i];
-        world->max[i] = values[i + 3];
-        if (!(world->min[i] < world->max[i])) {
+        if (world->min[i] == world->max[i]) {
             trouble("--world: min must be below max on every axis, not so in \"%s\"", text);
             return false;
         }
@@ -91,6 +71,10 @@ static bool read_tree_option(arguments *a, int option)
         a->def.leaf_capacity = (size_t)value;
         return ok;
     case 'd':
+        if (strchr(optarg, ':')) {
+            trouble("--depth is that of the tree, one number; --depths %s shows some of its levels", optarg);
+            return false;
+        }
         ok = read_count("--depth", optarg, 0, OCTREE_MAX_DEPTH, &value);
         a->def.max_depth = (size_t)value;
         return ok;
@@ -104,6 +88,8 @@ static bool read_tree_option(arguments *a, int option)
 
 static bool take_option(arguments *a, int option)
 {
+    if (take_view_option(&a->view_options, option))
+        return true;
     switch (option) {
     case 'o':
         a->picture = optarg;
@@ -114,12 +100,6 @@ static bool take_option(arguments *a, int option)
     case 'N':
         a->nodes = optarg;
         return true;
-    case 's':
-        return read_size(optarg, &a->view);
-    case 'c':
-        return read_camera(optarg, &a->view);
-    case 'l':
-        return read_layers(optarg, &a->view);
     case 'j':
         a->json = true;
         return true;
@@ -143,12 +123,15 @@ static const char *base_name(const char *path)
 static int report(const arguments *a, const inspection *made)
 {
     record_error error;
+    film_summary drawn = {0};
     octree_node node;
     const char *name = base_name(a->cloud);
     if (a->node && !inspect_find_node(made, a->node, &node, &error))
         return trouble("%s", error.text);
-    if (a->picture && !film_tree(made->tree, name, &a->view, a->picture, &error))
+    if (a->picture && !film_tree(made->tree, name, &a->view, a->picture, &drawn, &error))
         return trouble("%s", error.text);
+    if (drawn.over_budget)
+        fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);
     if (a->nodes && !inspect_write_nodes(made, a->nodes, &error))
         return trouble("%s", error.text);
     if (a->node)
@@ -182,7 +165,10 @@ static int inspect_it(arguments *a)
 int cmd_inspect(int argc, char **argv)
 {
     arguments a = {.def = octree_def_default(), .view = view_default()};
+    struct option options[COMMAND_OPTIONS];
+    join_options(own_options, options);
     a.def.full_leaf = OCTREE_GROW;
+    a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
     optind = 1;
     for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         if (option == 'h') {
@@ -197,5 +183,5 @@ int cmd_inspect(int argc, char **argv)
     if (argc - optind != 1)
         return trouble("inspect takes one point cloud; octreel inspect --help tells more");
     a.cloud = argv[optind];
-    return inspect_it(&a);
+    return read_view(&a.view_options, &a.view) ? inspect_it(&a) : EXIT_TROUBLE;
 }

@@ -25,24 +25,21 @@ static const char more_help[] =
 typedef struct arguments {
     const char *session, *keys;
     film_options film;
+    view_options view;
     bool json;
 } arguments;
 
-static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"keys", required_argument, NULL, 'k'},
-    {"every", required_argument, NULL, 'e'},
-    {"size", required_argument, NULL, 's'},
-    {"camera", required_argument, NULL, 'c'},
-    {"layers", required_argument, NULL, 'l'},
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
+static const struct option own_options[] = {
+    {"output", required_argument, NULL, 'o'}, {"keys", required_argument, NULL, 'k'},
+    {"every", required_argument, NULL, 'e'},  {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0},
 };
 
 /* False when a value does not fit; the sentence is printed. */
 static bool take_option(arguments *a, int option)
 {
+    if (take_view_option(&a->view, option))
+        return true;
     switch (option) {
     case 'o':
         a->film.folder = optarg;
@@ -52,12 +49,6 @@ static bool take_option(arguments *a, int option)
         return true;
     case 'e':
         return read_count("--every", optarg, 1, 1000000000, &a->film.every);
-    case 's':
-        return read_size(optarg, &a->film.view);
-    case 'c':
-        return read_camera(optarg, &a->film.view);
-    case 'l':
-        return read_layers(optarg, &a->film.view);
     case 'j':
         a->json = true;
         return true;
@@ -107,6 +98,8 @@ static int play(arguments *a)
 int cmd_record(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_default(), .every = 1}};
+    struct option options[COMMAND_OPTIONS];
+    join_options(own_options, options);
     optind = 1;
     for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         if (option == 'h') {
@@ -123,5 +116,5 @@ int cmd_record(int argc, char **argv)
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
     a.session = argv[optind];
-    return play(&a);
+    return read_view(&a.view, &a.film.view) ? play(&a) : EXIT_TROUBLE;
 }

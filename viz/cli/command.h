@@ -4,6 +4,7 @@
 
 #include "view.h"
 
+#include <getopt.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,10 +25,27 @@ int cmd_inspect(int argc, char **argv);
 int trouble(const char *format, ...);
 
 /* Values of options: each says what is wrong with `text` on stderr and returns false when it does not fit. */
-bool read_size(const char *text, view *v);
-bool read_camera(const char *text, view *v);
-bool read_layers(const char *text, view *v);
 bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
+bool read_box(const char *option, const char *text, octree_box *box); /* six numbers, min <= max */
+
+/* The options of a view are the same for every command that draws. They are collected while the command line is read,
+ * and then become a view. */
+#define VIEW_OPTION 256 /* the first of getopt's numbers for them */
+#define VIEW_OPTIONS 16 /* at most */
+typedef struct view_options {
+    const char *values[VIEW_OPTIONS]; /* as they were typed; null: not given */
+} view_options;
+
+/* A command's own options, which end with a zeroed one, and behind them those of a view, for getopt_long. */
+#define COMMAND_OPTIONS 48
+void join_options(const struct option *own, struct option all[COMMAND_OPTIONS]);
+
+/* Take an option that getopt_long found; false when it is none of a view's. */
+bool take_view_option(view_options *given, int option);
+
+/* Change a command's own default view to the one that was asked for; false, with the sentence said, when a value does
+ * not fit. */
+bool read_view(const view_options *given, view *v);
 
 /* The part of a --help text that those options share. */
 void print_view_options(FILE *out);

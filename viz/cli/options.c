@@ -1,62 +1,43 @@
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "command.h"
+#include "draw.h"
+#include "number.h"
+#include "session_file.h"
+#include "view_file.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Names, by their place; null beyond the last. */
-typedef const char *name_at(int i);
-
-static const char *camera_at(int i)
+static void say(const char *format, va_list arguments)
 {
-    return view_camera_name((view_camera)i);
-}
-
-static const char *layer_at(int i)
-{
-    return view_layer_name((view_layer)i);
-}
-
-static void print_names(FILE *out, name_at *name)
-{
-    for (int i = 0; name(i); i++)
-        fprintf(out, "%s%s", i ? ", " : "", name(i));
-}
-
-void print_view_options(FILE *out)
-{
-    fputs("      --size WxH        picture in pixels (default 1280x720; a side is 1 to 16384)\n"
-          "      --camera NAME     one of ",
-          out);
-    print_names(out, camera_at);
-    fputs(" (default iso)\n      --layers LIST     with commas between, of ", out);
-    print_names(out, layer_at);
-    fputs("\n                        (default all; -text leaves one out)\n", out);
-}
-
-/* "octreel: there is no camera "x"; there are iso, top ..." */
-static bool no_such(const char *kind, const char *text, int length, name_at *name)
-{
-    fprintf(stderr, "octreel: there is no %s \"%.*s\"; there are ", kind, length, text);
-    print_names(stderr, name);
+    fputs("octreel: ", stderr);
+    vfprintf(stderr, format, arguments);
     fputc('\n', stderr);
-    return false;
 }
 
 int trouble(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    fputs("octreel: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    say(format, arguments);
     va_end(arguments);
     return EXIT_TROUBLE;
 }
+
+/* The same for a reader of values: false. */
+static bool refuse(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+/* ---- Values ------------------------------------------------------------------------------------------------- */
 
 /* A decimal whole number at *text, which is moved behind it. False on a sign, no digits, or more than `max`. */
 static bool take_number(const char **text, uint64_t max, uint64_t *value)
@@ -78,30 +59,244 @@ bool read_count(const char *option, const char *text, uint64_t min, uint64_t max
     const char *at = text;
     if (take_number(&at, max, value) && *at == 0 && *value >= min)
         return true;
-    trouble("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", option, min, max, text);
+    return refuse("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", option, min, max, text);
+}
+
+bool read_box(const char *option, const char *text, octree_box *box)
+{
+    const char *at = text, *limit = text + strlen(text);
+    double values[6];
+    for (int i = 0; i < 6; i++, at++)
+        if (!number_parse(at, limit, &at, &values[i]) || *at != (i < 5 ? ',' : 0))
+            return refuse("%s takes six numbers as in -10,-10,-10,10,10,10, not \"%s\"", option, text);
+    for (int i = 0; i < 3; i++) {
+        box->min[i] = values[i];
+        box->max[i] = values[i + 3];
+        if (box->min[i] > box->max[i])
+            return refuse("%s: min must be below max on every axis, not so in \"%s\"", option, text);
+    }
+    return true;
+}
+
+/* ---- Names -------------------------------------------------------------------------------------------------- */
+
+/* Names, by their place; null beyond the last. */
+typedef const char *name_at(int i);
+
+static const char *camera_at(int i)
+{
+    return view_camera_name((view_camera)i);
+}
+
+static const char *layer_at(int i)
+{
+    return view_layer_name((view_layer)i);
+}
+
+static const char *coloring_at(int i)
+{
+    return view_coloring_name((view_coloring)i);
+}
+
+static const char *fit_at(int i)
+{
+    static const char *const names[] = {[FIT_WORLD] = "world", [FIT_POINTS] = "points"};
+    return i < (int)(sizeof names / sizeof names[0]) ? names[i] : NULL;
+}
+
+static void print_names(FILE *out, name_at *name)
+{
+    for (int i = 0; name(i); i++)
+        fprintf(out, "%s%s", i ? ", " : "", name(i));
+}
+
+/* "octreel: there is no camera "x"; there are iso, top ..." */
+static bool no_such(const char *kind, const char *text, int length, name_at *name)
+{
+    fprintf(stderr, "octreel: there is no %s \"%.*s\"; there are ", kind, length, text);
+    print_names(stderr, name);
+    fputc('\n', stderr);
     return false;
 }
 
-bool read_size(const char *text, view *v)
+/* ---- Options of a view -------------------------------------------------------------------------------------- */
+
+static bool read_size(const char *text, view *v)
 {
     const char *at = text;
     uint64_t width, height;
-    if (take_number(&at, INT32_MAX, &width) && *at == 'x' && (at++, take_number(&at, INT32_MAX, &height)) && *at == 0) {
-        v->width = (int)width;
-        v->height = (int)height;
-        return true;
-    }
-    trouble("--size takes pixels as in 1280x720, not \"%s\"", text);
-    return false;
+    if (!take_number(&at, INT32_MAX, &width) || *at++ != 'x' || !take_number(&at, INT32_MAX, &height) || *at != 0)
+        return refuse("--size takes pixels as in 1280x720, not \"%s\"", text);
+    v->width = (int)width;
+    v->height = (int)height;
+    return true;
 }
 
-bool read_camera(const char *text, view *v)
+static bool read_camera_from(const char *text, view *v)
+{
+    record_error error;
+    return view_read(text, v, &error) || refuse("%s", error.text);
+}
+
+static bool read_camera(const char *text, view *v)
 {
     return view_camera_parse(text, &v->camera) || no_such("camera", text, (int)strlen(text), camera_at);
 }
 
-bool read_layers(const char *text, view *v)
+static bool read_fit(const char *text, view *v)
+{
+    for (int i = 0; fit_at(i); i++) {
+        if (strcmp(text, fit_at(i)) == 0) {
+            v->fit = (view_fit)i;
+            return true;
+        }
+    }
+    return no_such("fit", text, (int)strlen(text), fit_at);
+}
+
+static bool read_layers(const char *text, view *v)
 {
     const char *bad;
     return view_layers_parse(text, &v->layers, &bad) || no_such("layer", bad, (int)strcspn(bad, ","), layer_at);
+}
+
+static bool read_coloring(const char *text, view *v)
+{
+    return view_coloring_parse(text, &v->coloring) || no_such("colour mode", text, (int)strlen(text), coloring_at);
+}
+
+static bool read_slice(const char *text, view *v)
+{
+    const char *limit = text + strlen(text), *end = text;
+    if (text[0] < 'x' || text[0] > 'z' || text[1] != '=' || !number_parse(text + 2, limit, &end, &v->filter.slice_at) ||
+        end != limit)
+        return refuse("--slice takes an axis and a place as in z=100, not \"%s\"", text);
+    v->filter.slice = text[0];
+    return true;
+}
+
+/* "2:5", "2:", ":5" or "3". */
+static bool read_depths(const char *text, view *v)
+{
+    const char *at = text;
+    uint64_t from = 0, to = OCTREE_MAX_DEPTH;
+    const bool begins = take_number(&at, OCTREE_MAX_DEPTH, &from), open = *at == ':';
+    at += open;
+    const bool ends = open && take_number(&at, OCTREE_MAX_DEPTH, &to);
+    to = open ? to : from;
+    if (*at != 0 || from > to || !(begins || ends))
+        return refuse("--depths takes levels from 0 to %d as in 2:5, 2:, :5 or 3, not \"%s\"", OCTREE_MAX_DEPTH, text);
+    v->filter.by_depth = true;
+    v->filter.min_depth = (unsigned)from;
+    v->filter.max_depth = (unsigned)to;
+    return true;
+}
+
+static bool read_leaves(const char *text, view *v)
+{
+    (void)text;
+    return v->filter.leaves = true;
+}
+
+static bool read_labels(const char *text, view *v)
+{
+    (void)text;
+    return v->labels = true;
+}
+
+static bool read_region(const char *text, view *v)
+{
+    return v->filter.by_region = read_box("--region", text, &v->filter.region);
+}
+
+static bool read_lod(const char *text, view *v)
+{
+    const char *limit = text + strlen(text), *end = text;
+    if (number_parse(text, limit, &end, &v->lod) && end == limit && v->lod >= 0 && v->lod <= DRAW_MAX_SIDE)
+        return true;
+    return refuse("--lod takes pixels from 0 to %d, not \"%s\"", DRAW_MAX_SIDE, text);
+}
+
+static bool read_budget(const char *text, view *v)
+{
+    return read_count("--budget", text, 0, SESSION_ID_LIMIT - 1, &v->budget);
+}
+
+static bool read_aa(const char *text, view *v)
+{
+    if (text[0] == 0 || text[1] != 0 || !strchr("124", text[0]))
+        return refuse("--aa takes 1, 2 or 4 samples on each side of a pixel, not \"%s\"", text);
+    v->aa = text[0] - '0';
+    return true;
+}
+
+/* Each option, in the order in which they are read: its name, what stands for its value in the help (null: it takes
+ * none), what reads it, and what it does; where there are names to choose from, these are listed behind that. */
+static const struct {
+    const char *name, *value;
+    bool (*read)(const char *text, view *v);
+    const char *help;
+    name_at *names;
+} rows[] = {
+    {"camera-from", "DIR", read_camera_from, "the whole view of a recording; other options here change it", NULL},
+    {"size", "WxH", read_size, "picture in pixels (default 1280x720; a side is 1 to 16384)", NULL},
+    {"camera", "NAME", read_camera, "(default iso) one of", camera_at},
+    {"fit", "WHAT", read_fit, "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
+     NULL},
+    {"layers", "LIST", read_layers, "(default all; -text leaves one out) with commas between, of", layer_at},
+    {"color-by", "MODE", read_coloring, "what the colour of a node tells (default depth): one of", coloring_at},
+    {"slice", "AXIS=AT", read_slice, "only nodes that cut a plane, as in z=100, and the points of such leaves", NULL},
+    {"depths", "A:B", read_depths, "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", NULL},
+    {"leaves", NULL, read_leaves, "only leaves", NULL},
+    {"region", "BOX", read_region, "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", NULL},
+    {"labels", NULL, read_labels, "write paths such as 0/3/7 on nodes, where there is room", NULL},
+    {"aa", "N", read_aa, "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", NULL},
+    {"lod", "PX", read_lod, "leave out boxes below PX pixels whose ancestor is drawn (default 2; 0: none)", NULL},
+    {"budget", "N", read_budget,
+     "at most N boxes and N points a frame, which says what it leaves out (default 250000; 0: all)", NULL},
+};
+
+#define ROWS (sizeof rows / sizeof rows[0])
+_Static_assert(ROWS <= VIEW_OPTIONS, "there is room for every option of a view");
+
+void join_options(const struct option *own, struct option all[COMMAND_OPTIONS])
+{
+    size_t count = 0;
+    for (; own->name && count + ROWS + 1 < COMMAND_OPTIONS; own++)
+        all[count++] = *own;
+    for (size_t i = 0; i < ROWS; i++)
+        all[count++] =
+            (struct option){rows[i].name, rows[i].value ? required_argument : no_argument, NULL, VIEW_OPTION + (int)i};
+    all[count] = (struct option){NULL, 0, NULL, 0};
+}
+
+bool take_view_option(view_options *given, int option)
+{
+    if (option < VIEW_OPTION || option >= VIEW_OPTION + (int)ROWS)
+        return false;
+    given->values[option - VIEW_OPTION] = optarg ? optarg : "";
+    return true;
+}
+
+bool read_view(const view_options *given, view *v)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (given->values[i] && !rows[i].read(given->values[i], v))
+            return false;
+    return true;
+}
+
+void print_view_options(FILE *out)
+{
+    for (size_t i = 0; i < ROWS; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "--%s%s%s", rows[i].name, rows[i].value ? " " : "",
+                 rows[i].value ? rows[i].value : "");
+        fprintf(out, "      %-17s %s", name, rows[i].help);
+        if (rows[i].names) {
+            fputs("\n                        ", out);
+            print_names(out, rows[i].names);
+        }
+        fputc('\n', out);
+    }
 }

@@ -1,7 +1,8 @@
 /* draw.h - a scene becomes pixels: the public face of this folder.
  *
- * A renderer holds one off-screen context and draws scenes of one size into indices of the theme's table. Use it from
- * the thread that opened it.
+ * A renderer holds one off-screen context and draws scenes of one size into indices of the theme's table. Under
+ * anti-aliasing it draws view_samples() times as many pixels on each axis, which somebody else makes colours of: lines,
+ * marks and letters are as large in the picture as without. Use it from the thread that opened it.
  */
 #ifndef DRAW_DRAW_H
 #define DRAW_DRAW_H
@@ -22,14 +23,14 @@ typedef struct renderer_info {
     const char *vendor, *renderer, *version; /* GL's own strings */
 } renderer_info;
 
-/* Open a context and a framebuffer of this size. Null, and a sentence, when there is no usable context or the size is
- * outside 1..DRAW_MAX_SIDE. Cost: some 10 ms and 85 MB. */
+/* Open a context and a framebuffer of this size, samples counted. Null, and a sentence, when there is no usable context
+ * or the size is outside 1..DRAW_MAX_SIDE. Cost: some 10 ms and 85 MB. */
 renderer *renderer_open(int width, int height, draw_error *error);
 void renderer_close(renderer *r);
 
 renderer_info renderer_about(const renderer *r);
 
-/* Draw a scene of the renderer's size into width * height indices, rows from the top. */
+/* Draw a scene whose picture has the renderer's size in samples into width * height indices, rows from the top. */
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error);
 
 /* Elements of the last scene that are not in its frame: NaN or infinite, or too far off for doubles. */

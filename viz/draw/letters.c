@@ -15,7 +15,8 @@ typedef struct corner {
     unsigned char color[4];
 } corner;
 
-/* The pixel of the text's top left corner; false when its place is out of sight. */
+/* The pixel of the text's top left corner; false when its place is out of sight. Text begins with whole pixels, however
+ * many samples these have, and stays crisp. */
 static bool place(const scene *s, const scene_label *label, int *x, int *y)
 {
     double pixel[2] = {label->at[0], label->at[1]};
@@ -23,8 +24,8 @@ static bool place(const scene *s, const scene_label *label, int *x, int *y)
     if (label->in_world) {
         if (!project_point(s, label->at, pixel, &band))
             return false;
-        pixel[0] += 3 * s->unit;
-        pixel[1] -= 4 * s->unit;
+        pixel[0] = pixel[0] / view_samples(&s->view) + 3 * s->unit;
+        pixel[1] = pixel[1] / view_samples(&s->view) - 4 * s->unit;
     }
     *x = (int)floor(pixel[0]);
     *y = (int)floor(pixel[1]);
@@ -40,12 +41,12 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
         return;
     memcpy(text, label->text, sizeof text);
     const int count = stb_easy_font_print(0, 0, text, NULL, corners, sizeof corners);
-    const int scale = s->unit * label->look.width * QUAD_SUBPIXELS;
-    quad q = {.color = theme_index(label->look.role, 0), .order = quad_order(label->look.layer, 0, 0)};
+    const int pixel = QUAD_SUBPIXELS * view_samples(&s->view), scale = s->unit * label->look.width * pixel;
+    quad q = {.color = theme_index(label->look.role, 0), .order = quad_order_of_text(label->look.layer)};
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < 4; j++) {
-            q.x[j] = left * QUAD_SUBPIXELS + (int)corners[4 * i + j].x * scale;
-            q.y[j] = top * QUAD_SUBPIXELS + (int)corners[4 * i + j].y * scale;
+            q.x[j] = left * pixel + (int)corners[4 * i + j].x * scale;
+            q.y[j] = top * pixel + (int)corners[4 * i + j].y * scale;
         }
         quads_add(list, &q);
     }

@@ -96,8 +96,23 @@ static bool paint_points(painter *p, const scene *s)
     return true;
 }
 
-bool paint(painter *p, const scene *s)
+/* The scene as its samples see it: a picture that is larger, through a camera that enlarges. Its elements are shared.
+ */
+static scene in_samples(const scene *s)
 {
+    scene fine = *s;
+    const int samples = view_samples(&s->view);
+    fine.view.width *= samples;
+    fine.view.height *= samples;
+    fine.camera.zoom *= samples;
+    fine.camera.middle[0] *= samples;
+    fine.camera.middle[1] *= samples;
+    return fine;
+}
+
+bool paint(painter *p, const scene *picture)
+{
+    const scene fine = in_samples(picture), *s = &fine;
     p->quads.count = 0;
     p->quads.out_of_memory = false;
     p->overflowed = 0;
@@ -111,7 +126,7 @@ bool paint(painter *p, const scene *s)
         if (!is_point(&s->markers.items[i]))
             paint_marker(p, s, &s->markers.items[i]);
     for (size_t i = 0; i < s->panels.count; i++)
-        stroke_panel(&p->quads, &s->panels.items[i]);
+        stroke_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
     for (size_t i = 0; i < s->labels.count; i++)
         letters_add(&p->quads, s, &s->labels.items[i]);
     return !p->quads.out_of_memory && quads_sort(&p->quads);

@@ -9,7 +9,7 @@
 typedef struct painter {
     quad_list quads;
     edge_list edges;
-    uint8_t *nearest; /* a byte a pixel: 1 + the nearest band of a point there, while points are folded */
+    uint8_t *nearest; /* a byte a sample: 1 + the nearest band of a point there, while points are folded */
     size_t pixels;
     size_t overflowed; /* elements of the last scene that are too far off for doubles: counted, not drawn */
 } painter;
@@ -17,6 +17,6 @@ typedef struct painter {
 void painter_release(painter *p);
 
 /* Fill p->quads with a scene. False when there is no memory. */
-bool paint(painter *p, const scene *s);
+bool paint(painter *p, const scene *picture);
 
 #endif

@@ -12,6 +12,11 @@ uint16_t quad_order(unsigned layer, unsigned band, unsigned depth)
     return (uint16_t)((layer * QUAD_BANDS + (QUAD_BANDS - 1 - band)) * DEPTHS + (DEPTHS - 1 - depth));
 }
 
+uint16_t quad_order_of_text(unsigned layer)
+{
+    return quad_order(layer == LAYER_NODES ? LAYER_POINTS : layer, 0, 0);
+}
+
 void quads_release(quad_list *list)
 {
     free(list->items);

@@ -33,4 +33,8 @@ uint16_t quad_order(unsigned layer, unsigned band, unsigned depth);
 
 #define QUAD_BANDS THEME_SHADES
 
+/* The order of letters and of rectangles of the picture, which have no depth: the last of their layer; but what is
+ * written on nodes lies on their points too. */
+uint16_t quad_order_of_text(unsigned layer);
+
 #endif

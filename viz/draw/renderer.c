@@ -165,7 +165,8 @@ static bool fail(draw_error *error, const char *sentence)
 
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error)
 {
-    if (s->view.width != r->width || s->view.height != r->height)
+    const int samples = view_samples(&s->view);
+    if (s->view.width * samples != r->width || s->view.height * samples != r->height)
         return fail(error, "the scene is not of the renderer's size");
     if (!paint(&r->painter, s))
         return fail(error, "there is no memory for a frame");

@@ -10,8 +10,9 @@
 
 pencil pencil_make(const scene *s, scene_look look, unsigned depth)
 {
-    const int width = look.width * s->unit / 2;
-    return (pencil){.look = look, .width = width > 1 ? width : 1, .unit = s->unit, .depth = depth};
+    const int width = look.width * s->unit / 2, samples = view_samples(&s->view);
+    return (pencil){
+        .look = look, .width = (width > 1 ? width : 1) * samples, .unit = s->unit, .samples = samples, .depth = depth};
 }
 
 /* What the tick is about fades less than the tree around it: the last bands would drown it. */
@@ -87,7 +88,7 @@ void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsi
 /* Dashes run on from piece to piece: `phase` is how far into dash and gap the line is. */
 void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
-    const double dash = DASH * with->unit / 2.0, period = dash + GAP * with->unit / 2.0;
+    const double half_unit = with->unit * with->samples / 2.0, dash = DASH * half_unit, period = dash + GAP * half_unit;
     double phase = 0;
     if (count && is_speck(pieces, count)) {
         add_speck(list, with, &pieces[0]);
@@ -108,19 +109,18 @@ void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, uns
     }
 }
 
-static void add_frame(quad_list *list, quad q, int x, int y, int half, int line)
+static void add_frame(quad_list *list, quad q, int left, int top, int side, int line)
 {
-    const int side = 2 * half + 1;
-    add_rectangle(list, q, x - half, y - half, side, line);
-    add_rectangle(list, q, x - half, y + half + 1 - line, side, line);
-    add_rectangle(list, q, x - half, y - half, line, side);
-    add_rectangle(list, q, x + half + 1 - line, y - half, line, side);
+    add_rectangle(list, q, left, top, side, line);
+    add_rectangle(list, q, left, top + side - line, side, line);
+    add_rectangle(list, q, left, top, line, side);
+    add_rectangle(list, q, left + side - line, top, line, side);
 }
 
-static void add_diamond(quad_list *list, quad q, int x, int y, int half)
+static void add_diamond(quad_list *list, quad q, int left, int top, int side)
 {
-    const int32_t cx = x * QUAD_SUBPIXELS + QUAD_SUBPIXELS / 2, cy = y * QUAD_SUBPIXELS + QUAD_SUBPIXELS / 2;
-    const int32_t reach = half * QUAD_SUBPIXELS + QUAD_SUBPIXELS / 2;
+    const int32_t reach = side * QUAD_SUBPIXELS / 2;
+    const int32_t cx = left * QUAD_SUBPIXELS + reach, cy = top * QUAD_SUBPIXELS + reach;
     for (int i = 0; i < 4; i++) {
         q.x[i] = cx + (i == 0 ? -reach : i == 2 ? reach : 0);
         q.y[i] = cy + (i == 1 ? -reach : i == 3 ? reach : 0);
@@ -128,51 +128,53 @@ static void add_diamond(quad_list *list, quad q, int x, int y, int half)
     quads_add(list, &q);
 }
 
-static void add_lozenge(quad_list *list, const pencil *with, unsigned band, int x, int y, int half)
+/* A diamond of which only the edge is drawn. */
+static void add_lozenge(quad_list *list, const pencil *with, unsigned band, int left, int top, int side)
 {
     pencil thin = *with;
-    thin.width = with->unit / 2 > 1 ? with->unit / 2 : 1;
-    const double cx = x + 0.5, cy = y + 0.5;
+    thin.width = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
+    const double half = (side - with->samples) / 2.0, cx = left + side / 2.0, cy = top + side / 2.0;
     const double corners[5][2] = {{cx - half, cy}, {cx, cy - half}, {cx + half, cy}, {cx, cy + half}, {cx - half, cy}};
     for (int i = 0; i < 4; i++)
         add_line(list, &thin, band, corners[i], corners[i + 1]);
 }
 
-static void add_cross(quad_list *list, const pencil *with, unsigned band, int x, int y, int half)
+static void add_cross(quad_list *list, const pencil *with, unsigned band, int x, int y, int side)
 {
     pencil thick = *with;
-    thick.width = with->unit;
-    const double left = x - half, right = x + half + 1, top = y - half, bottom = y + half + 1;
+    thick.width = with->unit * with->samples;
+    const double left = x, right = x + side, top = y, bottom = y + side;
     add_line(list, &thick, band, (double[2]){left, top}, (double[2]){right, bottom});
     add_line(list, &thick, band, (double[2]){left, bottom}, (double[2]){right, top});
 }
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
 {
-    const int x = (int)floor(pixel[0]), y = (int)floor(pixel[1]), half = with->look.width * with->unit / 2;
-    const int line = with->unit / 2 > 1 ? with->unit / 2 : 1;
+    const int half = with->look.width * with->unit / 2, side = (2 * half + 1) * with->samples;
+    const int left = (int)floor(pixel[0]) - (side - 1) / 2, top = (int)floor(pixel[1]) - (side - 1) / 2;
+    const int line = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
     const quad q = blank(with, band);
     switch (shape) {
     case SHAPE_SQUARE:
-        add_rectangle(list, q, x - half, y - half, 2 * half + 1, 2 * half + 1);
+        add_rectangle(list, q, left, top, side, side);
         break;
     case SHAPE_DIAMOND:
-        add_diamond(list, q, x, y, half);
+        add_diamond(list, q, left, top, side);
         break;
     case SHAPE_FRAME:
-        add_frame(list, q, x, y, half, line);
+        add_frame(list, q, left, top, side, line);
         break;
     case SHAPE_LOZENGE:
-        add_lozenge(list, with, band, x, y, half);
+        add_lozenge(list, with, band, left, top, side);
         break;
     case SHAPE_CROSS:
-        add_cross(list, with, band, x, y, half);
+        add_cross(list, with, band, left, top, side);
         break;
     }
 }
 
-void stroke_panel(quad_list *list, const scene_panel *panel)
+void stroke_panel(quad_list *list, const scene_panel *panel, int samples)
 {
-    const quad q = {.color = theme_index(panel->look.role, 0), .order = quad_order(panel->look.layer, 0, 0)};
-    add_rectangle(list, q, panel->x, panel->y, panel->width, panel->height);
+    const quad q = {.color = theme_index(panel->look.role, 0), .order = quad_order_of_text(panel->look.layer)};
+    add_rectangle(list, q, panel->x * samples, panel->y * samples, panel->width * samples, panel->height * samples);
 }

@@ -1,4 +1,5 @@
-/* stroke.h - lines, marks and letters as quads of whole 1/256 pixels. Private. */
+/* stroke.h - lines, marks and letters as quads of whole 1/256 pixels; where a picture has several samples a pixel, of
+ * whole 1/256 samples. Private. */
 #ifndef DRAW_STROKE_H
 #define DRAW_STROKE_H
 
@@ -7,8 +8,9 @@
 /* What a line is drawn with. */
 typedef struct pencil {
     scene_look look;
-    int width;      /* pixels */
-    int unit;       /* view_unit of the scene */
+    int width;      /* of lines, samples */
+    int unit;       /* view_unit of the scene: pixels */
+    int samples;    /* a pixel, on each axis */
     unsigned depth; /* of the node that the line belongs to */
 } pencil;
 
@@ -19,6 +21,6 @@ void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsi
 void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
-void stroke_panel(quad_list *list, const scene_panel *panel);
+void stroke_panel(quad_list *list, const scene_panel *panel, int samples);
 
 #endif

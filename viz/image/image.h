@@ -73,6 +73,10 @@ bool image_read_png(const char *path, image *image, image_error *error);
  * there is none or the file cannot be read that far. The pixels are not decoded. */
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size);
 
+/* Fill an RGB image from an indexed one whose sides are `factor` times (1 to 16) as long: each pixel is the mean of
+ * factor * factor, rounded to the nearest. False, and nothing done, when the two do not fit together so. */
+bool image_shrink(const image *from, int factor, image *small);
+
 /* How two images differ: counting only. Judging is image_same(). */
 typedef struct image_difference {
     bool same_size;

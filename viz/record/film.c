@@ -1,5 +1,7 @@
 /* film.c - see film.h. */
 #include "film.h"
+#include "filter.h"
+#include "fit.h"
 #include "folder_files.h"
 #include "picture.h"
 #include "tick_scene.h"
@@ -18,6 +20,7 @@
 /* A recording while it is made. */
 typedef struct filming {
     const film_options *options;
+    view view; /* that of the options, fitted to tick 0 */
     octree_game *game;
     picture picture;
     scene scene;
@@ -39,6 +42,12 @@ static bool open_ticks(filming *f, record_error *error)
     return f->ticks != NULL;
 }
 
+static bool check_view(const view *v, const octree_def *tree, record_error *error)
+{
+    char reason[FILTER_TEXT];
+    return !filter_refusal(&v->filter, tree, reason) || record_fail(error, "%s", reason);
+}
+
 /* Everything that can refuse a session or a view comes before the folder is touched. */
 static bool begin(filming *f, const octree_session *session, record_error *error)
 {
@@ -46,12 +55,13 @@ static bool begin(filming *f, const octree_session *session, record_error *error
     const octree_status status = octree_game_create(session, &f->game);
     if (status != OCTREE_OK)
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
-    if (!picture_open(&f->picture, options->view.width, options->view.height, error))
+    fit_view(&f->view, octree_game_tree(f->game));
+    if (!check_view(&f->view, &session->tree, error) || !picture_open(&f->picture, &f->view, error))
         return false;
     const renderer_info info = renderer_about(f->picture.renderer);
     if (!folder_prepare(options->folder, error))
         return false;
-    if (write_recording_file(options->folder, &options->view, options->every, error) &&
+    if (write_recording_file(options->folder, &f->view, options->every, error) &&
         write_session_file(options->folder, session, &f->session_digest, error) &&
         write_renderer_file(options->folder, &info, error) && open_ticks(f, error))
         return true;
@@ -79,7 +89,7 @@ static bool write_frame(filming *f, const char *name, record_error *error)
 
 static bool draw_frame(filming *f, const char *name, record_error *error)
 {
-    if (!tick_scene_build(&f->scene, &f->options->view, f->game))
+    if (!tick_scene_build(&f->scene, &f->view, f->game))
         return record_fail(error, "there is no memory for a scene");
     f->extras.scene_digest = scene_digest(&f->scene);
     return picture_draw(&f->picture, &f->scene, error) && write_frame(f, name, error);
@@ -118,6 +128,13 @@ static bool write_line(filming *f, record_error *error)
     return true;
 }
 
+static void count_frame(film_summary *summary, const renderer *r, const scene_tally *tally)
+{
+    summary->frames++;
+    summary->left_out += renderer_left_out(r);
+    summary->over_budget += tally->beyond || tally->thinned;
+}
+
 static bool film_tick(filming *f, film_summary *summary, record_error *error)
 {
     const octree_tick *tick = octree_game_tick(f->game);
@@ -129,8 +146,8 @@ static bool film_tick(filming *f, film_summary *summary, record_error *error)
     if ((filmed && !draw_frame(f, name, error)) || !write_line(f, error))
         return false;
     summary->ticks++;
-    summary->frames += filmed;
-    summary->left_out += filmed ? renderer_left_out(f->picture.renderer) : 0;
+    if (filmed)
+        count_frame(summary, f->picture.renderer, &f->scene.tally);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         summary->events[i] += tick->events >> i & 1;
     return true;
@@ -166,17 +183,22 @@ static bool end(filming *f, bool ok, record_error *error)
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   record_error *error)
 {
-    filming f = {.options = options};
+    filming f = {.options = options, .view = options->view};
     *summary = (film_summary){0};
     const bool ok = begin(&f, session, error) && film_all(&f, session, summary, error);
     return end(&f, ok, error) && viewer_write(options->folder, error);
 }
 
-bool film_tree(const octree *tree, const char *title, const view *v, const char *path, record_error *error)
+bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, film_summary *summary,
+               record_error *error)
 {
     picture p;
     scene s = {0};
-    if (!picture_open(&p, v->width, v->height, error))
+    view fitted = *wanted, *v = &fitted;
+    const octree_def def = octree_definition(tree);
+    fit_view(v, tree);
+    *summary = (film_summary){0};
+    if (!check_view(v, &def, error) || !picture_open(&p, v, error))
         return false;
     char digests[2][DIGEST_TEXT];
     bool ok = tree_scene_build(&s, v, tree, title) || record_fail(error, "there is no memory for a scene");
@@ -187,6 +209,7 @@ bool film_tree(const octree *tree, const char *title, const view *v, const char 
             {"octreel-pixels", digest_print(image_digest(&p.frame), digests[1])},
         };
         ok = picture_write(&p, path, texts, sizeof texts / sizeof texts[0], error);
+        count_frame(summary, p.renderer, &s.tally);
     }
     scene_release(&s);
     picture_close(&p);

@@ -18,6 +18,7 @@ typedef struct film_summary {
     uint64_t ticks; /* tick 0 included */
     uint64_t frames;
     uint64_t left_out; /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
+    uint64_t over_budget; /* frames that leave out what is beyond the view's budget */
     uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
 } film_summary;
 
@@ -26,7 +27,8 @@ typedef struct film_summary {
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   record_error *error);
 
-/* Draw one tree and write it as a PNG. */
-bool film_tree(const octree *tree, const char *title, const view *v, const char *path, record_error *error);
+/* Draw one tree and write it as a PNG: the one frame of *summary. */
+bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, film_summary *summary,
+               record_error *error);
 
 #endif

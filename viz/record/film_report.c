@@ -22,6 +22,8 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_write_integer(w, summary->frames);
     json_write_key(w, "left_out");
     json_write_integer(w, summary->left_out);
+    json_write_key(w, "over_budget");
+    json_write_integer(w, summary->over_budget);
     json_write_key(w, "seconds");
     json_write_number(w, seconds);
     json_write_key(w, "frames_per_second");
@@ -49,6 +51,8 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     if (summary->left_out)
         fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n",
                 summary->left_out);
+    if (summary->over_budget)
+        fprintf(out, "%" PRIu64 " frames leave out what is beyond --budget\n", summary->over_budget);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(i), summary->events[i]);

@@ -4,6 +4,7 @@
 #include "json_write.h"
 #include "octree/digest.h"
 #include "session_file.h"
+#include "view_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -73,16 +74,7 @@ bool write_recording_file(const char *folder, const view *v, uint64_t every, rec
     json_write_begin_object(w);
     write_text(w, "octreel", "recording");
     write_count(w, "version", 1);
-    write_count(w, "width", (uint64_t)v->width);
-    write_count(w, "height", (uint64_t)v->height);
-    write_text(w, "camera", view_camera_name(v->camera));
-    json_write_newline(w);
-    json_write_key(w, "layers");
-    json_write_begin_array(w);
-    for (int i = 0; i < LAYER_COUNT; i++)
-        if (view_shows(v, (view_layer)i))
-            json_write_string(w, view_layer_name((view_layer)i));
-    json_write_end_array(w);
+    view_write(w, v);
     write_text(w, "theme", theme_name());
     write_count(w, "every", every);
     end_object(w);

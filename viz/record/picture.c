@@ -11,31 +11,61 @@ static image_palette theme_palette(void)
     return palette;
 }
 
-bool picture_open(picture *p, int width, int height, record_error *error)
+static bool check_samples(const view *v, record_error *error)
+{
+    const int samples = view_samples(v);
+    if (samples != 1 && samples != 2 && samples != 4)
+        return record_fail(error, "there is no anti-aliasing by %d; there are 1, 2 and 4", samples);
+    if (samples == 1 || (v->width <= DRAW_MAX_SIDE / samples && v->height <= DRAW_MAX_SIDE / samples))
+        return true;
+    return record_fail(error,
+                       "a picture of %d x %d pixels cannot be drawn with %d samples on each side of a pixel: a side "
+                       "must be 1 to %d",
+                       v->width, v->height, samples, DRAW_MAX_SIDE / samples);
+}
+
+static bool create_images(picture *p, const view *v)
+{
+    const int samples = view_samples(v);
+    image *drawn = samples > 1 ? &p->samples : &p->frame;
+    if (!image_create(drawn, v->width * samples, v->height * samples, 1) ||
+        (samples > 1 && !image_create(&p->frame, v->width, v->height, 3)))
+        return false;
+    drawn->palette = theme_palette();
+    return true;
+}
+
+bool picture_open(picture *p, const view *v, record_error *error)
 {
     draw_error why;
-    *p = (picture){.renderer = renderer_open(width, height, &why)};
+    *p = (picture){0};
+    if (!check_samples(v, error))
+        return false;
+    p->renderer = renderer_open(v->width * view_samples(v), v->height * view_samples(v), &why);
     if (!p->renderer)
         return record_fail(error, "%s", why.text);
-    if (!image_create(&p->frame, width, height, 1)) {
-        picture_close(p);
-        return record_fail(error, "there is no memory for a frame of %d x %d pixels", width, height);
-    }
-    p->frame.palette = theme_palette();
-    return true;
+    if (create_images(p, v))
+        return true;
+    picture_close(p);
+    return record_fail(error, "there is no memory for a frame of %d x %d pixels", v->width, v->height);
 }
 
 void picture_close(picture *p)
 {
     renderer_close(p->renderer);
     image_release(&p->frame);
+    image_release(&p->samples);
     p->renderer = NULL;
 }
 
 bool picture_draw(picture *p, const scene *s, record_error *error)
 {
     draw_error why;
-    return renderer_draw(p->renderer, s, p->frame.pixels, &why) || record_fail(error, "%s", why.text);
+    image *drawn = p->samples.pixels ? &p->samples : &p->frame;
+    if (!renderer_draw(p->renderer, s, drawn->pixels, &why))
+        return record_fail(error, "%s", why.text);
+    return drawn == &p->frame || image_shrink(drawn, view_samples(&s->view), &p->frame) ||
+           record_fail(error, "the scene is not of the picture's anti-aliasing");
 }
 
 bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, record_error *error)

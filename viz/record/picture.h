@@ -8,10 +8,12 @@
 
 typedef struct picture {
     renderer *renderer;
-    image frame; /* the scene that was drawn last, as indices of the theme's table */
+    image frame;   /* the scene that was drawn last: indices of the theme's table, or RGB under anti-aliasing */
+    image samples; /* under anti-aliasing what the frame is made of; else empty */
 } picture;
 
-bool picture_open(picture *p, int width, int height, record_error *error);
+/* For scenes of this view's size and anti-aliasing. What is too large is refused before memory is spent. */
+bool picture_open(picture *p, const view *v, record_error *error);
 void picture_close(picture *p);
 
 /* Draw a scene into p->frame. */

@@ -1,5 +1,6 @@
 /* session_reader.h - what the parts of the session reader share: the file being read, values of each type, and the
- * sentences of errors. Nobody else includes this.
+ * sentences of errors. The reader of recording.json takes its values and sentences from here too; nobody else includes
+ * this.
  *
  * Readers take a JSON value, its place (for errors), and where the result goes. They return false with the error
  * written.

@@ -70,7 +70,7 @@ static void stand(camera *c, const double target[3], double distance)
         c->eye[i] = target[i] - distance * c->forward[i];
 }
 
-/* Half the extent of the world in unit coordinates, as seen along an axis of the camera. */
+/* Half the extent of what is framed in unit coordinates, as seen along an axis of the camera. */
 static double half_span(const double axis[3], const double half[3])
 {
     return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
@@ -127,7 +127,7 @@ void camera_unit(const camera *c, const double position[3], double result[3])
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
-    measure(&c, world);
+    measure(&c, v->fit == FIT_BOX ? &v->focus : world);
     double target[3] = {0, 0, 0};
     if (v->camera == CAMERA_FOLLOW)
         camera_unit(&c, player, target);
@@ -161,4 +161,34 @@ void camera_project(const camera *c, const double seen[3], double pixel[2])
     const double scale = c->perspective ? c->zoom / seen[2] : c->zoom;
     pixel[0] = c->middle[0] + seen[0] * scale;
     pixel[1] = c->middle[1] - seen[1] * scale;
+}
+
+/* Under parallel rays a box appears as large wherever it is. */
+static double parallel_box_pixels(const camera *c, const octree_box *box)
+{
+    double half[3];
+    for (int i = 0; i < 3; i++)
+        half[i] = (box->max[i] * c->scale - box->min[i] * c->scale) / c->size;
+    return 2 * c->zoom * fmax(half_span(c->right, half), half_span(c->up, half));
+}
+
+double camera_box_pixels(const camera *c, const octree_box *box)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    if (!c->perspective)
+        return parallel_box_pixels(c, box);
+    for (unsigned corner = 0; corner < 8; corner++) {
+        double position[3], seen[3], pixel[2];
+        for (int i = 0; i < 3; i++)
+            position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
+        camera_transform(c, position, seen);
+        if (!(seen[2] >= c->near))
+            return INFINITY;
+        camera_project(c, seen, pixel);
+        for (int i = 0; i < 2; i++) {
+            low[i] = fmin(low[i], pixel[i]);
+            high[i] = fmax(high[i], pixel[i]);
+        }
+    }
+    return fmax(high[0] - low[0], high[1] - low[1]);
 }

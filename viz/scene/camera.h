@@ -1,7 +1,8 @@
 /* camera.h - from world coordinates to pixels, in doubles.
  *
- * Positions are first taken relative to the world's lowest corner and divided by its size, so that a scene at 1e15 or
- * of extent 1e-300 looks like the same scene about 0. In those units the world lies within [-1, 1] on every axis.
+ * A camera frames a box: the world, or the box that its view fits. Positions are first taken relative to the lowest
+ * corner of that box and divided by its size, so that a scene at 1e15 or of extent 1e-300 looks like the same scene
+ * about 0. In those units the box lies within [-1, 1] on every axis.
  */
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
@@ -15,17 +16,17 @@ typedef struct camera_window {
 } camera_window;
 
 typedef struct camera {
-    double origin[3];                   /* the world's lowest corner, times scale */
-    double scale;                       /* 1, or 1/2 where the world's extent overflows */
-    double size;                        /* the world's largest extent, times scale */
-    double half[3];                     /* half the world's extents, in unit coordinates: 1 on the longest axis */
+    double origin[3];                   /* the box's lowest corner, times scale */
+    double scale;                       /* 1, or 1/2 where the box's extent overflows */
+    double size;                        /* the box's largest extent, times scale */
+    double half[3];                     /* half the box's extents, in unit coordinates: 1 on the longest axis */
     double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */
     double eye[3];                      /* in unit coordinates */
     bool perspective;
     double zoom;                  /* pixels a unit; under perspective, at distance 1 */
     double middle[2];             /* the pixel that the axis of view passes through */
     double near;                  /* what is nearer than this (along forward, from the eye) is clipped */
-    double near_depth, far_depth; /* the world's span of view depth: the bands divide it */
+    double near_depth, far_depth; /* the box's span of view depth: the bands divide it */
 } camera;
 
 /* The camera of a tick: it depends on nothing but the view, the world, the player and the number of the tick. */
@@ -39,6 +40,10 @@ void camera_transform(const camera *c, const double position[3], double result[3
 
 /* Camera coordinates to pixels, y down. The depth must be at least `near` under perspective. */
 void camera_project(const camera *c, const double seen[3], double pixel[2]);
+
+/* How large a box appears: the longer side, in pixels, of the smallest upright rectangle around its picture. What lies
+ * in the box appears no larger. Infinite where some of it is nearer than `near`. */
+double camera_box_pixels(const camera *c, const octree_box *box);
 
 /* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */
 void camera_turn(double turns, double *cosine, double *sine);

@@ -1,75 +1,16 @@
 /* panel.c - see panel.h. */
 #include "panel.h"
+#include "number_text.h"
+#include "panel_pen.h"
+#include "panel_view.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-/* In units (view_unit). */
-#define COLUMN 160 /* the panel's width */
-#define MARGIN 8
-#define LINE 13
-#define VALUE 54 /* where a row's value begins */
-#define SWATCH 20
-#define LETTER 6 /* the widest that most letters are; a row of text is cut to fit the panel by it */
 
 int panel_width(const view *v)
 {
     const int width = COLUMN * view_unit(v);
     return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
-}
-
-/* Where the next line of text goes, in units. */
-typedef struct pen {
-    scene *scene;
-    int y;
-    uint64_t next_id;
-} pen;
-
-static void write_text(pen *p, int x, theme_role role, int size, const char *text)
-{
-    const scene *s = p->scene;
-    scene_label label = {.id = p->next_id++,
-                         .look = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
-    label.at[0] = x * s->unit;
-    label.at[1] = p->y * s->unit;
-    const int fits = (COLUMN - x) / (LETTER * size) < SCENE_TEXT ? (COLUMN - x) / (LETTER * size) : SCENE_TEXT - 1;
-    snprintf(label.text, SCENE_TEXT, "%.*s", fits, text);
-    scene_add_label(p->scene, label);
-}
-
-/* A line of a faint name and a value. */
-static void write_row(pen *p, const char *name, const char *format, ...)
-{
-    char value[SCENE_TEXT];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(value, sizeof value, format, arguments);
-    va_end(arguments);
-    write_text(p, MARGIN, ROLE_FAINT, 1, name);
-    write_text(p, VALUE, ROLE_TEXT, 1, value);
-    p->y += LINE;
-}
-
-static void fill(pen *p, int x, int y, int width, int height, unsigned role)
-{
-    const int unit = p->scene->unit;
-    scene_add_panel(p->scene, (scene_panel){.id = p->next_id++,
-                                            .x = x * unit,
-                                            .y = y * unit,
-                                            .width = width * unit,
-                                            .height = height * unit,
-                                            .look = {.layer = LAYER_TEXT, .role = (uint8_t)role}});
-}
-
-/* Digits with a point, whatever the locale. */
-static const char *number_text(double value, int digits, char text[32])
-{
-    snprintf(text, 32, "%.*g", digits, value);
-    for (char *at = text; *at; at++)
-        if (*at == ',')
-            *at = '.';
-    return text;
 }
 
 /* On one line where it fits, else on three. */
@@ -268,16 +209,6 @@ static void fill_line(pen *p, theme_role role, scene_style style)
         fill(p, MARGIN + x, p->y + 4, style == STYLE_DASHED ? 5 : SWATCH, 1, role);
 }
 
-/* One strip of a colour a depth, down to the deepest that the tree allows. */
-static void write_depth_ramp(pen *p, size_t max_depth)
-{
-    const int steps = max_depth + 1 < THEME_NODE_DEPTHS ? (int)max_depth + 1 : THEME_NODE_DEPTHS;
-    for (int depth = 0; depth < steps; depth++)
-        fill(p, MARGIN + depth * SWATCH / steps, p->y + 1, SWATCH / steps + 1, 6, theme_node_role((unsigned)depth));
-    write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, "node, shallow to deep");
-    p->y += LINE;
-}
-
 static void write_legend_entry(pen *p, const legend_entry *entry)
 {
     const int height = entry->height;
@@ -307,7 +238,7 @@ static void write_legend(pen *p, size_t max_depth, unsigned layers, bool swept)
         return; /* a low picture has no room for it */
     p->y = top;
     if (layers >> LAYER_NODES & 1)
-        write_depth_ramp(p, max_depth);
+        write_node_legend(p, max_depth);
     for (size_t i = 0; i < LEGEND_ENTRIES; i++)
         if (is_listed(&legend[i], layers, swept))
             write_legend_entry(p, &legend[i]);
@@ -338,6 +269,7 @@ void add_tick_panel(scene *s, const octree_game *game)
         write_text(&line, 4, ROLE_TEXT, 1, title);
         line.y += LINE;
         write_events(&line, tick);
+        write_left_out(&line);
         return;
     }
     pen p = begin_panel(s);
@@ -352,6 +284,7 @@ void add_tick_panel(scene *s, const octree_game *game)
         write_row(&p, "tested", "the whole way");
     p.y += LINE / 2;
     write_statistics(&p, octree_game_tree(game));
+    write_left_out(&p);
     p.y += LINE / 2;
     write_ids(&p, "hits", tick->hits, tick->hit_count);
     write_answers(&p, tick);
@@ -363,11 +296,14 @@ void add_tick_panel(scene *s, const octree_game *game)
 
 void add_tree_panel(scene *s, const octree *tree, const char *title)
 {
-    if (panel_width(&s->view) == 0)
+    if (panel_width(&s->view) == 0) {
+        write_left_out(&(pen){.scene = s, .y = 4});
         return;
+    }
     pen p = begin_panel(s);
     write_title(&p, title);
     write_statistics(&p, tree);
+    write_left_out(&p);
     p.y += LINE / 2;
     const octree_box world = octree_definition(tree).world;
     write_world(&p, &world);

@@ -9,6 +9,7 @@
 void scene_clear(scene *s)
 {
     s->boxes.count = s->segments.count = s->markers.count = s->labels.count = s->panels.count = 0;
+    s->tally = (scene_tally){0};
     s->refused = 0;
     s->out_of_memory = false;
 }

@@ -75,6 +75,17 @@ typedef struct scene_panel {
         size_t count, room;                                                                                            \
     }
 
+/* How much of a tree is in a scene. */
+typedef struct scene_tally {
+    size_t nodes, points; /* shown */
+    size_t labels;        /* nodes with their path on them */
+    size_t small;         /* nodes left out by the view's lod */
+    size_t beyond;        /* nodes left out by its budget: all below `deepest` */
+    int deepest;          /* the depth that nodes are shown to where the budget bites */
+    size_t thinned;       /* points left out by the budget */
+    uint64_t one_in;      /* what is left is about one point in so many */
+} scene_tally;
+
 typedef struct scene {
     view view;
     camera camera;
@@ -84,6 +95,7 @@ typedef struct scene {
     SCENE_ARRAY(scene_marker) markers;
     SCENE_ARRAY(scene_label) labels;
     SCENE_ARRAY(scene_panel) panels;
+    scene_tally tally;
     size_t refused;     /* elements with NaN or infinite geometry: counted, never drawn */
     bool out_of_memory; /* set by scene_add_*: the scene is not whole */
 } scene;

@@ -43,3 +43,11 @@ theme_role theme_node_role(unsigned depth)
 {
     return (theme_role)(ROLE_NODE + (depth < THEME_NODE_DEPTHS ? depth : THEME_NODE_DEPTHS - 1));
 }
+
+unsigned theme_occupancy_step(size_t count)
+{
+    unsigned step = 0;
+    for (; count > 0 && step < THEME_NODE_DEPTHS - 1; count /= 2)
+        step++;
+    return step;
+}

@@ -6,6 +6,7 @@
 #ifndef SCENE_THEME_H
 #define SCENE_THEME_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #define THEME_SHADES 8
@@ -47,6 +48,13 @@ static inline uint8_t theme_index(unsigned role, unsigned shade)
 /* The number of indices in use. */
 #define THEME_COLORS (ROLE_COUNT * THEME_SHADES)
 
+/* The colour of a node by its depth, or by any other step of the same ramp. */
 theme_role theme_node_role(unsigned depth);
+
+/* The step of the ramp for a number of points: 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
+unsigned theme_occupancy_step(size_t count);
+
+/* The one colour of nodes that tell nothing by it. */
+#define ROLE_NODE_PLAIN (ROLE_NODE + 3)
 
 #endif

@@ -131,9 +131,10 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game)
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title)
 {
     const octree_box world = octree_definition(tree).world;
-    double center[3];
+    const octree_box *framed = v->fit == FIT_BOX ? &v->focus : &world;
+    double center[3]; /* what a camera follows where nobody plays */
     for (int i = 0; i < 3; i++)
-        center[i] = world.min[i] / 2 + world.max[i] / 2;
+        center[i] = framed->min[i] / 2 + framed->max[i] / 2;
     begin_scene(s, v, &world, center, 0, panel_width(v));
     add_world(s, &world);
     add_tree(s, tree, octree_count(tree));

@@ -4,11 +4,14 @@
 
 #include "scene.h"
 
+/* The world's box and its axes; and, dashed, the slice and the region that the view shows. */
 void add_world(scene *s, const octree_box *world);
 
-/* Every node's box once, in pre-order, with its address as id; every point of every leaf once, by id within its leaf.
- * Points are drawn smaller where there are many: `expected` is their number, for a game the session's, so that it does
- * not change from tick to tick. */
+/* The box of every node that the view shows, once, in pre-order, with its address as id; every point that it shows,
+ * once, by id within its leaf. Points are drawn smaller where there are many: `expected` is their number, for a game
+ * the session's, so that it does not change from tick to tick. */
+/* Where the view asks for labels, nodes have
+ * their paths on them: see node_labels.h. */
 void add_tree(scene *s, const octree *tree, size_t expected);
 
 /* Empty the scene and set its view, unit and camera. `panel` pixels at the left are kept free of the world. */

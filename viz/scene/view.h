@@ -1,8 +1,12 @@
-/* view.h - how a scene is looked at: size, camera, layers. What recording.json keeps. */
+/* view.h - how a scene is looked at: size, camera, layers, colours, and what of the tree is left out. What
+ * recording.json keeps. */
 #ifndef SCENE_VIEW_H
 #define SCENE_VIEW_H
 
+#include "octree/octree.h"
+
 #include <stdbool.h>
+#include <stdint.h>
 
 /* Each camera and the name that people type. */
 #define VIEW_CAMERA_MAP(X)                                                                                             \
@@ -26,6 +30,12 @@
     X(BOX, "box") /* the player's collision box, and what is in it */                                                  \
     X(TEXT, "text")
 
+/* What the colour of a node tells, and the name of each choice. */
+#define VIEW_COLORING_MAP(X)                                                                                           \
+    X(DEPTH, "depth")         /* how deep it lies */                                                                   \
+    X(OCCUPANCY, "occupancy") /* how many points are in it, on a fixed scale of powers of two */                       \
+    X(PLAIN, "plain")         /* nothing */
+
 typedef enum view_camera {
 #define VIEW_CAMERA_ENUM(name, text) CAMERA_##name,
     VIEW_CAMERA_MAP(VIEW_CAMERA_ENUM)
@@ -40,20 +50,60 @@ typedef enum view_layer {
         LAYER_COUNT
 } view_layer;
 
+typedef enum view_coloring {
+#define VIEW_COLORING_ENUM(name, text) COLORING_##name,
+    VIEW_COLORING_MAP(VIEW_COLORING_ENUM)
+#undef VIEW_COLORING_ENUM
+        COLORING_COUNT
+} view_coloring;
+
+/* What of the tree is shown; all zero is all of it. See filter.h. */
+typedef struct view_filter {
+    char slice;                    /* 'x', 'y' or 'z': the nodes that cut a plane across this axis; 0: all */
+    double slice_at;               /* where the plane is */
+    bool by_depth;                 /* only nodes from min_depth to max_depth */
+    unsigned min_depth, max_depth; /* 0 to OCTREE_MAX_DEPTH */
+    bool leaves;                   /* only leaves */
+    bool by_region;                /* only what meets a closed box */
+    octree_box region;
+} view_filter;
+
+/* What the camera frames. */
+typedef enum view_fit {
+    FIT_WORLD,
+    FIT_POINTS, /* those that are shown at tick 0; fit_view() makes a box of them */
+    FIT_BOX,
+} view_fit;
+
 typedef struct view {
     int width, height; /* pixels */
     view_camera camera;
-    unsigned layers; /* bit 1 << view_layer */
+    view_fit fit;
+    octree_box focus; /* under FIT_BOX: the box */
+    unsigned layers;  /* bit 1 << view_layer */
+    view_coloring coloring;
+    view_filter filter;
+    bool labels;     /* the paths of nodes on their boxes */
+    double lod;      /* pixels: boxes of nodes that appear smaller are left out where an ancestor's is drawn; 0: none */
+    int aa;          /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
+    uint64_t budget; /* the most boxes of nodes, and the most points, of a frame; 0: any number */
 } view;
 
 #define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
 
-/* 1280 x 720, iso, all layers. */
+/* 1280 x 720, iso, all layers, nodes coloured by depth; nothing left out but boxes below two pixels and what is beyond
+ * a budget of 250,000. */
 view view_default(void);
 
 /* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6
  * at 2160; a narrow picture counts as its 16:9 part. */
 int view_unit(const view *v);
+
+/* Samples a pixel on each axis. */
+static inline int view_samples(const view *v)
+{
+    return v->aa > 1 ? v->aa : 1;
+}
 
 static inline bool view_shows(const view *v, view_layer layer)
 {
@@ -63,9 +113,11 @@ static inline bool view_shows(const view *v, view_layer layer)
 /* Names, and null beyond the last. */
 const char *view_camera_name(view_camera camera);
 const char *view_layer_name(view_layer layer);
+const char *view_coloring_name(view_coloring coloring);
 
 /* The inverse; false when there is no such name. */
 bool view_camera_parse(const char *name, view_camera *camera);
+bool view_coloring_parse(const char *name, view_coloring *coloring);
 
 /* Layers by a list of names with commas between, or "all" or "none"; "-text" leaves one out, and a list that begins so
  * starts from all. On failure *bad points at the name that is unknown. */

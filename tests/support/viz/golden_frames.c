@@ -1,13 +1,16 @@
 /* golden_frames.c - see golden_frames.h. */
 #include "golden_frames.h"
+#include "fit.h"
 #include "picture.h"
 #include "octree/sample.h"
 #include "tick_scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define SHAPES "world,nodes,points,range,radius,knearest,nearest,player,box"
+#define TREE "world,nodes,points"
 
 const golden_frame golden_frames[] = {
     {"one_leaf", "iso", SHAPES, 0, "two", 0, 0},
@@ -26,11 +29,46 @@ const golden_frame golden_frames[] = {
     {"radius", "follow", SHAPES, 0, "radius", 0, 0},
     {"swept", "front", SHAPES, 1, "swept", 0, 0},
     {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
+    {"slice", "iso", TREE, 0, "clustered", 0, 0},
+    {"region", "iso", TREE, 0, "clustered", 0, 0},
+    {"fit", "iso", TREE, 0, "clustered", 0, 0},
+    {"left_out", "top", TREE ",text", 0, "clustered", 640, 360},
+    {"labels", "iso", TREE, 0, NULL, 640, 360},
+    {"aa", "orbit", SHAPES, 219, NULL, 160, 90},
+    {"lod", "orbit", TREE, 0, "clustered", 0, 0},
+    {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
 
 #define MOST_BODIES 400
+
+/* What else the views of some frames have. */
+static const struct {
+    const char *name;
+    view look;
+} looks[] = {
+    {"slice", {.filter = {.slice = 'z', .slice_at = -600}}},
+    {"region", {.filter = {.by_region = true, .region = {{-900, -900, -300}, {100, 0, 300}}}}},
+    {"fit", {.fit = FIT_POINTS, .filter = {.by_region = true, .region = {{-900, -900, -900}, {0, 0, 0}}}}},
+    {"labels", {.labels = true}},
+    {"aa", {.aa = 4}},
+    {"lod", {.lod = 12}},
+    {"budget", {.budget = 100}},
+    {"left_out",
+     {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
+};
+
+static view view_of_frame(const golden_frame *frame)
+{
+    view v = {0};
+    for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++)
+        if (strcmp(looks[i].name, frame->name) == 0)
+            v = looks[i].look;
+    v.width = frame->width ? frame->width : 320;
+    v.height = frame->height ? frame->height : 180;
+    return v;
+}
 
 static const octree_body few[] = {{.id = 1, .position = {500, 500, 500}}, {.id = 2, .position = {-500, -500, -500}}};
 
@@ -107,7 +145,7 @@ static bool draw_game(const octree_game *game, const view *v, image *drawn, char
 {
     picture p;
     scene s = {0};
-    if (!picture_open(&p, v->width, v->height, error))
+    if (!picture_open(&p, v, error))
         return false;
     const bool ok = tick_scene_build(&s, v, game) && picture_draw(&p, &s, error);
     snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);
@@ -124,13 +162,14 @@ bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t
 {
     octree_body bodies[MOST_BODIES];
     const octree_session session = session_of(frame, bodies);
-    view v = {.width = frame->width ? frame->width : 320, .height = frame->height ? frame->height : 180};
+    view v = view_of_frame(frame);
     const char *bad;
     octree_game *game;
     if (!view_camera_parse(frame->camera, &v.camera) || !view_layers_parse(frame->layers, &v.layers, &bad))
         return record_fail(error, "%s: no such camera or layer", frame->name);
     if (octree_game_create(&session, &game) != OCTREE_OK)
         return record_fail(error, "%s: the session cannot be played", frame->name);
+    fit_view(&v, octree_game_tree(game));
     for (uint64_t tick = 0; tick < frame->tick; tick++)
         octree_game_advance(game);
     const bool ok = draw_game(game, &v, drawn, renderer, size, error);

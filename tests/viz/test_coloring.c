@@ -1,0 +1,99 @@
+/* test_coloring.c - what the colour of a node tells, and that the legend explains it. */
+#include "scenes.h"
+#include "brute.h"
+
+#include <string.h>
+
+/* The points whose way from the root leads through a node. */
+static size_t points_in(const brute *points, const octree *tree, octree_address address)
+{
+    size_t count = 0;
+    const unsigned depth = octree_address_depth(address);
+    for (size_t i = 0; i < points->count; i++) {
+        octree_node leaf;
+        assert_int_equal(octree_locate(tree, points->points[i].position, &leaf), OCTREE_OK);
+        count += leaf.depth >= depth && leaf.address >> 3 * (leaf.depth - depth) == address;
+    }
+    return count;
+}
+
+static unsigned expected_role(view_coloring coloring, unsigned depth, size_t count)
+{
+    unsigned step = 0;
+    if (coloring == COLORING_DEPTH)
+        return theme_node_role(depth);
+    if (coloring == COLORING_PLAIN)
+        return ROLE_NODE_PLAIN;
+    for (size_t least = 1; least <= count && step < 9; least *= 2) /* 1, 2, 4 ... 256 */
+        step++;
+    return theme_node_role(step);
+}
+
+static bool has_text(const scene *s, const char *part)
+{
+    for (size_t i = 0; i < s->labels.count; i++)
+        if (strstr(s->labels.items[i].text, part))
+            return true;
+    return false;
+}
+
+/* The roles of nodes that the legend shows, as bits. */
+static uint32_t legend_roles(const scene *s)
+{
+    uint32_t roles = 0;
+    for (size_t i = 0; i < s->panels.count; i++)
+        if (s->panels.items[i].look.role >= ROLE_NODE)
+            roles |= UINT32_C(1) << s->panels.items[i].look.role;
+    return roles;
+}
+
+static void the_colour_of_each_node_is_that_of_its_depth_its_points_or_none(void **state)
+{
+    (void)state;
+    const octree_box world = cube(-1000, 1000);
+    brute points = {0};
+    brute_sample(&points, OCTREE_SAMPLE_CLUSTERED, 2, &world, 700);
+    octree *tree = brute_tree(&points, world, 3, 21);
+    for (int coloring = 0; coloring < COLORING_COUNT; coloring++) {
+        view v = view_default();
+        scene s = {0};
+        uint32_t used = 0;
+        v.coloring = (view_coloring)coloring;
+        assert_true(tree_scene_build(&s, &v, tree, "colours"));
+        for (size_t i = 0; i < s.boxes.count; i++) {
+            const scene_box *box = &s.boxes.items[i];
+            if (box->look.layer != LAYER_NODES)
+                continue;
+            const size_t count = points_in(&points, tree, box->id);
+            assert_int_equal(box->look.role, expected_role(v.coloring, octree_address_depth(box->id), count));
+            used |= UINT32_C(1) << box->look.role;
+        }
+        assert_int_equal(used & ~legend_roles(&s), 0);
+        assert_int_equal(has_text(&s, "shallow to deep"), coloring == COLORING_DEPTH);
+        assert_int_equal(has_text(&s, "256+ points"), coloring == COLORING_OCCUPANCY);
+        scene_release(&s);
+    }
+    octree_destroy(tree);
+    brute_free(&points);
+}
+
+static void steps_of_occupancy_are_powers_of_two(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {0, 1, 2, 4, 8, 16, 32, 64, 128, 256};
+    for (unsigned step = 0; step < THEME_NODE_DEPTHS; step++) {
+        assert_int_equal(theme_occupancy_step(counts[step]), step);
+        if (step > 1)
+            assert_int_equal(theme_occupancy_step(counts[step] - 1), step - 1);
+    }
+    assert_int_equal(theme_occupancy_step(SIZE_MAX), THEME_NODE_DEPTHS - 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_colour_of_each_node_is_that_of_its_depth_its_points_or_none),
+        cmocka_unit_test(steps_of_occupancy_are_powers_of_two),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,211 @@
+/* test_view_file.c - the view in recording.json: what is written is read back, and what is none is refused. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "folder_files.h"
+#include "view_file.h"
+
+static octree_box random_box(uint64_t *random)
+{
+    octree_box box;
+    for (int i = 0; i < 3; i++) {
+        box.min[i] = random_between(random, -1e6, 0);
+        box.max[i] = random_between(random, 0.001, 1e-3 + 1e6);
+    }
+    return box;
+}
+
+static view random_view(uint64_t *random)
+{
+    view v = {.width = 1 + (int)random_below(random, 16384), .height = 1 + (int)random_below(random, 16384)};
+    v.camera = (view_camera)random_below(random, CAMERA_COUNT);
+    v.layers = (unsigned)random_below(random, VIEW_ALL_LAYERS + 1);
+    v.coloring = (view_coloring)random_below(random, COLORING_COUNT);
+    v.fit = random_below(random, 2) ? FIT_BOX : FIT_WORLD;
+    if (v.fit == FIT_BOX)
+        v.focus = random_box(random);
+    v.filter.slice = "\0xyz"[random_below(random, 4)];
+    v.filter.slice_at = v.filter.slice ? random_between(random, -1, 1) : 0;
+    v.filter.leaves = random_below(random, 2);
+    v.filter.by_depth = random_below(random, 2);
+    if (v.filter.by_depth) {
+        v.filter.min_depth = (unsigned)random_below(random, 10);
+        v.filter.max_depth = v.filter.min_depth + (unsigned)random_below(random, 12);
+    }
+    v.filter.by_region = random_below(random, 2);
+    if (v.filter.by_region)
+        v.filter.region = random_box(random);
+    v.labels = random_below(random, 2);
+    v.aa = 1 << random_below(random, 3);
+    v.lod = random_below(random, 2) ? random_between(random, 0, 16384) : 0;
+    v.budget = random_below(random, UINT64_C(1) << 53);
+    return v;
+}
+
+static void assert_same_view(const view *a, const view *b)
+{
+    assert_true(a->width == b->width && a->height == b->height && a->camera == b->camera && a->layers == b->layers);
+    assert_true(a->coloring == b->coloring && a->fit == b->fit);
+    assert_true(a->labels == b->labels && a->lod == b->lod && a->budget == b->budget && view_samples(a) == view_samples(b));
+    assert_memory_equal(&a->focus, &b->focus, sizeof a->focus);
+    const view_filter *f = &a->filter, *g = &b->filter;
+    assert_true(f->slice == g->slice && f->slice_at == g->slice_at && f->leaves == g->leaves);
+    assert_true(f->by_depth == g->by_depth && f->min_depth == g->min_depth && f->max_depth == g->max_depth);
+    assert_int_equal(f->by_region, g->by_region);
+    assert_memory_equal(&f->region, &g->region, sizeof f->region);
+}
+
+static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
+{
+    const temp_folder *folder = *state;
+    uint64_t random = 8;
+    for (int i = 0; i < 300; i++) {
+        const view written = random_view(&random);
+        view read;
+        record_error error = {""};
+        assert_true(write_recording_file(folder->name, &written, 1, &error));
+        if (!view_read(folder->name, &read, &error))
+            fail_msg("%s", error.text);
+        assert_same_view(&written, &read);
+    }
+}
+
+#define START "{\"octreel\": \"recording\", \"version\": 1,\n\"width\": 160, \"height\": 90,\n"
+#define VIEW START "\"camera\": \"top\", \"layers\": [\"nodes\"]"
+
+static void members_that_are_missing_are_off(void **state)
+{
+    const temp_folder *folder = *state;
+    view read;
+    record_error error = {""};
+    const view expected = {.width = 160, .height = 90, .camera = CAMERA_TOP, .layers = 1u << LAYER_NODES};
+    file_write_text(place_in(folder, "recording.json").path, VIEW "}\n");
+    assert_true(view_read(folder->name, &read, &error));
+    assert_same_view(&expected, &read);
+}
+
+static void what_is_no_view_is_refused_with_line_and_reason(void **state)
+{
+    static const char *const rows[][2] = {
+        {"", "recording.json:1: "},
+        {"[]", "recording.json:1: "},
+        {"{}", "the member \"octreel\" is missing"},
+        {"{\"octreel\": \"session\", \"version\": 1}", "octreel: expected \"recording\", found \"session\""},
+        {START "\"theme\": \"night\"}", "the member \"camera\" is missing"},
+        {VIEW, "recording.json:3: "},
+        {VIEW "} x", "recording.json:3: "},
+        {VIEW ",\n\"zoom\": 3}", "recording.json:4: unknown member \"zoom\""},
+        {VIEW ", \"version\": 2}", "duplicate"},
+        {"{\"octreel\": \"recording\", \"version\": 2}", "version: expected a whole number from 1 to 1, found 2"},
+        {"{\"octreel\": \"recording\", \"version\": 1, \"width\": 0}",
+         "width: expected a whole number from 1 to 16384"},
+        {START "\"camera\": \"up\"}", "recording.json:3: camera: expected the name of a camera, found \"up\""},
+        {START "\"camera\": \"iso\", \"layers\": [\"nodes\", \"walls\"]}", "layers[1]: expected the name of a layer"},
+        {START "\"camera\": \"iso\", \"layers\": 7}", "layers: expected a list of layers, found 7"},
+        {VIEW ", \"color_by\": null}", "color_by: expected the name of a colour mode, found null"},
+        {VIEW ", \"slice\": {}}", "slice: expected an axis"},
+        {VIEW ", \"slice\": {\"w\": 1}}", "slice: expected an axis"},
+        {VIEW ", \"slice\": {\"x\": 1, \"y\": 1}}", "slice: expected an axis"},
+        {VIEW ", \"slice\": {\"x\": true}}", "slice.x: expected a number, found true"},
+        {VIEW ", \"depths\": [1]}", "depths: expected two depths"},
+        {VIEW ", \"depths\": [3, 2]}", "depths[1]: expected a whole number from 3 to 21, found 2"},
+        {VIEW ", \"depths\": [0, 22]}", "depths[1]"},
+        {VIEW ", \"leaves\": 1}", "leaves: expected true or false, found 1"},
+        {VIEW ", \"region\": {\"min\": [0, 0, 0]}}", "region: the member \"max\" is missing"},
+        {VIEW ", \"region\": {\"min\": [0, 2, 0], \"max\": [1, 1, 1]}}", "region: min is above max on y"},
+        {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [0, 0, 0]}}", "fit: the box has no extent"},
+        {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [1e999, 0, 0]}}", "recording.json:"},
+        {VIEW ", \"lod\": -1}", "lod: expected pixels from 0 to 16384, found -1"},
+        {VIEW ", \"aa\": 3}", "aa: expected 1, 2 or 4, found 3"},
+        {VIEW ", \"budget\": 0.5}", "budget: expected a whole number"},
+        {VIEW ", \"theme\": \"day\"}", "theme: expected the theme that there is"},
+    };
+    const temp_folder *folder = *state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        view read;
+        record_error error = {""};
+        file_write_text(place_in(folder, "recording.json").path, rows[i][0]);
+        assert_false(view_read(folder->name, &read, &error));
+        if (!strstr(error.text, rows[i][1]))
+            fail_msg("\"%s\" and not \"%s\"", error.text, rows[i][1]);
+    }
+}
+
+static void what_is_no_recording_is_refused(void **state)
+{
+    const temp_folder *folder = *state;
+    view read;
+    record_error error;
+    assert_false(view_read(folder->name, &read, &error));
+    assert_non_null(strstr(error.text, "recording.json: cannot be opened"));
+    assert_false(view_read("", &read, &error));
+    assert_int_equal(mkdir(place_in(folder, "recording.json").path, 0777), 0);
+    assert_false(view_read(folder->name, &read, &error));
+}
+
+static void film(const char *format, const char *view, const char *folder)
+{
+    command_result result = run_octreel(NULL, format, view, folder);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void assert_same_view_files(const char *a, const char *b)
+{
+    char *first = file_read(place_below(a, "recording.json").path, NULL);
+    char *second = file_read(place_below(b, "recording.json").path, NULL);
+    assert_string_equal(first, second);
+    free(first);
+    free(second);
+}
+
+/* The second film plays other keys, and another camera would be chosen for its points. */
+static void camera_from_takes_the_whole_view_of_another_recording(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b"), c = place_in(*state, "c"),
+                d = place_in(*state, "d");
+    film("record --keys ww %s -o %s",
+         "--size 200x100 --camera side --fit points --slice x=0 --depths 1:3 --leaves --color-by plain --layers -text "
+         "--region -900,-900,-900,500,500,500",
+         a.path);
+    char from[1100];
+    snprintf(from, sizeof from, "--camera-from %s", a.path);
+    film("record --keys dd %s -o %s", from, b.path);
+    assert_same_view_files(a.path, b.path);
+    snprintf(from, sizeof from, "--camera top --camera-from %s", a.path);
+    film("record --keys dd %s -o %s", from, c.path);
+    snprintf(from, sizeof from, "--camera-from %s --camera top", a.path);
+    film("record --keys dd %s -o %s", from, d.path);
+    assert_same_view_files(c.path, d.path);
+    view changed;
+    record_error error;
+    assert_true(view_read(c.path, &changed, &error));
+    assert_true(changed.camera == CAMERA_TOP && changed.width == 200 && changed.fit == FIT_BOX);
+}
+
+static void camera_from_nowhere_is_refused(void **state)
+{
+    const place absent = place_in(*state, "absent"), film = place_in(*state, "film");
+    command_result result = run_octreel(NULL, "record --camera-from %s -o %s", absent.path, film.path);
+    assert_trouble(&result, "absent/recording.json: cannot be opened: No such file");
+    result = run_octreel(NULL, "record --fit everything -o %s", film.path);
+    assert_trouble(&result, "there is no fit \"everything\"; there are world, points");
+    assert_false(file_exists(film.path));
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(a_view_that_is_written_is_read_back_to_the_bit),        IN_FOLDER(members_that_are_missing_are_off),
+        IN_FOLDER(what_is_no_view_is_refused_with_line_and_reason),       IN_FOLDER(what_is_no_recording_is_refused),
+        IN_FOLDER(camera_from_takes_the_whole_view_of_another_recording), IN_FOLDER(camera_from_nowhere_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

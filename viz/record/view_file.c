@@ -1,0 +1,297 @@
+/* view_file.c - see view_file.h. */
+#include "view_file.h"
+#include "draw.h"
+#include "session_reader.h"
+#include "whole_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Writing ------------------------------------------------------------------------------------------------ */
+
+static void write_key(json_writer *w, const char *key)
+{
+    json_write_newline(w);
+    json_write_key(w, key);
+}
+
+static void write_whole(json_writer *w, const char *key, uint64_t value)
+{
+    write_key(w, key);
+    json_write_integer(w, value);
+}
+
+static void write_name(json_writer *w, const char *key, const char *name)
+{
+    write_key(w, key);
+    json_write_string(w, name);
+}
+
+static void write_layers(json_writer *w, const view *v)
+{
+    write_key(w, "layers");
+    json_write_begin_array(w);
+    for (int i = 0; i < LAYER_COUNT; i++)
+        if (view_shows(v, (view_layer)i))
+            json_write_string(w, view_layer_name((view_layer)i));
+    json_write_end_array(w);
+}
+
+static void write_box(json_writer *w, const char *key, const octree_box *box)
+{
+    write_key(w, key);
+    json_write_begin_object(w);
+    json_write_key(w, "min");
+    json_write_numbers(w, box->min, 3);
+    json_write_key(w, "max");
+    json_write_numbers(w, box->max, 3);
+    json_write_end_object(w);
+}
+
+static void write_slice(json_writer *w, const view_filter *f)
+{
+    const char axis[2] = {f->slice, 0};
+    write_key(w, "slice");
+    json_write_begin_object(w);
+    json_write_key(w, axis);
+    json_write_number(w, f->slice_at);
+    json_write_end_object(w);
+}
+
+static void write_filter(json_writer *w, const view_filter *f)
+{
+    if (f->slice)
+        write_slice(w, f);
+    if (f->by_depth) {
+        write_key(w, "depths");
+        json_write_numbers(w, (double[]){f->min_depth, f->max_depth}, 2);
+    }
+    if (f->leaves) {
+        write_key(w, "leaves");
+        json_write_bool(w, true);
+    }
+    if (f->by_region)
+        write_box(w, "region", &f->region);
+}
+
+void view_write(json_writer *w, const view *v)
+{
+    write_whole(w, "width", (uint64_t)v->width);
+    write_whole(w, "height", (uint64_t)v->height);
+    write_name(w, "camera", view_camera_name(v->camera));
+    if (v->fit == FIT_BOX)
+        write_box(w, "fit", &v->focus);
+    write_layers(w, v);
+    write_name(w, "color_by", view_coloring_name(v->coloring));
+    write_filter(w, &v->filter);
+    if (v->labels) {
+        write_key(w, "labels");
+        json_write_bool(w, true);
+    }
+    write_key(w, "lod");
+    json_write_number(w, v->lod);
+    write_whole(w, "budget", v->budget);
+    write_whole(w, "aa", (uint64_t)view_samples(v));
+}
+
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
+
+static bool read_kind(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const char *kind = json_string_value(value);
+    (void)into;
+    return (kind && strcmp(kind, "recording") == 0) || session_expected(reader, value, at, "\"recording\"");
+}
+
+static bool read_version(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    uint64_t version;
+    (void)into;
+    return session_read_whole(reader, value, at, 1, 1, &version);
+}
+
+static bool read_theme(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const char *name = json_string_value(value);
+    char what[80];
+    (void)into;
+    snprintf(what, sizeof what, "the theme that there is, \"%s\"", theme_name());
+    return (name && strcmp(name, theme_name()) == 0) || session_expected(reader, value, at, what);
+}
+
+/* What belongs to the recording and not to its view. */
+static bool pass_over(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    (void)reader, (void)value, (void)at, (void)into;
+    return true;
+}
+
+static bool read_side(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    uint64_t side;
+    if (!session_read_whole(reader, value, at, 1, DRAW_MAX_SIDE, &side))
+        return false;
+    *(int *)into = (int)side;
+    return true;
+}
+
+static bool read_camera(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const char *name = json_string_value(value);
+    return (name && view_camera_parse(name, into)) || session_expected(reader, value, at, "the name of a camera");
+}
+
+static bool read_coloring(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const char *name = json_string_value(value);
+    return (name && view_coloring_parse(name, into)) ||
+           session_expected(reader, value, at, "the name of a colour mode");
+}
+
+static bool read_layer(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const char *name = json_string_value(value);
+    for (int i = 0; name && i < LAYER_COUNT; i++) {
+        if (strcmp(name, view_layer_name((view_layer)i)) == 0) {
+            *(unsigned *)into |= 1u << i;
+            return true;
+        }
+    }
+    return session_expected(reader, value, at, "the name of a layer");
+}
+
+static bool read_layers(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    return session_read_elements(reader, value, at, "a list of layers", read_layer, into);
+}
+
+static bool read_box(session_reader *reader, json_t *value, const json_place *at, octree_box *box)
+{
+    if (!session_read_box(reader, value, at, box))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (box->min[i] > box->max[i])
+            return session_fail(reader, at, "min is above max on %c", "xyz"[i]);
+    return true;
+}
+
+static bool read_fit(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    view *v = into;
+    v->fit = FIT_BOX;
+    if (!read_box(reader, value, at, &v->focus))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (v->focus.min[i] < v->focus.max[i])
+            return true;
+    return session_fail(reader, at, "the box has no extent");
+}
+
+static bool read_region(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    view_filter *f = into;
+    f->by_region = true;
+    return read_box(reader, value, at, &f->region);
+}
+
+static bool read_slice(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    view_filter *f = into;
+    const char *axis = json_object_size(value) == 1 ? json_object_iter_key(json_object_iter(value)) : "";
+    if (strlen(axis) != 1 || !strchr("xyz", *axis))
+        return session_expected(reader, value, at, "an axis and a place as in {\"z\": 100}");
+    f->slice = *axis;
+    return session_read_number(reader, json_object_get(value, axis), &(json_place){at, axis, 0}, &f->slice_at);
+}
+
+static bool read_depths(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    view_filter *f = into;
+    uint64_t depths[2];
+    if (!json_is_array(value) || json_array_size(value) != 2)
+        return session_expected(reader, value, at, "two depths as in [2, 5]");
+    for (size_t i = 0; i < 2; i++)
+        if (!session_read_whole(reader, json_array_get(value, i), &(json_place){at, NULL, i}, i ? depths[0] : 0,
+                                OCTREE_MAX_DEPTH, &depths[i]))
+            return false;
+    f->by_depth = true;
+    f->min_depth = (unsigned)depths[0];
+    f->max_depth = (unsigned)depths[1];
+    return true;
+}
+
+static bool read_lod(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const double pixels = json_real_value(value);
+    if (!json_is_real(value) || !(pixels >= 0 && pixels <= DRAW_MAX_SIDE))
+        return session_expected(reader, value, at, "pixels from 0 to 16384");
+    *(double *)into = pixels;
+    return true;
+}
+
+static bool read_aa(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    uint64_t samples;
+    if (!session_read_whole(reader, value, at, 1, 4, &samples))
+        return false;
+    *(int *)into = (int)samples;
+    return samples != 3 || session_expected(reader, value, at, "1, 2 or 4");
+}
+
+static bool read_truth(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    *(bool *)into = json_is_true(value);
+    return json_is_boolean(value) || session_expected(reader, value, at, "true or false");
+}
+
+static const session_member members[] = {
+    {"octreel", read_kind, 0, true},
+    {"version", read_version, 0, true},
+    {"width", read_side, offsetof(view, width), true},
+    {"height", read_side, offsetof(view, height), true},
+    {"camera", read_camera, offsetof(view, camera), true},
+    {"fit", read_fit, 0, false},
+    {"layers", read_layers, offsetof(view, layers), true},
+    {"color_by", read_coloring, offsetof(view, coloring), false},
+    {"slice", read_slice, offsetof(view, filter), false},
+    {"depths", read_depths, offsetof(view, filter), false},
+    {"leaves", read_truth, offsetof(view, filter.leaves), false},
+    {"region", read_region, offsetof(view, filter), false},
+    {"labels", read_truth, offsetof(view, labels), false},
+    {"lod", read_lod, offsetof(view, lod), false},
+    {"budget", session_read_id, offsetof(view, budget), false},
+    {"aa", read_aa, offsetof(view, aa), false},
+    {"theme", read_theme, 0, false},
+    {"every", pass_over, 0, false},
+    {0},
+};
+
+static bool parse(session_reader *reader, view *v)
+{
+    const size_t flags = JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL;
+    json_error_t parsed;
+    json_t *object = json_loadb(reader->object, (size_t)(reader->limit - reader->object), flags, &parsed);
+    if (!object)
+        return session_fail_line(reader, parsed.line > 1 ? (size_t)parsed.line : 1, "", parsed.text);
+    const bool done = session_read_members(reader, object, NULL, members, v);
+    json_decref(object);
+    return done;
+}
+
+bool view_read(const char *folder, view *v, record_error *error)
+{
+    char reason[WHOLE_FILE_REASON], *text, *path = folder_path(folder, "recording.json");
+    session_error unread;
+    size_t size;
+    *v = (view){0};
+    if (!path)
+        return record_fail(error, "there is no memory");
+    bool done = whole_file_read(path, &text, &size, reason) || record_fail(error, "%s: %s", path, reason);
+    if (done) {
+        session_reader reader = {.name = path, .object = text, .limit = text + size, .line = 1, .error = &unread};
+        done = parse(&reader, v) || record_fail(error, "%s", unread.text);
+        free(text);
+    }
+    free(path);
+    return done;
+}

@@ -1,0 +1,26 @@
+/* view_file.h - a view as members of recording.json.
+ *
+ *   "width": 1280, "height": 720, "camera": "iso", "layers": ["world", "nodes", ...], "color_by": "depth",
+ *   "lod": 2, "budget": 250000, "aa": 1,
+ * and, where something of the tree is left out,
+ *   "slice": {"z": 100}, "depths": [2, 5], "leaves": true, "region": {"min": [x, y, z], "max": [x, y, z]}
+ * where nodes have their paths on them,
+ *   "labels": true
+ * and, where the camera frames a box and not the world,
+ *   "fit": {"min": [x, y, z], "max": [x, y, z]}
+ */
+#ifndef RECORD_VIEW_FILE_H
+#define RECORD_VIEW_FILE_H
+
+#include "folder.h"
+#include "json_write.h"
+#include "view.h"
+
+/* Write the members into an object that has begun. */
+void view_write(json_writer *w, const view *v);
+
+/* Read the view of a recording, which is the folder that its recording.json is in. Members that are not there are off.
+ * False, with file, line and reason, when it is none. */
+bool view_read(const char *folder, view *v, record_error *error);
+
+#endif

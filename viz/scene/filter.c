@@ -1,0 +1,92 @@
+/* filter.c - see filter.h. */
+#include "filter.h"
+#include "number_text.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static bool cuts(const view_filter *f, const octree_box *world, const octree_box *box)
+{
+    const int axis = f->slice - 'x';
+    const double at = f->slice_at, max = box->max[axis];
+    return box->min[axis] <= at && (at < max || (at == max && max == world->max[axis]));
+}
+
+static bool meet(const octree_box *a, const octree_box *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (a->max[i] < b->min[i] || b->max[i] < a->min[i])
+            return false;
+    return true;
+}
+
+bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node)
+{
+    return (!f->slice || cuts(f, world, &node->box)) && (!f->by_region || meet(&f->region, &node->box));
+}
+
+bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node)
+{
+    if (f->leaves && !node->leaf)
+        return false;
+    if (f->by_depth && (node->depth < f->min_depth || node->depth > f->max_depth))
+        return false;
+    return filter_enters(f, world, node);
+}
+
+bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf)
+{
+    return (!f->by_depth || leaf->depth >= f->min_depth) && filter_enters(f, world, leaf);
+}
+
+bool filter_shows_point(const view_filter *f, const double position[3])
+{
+    for (int i = 0; f->by_region && i < 3; i++)
+        if (position[i] < f->region.min[i] || position[i] > f->region.max[i])
+            return false;
+    return true;
+}
+
+bool filter_is_on(const view_filter *f)
+{
+    return f->slice || f->by_depth || f->leaves || f->by_region;
+}
+
+static const char *refuse_slice(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
+{
+    const int axis = f->slice - 'x';
+    char at[NUMBER_WORDS], min[NUMBER_WORDS], max[NUMBER_WORDS];
+    if (f->slice_at >= world->min[axis] && f->slice_at <= world->max[axis])
+        return NULL;
+    snprintf(text, FILTER_TEXT, "the slice %c = %s lies outside the world, which reaches from %s to %s there", f->slice,
+             number_text(f->slice_at, 9, at), number_text(world->min[axis], 9, min),
+             number_text(world->max[axis], 9, max));
+    return text;
+}
+
+static const char *refuse_region(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
+{
+    for (int i = 0; i < 3; i++) {
+        char from[NUMBER_WORDS], to[NUMBER_WORDS], min[NUMBER_WORDS], max[NUMBER_WORDS];
+        if (f->region.max[i] >= world->min[i] && f->region.min[i] <= world->max[i])
+            continue;
+        snprintf(text, FILTER_TEXT,
+                 "the region lies outside the world: on %c it reaches from %s to %s, and the world from %s to %s",
+                 "xyz"[i], number_text(f->region.min[i], 9, from), number_text(f->region.max[i], 9, to),
+                 number_text(world->min[i], 9, min), number_text(world->max[i], 9, max));
+        return text;
+    }
+    return NULL;
+}
+
+const char *filter_refusal(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT])
+{
+    const char *reason = f->slice ? refuse_slice(f, &tree->world, text) : NULL;
+    if (!reason && f->by_region)
+        reason = refuse_region(f, &tree->world, text);
+    if (reason || !f->by_depth || f->min_depth <= tree->max_depth)
+        return reason;
+    snprintf(text, FILTER_TEXT, "the range of depths begins at %u, and the tree ends at depth %zu", f->min_depth,
+             tree->max_depth);
+    return text;
+}

@@ -1,0 +1,34 @@
+/* filter.h - what of a tree a view shows, node by node and point by point.
+ *
+ * A node is shown when it passes every part of the filter:
+ *   slice    the plane runs through its cell, by the rule that places points: min <= at < max, where the world's
+ * greatest face belongs to the last cell. So a slice is one layer of cells, also where it lies on a plane of the tree.
+ *   depth    its depth is in the range.
+ *   leaves   it is a leaf.
+ *   region   its box meets the region; both are closed.
+ * A point is shown when it lies in the region, in a leaf that the slice's plane runs through, and in some node of the
+ * range of depths: that is, in a leaf at least as deep as the range begins. "Leaves" leaves out no point.
+ */
+#ifndef SCENE_FILTER_H
+#define SCENE_FILTER_H
+
+#include "view.h"
+
+/* Whether a node's box is shown. `world` is the tree's. */
+bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node);
+
+/* Whether anything at or below a node may be shown: slice and region leave out whole branches. */
+bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node);
+
+/* Whether points of a leaf may be shown, as far as the leaf decides that; and then a point of it. */
+bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
+bool filter_shows_point(const view_filter *f, const double position[3]);
+
+/* Whether a filter leaves anything out at all. */
+bool filter_is_on(const view_filter *f);
+
+/* Null when a filter can show something of a tree of this world and depth; else the reason, one sentence, in `text`. */
+#define FILTER_TEXT 256
+const char *filter_refusal(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT]);
+
+#endif

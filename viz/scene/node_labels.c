@@ -1,0 +1,54 @@
+/* node_labels.c - see node_labels.h. */
+#include "node_labels.h"
+#include "text_space.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const scene_look label_look = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1};
+
+/* A label wider than the picture of its box would be taken for another's. */
+static bool fits_box(const scene *s, const scene_box *box, const char *text)
+{
+    return camera_box_pixels(&s->camera, &box->box) >= (double)(strlen(text) + 1) * TEXT_LETTER * s->unit;
+}
+
+/* What is behind the letters: lines would make them hard to read. */
+static void add_ground(scene *s, const scene_label *label)
+{
+    const int unit = s->unit, letters = (int)strlen(label->text);
+    scene_add_panel(s, (scene_panel){.id = label->id,
+                                     .x = (int)label->at[0] - unit,
+                                     .y = (int)label->at[1] - unit,
+                                     .width = (letters * TEXT_LETTER + 1) * unit,
+                                     .height = (TEXT_HEIGHT + 1) * unit,
+                                     .look = {.layer = LAYER_NODES, .role = ROLE_PANEL}});
+}
+
+static bool add_label(scene *s, text_space *words, const scene_box *box)
+{
+    scene_label label = {.id = box->id, .look = label_look};
+    char text[OCTREE_ADDRESS_TEXT];
+    double middle[3], pixel[2];
+    for (int i = 0; i < 3; i++)
+        middle[i] = box->box.min[i] / 2 + box->box.max[i] / 2;
+    snprintf(label.text, sizeof label.text, "%s", octree_address_format(box->id, text));
+    if (!text_place(s, middle, pixel) || !fits_box(s, box, label.text) ||
+        !text_space_take(words, s, label.text, pixel, label.at))
+        return false;
+    add_ground(s, &label);
+    scene_add_label(s, label);
+    return true;
+}
+
+void add_node_labels(scene *s)
+{
+    if (!s->view.labels || !view_shows(&s->view, LAYER_NODES))
+        return;
+    text_space words = {.count = 0};
+    for (unsigned depth = 0; depth <= OCTREE_MAX_DEPTH; depth++)
+        for (size_t i = 0; i < s->boxes.count; i++)
+            if (s->boxes.items[i].look.layer == LAYER_NODES && s->boxes.items[i].depth == depth)
+                s->tally.labels += add_label(s, &words, &s->boxes.items[i]);
+}

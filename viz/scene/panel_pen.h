@@ -1,0 +1,30 @@
+/* panel_pen.h - writing into the column of text, line by line. Private to the panel's files. */
+#ifndef SCENE_PANEL_PEN_H
+#define SCENE_PANEL_PEN_H
+
+#include "scene.h"
+
+/* In units (view_unit). */
+#define COLUMN 160 /* the panel's width */
+#define MARGIN 8
+#define LINE 13
+#define VALUE 54 /* where a row's value begins */
+#define SWATCH 20
+#define LETTER 6 /* the widest that most letters are; a row of text is cut to fit the panel by it */
+
+/* Where the next line of text goes, in units. */
+typedef struct pen {
+    scene *scene;
+    int y;
+    uint64_t next_id;
+} pen;
+
+void write_text(pen *p, int x, theme_role role, int size, const char *text);
+
+/* A line of a faint name and a value. */
+void write_row(pen *p, const char *name, const char *format, ...);
+
+/* A rectangle. */
+void fill(pen *p, int x, int y, int width, int height, unsigned role);
+
+#endif

@@ -1,0 +1,98 @@
+/* panel_view.c - see panel_view.h. */
+#include "panel_view.h"
+#include "filter.h"
+#include "number_text.h"
+
+#include <stdio.h>
+
+/* "from to to" of one axis of the region. */
+static void write_region_axis(pen *p, const char *name, const octree_box *region, int axis)
+{
+    char from[NUMBER_WORDS], to[NUMBER_WORDS];
+    write_row(p, name, "%c %s to %s", "xyz"[axis], number_text(region->min[axis], 6, from),
+              number_text(region->max[axis], 6, to));
+}
+
+static void write_filter(pen *p, const view_filter *f)
+{
+    char at[NUMBER_WORDS];
+    if (f->slice)
+        write_row(p, "slice", "%c = %s", f->slice, number_text(f->slice_at, 9, at));
+    if (f->by_depth && f->min_depth == f->max_depth)
+        write_row(p, "depth", "%u alone", f->min_depth);
+    else if (f->by_depth)
+        write_row(p, "depths", "%u to %u", f->min_depth, f->max_depth);
+    if (f->leaves)
+        write_row(p, "only", "leaves");
+    for (int axis = 0; f->by_region && axis < 3; axis++)
+        write_region_axis(p, axis ? "" : "region", &f->region, axis);
+}
+
+/* A value that is not to be passed over. */
+static void write_warning(pen *p, const char *name, const char *value)
+{
+    write_text(p, MARGIN, ROLE_FAINT, 1, name);
+    write_text(p, VALUE, ROLE_WARNING, 1, value);
+    p->y += LINE;
+}
+
+static void write_budget(pen *p, const scene_tally *tally)
+{
+    char text[SCENE_TEXT];
+    if (tally->beyond) {
+        snprintf(text, sizeof text, tally->deepest < 0 ? "no nodes" : "nodes to depth %d", tally->deepest);
+        write_warning(p, "budget", text);
+    }
+    if (tally->thinned) {
+        snprintf(text, sizeof text, "1 point in %llu", (unsigned long long)tally->one_in);
+        write_warning(p, tally->beyond ? "" : "budget", text);
+    }
+}
+
+void write_left_out(pen *p)
+{
+    const scene *s = p->scene;
+    const scene_tally *tally = &s->tally;
+    const bool unlabelled = s->view.labels && tally->labels < tally->nodes;
+    char lod[NUMBER_WORDS];
+    if (!filter_is_on(&s->view.filter) && !tally->small && !tally->beyond && !tally->thinned && !unlabelled)
+        return;
+    p->y += LINE / 2;
+    write_filter(p, &s->view.filter);
+    if (view_shows(&s->view, LAYER_NODES))
+        write_row(p, "shown", "%zu nodes", tally->nodes);
+    if (view_shows(&s->view, LAYER_POINTS))
+        write_row(p, view_shows(&s->view, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
+    if (tally->small)
+        write_row(p, "lod", "%zu below %s px", tally->small, number_text(s->view.lod, 3, lod));
+    write_budget(p, tally);
+    if (unlabelled)
+        write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
+}
+
+/* One strip of a colour a step, from the ramp's first. */
+static void fill_ramp(pen *p, int steps)
+{
+    for (int step = 0; step < steps; step++)
+        fill(p, MARGIN + step * SWATCH / steps, p->y + 1, SWATCH / steps + 1, 6, theme_node_role((unsigned)step));
+}
+
+void write_node_legend(pen *p, size_t max_depth)
+{
+    const char *text = "node";
+    switch (p->scene->view.coloring) {
+    case COLORING_DEPTH: /* down to the deepest that the tree allows */
+        fill_ramp(p, max_depth + 1 < THEME_NODE_DEPTHS ? (int)max_depth + 1 : THEME_NODE_DEPTHS);
+        text = "node, shallow to deep";
+        break;
+    case COLORING_OCCUPANCY:
+        fill_ramp(p, THEME_NODE_DEPTHS);
+        text = "node, 0-256+ points";
+        break;
+    default:
+        fill(p, MARGIN, p->y + 3, SWATCH, 2, ROLE_NODE_PLAIN);
+        break;
+    }
+    write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, text);
+    p->y += LINE;
+}

@@ -1,0 +1,40 @@
+/* text_space.c - see text_space.h. */
+#include "text_space.h"
+#include "panel.h"
+
+#include <math.h>
+#include <string.h>
+
+bool text_place(const scene *s, const double position[3], double pixel[2])
+{
+    double seen[3];
+    camera_transform(&s->camera, position, seen);
+    if (s->camera.perspective && !(seen[2] >= s->camera.near))
+        return false;
+    camera_project(&s->camera, seen, pixel);
+    return isfinite(pixel[0]) && isfinite(pixel[1]);
+}
+
+static bool is_free(const text_space *t, const double box[4])
+{
+    for (size_t i = 0; i < t->count; i++) {
+        const double *other = t->taken[i];
+        if (box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])
+            return false;
+    }
+    return t->count < TEXT_SPACE_MOST;
+}
+
+bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2])
+{
+    const double width = (double)strlen(text) * TEXT_LETTER * s->unit, height = TEXT_HEIGHT * s->unit;
+    const double left = floor(middle[0] - width / 2), top = floor(middle[1] - height / 2);
+    const double box[4] = {left - s->unit, top - s->unit, left + width + s->unit, top + height};
+    if (!(box[0] >= panel_width(&s->view) && box[1] >= 0 && box[2] <= s->view.width && box[3] <= s->view.height) ||
+        !is_free(t, box))
+        return false;
+    memcpy(t->taken[t->count++], box, sizeof box);
+    corner[0] = left;
+    corner[1] = top;
+    return true;
+}

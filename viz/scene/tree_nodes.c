@@ -1,0 +1,174 @@
+/* tree_nodes.c - a tree's nodes and points in a scene: those that the view shows, no smaller and no more than it says.
+ */
+#include "camera.h"
+#include "filter.h"
+#include "node_labels.h"
+#include "octree/digest.h"
+#include "tree_layers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What the walk over the nodes carries with it. */
+typedef struct tree_walk {
+    scene *scene;
+    octree_box world;
+    uint8_t point_width;
+    size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* boxes in the scene */
+    int deepest;                           /* boxes below are beyond the budget */
+    uint64_t sieve;                        /* points whose digest has one of these bits are beyond the budget */
+    bool drawn[OCTREE_MAX_DEPTH + 2];      /* on the way from the root: a box of this depth + 1 or less is drawn; */
+    bool small[OCTREE_MAX_DEPTH + 2];      /* and one is smaller than the view's lod */
+} tree_walk;
+
+/* ---- Points ------------------------------------------------------------------------------------------------- */
+
+/* By the id alone, so that a point that moves does not come and go. */
+static bool is_thinned(const tree_walk *w, uint64_t id)
+{
+    return octree_digest_word(OCTREE_DIGEST_START, id) & w->sieve;
+}
+
+/* Leave out about every other one of the points that are in the scene. */
+static void thin_points(tree_walk *w)
+{
+    scene *s = w->scene;
+    size_t kept = 0;
+    w->sieve = w->sieve << 1 | 1;
+    for (size_t i = 0; i < s->markers.count; i++) {
+        const scene_marker *marker = &s->markers.items[i];
+        const bool out = marker->look.layer == LAYER_POINTS && is_thinned(w, marker->id);
+        s->tally.points -= out;
+        s->tally.thinned += out;
+        if (!out)
+            s->markers.items[kept++] = *marker;
+    }
+    s->markers.count = kept;
+}
+
+static void add_point(tree_walk *w, const octree_point *point)
+{
+    scene *s = w->scene;
+    if (is_thinned(w, point->id)) {
+        s->tally.thinned++;
+        return;
+    }
+    const scene_look look = {.layer = LAYER_POINTS, .role = ROLE_POINT, .width = w->point_width};
+    scene_marker marker = {.id = point->id, .look = look};
+    memcpy(marker.at, point->position, sizeof marker.at);
+    scene_add_marker(s, marker);
+    s->tally.points++;
+    while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
+        thin_points(w);
+}
+
+/* A leaf's points come in no stated order: sort them, so that a scene does not depend on the tree's history. */
+static void add_points(tree_walk *w, const octree_node *leaf)
+{
+    octree_point *sorted = malloc(leaf->count * sizeof *sorted);
+    if (!sorted) {
+        w->scene->out_of_memory = true;
+        return;
+    }
+    memcpy(sorted, leaf->points, leaf->count * sizeof *sorted);
+    qsort(sorted, leaf->count, sizeof *sorted, octree_compare_points);
+    for (size_t i = 0; i < leaf->count; i++)
+        if (filter_shows_point(&w->scene->view.filter, sorted[i].position))
+            add_point(w, &sorted[i]);
+    free(sorted);
+}
+
+/* ---- Nodes -------------------------------------------------------------------------------------------------- */
+
+static theme_role role_of(const view *v, const octree_node *node)
+{
+    switch (v->coloring) {
+    case COLORING_OCCUPANCY:
+        return theme_node_role(theme_occupancy_step(node->count));
+    case COLORING_PLAIN:
+        return ROLE_NODE_PLAIN;
+    default:
+        return theme_node_role(node->depth);
+    }
+}
+
+/* Leave out the deepest level that is in the scene: what is shown is a whole number of levels. */
+static void drop_level(tree_walk *w)
+{
+    scene *s = w->scene;
+    while (w->deepest > 0 && w->at_depth[w->deepest] == 0)
+        w->deepest--;
+    size_t kept = 0;
+    for (size_t i = 0; i < s->boxes.count; i++) {
+        const scene_box *box = &s->boxes.items[i];
+        if (box->look.layer != LAYER_NODES || box->depth != w->deepest)
+            s->boxes.items[kept++] = *box;
+    }
+    s->boxes.count = kept;
+    s->tally.nodes -= w->at_depth[w->deepest];
+    s->tally.beyond += w->at_depth[w->deepest];
+    w->at_depth[w->deepest--] = 0;
+}
+
+static void add_box(tree_walk *w, const octree_node *node)
+{
+    scene *s = w->scene;
+    if ((int)node->depth > w->deepest) {
+        s->tally.beyond++;
+        return;
+    }
+    scene_add_box(s, (scene_box){
+                         .id = node->address,
+                         .box = node->box,
+                         .depth = (uint8_t)node->depth,
+                         .look = {.layer = LAYER_NODES, .role = (uint8_t)role_of(&s->view, node), .width = 1},
+                     });
+    w->at_depth[node->depth]++;
+    s->tally.nodes++;
+    while (s->view.budget && s->tally.nodes > s->view.budget)
+        drop_level(w);
+}
+
+/* What is in a small box is small too: it is measured once on the way down. */
+static bool is_small(const tree_walk *w, const octree_node *node)
+{
+    const scene *s = w->scene;
+    return w->small[node->depth] || (s->view.lod > 0 && camera_box_pixels(&s->camera, &node->box) < s->view.lod);
+}
+
+static void show_node(tree_walk *w, const octree_node *node)
+{
+    scene *s = w->scene;
+    const unsigned depth = node->depth;
+    const bool under_drawn = w->drawn[depth], small = is_small(w, node);
+    const bool shown = filter_shows_node(&s->view.filter, &w->world, node), out = shown && small && under_drawn;
+    w->small[depth + 1] = small;
+    w->drawn[depth + 1] = under_drawn || (shown && !out);
+    s->tally.small += out;
+    if (shown && !out)
+        add_box(w, node);
+}
+
+static octree_walk_order add_node(const octree_node *node, void *context)
+{
+    tree_walk *w = context;
+    scene *s = w->scene;
+    const view_filter *f = &s->view.filter;
+    if (!filter_enters(f, &w->world, node))
+        return OCTREE_WALK_SKIP;
+    if (view_shows(&s->view, LAYER_NODES))
+        show_node(w, node);
+    if (node->leaf && node->count && view_shows(&s->view, LAYER_POINTS) && filter_shows_points_of(f, &w->world, node))
+        add_points(w, node);
+    return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+void add_tree(scene *s, const octree *tree, size_t expected)
+{
+    tree_walk w = {.scene = s, .world = octree_definition(tree).world, .deepest = OCTREE_MAX_DEPTH};
+    w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
+    octree_walk(tree, add_node, &w);
+    s->tally.deepest = w.deepest;
+    s->tally.one_in = w.sieve + 1;
+    add_node_labels(s);
+}
