@@ -26,7 +26,19 @@ static parts take_apart(double value)
 
 void exact_clear(exact_sum *sum)
 {
-    memset(sum, 0, sizeof *sum);
+    sum->first = sum->after = 0;
+}
+
+/* Three digits from a place on. Those that come into use, and all between them and the others, begin as 0. */
+static int64_t *use_digits(exact_sum *sum, int place)
+{
+    if (sum->first == sum->after)
+        sum->first = sum->after = place;
+    while (sum->first > place)
+        sum->digits[--sum->first] = 0;
+    while (sum->after < place + 3)
+        sum->digits[sum->after++] = 0;
+    return sum->digits + place;
 }
 
 /* Add sign * value * 2^offset, offset >= 0. */
@@ -35,7 +47,7 @@ static void add_at(exact_sum *sum, int sign, uint64_t value, int offset)
     const int shift = offset % 32;
     const uint64_t low = (value & UINT32_MAX) << shift;
     const uint64_t high = (value >> 32) << shift;
-    int64_t *digits = sum->digits + offset / 32;
+    int64_t *digits = use_digits(sum, offset / 32);
     digits[0] += sign * (int64_t)(low & UINT32_MAX);
     digits[1] += sign * (int64_t)((low >> 32) + (high & UINT32_MAX));
     digits[2] += sign * (int64_t)(high >> 32);
@@ -57,7 +69,7 @@ int exact_sign(exact_sum *sum)
 {
     int64_t carry = 0;
     int any = 0;
-    for (int i = 0; i < EXACT_DIGITS; i++) {
+    for (int i = sum->first; i < sum->after; i++) {
         const int64_t digit = sum->digits[i] + carry;
         sum->digits[i] = digit & UINT32_MAX;
         carry = (digit - sum->digits[i]) / (INT64_C(1) << 32);

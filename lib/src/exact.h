@@ -12,8 +12,10 @@
 
 #define EXACT_DIGITS 140
 
-/* Digits of 32 bits in 64-bit signed cells, so that carries can wait until the sign is asked for. */
+/* Digits of 32 bits in 64-bit signed cells, so that carries can wait until the sign is asked for. Those from `first` to
+ * `after` - 1 are in use, a few where the terms are of like size; the others are 0 and not written. */
 typedef struct exact_sum {
+    int first, after;
     int64_t digits[EXACT_DIGITS];
 } exact_sum;
 
@@ -22,7 +24,7 @@ void exact_clear(exact_sum *sum);
 /* Add factor * a * b, for a factor of -2, -1, 1 or 2 and finite a, b. */
 void exact_add_product(exact_sum *sum, int factor, double a, double b);
 
-/* -1, 0 or 1. Leaves the sum with its carries done. */
+/* -1, 0 or 1. The sum is used up. */
 int exact_sign(exact_sum *sum);
 
 /* The largest double at most a + b, and the smallest at least: of the real sum, not the rounded one. Beyond the range

@@ -9,7 +9,6 @@
 #define OCTREE_METRIC_H
 
 #include "float_rules.h"
-#include "simd.h"
 #include "octree/octree.h"
 
 typedef struct metric {
@@ -26,17 +25,10 @@ metric metric_make(double scale, const double target[3]);
 /* The scaled squared distance of a point: (dx^2 + dy^2) + dz^2, in that order on every machine. */
 static inline double metric_point(const metric *m, const double p[3])
 {
-#ifdef OCTREE_SSE2
-    const __m128d xy = _mm_sub_pd(_mm_mul_pd(_mm_loadu_pd(p), _mm_set1_pd(m->scale)), _mm_loadu_pd(m->scaled));
-    const __m128d z = _mm_set_sd(p[2] * m->scale - m->scaled[2]);
-    const __m128d squares = _mm_mul_pd(xy, xy);
-    return _mm_cvtsd_f64(_mm_add_sd(_mm_add_sd(squares, _mm_unpackhi_pd(squares, squares)), _mm_mul_sd(z, z)));
-#else
     const double x = p[0] * m->scale - m->scaled[0];
     const double y = p[1] * m->scale - m->scaled[1];
     const double z = p[2] * m->scale - m->scaled[2];
     return (x * x + y * y) + z * z;
-#endif
 }
 
 /* The scaled distance along one axis to an interval. */

@@ -160,6 +160,7 @@ static frame *measure_way(search *s, const node *n, uint64_t code, const uint32_
     return f;
 }
 
+/* The octants of a node that the way to the target's leaf did not take: most often all of them are out of reach. */
 static void search_beside(search *s, frame *f, unsigned depth)
 {
     const double reach = s->best.node_reach;
