@@ -67,3 +67,8 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
     def.world = *world;
     return rebuild(tree, &def);
 }
+
+octree_status octree_compact(octree *tree)
+{
+    return tree ? rebuild(tree, &tree->def) : OCTREE_NULL_ARGUMENT;
+}

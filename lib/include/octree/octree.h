@@ -183,6 +183,11 @@ octree_status octree_reworld(octree *tree, const octree_box *world);
 typedef uint64_t octree_address;
 #define OCTREE_ROOT ((octree_address)1)
 
+/* Lay the tree out anew, as a bulk build does, and give the rest of its memory back. After many changes the leaves are
+ * scattered, and what was removed is kept for what comes: then this halves the memory or makes queries faster. The
+ * nodes and every answer stay. Errors: NULL_ARGUMENT, NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
+octree_status octree_compact(octree *tree);
+
 /* ---- Ask ---------------------------------------------------------------------------------------------------- */
 
 /* Called with each point that answers a query. The point is owned by the tree and valid during the call. Return
