@@ -1,7 +1,6 @@
-/* test_session_file.c - sessions from files and to files. */
+/* test_session_file.c - sessions from files. */
 #include "fixture.h"
 #include "octree/sample.h"
-#include "random_session.h"
 #include "session_file.h"
 #include "temp_folder.h"
 
@@ -11,8 +10,6 @@
 #include <string.h>
 
 #define HEADER "{\"octreel\":\"session\",\"version\":1"
-
-/* ---- Reading ------------------------------------------------------------------------------------------------ */
 
 static session_file parse(const char *text)
 {
@@ -228,275 +225,6 @@ static void file_that_is_missing_or_no_file_is_refused(void **state)
     assert_file_is_refused("/dev/zero", "is not a regular file");
 }
 
-/* ---- Round trips -------------------------------------------------------------------------------------------- */
-
-static char *write_session(const octree_session *session)
-{
-    char *text;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_true(session_write(session, out));
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
-static void assert_same_start(const octree_session *a, const octree_session *b)
-{
-    assert_memory_equal(&a->tree.world, &b->tree.world, sizeof a->tree.world);
-    assert_int_equal(a->tree.leaf_capacity, b->tree.leaf_capacity);
-    assert_int_equal(a->tree.max_depth, b->tree.max_depth);
-    assert_int_equal(a->tree.full_leaf, b->tree.full_leaf);
-    assert_int_equal(a->player.id, b->player.id);
-    assert_memory_equal(a->player.position, b->player.position, sizeof a->player.position);
-    assert_memory_equal(&a->player.step, &b->player.step, sizeof a->player.step);
-    assert_memory_equal(&a->player.box_size, &b->player.box_size, sizeof a->player.box_size);
-    assert_int_equal(a->player.sweep, b->player.sweep);
-    assert_int_equal(a->ticks, b->ticks);
-    assert_int_equal(a->keys != NULL, b->keys != NULL);
-    if (a->keys)
-        assert_string_equal(a->keys, b->keys);
-    assert_int_equal(a->body_count, b->body_count);
-    if (a->body_count > 0)
-        assert_memory_equal(a->bodies, b->bodies, a->body_count * sizeof *a->bodies);
-}
-
-static void assert_same_edit(const octree_edit *a, const octree_edit *b)
-{
-    assert_int_equal(a->tick, b->tick);
-    assert_int_equal(a->kind, b->kind);
-    assert_int_equal(a->body.id, b->body.id);
-    if (a->kind != OCTREE_EDIT_REMOVE)
-        assert_memory_equal(a->body.position, b->body.position, sizeof a->body.position);
-    if (a->kind == OCTREE_EDIT_INSERT)
-        assert_memory_equal(a->body.velocity, b->body.velocity, sizeof a->body.velocity);
-}
-
-static void assert_same_query(const octree_query *a, const octree_query *b)
-{
-    assert_int_equal(a->tick, b->tick);
-    assert_int_equal(a->kind, b->kind);
-    assert_int_equal(a->at_player, b->at_player);
-    if (a->kind == OCTREE_QUERY_RANGE)
-        assert_memory_equal(&a->box, &b->box, sizeof a->box);
-    else if (!a->at_player)
-        assert_memory_equal(a->target, b->target, sizeof a->target);
-    if (a->kind == OCTREE_QUERY_KNEAREST)
-        assert_int_equal(a->k, b->k);
-    if (a->kind == OCTREE_QUERY_RADIUS)
-        assert_memory_equal(&a->radius, &b->radius, sizeof a->radius);
-}
-
-static void assert_same_session(const octree_session *a, const octree_session *b)
-{
-    assert_same_start(a, b);
-    assert_int_equal(a->edit_count, b->edit_count);
-    for (size_t i = 0; i < a->edit_count; i++)
-        assert_same_edit(&a->edits[i], &b->edits[i]);
-    assert_int_equal(a->query_count, b->query_count);
-    for (size_t i = 0; i < a->query_count; i++)
-        assert_same_query(&a->queries[i], &b->queries[i]);
-}
-
-static void assert_round_trip(const octree_session *session)
-{
-    char *text = write_session(session);
-    session_file file = parse(text);
-    assert_same_session(session, &file.session);
-    char *again = write_session(&file.session);
-    assert_string_equal(text, again);
-    free(again);
-    free(text);
-    session_release(&file);
-}
-
-static void default_session_survives_the_round_trip(void **state)
-{
-    const octree_session session = octree_session_default();
-    (void)state;
-    assert_round_trip(&session);
-}
-
-static void random_sessions_survive_the_round_trip(void **state)
-{
-    static random_session made;
-    (void)state;
-    for (uint64_t seed = 0; seed < 200; seed++) {
-        random_session_full(&made, seed);
-        assert_round_trip(&made.session);
-    }
-}
-
-/* Random bits that are finite doubles. */
-static double any_double(uint64_t *state)
-{
-    double value;
-    do {
-        uint64_t bits = octree_random(state);
-        memcpy(&value, &bits, sizeof value);
-    } while (!(value >= -DBL_MAX && value <= DBL_MAX));
-    return value;
-}
-
-static void every_bit_of_a_number_survives_the_round_trip(void **state)
-{
-    static octree_body bodies[500];
-    uint64_t random = 11;
-    octree_session session = octree_session_default();
-    (void)state;
-    session.bodies = bodies;
-    session.body_count = sizeof bodies / sizeof *bodies;
-    for (size_t i = 0; i < session.body_count; i++) {
-        bodies[i].id = SESSION_ID_LIMIT - 1 - i;
-        for (int axis = 0; axis < 3; axis++) {
-            bodies[i].position[axis] = any_double(&random);
-            bodies[i].velocity[axis] = i % 3 == 0 ? any_double(&random) : i % 3 == 1 ? -0.0 : 0.0;
-        }
-    }
-    session.player.position[1] = -0.0;
-    session.player.step = 5e-324;
-    session.player.box_size = DBL_MAX;
-    assert_round_trip(&session);
-}
-
-static void options_that_the_tree_clamps_are_written_clamped(void **state)
-{
-    octree_session session = octree_session_default();
-    (void)state;
-    session.tree.leaf_capacity = SIZE_MAX;
-    session.tree.max_depth = SIZE_MAX;
-    session.tree.full_leaf = OCTREE_GROW;
-    char *text = write_session(&session);
-    session_file file = parse(text);
-    assert_true(file.session.tree.leaf_capacity == UINT32_MAX);
-    assert_int_equal(file.session.tree.max_depth, OCTREE_MAX_DEPTH);
-    assert_int_equal(file.session.tree.full_leaf, OCTREE_GROW);
-    free(text);
-    session_release(&file);
-}
-
-static void neighbours_beyond_what_a_tree_holds_are_written_clamped(void **state)
-{
-    const octree_query all = {.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = SIZE_MAX};
-    octree_session session = octree_session_default();
-    (void)state;
-    session.queries = &all;
-    session.query_count = 1;
-    char *text = write_session(&session);
-    session_file file = parse(text);
-    assert_true(file.session.queries[0].k == UINT32_MAX);
-    free(text);
-    session_release(&file);
-}
-
-static void written_session_has_a_point_a_line_and_a_tick_a_line(void **state)
-{
-    static const char expected[] =
-        "{\"octreel\": \"session\", \"version\": 1,\n"
-        "\"world\": {\"min\": [-1000, -1000, -1000], \"max\": [1000, 1000, 1000]},\n"
-        "\"tree\": {\"capacity\": 8, \"depth\": 21, \"full\": \"refuse\"},\n"
-        "\"player\": {\"id\": 0, \"position\": [0, 0, 0], \"step\": 50, \"box_size\": 30},\n"
-        "\"keys\": \"wn\",\n"
-        "\"ticks\": 2,\n"
-        "\"queries\": [{\"nearest\": \"player\"}],\n"
-        "\"points\": [\n"
-        "[1, 2, 3, 1],\n"
-        "{\"id\": 7, \"position\": [0.5, 0, 0], \"velocity\": [1, 0, 0]}\n"
-        "]}\n"
-        "{\"tick\": 1, \"edits\": [{\"remove\": 7}], \"queries\": [{\"nearest\": [0, 0, 0]}]}\n"
-        "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 9, \"position\": [1, 1, 1]}}]}\n";
-    session_file file = parse(expected);
-    char *text = write_session(&file.session);
-    (void)state;
-    assert_string_equal(text, expected);
-    free(text);
-    session_release(&file);
-}
-
-static void stream_without_room_is_told(void **state)
-{
-    const octree_session session = octree_session_default();
-    char room[16];
-    FILE *full = fmemopen(room, sizeof room, "w");
-    (void)state;
-    assert_non_null(full);
-    assert_false(session_write(&session, full));
-    fclose(full);
-}
-
-/* So many points that anything quadratic is felt. */
-static void many_points_survive_the_round_trip(void **state)
-{
-    session_file file =
-        parse(HEADER ",\"points\":{\"sample\":\"uniform\",\"count\":20000},\"velocities\":{\"speed\":1}}");
-    (void)state;
-    assert_round_trip(&file.session);
-    session_release(&file);
-}
-
-/* ---- Copies and keys ---------------------------------------------------------------------------------------- */
-
-static void copy_owns_all_it_has(void **state)
-{
-    random_session *made = calloc(1, sizeof *made);
-    session_file file;
-    session_error error;
-    (void)state;
-    assert_non_null(made);
-    random_session_full(made, 3);
-    assert_true(session_copy(&made->session, &file, &error));
-    assert_same_session(&made->session, &file.session);
-    memset(made, 0xff, sizeof *made);
-    random_session_full(made, 3);
-    assert_same_session(&made->session, &file.session);
-    free(made);
-    char *text = write_session(&file.session);
-    free(text);
-    session_release(&file);
-    session_release(&file);
-}
-
-static void keys_are_replaced(void **state)
-{
-    const octree_session session = octree_session_default();
-    session_file file;
-    session_error error;
-    (void)state;
-    assert_true(session_copy(&session, &file, &error));
-    assert_true(session_set_keys(&file, "wwdn.", &error));
-    assert_string_equal(file.session.keys, "wwdn.");
-    assert_int_equal(octree_session_length(&file.session), 5);
-    session_release(&file);
-}
-
-static void unknown_keys_are_refused_and_change_nothing(void **state)
-{
-    static const struct {
-        const char *keys, *sentence;
-    } rows[] = {
-        {"wwx", "key 3, 'x', is not one of w a s d e f n q ."},
-        {" w", "key 1, ' ', is not one of w a s d e f n q ."},
-        {"W", "key 1, 'W', is not one of w a s d e f n q ."},
-        {"w\xc3\xa9", "key 2, byte 0xc3, is not one of w a s d e f n q ."},
-        {"w\n", "key 2, byte 0x0a, is not one of w a s d e f n q ."},
-    };
-    octree_session session = octree_session_default();
-    session_file file, refused;
-    session_error error;
-    (void)state;
-    assert_true(session_copy(&session, &file, &error));
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        assert_false(session_set_keys(&file, rows[i].keys, &error));
-        assert_string_equal(error.text, rows[i].sentence);
-        session.keys = rows[i].keys;
-        assert_false(session_copy(&session, &refused, &error));
-        assert_string_equal(error.text, rows[i].sentence);
-    }
-    session.keys = octree_session_default().keys;
-    assert_same_session(&session, &file.session);
-    session_release(&file);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -507,22 +235,11 @@ int main(void)
         cmocka_unit_test(velocities_are_listed_by_id_or_random),
         cmocka_unit_test(ticks_become_edits_and_queries_in_order),
         cmocka_unit_test(queries_are_read_in_each_form),
-        cmocka_unit_test(neighbours_beyond_what_a_tree_holds_are_written_clamped),
         cmocka_unit_test(sample_is_that_of_the_library),
         cmocka_unit_test_setup_teardown(cloud_is_found_in_the_folder_of_the_session, temp_folder_make,
                                         temp_folder_remove),
         cmocka_unit_test_setup_teardown(file_that_is_missing_or_no_file_is_refused, temp_folder_make,
                                         temp_folder_remove),
-        cmocka_unit_test(default_session_survives_the_round_trip),
-        cmocka_unit_test(random_sessions_survive_the_round_trip),
-        cmocka_unit_test(every_bit_of_a_number_survives_the_round_trip),
-        cmocka_unit_test(options_that_the_tree_clamps_are_written_clamped),
-        cmocka_unit_test(written_session_has_a_point_a_line_and_a_tick_a_line),
-        cmocka_unit_test(stream_without_room_is_told),
-        cmocka_unit_test(many_points_survive_the_round_trip),
-        cmocka_unit_test(copy_owns_all_it_has),
-        cmocka_unit_test(keys_are_replaced),
-        cmocka_unit_test(unknown_keys_are_refused_and_change_nothing),
     };
     return cmocka_run_group_tests_name("session_file", tests, NULL, NULL);
 }
