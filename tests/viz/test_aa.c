@@ -93,7 +93,7 @@ static image picture_of(const scene *s)
 {
     picture p;
     record_error error = {""};
-    if (!picture_open(&p, &s->view, &error) || !picture_draw(&p, s, &error))
+    if (!picture_open(&p, &s->view, &(renderer_choice){0}, &error) || !picture_draw(&p, s, &error))
         fail_msg("%s", error.text);
     const image drawn = p.frame;
     p.frame.pixels = NULL;
@@ -205,7 +205,7 @@ static void pictures_with_too_many_samples_are_refused_with_a_sentence(void **st
         record_error error = {""};
         view v = view_of(rows[i].width, rows[i].height, CAMERA_ISO, VIEW_ALL_LAYERS);
         v.aa = rows[i].aa;
-        assert_false(picture_open(&p, &v, &error));
+        assert_false(picture_open(&p, &v, &(renderer_choice){0}, &error));
         assert_non_null(strstr(error.text, rows[i].part));
     }
 }

@@ -1,4 +1,4 @@
-/* test_renderer.c - renderers: which sizes and drivers they take, and that the same scene is the same frame. */
+/* test_renderer.c - renderers: which sizes they take, and that the same scene is the same frame. */
 #include "frames.h"
 
 #include <limits.h>
@@ -8,21 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The default session's tick 30, with everything on. */
-static scene busy_scene(int width, int height, view_camera camera)
-{
-    const octree_session session = octree_session_default();
-    const view v = view_of(width, height, camera, VIEW_ALL_LAYERS);
-    octree_game *game = start_game(&session);
-    scene s = {0};
-    for (int tick = 0; tick < 30; tick++)
-        play_tick(game);
-    build_tick(&s, &v, game);
-    octree_game_destroy(game);
-    return s;
-}
-
-/* What a child process says, which may change its environment: 0 to 3. */
+/* What a child process says, which may change its environment: 0 to 2. */
 typedef int (*child_check)(void);
 
 static int run_child(child_check check)
@@ -37,33 +23,15 @@ static int run_child(child_check check)
     return WEXITSTATUS(status);
 }
 
-enum { REFUSED_WITH_REASON = 0, REFUSED_WITHOUT = 1, DRAWN_BY_LLVMPIPE = 2, DRAWN_BY_ANOTHER = 3 };
-
-static int ask_for_softpipe(void)
-{
-    draw_error error = {""};
-    setenv("GALLIUM_DRIVER", "softpipe", 1);
-    renderer *r = renderer_open(16, 16, &error);
-    if (!r)
-        return strstr(error.text, "softpipe") && strstr(error.text, "llvmpipe") ? REFUSED_WITH_REASON : REFUSED_WITHOUT;
-    const char *driver = renderer_about(r).renderer;
-    return driver && strncmp(driver, "llvmpipe", 8) == 0 ? DRAWN_BY_LLVMPIPE : DRAWN_BY_ANOTHER;
-}
-
-static void a_driver_that_is_not_llvmpipe_is_refused_by_name(void **state)
-{
-    (void)state;
-    const int said = run_child(ask_for_softpipe);
-    assert_true(said == REFUSED_WITH_REASON || said == DRAWN_BY_LLVMPIPE); /* a Mesa may have no softpipe */
-}
+enum { REFUSED_WITH_REASON = 0, REFUSED_WITHOUT = 1, DRAWN = 2 };
 
 /* With a driver that would be refused for itself, a sentence about the size shows that no context was opened. */
 static int ask_for_a_size_too_large(void)
 {
     draw_error error = {""};
     setenv("GALLIUM_DRIVER", "softpipe", 1);
-    if (renderer_open(16385, 1, &error))
-        return DRAWN_BY_ANOTHER;
+    if (renderer_open(16385, 1, &(renderer_choice){0}, &error))
+        return DRAWN;
     return strstr(error.text, "16385 x 1") ? REFUSED_WITH_REASON : REFUSED_WITHOUT;
 }
 
@@ -87,7 +55,7 @@ static void sizes_out_of_range_are_refused_with_a_sentence_that_names_them(void 
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         draw_error error = {""};
-        assert_null(renderer_open(rows[i].width, rows[i].height, &error));
+        assert_null(renderer_open(rows[i].width, rows[i].height, &(renderer_choice){0}, &error));
         assert_non_null(strstr(error.text, rows[i].named));
         assert_non_null(strstr(error.text, "16384"));
     }
@@ -98,7 +66,7 @@ static void the_renderer_says_who_draws(void **state)
     (void)state;
     renderer *r = open_renderer(16, 16);
     const renderer_info about = renderer_about(r);
-    assert_string_equal(about.context, "osmesa");
+    assert_true(strcmp(about.context, "osmesa") == 0 || strcmp(about.context, "egl") == 0);
     assert_non_null(about.vendor);
     assert_non_null(about.version);
     assert_int_equal(strncmp(about.renderer, "llvmpipe", 8), 0);
@@ -273,8 +241,7 @@ static void segments_to_far_off_are_drawn_without_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        /* Those with child processes come first: Mesa's threads do not survive a fork. */
-        cmocka_unit_test(a_driver_that_is_not_llvmpipe_is_refused_by_name),
+        /* The one with a child process comes first: Mesa's threads do not survive a fork. */
         cmocka_unit_test(a_size_is_refused_before_a_context_is_opened),
         cmocka_unit_test(sizes_out_of_range_are_refused_with_a_sentence_that_names_them),
         cmocka_unit_test(the_renderer_says_who_draws),

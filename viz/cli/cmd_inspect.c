@@ -29,6 +29,7 @@ typedef struct arguments {
     bool has_world, json;
     view_options view_options;
     view view;
+    renderer_choice renderer;
 } arguments;
 
 static const struct option own_options[] = {
@@ -126,9 +127,10 @@ static int report(const arguments *a, const inspection *made)
     film_summary drawn = {0};
     octree_node node;
     const char *name = base_name(a->cloud);
+    const film_options options = {.view = a->view, .renderer = a->renderer};
     if (a->node && !inspect_find_node(made, a->node, &node, &error))
         return trouble("%s", error.text);
-    if (a->picture && !film_tree(made->tree, name, &a->view, a->picture, &drawn, &error))
+    if (a->picture && !film_tree(made->tree, name, &options, a->picture, &drawn, &error))
         return trouble("%s", error.text);
     if (drawn.over_budget)
         fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);

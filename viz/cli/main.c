@@ -27,7 +27,7 @@ static int print_help(FILE *out)
 static int print_version(void)
 {
     draw_error error;
-    renderer *r = renderer_open(16, 16, &error);
+    renderer *r = renderer_open(16, 16, &(renderer_choice){0}, &error);
     printf("octreel %s\n", OCTREEL_VERSION);
     if (!r) {
         printf("no renderer: %s\n", error.text);

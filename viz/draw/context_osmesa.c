@@ -3,98 +3,72 @@
 #include "context.h"
 
 #include <GL/osmesa.h>
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* The framebuffer object is what is drawn to; Mesa wants a buffer for its own all the same. */
 #define OWN_SIDE 4
 
-struct context {
-    void *library;
+typedef struct osmesa_context {
+    context face;
     OSMesaContext mesa;
     GLboolean (*make_current)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
-    OSMesaContext (*current)(void);
     void (*destroy)(OSMesaContext);
     OSMESAproc (*find)(const char *);
     unsigned char own[OWN_SIDE * OWN_SIDE * 4];
-};
+} osmesa_context;
 
 static const char *const library_names[] = {"libOSMesa.so.8", "libOSMesa.so"};
 
-static void *open_library(draw_error *error)
+static bool use(context *face)
 {
-    void *library = NULL;
-    for (size_t i = 0; !library && i < sizeof library_names / sizeof library_names[0]; i++)
-        library = dlopen(library_names[i], RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-        snprintf(error->text, sizeof error->text,
-                 "OSMesa, the off-screen renderer, cannot be loaded (Debian: libosmesa6): %s", dlerror());
-    return library;
+    osmesa_context *c = (osmesa_context *)face;
+    return c->make_current(c->mesa, c->own, GL_UNSIGNED_BYTE, OWN_SIDE, OWN_SIDE);
 }
 
-/* ISO C has no cast from an object pointer to a function pointer; POSIX promises that the bits are the same. */
-static bool find_symbol(void *library, const char *name, void *function, size_t size)
+static context_function find(const context *face, const char *name)
 {
-    void *symbol = dlsym(library, name);
-    memcpy(function, &symbol, size);
-    return symbol != NULL;
+    return (context_function)((const osmesa_context *)face)->find(name);
 }
 
-static bool open_mesa(context *c)
+/* The library stays loaded: Mesa's threads and LLVM do not survive being unloaded and loaded again. */
+static void close_context(context *face)
+{
+    osmesa_context *c = (osmesa_context *)face;
+    if (c->mesa)
+        c->destroy(c->mesa);
+    free(c);
+}
+
+static bool open_mesa(osmesa_context *c, void *library)
 {
     OSMesaContext (*create)(const int *, OSMesaContext);
-    if (!find_symbol(c->library, "OSMesaCreateContextAttribs", &create, sizeof create) ||
-        !find_symbol(c->library, "OSMesaMakeCurrent", &c->make_current, sizeof c->make_current) ||
-        !find_symbol(c->library, "OSMesaGetCurrentContext", &c->current, sizeof c->current) ||
-        !find_symbol(c->library, "OSMesaDestroyContext", &c->destroy, sizeof c->destroy) ||
-        !find_symbol(c->library, "OSMesaGetProcAddress", &c->find, sizeof c->find))
+    if (!context_symbol(library, "OSMesaCreateContextAttribs", &create, sizeof create) ||
+        !context_symbol(library, "OSMesaMakeCurrent", &c->make_current, sizeof c->make_current) ||
+        !context_symbol(library, "OSMesaDestroyContext", &c->destroy, sizeof c->destroy) ||
+        !context_symbol(library, "OSMesaGetProcAddress", &c->find, sizeof c->find))
         return false;
     const int wanted[] = {
         OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, OSMESA_DEPTH_BITS, 0, 0, 0};
     c->mesa = create(wanted, NULL);
-    return c->mesa && context_use(c);
+    return c->mesa && use(&c->face);
 }
 
-bool context_use(context *c)
+context *context_osmesa_open(const renderer_choice *choice, draw_error *error)
 {
-    return c->current() == c->mesa || c->make_current(c->mesa, c->own, GL_UNSIGNED_BYTE, OWN_SIDE, OWN_SIDE);
-}
-
-context *context_open(draw_error *error)
-{
-    context *c = calloc(1, sizeof *c);
+    (void)choice; /* it knows no other device than the processor */
+    void *library = context_load(library_names, sizeof library_names / sizeof library_names[0],
+                                 "OSMesa, the off-screen renderer, cannot be loaded (Debian: libosmesa6)", error);
+    osmesa_context *c = library ? calloc(1, sizeof *c) : NULL;
     if (!c) {
-        snprintf(error->text, sizeof error->text, "there is no memory for a context");
+        if (library)
+            snprintf(error->text, sizeof error->text, "there is no memory for a context");
         return NULL;
     }
-    c->library = open_library(error);
-    if (c->library && open_mesa(c))
-        return c;
-    if (c->library)
-        snprintf(error->text, sizeof error->text, "OSMesa gives no compatibility context");
-    context_close(c);
+    c->face = (context){.name = "osmesa", .use = use, .find = find, .close = close_context};
+    if (open_mesa(c, library))
+        return &c->face;
+    snprintf(error->text, sizeof error->text, "OSMesa gives no compatibility context");
+    close_context(&c->face);
     return NULL;
-}
-
-void context_close(context *c)
-{
-    if (!c)
-        return;
-    if (c->mesa)
-        c->destroy(c->mesa);
-    /* The library stays loaded: Mesa's threads and LLVM do not survive being unloaded and loaded again. */
-    free(c);
-}
-
-const char *context_name(const context *c)
-{
-    (void)c;
-    return "osmesa";
-}
-
-context_function context_find(const context *c, const char *name)
-{
-    return (context_function)c->find(name);
 }

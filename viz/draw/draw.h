@@ -17,15 +17,32 @@ typedef struct draw_error {
     char text[256]; /* one sentence */
 } draw_error;
 
+/* Kinds of off-screen contexts, in the order in which DRAW_AUTO tries those that are built. */
+typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
+
+/* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. And the inverse; false when there is no such name. */
+const char *draw_context_name(draw_context kind);
+bool draw_context_parse(const char *name, draw_context *kind);
+
+/* Whether this program was built with it. */
+bool draw_context_built(draw_context kind);
+
+/* Which renderer is wanted; zeros are what gives the same pixels everywhere. */
+typedef struct renderer_choice {
+    draw_context context;
+    bool any_renderer; /* take what is not llvmpipe too: a graphics card, say */
+} renderer_choice;
+
 /* Who draws: static while the renderer lives. */
 typedef struct renderer_info {
-    const char *context;                     /* "osmesa" */
+    const char *context;                     /* "osmesa", "egl" */
     const char *vendor, *renderer, *version; /* GL's own strings */
 } renderer_info;
 
-/* Open a context and a framebuffer of this size, samples counted. Null, and a sentence, when there is no usable context
- * or the size is outside 1..DRAW_MAX_SIDE. Cost: some 10 ms and 85 MB. */
-renderer *renderer_open(int width, int height, draw_error *error);
+/* Open a context and a framebuffer of this size, samples counted. Null, and a sentence, when there is no such context,
+ * when something else than llvmpipe would draw, or when the size is outside 1..DRAW_MAX_SIDE. Cost: some 10 ms and
+ * 85 MB. */
+renderer *renderer_open(int width, int height, const renderer_choice *choice, draw_error *error);
 void renderer_close(renderer *r);
 
 renderer_info renderer_about(const renderer *r);

@@ -7,12 +7,12 @@ bool gl_load(gl *functions, const context *c, draw_error *error)
 {
     const char *missing = NULL;
 #define GL_LOOK_UP(result, name, parameters)                                                                           \
-    functions->name = (result(GLAPIENTRY *) parameters)context_find(c, "gl" #name);                                    \
+    functions->name = (result(GLAPIENTRY *) parameters)c->find(c, "gl" #name);                                         \
     if (!functions->name && !missing)                                                                                  \
         missing = "gl" #name;
     GL_FUNCTIONS(GL_LOOK_UP)
 #undef GL_LOOK_UP
     if (missing)
-        snprintf(error->text, sizeof error->text, "the %s context has no %s", context_name(c), missing);
+        snprintf(error->text, sizeof error->text, "the %s context has no %s", c->name, missing);
     return !missing;
 }

@@ -56,7 +56,8 @@ static bool begin(filming *f, const octree_session *session, record_error *error
     if (status != OCTREE_OK)
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
     fit_view(&f->view, octree_game_tree(f->game));
-    if (!check_view(&f->view, &session->tree, error) || !picture_open(&f->picture, &f->view, error))
+    if (!check_view(&f->view, &session->tree, error) ||
+        !picture_open(&f->picture, &f->view, &options->renderer, error))
         return false;
     const renderer_info info = renderer_about(f->picture.renderer);
     if (!folder_prepare(options->folder, error))
@@ -189,16 +190,17 @@ bool film_session(const octree_session *session, const film_options *options, fi
     return end(&f, ok, error) && viewer_write(options->folder, error);
 }
 
-bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, film_summary *summary,
+bool film_tree(const octree *tree, const char *title, const film_options *options, const char *path,
+               film_summary *summary,
                record_error *error)
 {
     picture p;
     scene s = {0};
-    view fitted = *wanted, *v = &fitted;
+    view fitted = options->view, *v = &fitted;
     const octree_def def = octree_definition(tree);
     fit_view(v, tree);
     *summary = (film_summary){0};
-    if (!check_view(v, &def, error) || !picture_open(&p, v, error))
+    if (!check_view(v, &def, error) || !picture_open(&p, v, &options->renderer, error))
         return false;
     char digests[2][DIGEST_TEXT];
     bool ok = tree_scene_build(&s, v, tree, title) || record_fail(error, "there is no memory for a scene");

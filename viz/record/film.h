@@ -2,13 +2,14 @@
 #ifndef RECORD_FILM_H
 #define RECORD_FILM_H
 
+#include "draw.h"
 #include "folder.h"
 #include "octree/game.h"
-#include "view.h"
 
 typedef struct film_options {
     const char *folder;
     view view;
+    renderer_choice renderer;
     uint64_t every; /* film ticks 0, every, 2 * every ...; at least 1. ticks.jsonl has all ticks */
     void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
     void *context;
@@ -27,8 +28,9 @@ typedef struct film_summary {
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   record_error *error);
 
-/* Draw one tree and write it as a PNG: the one frame of *summary. */
-bool film_tree(const octree *tree, const char *title, const view *wanted, const char *path, film_summary *summary,
+/* Draw one tree, with the view and the renderer of the options, and write it as a PNG: the one frame of *summary. */
+bool film_tree(const octree *tree, const char *title, const film_options *options, const char *path,
+               film_summary *summary,
                record_error *error);
 
 #endif

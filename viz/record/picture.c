@@ -35,13 +35,13 @@ static bool create_images(picture *p, const view *v)
     return true;
 }
 
-bool picture_open(picture *p, const view *v, record_error *error)
+bool picture_open(picture *p, const view *v, const renderer_choice *choice, record_error *error)
 {
     draw_error why;
     *p = (picture){0};
     if (!check_samples(v, error))
         return false;
-    p->renderer = renderer_open(v->width * view_samples(v), v->height * view_samples(v), &why);
+    p->renderer = renderer_open(v->width * view_samples(v), v->height * view_samples(v), choice, &why);
     if (!p->renderer)
         return record_fail(error, "%s", why.text);
     if (create_images(p, v))

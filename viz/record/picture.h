@@ -13,7 +13,7 @@ typedef struct picture {
 } picture;
 
 /* For scenes of this view's size and anti-aliasing. What is too large is refused before memory is spent. */
-bool picture_open(picture *p, const view *v, record_error *error);
+bool picture_open(picture *p, const view *v, const renderer_choice *choice, record_error *error);
 void picture_close(picture *p);
 
 /* Draw a scene into p->frame. */

@@ -6,8 +6,13 @@
 
 renderer *open_renderer(int width, int height)
 {
+    return open_renderer_of(DRAW_AUTO, width, height);
+}
+
+renderer *open_renderer_of(draw_context kind, int width, int height)
+{
     draw_error error = {""};
-    renderer *r = renderer_open(width, height, &error);
+    renderer *r = renderer_open(width, height, &(renderer_choice){.context = kind}, &error);
     if (!r)
         fail_msg("%s", error.text);
     return r;

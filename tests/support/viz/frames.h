@@ -8,6 +8,7 @@
 
 /* A renderer; the test fails, with the sentence, when there is none. */
 renderer *open_renderer(int width, int height);
+renderer *open_renderer_of(draw_context kind, int width, int height);
 
 /* A frame of a scene, which the caller frees; the test fails when it is not drawn, or has an index of no role. */
 uint8_t *draw(renderer *r, const scene *s);

@@ -145,7 +145,7 @@ static bool draw_game(const octree_game *game, const view *v, image *drawn, char
 {
     picture p;
     scene s = {0};
-    if (!picture_open(&p, v, error))
+    if (!picture_open(&p, v, &(renderer_choice){0}, error))
         return false;
     const bool ok = tick_scene_build(&s, v, game) && picture_draw(&p, &s, error);
     snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);

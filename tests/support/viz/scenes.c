@@ -79,6 +79,19 @@ void build_tick(scene *s, const view *v, const octree_game *game)
     assert_int_equal(s->refused, 0);
 }
 
+scene busy_scene(int width, int height, view_camera camera)
+{
+    const octree_session session = octree_session_default();
+    const view v = view_of(width, height, camera, VIEW_ALL_LAYERS);
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    for (int tick = 0; tick < 30; tick++)
+        play_tick(game);
+    build_tick(&s, &v, game);
+    octree_game_destroy(game);
+    return s;
+}
+
 void box_corner(const octree_box *box, unsigned corner, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)

@@ -33,6 +33,9 @@ void play_tick(octree_game *game);
 /* Fill a scene with a game's tick, or the test fails. */
 void build_tick(scene *s, const view *v, const octree_game *game);
 
+/* The default session's tick 30, with everything on. */
+scene busy_scene(int width, int height, view_camera camera);
+
 /* Corner 0..7 of a box: bit 0 takes x from its maximum, bit 1 y, bit 2 z. */
 void box_corner(const octree_box *box, unsigned corner, double position[3]);
 

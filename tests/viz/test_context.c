@@ -1,0 +1,166 @@
+/* test_context.c - contexts: each kind that is built draws the same, beside one of another kind too; llvmpipe alone. */
+#include "frames.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* The kinds that can be asked for by name. */
+#define FIRST_KIND (DRAW_AUTO + 1)
+
+static void need_both_kinds(void)
+{
+    if (draw_context_built(DRAW_OSMESA) && draw_context_built(DRAW_EGL))
+        return;
+    print_message("one kind of context is built: there is nothing to compare\n");
+    skip();
+}
+
+enum { REFUSED_WITH_REASON, REFUSED_WITHOUT, DRAWN_BY_LLVMPIPE, DRAWN_BY_ANOTHER };
+
+/* In a child, whose environment can be changed and whose Mesa is fresh. */
+static int open_under_softpipe(const renderer_choice *choice)
+{
+    int status = 0;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        draw_error error = {""};
+        setenv("GALLIUM_DRIVER", "softpipe", 1);
+        renderer *r = renderer_open(16, 16, choice, &error);
+        if (!r)
+            _exit(strstr(error.text, "softpipe") && strstr(error.text, "llvmpipe") ? REFUSED_WITH_REASON
+                                                                                   : REFUSED_WITHOUT);
+        _exit(strncmp(renderer_about(r).renderer, "llvmpipe", 8) == 0 ? DRAWN_BY_LLVMPIPE : DRAWN_BY_ANOTHER);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+/* A Mesa may have no softpipe: then llvmpipe draws all the same. */
+static void a_driver_that_is_not_llvmpipe_is_refused_by_name(void **state)
+{
+    (void)state;
+    for (int kind = DRAW_AUTO; kind < DRAW_CONTEXTS; kind++) {
+        if (!draw_context_built((draw_context)kind))
+            continue;
+        const int said = open_under_softpipe(&(renderer_choice){.context = (draw_context)kind});
+        assert_true(said == REFUSED_WITH_REASON || said == DRAWN_BY_LLVMPIPE);
+    }
+}
+
+static void a_driver_that_is_not_llvmpipe_draws_where_any_will_do(void **state)
+{
+    (void)state;
+    if (!draw_context_built(DRAW_EGL))
+        skip();
+    const int said = open_under_softpipe(&(renderer_choice){.context = DRAW_EGL, .any_renderer = true});
+    assert_true(said == DRAWN_BY_ANOTHER || said == DRAWN_BY_LLVMPIPE);
+    if (open_under_softpipe(&(renderer_choice){.context = DRAW_EGL}) == REFUSED_WITH_REASON)
+        assert_int_equal(said, DRAWN_BY_ANOTHER);
+}
+
+static void names_are_read_as_they_are_written(void **state)
+{
+    (void)state;
+    static const char *const names[DRAW_CONTEXTS] = {"auto", "osmesa", "egl"};
+    draw_context found;
+    for (int kind = 0; kind < DRAW_CONTEXTS; kind++) {
+        assert_string_equal(draw_context_name((draw_context)kind), names[kind]);
+        assert_true(draw_context_parse(names[kind], &found));
+        assert_int_equal(found, kind);
+    }
+    assert_null(draw_context_name(DRAW_CONTEXTS));
+    assert_false(draw_context_parse("glx", &found));
+    assert_false(draw_context_parse("", &found));
+}
+
+static void a_context_that_is_not_built_is_refused_by_name(void **state)
+{
+    (void)state;
+    assert_true(draw_context_built(DRAW_AUTO));
+    for (int kind = FIRST_KIND; kind < DRAW_CONTEXTS; kind++) {
+        const renderer_choice choice = {.context = (draw_context)kind};
+        draw_error error = {""};
+        renderer *r = renderer_open(16, 16, &choice, &error);
+        assert_int_equal(r != NULL, draw_context_built(choice.context));
+        if (r)
+            assert_string_equal(renderer_about(r).context, draw_context_name(choice.context));
+        else
+            assert_non_null(strstr(error.text, draw_context_name(choice.context)));
+        renderer_close(r);
+    }
+}
+
+static void the_first_kind_that_is_built_draws_when_none_is_asked_for(void **state)
+{
+    (void)state;
+    int kind = FIRST_KIND;
+    while (!draw_context_built((draw_context)kind))
+        kind++;
+    renderer *r = open_renderer_of(DRAW_AUTO, 16, 16);
+    assert_string_equal(renderer_about(r).context, draw_context_name((draw_context)kind));
+    renderer_close(r);
+}
+
+static void kinds_draw_the_same_bytes(void **state)
+{
+    (void)state;
+    need_both_kinds();
+    renderer *osmesa = open_renderer_of(DRAW_OSMESA, 640, 360);
+    renderer *egl = open_renderer_of(DRAW_EGL, 640, 360);
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        scene s = busy_scene(640, 360, (view_camera)kind);
+        uint8_t *a = draw(osmesa, &s), *b = draw(egl, &s);
+        assert_true(lit_pixels(a, &s) > 2000);
+        assert_same_frame(a, b, &s);
+        free(a);
+        free(b);
+        scene_release(&s);
+    }
+    renderer_close(osmesa);
+    renderer_close(egl);
+}
+
+/* Mesa holds one thing to be current where two libraries each have their own word for it. */
+static void contexts_of_two_kinds_do_not_disturb_each_other(void **state)
+{
+    (void)state;
+    need_both_kinds();
+    scene small = busy_scene(160, 90, CAMERA_ISO), large = busy_scene(320, 180, CAMERA_ORBIT);
+    uint8_t *small_alone = draw_once(&small), *large_alone = draw_once(&large);
+    for (int first = FIRST_KIND; first < DRAW_CONTEXTS; first++) {
+        const draw_context second = first == DRAW_OSMESA ? DRAW_EGL : DRAW_OSMESA;
+        renderer *a = open_renderer_of((draw_context)first, 160, 90), *b = open_renderer_of(second, 320, 180);
+        uint8_t *frames[4] = {draw(a, &small), draw(b, &large), draw(a, &small), NULL};
+        assert_string_equal(renderer_about(a).context, draw_context_name((draw_context)first));
+        renderer_close(a);
+        frames[3] = draw(b, &large);
+        renderer_close(b);
+        for (int i = 0; i < 4; i++) {
+            assert_same_frame(frames[i], i % 2 ? large_alone : small_alone, i % 2 ? &large : &small);
+            free(frames[i]);
+        }
+    }
+    free(small_alone);
+    free(large_alone);
+    scene_release(&small);
+    scene_release(&large);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        /* Those with child processes come first: Mesa's threads do not survive a fork. */
+        cmocka_unit_test(a_driver_that_is_not_llvmpipe_is_refused_by_name),
+        cmocka_unit_test(a_driver_that_is_not_llvmpipe_draws_where_any_will_do),
+        cmocka_unit_test(names_are_read_as_they_are_written),
+        cmocka_unit_test(a_context_that_is_not_built_is_refused_by_name),
+        cmocka_unit_test(the_first_kind_that_is_built_draws_when_none_is_asked_for),
+        cmocka_unit_test(kinds_draw_the_same_bytes),
+        cmocka_unit_test(contexts_of_two_kinds_do_not_disturb_each_other),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

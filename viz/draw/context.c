@@ -1,0 +1,87 @@
+/* context.c - the kinds of contexts that this program was built with, and the choice among them. */
+#include "context.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    context_opener *open; /* null: not built */
+} kinds[DRAW_CONTEXTS] = {
+    [DRAW_AUTO] = {"auto", context_open},
+#ifdef OCTREEL_OSMESA
+    [DRAW_OSMESA] = {"osmesa", context_osmesa_open},
+#else
+    [DRAW_OSMESA] = {"osmesa", NULL},
+#endif
+#ifdef OCTREEL_EGL
+    [DRAW_EGL] = {"egl", context_egl_open},
+#else
+    [DRAW_EGL] = {"egl", NULL},
+#endif
+};
+
+const char *draw_context_name(draw_context kind)
+{
+    return (unsigned)kind < DRAW_CONTEXTS ? kinds[kind].name : NULL;
+}
+
+bool draw_context_parse(const char *name, draw_context *kind)
+{
+    for (int i = 0; i < DRAW_CONTEXTS; i++) {
+        if (strcmp(name, kinds[i].name) == 0) {
+            *kind = (draw_context)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool draw_context_built(draw_context kind)
+{
+    return (unsigned)kind < DRAW_CONTEXTS && kinds[kind].open;
+}
+
+/* The first kind that opens, in the order of draw_context; the first one's reason when none does. */
+static context *open_any(const renderer_choice *choice, draw_error *error)
+{
+    draw_error *reason = error, later;
+    for (int i = DRAW_AUTO + 1; i < DRAW_CONTEXTS; i++) {
+        context *c = kinds[i].open ? kinds[i].open(choice, reason) : NULL;
+        if (c)
+            return c;
+        if (kinds[i].open)
+            reason = &later;
+    }
+    return NULL;
+}
+
+context *context_open(const renderer_choice *choice, draw_error *error)
+{
+    if (choice->context == DRAW_AUTO)
+        return open_any(choice, error);
+    if (draw_context_built(choice->context))
+        return kinds[choice->context].open(choice, error);
+    snprintf(error->text, sizeof error->text, "this program was built without the %s context",
+             draw_context_name(choice->context));
+    return NULL;
+}
+
+void *context_load(const char *const *names, size_t count, const char *sentence, draw_error *error)
+{
+    void *library = NULL;
+    for (size_t i = 0; !library && i < count; i++)
+        library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        snprintf(error->text, sizeof error->text, "%s: %s", sentence, dlerror());
+    return library;
+}
+
+/* ISO C has no cast from an object pointer to a function pointer; POSIX promises that the bits are the same. */
+bool context_symbol(void *library, const char *name, void *function, size_t size)
+{
+    void *symbol = dlsym(library, name);
+    memcpy(function, &symbol, size);
+    return symbol != NULL;
+}

@@ -1,0 +1,136 @@
+/* context_egl.c - EGL without a display, a surface or a configuration, opened at run time: what draws off-screen where
+ * Mesa is too new for OSMesa.
+ *
+ * EGL may find a graphics card. Where it can name its devices, the one that is software is asked for.
+ */
+#include "context.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_DEVICES 32
+
+typedef struct egl {
+    PFNEGLGETPROCADDRESSPROC GetProcAddress;
+    PFNEGLQUERYSTRINGPROC QueryString;
+    PFNEGLGETERRORPROC GetError;
+    PFNEGLINITIALIZEPROC Initialize;
+    PFNEGLBINDAPIPROC BindAPI;
+    PFNEGLCREATECONTEXTPROC CreateContext;
+    PFNEGLDESTROYCONTEXTPROC DestroyContext;
+    PFNEGLMAKECURRENTPROC MakeCurrent;
+} egl;
+
+typedef struct egl_context {
+    context face;
+    egl egl;
+    EGLDisplay display;
+    EGLContext mesa;
+} egl_context;
+
+static const char *const library_names[] = {"libEGL.so.1", "libEGL.so"};
+
+static bool look_up(egl *egl, void *library)
+{
+#define EGL_FIND(name) context_symbol(library, "egl" #name, &egl->name, sizeof egl->name)
+    return EGL_FIND(GetProcAddress) && EGL_FIND(QueryString) && EGL_FIND(GetError) && EGL_FIND(Initialize) &&
+           EGL_FIND(BindAPI) && EGL_FIND(CreateContext) && EGL_FIND(DestroyContext) && EGL_FIND(MakeCurrent);
+#undef EGL_FIND
+}
+
+/* Whether a list with blanks between has this word. */
+static bool has_word(const char *list, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *at = list; at && (at = strstr(at, word)); at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == 0))
+            return true;
+    return false;
+}
+
+/* The device that draws with the processor, or null where devices cannot be asked. */
+static EGLDeviceEXT software_device(const egl *egl)
+{
+    const PFNEGLQUERYDEVICESEXTPROC list = (PFNEGLQUERYDEVICESEXTPROC)egl->GetProcAddress("eglQueryDevicesEXT");
+    const PFNEGLQUERYDEVICESTRINGEXTPROC describe =
+        (PFNEGLQUERYDEVICESTRINGEXTPROC)egl->GetProcAddress("eglQueryDeviceStringEXT");
+    const char *known = egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    EGLDeviceEXT devices[MOST_DEVICES];
+    EGLint count = 0;
+    if (!list || !describe || !has_word(known, "EGL_EXT_platform_device") || !list(MOST_DEVICES, devices, &count))
+        return NULL;
+    for (EGLint i = 0; i < count; i++)
+        if (has_word(describe(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software"))
+            return devices[i];
+    return NULL;
+}
+
+static EGLDisplay find_display(const egl *egl, bool any_renderer)
+{
+    const PFNEGLGETPLATFORMDISPLAYEXTPROC get =
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->GetProcAddress("eglGetPlatformDisplayEXT");
+    const EGLDeviceEXT device = any_renderer ? NULL : software_device(egl);
+    if (!get)
+        return EGL_NO_DISPLAY;
+    return device ? get(EGL_PLATFORM_DEVICE_EXT, device, NULL)
+                  : get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+}
+
+/* Being made current twice changes nothing for EGL, also where another library was made current in between. */
+static bool use(context *face)
+{
+    const egl_context *c = (const egl_context *)face;
+    const egl *egl = &c->egl;
+    return egl->BindAPI(EGL_OPENGL_API) &&
+           egl->MakeCurrent(c->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT) &&
+           egl->MakeCurrent(c->display, EGL_NO_SURFACE, EGL_NO_SURFACE, c->mesa);
+}
+
+static context_function find(const context *face, const char *name)
+{
+    return ((const egl_context *)face)->egl.GetProcAddress(name);
+}
+
+/* The display stays: it is shared by all contexts of the process. */
+static void close_context(context *face)
+{
+    egl_context *c = (egl_context *)face;
+    if (c->mesa) {
+        c->egl.MakeCurrent(c->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        c->egl.DestroyContext(c->display, c->mesa);
+    }
+    free(c);
+}
+
+static bool open_mesa(egl_context *c, bool any_renderer)
+{
+    const egl *egl = &c->egl;
+    c->display = find_display(egl, any_renderer);
+    if (!c->display || !egl->Initialize(c->display, NULL, NULL) || !egl->BindAPI(EGL_OPENGL_API))
+        return false;
+    c->mesa = egl->CreateContext(c->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, NULL);
+    return c->mesa && use(&c->face);
+}
+
+context *context_egl_open(const renderer_choice *choice, draw_error *error)
+{
+    void *library = context_load(library_names, sizeof library_names / sizeof library_names[0],
+                                 "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);
+    egl_context *c = library ? calloc(1, sizeof *c) : NULL;
+    if (!c) {
+        if (library)
+            snprintf(error->text, sizeof error->text, "there is no memory for a context");
+        return NULL;
+    }
+    c->face = (context){.name = "egl", .use = use, .find = find, .close = close_context};
+    if (look_up(&c->egl, library) && open_mesa(c, choice->any_renderer))
+        return &c->face;
+    snprintf(error->text, sizeof error->text,
+             "EGL gives no OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error 0x%04x",
+             c->egl.GetError ? (unsigned)c->egl.GetError() : 0);
+    close_context(&c->face);
+    return NULL;
+}
