@@ -235,33 +235,6 @@ static void places_that_take_no_folder_are_refused_in_one_sentence(void **state)
     assert_int_equal(temp_folder_count(*state), 1);
 }
 
-static void renderer_that_is_not_llvmpipe_is_refused(void **state)
-{
-    static const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
-    const place folder = place_in(*state, "film");
-    command_result result = run_octreel(&other, "record -o %s", folder.path);
-    assert_trouble(&result, "softpipe");
-    assert_false(file_exists(folder.path));
-}
-
-static void machine_without_osmesa_is_told_what_to_install(void **state)
-{
-    const temp_folder *own = *state;
-    char path[96];
-    const place folder = place_in(own, "film");
-    snprintf(path, sizeof path, "LD_LIBRARY_PATH=%s", own->name);
-    const command_setting without = {.environment = {path}};
-    file_write_text(place_in(own, "libOSMesa.so.8").path, "");
-    file_write_text(place_in(own, "libOSMesa.so").path, "");
-    command_result result = run_octreel(&without, "record -o %s", folder.path);
-    assert_trouble(&result, "libosmesa6");
-    assert_false(file_exists(folder.path));
-    result = run_octreel(&without, "--version");
-    assert_int_equal(result.status, 2);
-    assert_non_null(strstr(result.out, "no renderer"));
-    command_release(&result);
-}
-
 static void json_summary_is_one_object_that_agrees_with_the_recording(void **state)
 {
     const place folder = place_in(*state, "film");
@@ -382,8 +355,6 @@ int main(void)
         IN_FOLDER(folder_that_holds_a_recording_is_refused_untouched),
         IN_FOLDER(session_in_the_folder_is_left_alone),
         IN_FOLDER(places_that_take_no_folder_are_refused_in_one_sentence),
-        IN_FOLDER(renderer_that_is_not_llvmpipe_is_refused),
-        IN_FOLDER(machine_without_osmesa_is_told_what_to_install),
         IN_FOLDER(json_summary_is_one_object_that_agrees_with_the_recording),
         IN_FOLDER(a_budget_that_bites_is_told),
         IN_FOLDER(keys_replace_those_of_the_session),

@@ -33,11 +33,18 @@ typedef struct arguments {
 } arguments;
 
 static const struct option own_options[] = {
-    {"output", required_argument, NULL, 'o'}, {"capacity", required_argument, NULL, 'C'},
-    {"depth", required_argument, NULL, 'd'},  {"full", required_argument, NULL, 'f'},
-    {"world", required_argument, NULL, 'w'},  {"node", required_argument, NULL, 'n'},
-    {"nodes", required_argument, NULL, 'N'},  {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0},
+    {"output", required_argument, NULL, 'o'},
+    {"capacity", required_argument, NULL, 'C'},
+    {"depth", required_argument, NULL, 'd'},
+    {"full", required_argument, NULL, 'f'},
+    {"world", required_argument, NULL, 'w'},
+    {"node", required_argument, NULL, 'n'},
+    {"nodes", required_argument, NULL, 'N'},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
+    {"context", required_argument, NULL, OPTION_CONTEXT},
+    {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER},
+    {NULL, 0, NULL, 0},
 };
 
 static bool read_world(const char *text, octree_box *world)
@@ -101,6 +108,10 @@ static bool take_option(arguments *a, int option)
     case 'N':
         a->nodes = optarg;
         return true;
+    case OPTION_CONTEXT:
+        return read_context(optarg, &a->renderer);
+    case OPTION_ANY_RENDERER:
+        return a->renderer.any_renderer = true;
     case 'j':
         a->json = true;
         return true;
@@ -176,6 +187,7 @@ int cmd_inspect(int argc, char **argv)
         if (option == 'h') {
             fputs(help, stdout);
             print_view_options(stdout);
+            print_renderer_options(stdout);
             fputs(more_help, stdout);
             return EXIT_DONE;
         }
@@ -185,5 +197,5 @@ int cmd_inspect(int argc, char **argv)
     if (argc - optind != 1)
         return trouble("inspect takes one point cloud; octreel inspect --help tells more");
     a.cloud = argv[optind];
-    return read_view(&a.view_options, &a.view) ? inspect_it(&a) : EXIT_TROUBLE;
+    return check_renderer(&a.renderer) && read_view(&a.view_options, &a.view) ? inspect_it(&a) : EXIT_TROUBLE;
 }

@@ -30,9 +30,14 @@ typedef struct arguments {
 } arguments;
 
 static const struct option own_options[] = {
-    {"output", required_argument, NULL, 'o'}, {"keys", required_argument, NULL, 'k'},
-    {"every", required_argument, NULL, 'e'},  {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0},
+    {"output", required_argument, NULL, 'o'},
+    {"keys", required_argument, NULL, 'k'},
+    {"every", required_argument, NULL, 'e'},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
+    {"context", required_argument, NULL, OPTION_CONTEXT},
+    {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER},
+    {NULL, 0, NULL, 0},
 };
 
 /* False when a value does not fit; the sentence is printed. */
@@ -49,6 +54,10 @@ static bool take_option(arguments *a, int option)
         return true;
     case 'e':
         return read_count("--every", optarg, 1, 1000000000, &a->film.every);
+    case OPTION_CONTEXT:
+        return read_context(optarg, &a->film.renderer);
+    case OPTION_ANY_RENDERER:
+        return a->film.renderer.any_renderer = true;
     case 'j':
         a->json = true;
         return true;
@@ -105,6 +114,7 @@ int cmd_record(int argc, char **argv)
         if (option == 'h') {
             fputs(help, stdout);
             print_view_options(stdout);
+            print_renderer_options(stdout);
             fputs(more_help, stdout);
             return EXIT_DONE;
         }
@@ -116,5 +126,5 @@ int cmd_record(int argc, char **argv)
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
     a.session = argv[optind];
-    return read_view(&a.view, &a.film.view) ? play(&a) : EXIT_TROUBLE;
+    return check_renderer(&a.film.renderer) && read_view(&a.view, &a.film.view) ? play(&a) : EXIT_TROUBLE;
 }

@@ -2,7 +2,7 @@
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
-#include "view.h"
+#include "draw.h"
 
 #include <getopt.h>
 #include <stdbool.h>
@@ -49,6 +49,12 @@ bool read_view(const view_options *given, view *v);
 
 /* The part of a --help text that those options share. */
 void print_view_options(FILE *out);
+
+/* Who draws: --context and --any-renderer, which every command that draws has among its own options. */
+enum { OPTION_CONTEXT = VIEW_OPTION - 2, OPTION_ANY_RENDERER };
+bool read_context(const char *text, renderer_choice *choice);
+bool check_renderer(const renderer_choice *choice); /* once all options are read */
+void print_renderer_options(FILE *out);
 
 /* A bar on stderr when that is a terminal, nothing otherwise. `done` of `total` items of this name. */
 typedef struct progress {

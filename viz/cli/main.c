@@ -1,6 +1,5 @@
 /* main.c - octreel's command line: a table of commands. */
 #include "command.h"
-#include "draw.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -24,19 +23,30 @@ static int print_help(FILE *out)
     return out == stdout ? EXIT_DONE : EXIT_TROUBLE;
 }
 
-static int print_version(void)
+/* Whether a context of this kind can be opened, and who draws in it. */
+static bool print_renderer(draw_context kind)
 {
+    const renderer_choice choice = {.context = kind};
     draw_error error;
-    renderer *r = renderer_open(16, 16, &(renderer_choice){0}, &error);
-    printf("octreel %s\n", OCTREEL_VERSION);
+    renderer *r = renderer_open(16, 16, &choice, &error);
     if (!r) {
-        printf("no renderer: %s\n", error.text);
-        return EXIT_TROUBLE;
+        printf("%s: %s\n", draw_context_name(kind), error.text);
+        return false;
     }
     const renderer_info info = renderer_about(r);
     printf("%s: %s, %s\n", info.context, info.renderer, info.version);
     renderer_close(r);
-    return EXIT_DONE;
+    return true;
+}
+
+static int print_version(void)
+{
+    int found = 0;
+    printf("octreel %s\n", OCTREEL_VERSION);
+    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++)
+        if (draw_context_built((draw_context)kind))
+            found += print_renderer((draw_context)kind);
+    return found ? EXIT_DONE : EXIT_TROUBLE;
 }
 
 static int run(int argc, char **argv)

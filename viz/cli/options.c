@@ -1,6 +1,5 @@
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "command.h"
-#include "draw.h"
 #include "number.h"
 #include "session_file.h"
 #include "view_file.h"
@@ -102,6 +101,11 @@ static const char *fit_at(int i)
 {
     static const char *const names[] = {[FIT_WORLD] = "world", [FIT_POINTS] = "points"};
     return i < (int)(sizeof names / sizeof names[0]) ? names[i] : NULL;
+}
+
+static const char *context_at(int i)
+{
+    return draw_context_name((draw_context)i);
 }
 
 static void print_names(FILE *out, name_at *name)
@@ -299,4 +303,28 @@ void print_view_options(FILE *out)
         }
         fputc('\n', out);
     }
+}
+
+/* ---- Options of who draws ----------------------------------------------------------------------------------- */
+
+bool read_context(const char *text, renderer_choice *choice)
+{
+    return draw_context_parse(text, &choice->context) || no_such("context", text, (int)strlen(text), context_at);
+}
+
+bool check_renderer(const renderer_choice *choice)
+{
+    if (!choice->any_renderer || choice->context == DRAW_EGL)
+        return true;
+    return refuse("--any-renderer goes with --context egl alone: no other context has another renderer");
+}
+
+void print_renderer_options(FILE *out)
+{
+    fputs("      --context NAME    what draws off-screen: ", out);
+    print_names(out, context_at);
+    fputs(" (default auto: the first of these that there is)\n"
+          "      --any-renderer    with --context egl: draw with a graphics card too. Frames are then the same for\n"
+          "                        the same card and driver; those of llvmpipe are the same everywhere\n",
+          out);
 }

@@ -119,7 +119,7 @@ int nested_folder_remove(void **state)
     return temp_folder_remove(state);
 }
 
-static void assert_same_file(const char *a, const char *b)
+void assert_same_files(const char *a, const char *b)
 {
     size_t size_a, size_b;
     char *bytes_a = file_read(a, &size_a), *bytes_b = file_read(b, &size_b);
@@ -137,7 +137,7 @@ void assert_same_folders(const char *a, const char *b, const char *except)
     for (size_t i = 0; i < in_a.count; i++) {
         assert_string_equal(in_a.names[i], in_b.names[i]);
         if (except == NULL || strcmp(in_a.names[i], except) != 0)
-            assert_same_file(place_below(a, in_a.names[i]).path, place_below(b, in_b.names[i]).path);
+            assert_same_files(place_below(a, in_a.names[i]).path, place_below(b, in_b.names[i]).path);
     }
     listing_release(&in_a);
     listing_release(&in_b);

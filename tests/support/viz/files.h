@@ -38,6 +38,9 @@ typedef struct listing {
 listing folder_list(const char *folder);
 void listing_release(listing *names);
 
+/* Both files hold the same bytes. */
+void assert_same_files(const char *a, const char *b);
+
 /* Both folders hold the same names and the same bytes; those of the file `except` (may be null) may differ. */
 void assert_same_folders(const char *a, const char *b, const char *except);
 

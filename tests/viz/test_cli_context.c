@@ -1,0 +1,180 @@
+/* test_cli_context.c - octreel's --context: who draws, what is said where nobody can, and that a renderer which is not
+ * llvmpipe draws only where it is asked for. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "draw.h"
+#include "files.h"
+#include "fixture.h"
+#include "tick_lines.h"
+
+#define FILM "record --keys wd --size 64x36"
+
+static void need_contexts(bool osmesa, bool egl)
+{
+    if ((draw_context_built(DRAW_OSMESA) || !osmesa) && (draw_context_built(DRAW_EGL) || !egl))
+        return;
+    print_message("the program is built without a context that this is about\n");
+    skip();
+}
+
+/* Film, and compare a member of renderer.json from its beginning on. */
+static void assert_drawn_by(const command_setting *setting, const char *options, const place *folder,
+                            const char *member, const char *expected)
+{
+    command_result result = run_octreel(setting, FILM " %s -o %s", options, folder->path);
+    assert_done(&result);
+    command_release(&result);
+    char *text = file_read(place_below(folder->path, "renderer.json").path, NULL);
+    json_t *object = json_read(text);
+    const char *found = json_string_value(json_member(object, member));
+    if (strncmp(found, expected, strlen(expected)) != 0)
+        fail_msg("renderer.json says \"%s\"", found);
+    json_decref(object);
+    free(text);
+}
+
+static void assert_not_drawn(const command_setting *setting, const char *options, const place *folder, const char *part)
+{
+    command_result result = run_octreel(setting, FILM " %s -o %s", options, folder->path);
+    assert_trouble(&result, part);
+    assert_false(file_exists(folder->path));
+}
+
+static void each_context_films_and_is_named(void **state)
+{
+    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
+        const char *name = draw_context_name((draw_context)kind);
+        const place folder = place_in(*state, name);
+        char option[32];
+        snprintf(option, sizeof option, "--context %s", name);
+        if (draw_context_built((draw_context)kind))
+            assert_drawn_by(NULL, option, &folder, "context", name);
+        else
+            assert_not_drawn(NULL, option, &folder, name);
+    }
+}
+
+static void version_names_each_context(void **state)
+{
+    (void)state;
+    command_result result = run_octreel(NULL, "--version");
+    assert_done(&result);
+    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
+        char line[32];
+        snprintf(line, sizeof line, "\n%s: llvmpipe", draw_context_name((draw_context)kind));
+        assert_int_equal(strstr(result.out, line) != NULL, draw_context_built((draw_context)kind));
+    }
+    command_release(&result);
+}
+
+static void inspect_takes_a_context_too(void **state)
+{
+    need_contexts(false, true);
+    const place cloud = place_in(*state, "points.txt"), a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
+    file_write_text(cloud.path, "1 2 3\n-4 5 6\n7 8 -9\n");
+    command_result result = run_octreel(NULL, "inspect %s -o %s", cloud.path, a.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "inspect %s -o %s --context egl", cloud.path, b.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_same_files(a.path, b.path);
+    result = run_octreel(NULL, "inspect %s -o %s --context glx", cloud.path, b.path);
+    assert_trouble(&result, "auto, osmesa, egl");
+}
+
+static void choices_that_do_not_fit_are_refused(void **state)
+{
+    const place folder = place_in(*state, "film");
+    assert_not_drawn(NULL, "--context glx", &folder, "there is no context \"glx\"; there are auto, osmesa, egl");
+    assert_not_drawn(NULL, "--any-renderer", &folder, "--context egl");
+    assert_not_drawn(NULL, "--any-renderer --context osmesa", &folder, "--context egl");
+}
+
+/* A place where the libraries of these names are no libraries; what the program then finds of them. */
+static const char *hide_libraries(const temp_folder *own, const char *const *names, char setting[96])
+{
+    for (; *names; names++)
+        file_write_text(place_in(own, *names).path, "");
+    snprintf(setting, 96, "LD_LIBRARY_PATH=%s", own->name);
+    return setting;
+}
+
+static void egl_draws_where_osmesa_cannot_be_loaded(void **state)
+{
+    static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so", NULL};
+    need_contexts(true, true);
+    char path[96];
+    const command_setting without = {.environment = {hide_libraries(*state, names, path)}};
+    const place folder = place_in(*state, "film"), other = place_in(*state, "other");
+    assert_drawn_by(&without, "", &folder, "context", "egl");
+    assert_not_drawn(&without, "--context osmesa", &other, "libosmesa6");
+}
+
+static void machine_with_neither_is_told_what_to_install(void **state)
+{
+    static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so", "libEGL.so.1", "libEGL.so", NULL};
+    char path[96];
+    const command_setting without = {.environment = {hide_libraries(*state, names, path)}};
+    const place folder = place_in(*state, "film");
+    const char *first = draw_context_built(DRAW_OSMESA) ? "libosmesa6" : "libegl1";
+    assert_not_drawn(&without, "", &folder, first);
+    assert_not_drawn(&without, "--context egl", &folder, draw_context_built(DRAW_EGL) ? "libegl1" : "egl");
+    command_result result = run_octreel(&without, "--version");
+    assert_int_equal(result.status, 2);
+    assert_non_null(strstr(result.out, first));
+    command_release(&result);
+}
+
+static void egl_that_knows_no_driver_is_trouble(void **state)
+{
+    need_contexts(false, true);
+    const temp_folder *own = *state;
+    char path[96];
+    snprintf(path, sizeof path, "__EGL_VENDOR_LIBRARY_DIRS=%s", own->name);
+    const command_setting bare = {.environment = {path}};
+    const place folder = place_in(own, "film");
+    assert_not_drawn(&bare, "--context egl", &folder, "EGL gives no OpenGL context");
+}
+
+static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
+
+static void renderer_that_is_not_llvmpipe_is_refused(void **state)
+{
+    const place folder = place_in(*state, "film");
+    assert_not_drawn(&softpipe, "", &folder, "softpipe");
+    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
+        char option[32];
+        snprintf(option, sizeof option, "--context %s", draw_context_name((draw_context)kind));
+        assert_not_drawn(&softpipe, option, &folder,
+                         draw_context_built((draw_context)kind) ? "llvmpipe alone" : "without the");
+    }
+}
+
+static void any_renderer_draws_where_it_is_asked_for(void **state)
+{
+    need_contexts(false, true);
+    const place folder = place_in(*state, "film");
+    assert_drawn_by(&softpipe, "--context egl --any-renderer", &folder, "renderer", "softpipe");
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(each_context_films_and_is_named),
+        cmocka_unit_test(version_names_each_context),
+        IN_FOLDER(inspect_takes_a_context_too),
+        IN_FOLDER(choices_that_do_not_fit_are_refused),
+        IN_FOLDER(egl_draws_where_osmesa_cannot_be_loaded),
+        IN_FOLDER(machine_with_neither_is_told_what_to_install),
+        IN_FOLDER(egl_that_knows_no_driver_is_trouble),
+        IN_FOLDER(renderer_that_is_not_llvmpipe_is_refused),
+        IN_FOLDER(any_renderer_draws_where_it_is_asked_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
