@@ -1,5 +1,6 @@
 /* test_same_bytes.c - a recording is the same bytes, renderer.json aside: filmed twice, played again from its own
- * session.json, by the library or the program, on however many threads and on whatever processor. */
+ * session.json, by the library or the program, through any context, on
+ * however many threads and on whatever processor. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,38 +44,96 @@ static void program_and_library_film_the_same_bytes(void **state)
     assert_same_folders(a.path, b.path, NULL);
 }
 
-static void neither_threads_nor_processor_nor_surroundings_change_a_byte(void **state)
+/* Where a renderer runs: vector width in bits, processor features and threads, so that each two values of different
+ * columns meet in one row. */
+static const command_setting machines[] = {
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=128", "GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=0"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=128", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "LP_NUM_THREADS=3"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=128", "LP_NUM_THREADS=8"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=256", "GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=3"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=256", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "LP_NUM_THREADS=8"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=256", "LP_NUM_THREADS=0"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=512", "GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=8"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=512", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "LP_NUM_THREADS=0"}},
+    {.environment = {"LP_NATIVE_VECTOR_WIDTH=512", "LP_NUM_THREADS=3"}},
+    {.environment = {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TZ=Pacific/Kiritimati"}},
+};
+
+#define MACHINES (sizeof machines / sizeof machines[0])
+
+/* On every machine, by every context that the program has, the session is the same bytes. */
+static void assert_same_on_every_machine(const temp_folder *own, const char *session, const char *view)
 {
-    static const command_setting settings[] = {
-        {.environment = {"LP_NUM_THREADS=0"}},
-        {.environment = {"LP_NUM_THREADS=2"}},
-        {.environment = {"LP_NATIVE_VECTOR_WIDTH=128"}},
-        {.environment = {"LP_NATIVE_VECTOR_WIDTH=256"}},
-        {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=sse4.1"}},
-        {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=nosse"}},
-        {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=0", "LP_NATIVE_VECTOR_WIDTH=128"}},
-        {.environment = {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "TZ=Pacific/Kiritimati"}},
-    };
-    const place plain = place_in(*state, "plain");
-    assert_filmed_by_program(NULL, "", VIEW, plain.path);
-    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
-        char name[16];
+    const place plain = place_in(own, "plain");
+    assert_filmed_by_program(NULL, session, view, plain.path);
+    for (size_t i = 0; i < MACHINES * DRAW_CONTEXTS; i++) {
+        const draw_context kind = (draw_context)(i % DRAW_CONTEXTS);
+        char name[16], options[256];
+        if (kind == DRAW_AUTO || !draw_context_built(kind))
+            continue;
         snprintf(name, sizeof name, "film%zu", i);
-        const place other = place_in(*state, name);
-        assert_filmed_by_program(&settings[i], "", VIEW, other.path);
+        snprintf(options, sizeof options, "%s --context %s", view, draw_context_name(kind));
+        const place other = place_in(own, name);
+        assert_filmed_by_program(&machines[i / DRAW_CONTEXTS], session, options, other.path);
         assert_same_folders(plain.path, other.path, "renderer.json");
     }
 }
 
-/* Otherwise the test above would compare a renderer with itself. */
-static void the_vector_width_does_reach_the_renderer(void **state)
+static void default_session_is_the_same_on_every_machine(void **state)
 {
-    static const command_setting narrow = {.environment = {"LP_NATIVE_VECTOR_WIDTH=128"}};
-    const place folder = place_in(*state, "film");
-    assert_filmed_by_program(&narrow, "", "--keys w --size 16x16", folder.path);
-    char *text = file_read(place_below(folder.path, "renderer.json").path, NULL);
-    assert_non_null(strstr(text, "128 bits"));
-    free(text);
+    assert_same_on_every_machine(*state, "", "--size 320x180 --every 60 --camera iso");
+}
+
+static void anti_aliased_frames_with_labels_are_the_same_on_every_machine(void **state)
+{
+    assert_same_on_every_machine(*state, "", "--size 160x90 --every 70 --camera orbit --aa 4 --labels");
+}
+
+static void crowd_in_motion_is_the_same_on_every_machine(void **state)
+{
+    const place session = place_in(*state, "s.json");
+    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 1, \"tree\": {\"capacity\": 4, \"full\": "
+                                  "\"grow\"}, \"points\": {\"sample\": \"clustered\", \"count\": 600, \"seed\": 5}, "
+                                  "\"velocities\": {\"speed\": 9, \"seed\": 2}, \"keys\": \"wwdne\"}\n");
+    assert_same_on_every_machine(*state, session.path, "--size 320x180 --every 2 --camera follow --color-by occupancy");
+}
+
+static void session_that_asks_for_everything_is_the_same_on_every_machine(void **state)
+{
+    static random_session made;
+    const place session = place_in(*state, "s.json");
+    random_session_full(&made, 11);
+    FILE *file = fopen(session.path, "wb");
+    assert_non_null(file);
+    assert_true(session_write(&made.session, file));
+    assert_int_equal(fclose(file), 0);
+    assert_same_on_every_machine(*state, session.path, "--size 160x90 --every 20 --camera top");
+}
+
+/* Otherwise the tests above would compare a renderer with itself. */
+static void what_a_machine_has_does_reach_each_context(void **state)
+{
+    static const struct {
+        const char *set, *said;
+    } rows[] = {
+        {"LP_NATIVE_VECTOR_WIDTH=512", "512 bits"},
+        {"LP_NATIVE_VECTOR_WIDTH=128", "128 bits"},
+        {"GALLIUM_OVERRIDE_CPU_CAPS=nosse", "128 bits"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0] * DRAW_CONTEXTS; i++) {
+        const command_setting machine = {.environment = {rows[i / DRAW_CONTEXTS].set}};
+        char name[16], options[64];
+        snprintf(name, sizeof name, "film%zu", i);
+        snprintf(options, sizeof options, "--keys w --size 16x16 --context %s",
+                 draw_context_name((draw_context)(i % DRAW_CONTEXTS)));
+        if (!draw_context_built((draw_context)(i % DRAW_CONTEXTS)))
+            continue;
+        const place folder = place_in(*state, name);
+        assert_filmed_by_program(&machine, "", options, folder.path);
+        char *text = file_read(place_below(folder.path, "renderer.json").path, NULL);
+        assert_non_null(strstr(text, rows[i / DRAW_CONTEXTS].said));
+        free(text);
+    }
 }
 
 static void every_camera_is_the_same_on_a_poor_processor(void **state)
@@ -164,8 +223,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(two_films_are_the_same_bytes),
         IN_FOLDER(program_and_library_film_the_same_bytes),
-        IN_FOLDER(neither_threads_nor_processor_nor_surroundings_change_a_byte),
-        IN_FOLDER(the_vector_width_does_reach_the_renderer),
+        IN_FOLDER(default_session_is_the_same_on_every_machine),
+        IN_FOLDER(anti_aliased_frames_with_labels_are_the_same_on_every_machine),
+        IN_FOLDER(crowd_in_motion_is_the_same_on_every_machine),
+        IN_FOLDER(session_that_asks_for_everything_is_the_same_on_every_machine),
+        IN_FOLDER(what_a_machine_has_does_reach_each_context),
         IN_FOLDER(every_camera_is_the_same_on_a_poor_processor),
         IN_FOLDER(default_session_plays_again_from_its_recording),
         IN_FOLDER(session_with_edits_motion_and_queries_plays_again_from_its_recording),
