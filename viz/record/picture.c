@@ -1,5 +1,7 @@
 /* picture.c - see picture.h. */
 #include "picture.h"
+#include "filter.h"
+#include "fit.h"
 
 static image_palette theme_palette(void)
 {
@@ -9,6 +11,14 @@ static image_palette theme_palette(void)
         palette.colors[i] = (image_color){color.r, color.g, color.b};
     }
     return palette;
+}
+
+bool picture_fit(view *v, const octree *tree, record_error *error)
+{
+    char reason[FILTER_TEXT];
+    const octree_def def = octree_definition(tree);
+    fit_view(v, tree);
+    return !filter_refusal(&v->filter, &def, reason) || record_fail(error, "%s", reason);
 }
 
 static bool check_samples(const view *v, record_error *error)

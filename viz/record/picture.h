@@ -12,6 +12,9 @@ typedef struct picture {
     image samples; /* under anti-aliasing what the frame is made of; else empty */
 } picture;
 
+/* Fit a view to the tree that it shows first. False with the reason where there is nothing in it to be seen. */
+bool picture_fit(view *v, const octree *tree, record_error *error);
+
 /* For scenes of this view's size and anti-aliasing. What is too large is refused before memory is spent. */
 bool picture_open(picture *p, const view *v, const renderer_choice *choice, record_error *error);
 void picture_close(picture *p);

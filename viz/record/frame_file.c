@@ -1,0 +1,104 @@
+/* frame_file.c - see frame_file.h. */
+#include "frame_file.h"
+#include "ticks_write.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char tick_keyword[] = "octreel-tick", session_keyword[] = "octreel-session",
+                  scene_keyword[] = "octreel-scene", pixels_keyword[] = "octreel-pixels",
+                  left_out_keyword[] = "octreel-left-out";
+
+#define NUMBER_SIZE 24 /* of a text: room for any number and any digest */
+
+char *frame_name(uint64_t tick, char name[FRAME_NAME])
+{
+    snprintf(name, FRAME_NAME, "frame_%06" PRIu64 ".png", tick);
+    return name;
+}
+
+bool frame_parse_name(const char *name, uint64_t *tick)
+{
+    char again[FRAME_NAME];
+    if (strncmp(name, "frame_", 6) != 0)
+        return false;
+    *tick = strtoull(name + 6, NULL, 10);
+    return strcmp(name, frame_name(*tick, again)) == 0;
+}
+
+static char *frame_path(const char *folder, uint64_t tick, record_error *error)
+{
+    char name[FRAME_NAME], *path = folder_path(folder, frame_name(tick, name));
+    if (!path)
+        record_fail(error, "there is no memory");
+    return path;
+}
+
+bool frame_write(const char *folder, const picture *p, const frame_origin *origin, record_error *error)
+{
+    char tick[NUMBER_SIZE], left_out[NUMBER_SIZE], digests[3][DIGEST_TEXT];
+    snprintf(tick, sizeof tick, "%" PRIu64, origin->tick);
+    snprintf(left_out, sizeof left_out, "%" PRIu64, origin->left_out);
+    const image_text texts[] = {
+        {tick_keyword, tick},
+        {session_keyword, digest_print(origin->session, digests[0])},
+        {scene_keyword, digest_print(origin->scene, digests[1])},
+        {pixels_keyword, digest_print(image_digest(&p->frame), digests[2])},
+        {left_out_keyword, left_out},
+    };
+    const size_t count = sizeof texts / sizeof texts[0] - (origin->left_out == 0);
+    char *path = frame_path(folder, origin->tick, error);
+    const bool ok = path && picture_write(p, path, texts, count, error);
+    free(path);
+    return ok;
+}
+
+static bool says(const char *path, const char *keyword, const char *expected)
+{
+    char text[NUMBER_SIZE];
+    return image_read_text(path, keyword, text, sizeof text) && strcmp(text, expected) == 0;
+}
+
+static bool says_digest(const char *path, const char *keyword, uint64_t digest)
+{
+    char text[DIGEST_TEXT];
+    return says(path, keyword, digest_print(digest, text));
+}
+
+static bool check_pixels(const char *path, record_error *error)
+{
+    image_error unread;
+    image pixels;
+    if (!image_read_png(path, &pixels, &unread))
+        return record_fail(error, "%s", unread.text);
+    const uint64_t digest = image_digest(&pixels);
+    image_release(&pixels);
+    return says_digest(path, pixels_keyword, digest) ||
+           record_fail(error, "%s: its pixels are not those that were drawn", path);
+}
+
+/* The pixels come first: what is damaged may say anything. */
+static bool check_file(const char *path, frame_origin *origin, record_error *error)
+{
+    char text[NUMBER_SIZE];
+    if (!check_pixels(path, error))
+        return false;
+    if (!says_digest(path, session_keyword, origin->session))
+        return record_fail(error, "%s: is a frame of another session", path);
+    snprintf(text, sizeof text, "%" PRIu64, origin->tick);
+    if (!says(path, tick_keyword, text))
+        return record_fail(error, "%s: is the frame of another tick", path);
+    if (!says_digest(path, scene_keyword, origin->scene))
+        return record_fail(error, "%s: shows the tick in another view, or is by another version of octreel", path);
+    origin->left_out = image_read_text(path, left_out_keyword, text, sizeof text) ? strtoull(text, NULL, 10) : 0;
+    return true;
+}
+
+bool frame_check(const char *folder, frame_origin *origin, record_error *error)
+{
+    char *path = frame_path(folder, origin->tick, error);
+    const bool ok = path && check_file(path, origin, error);
+    free(path);
+    return ok;
+}

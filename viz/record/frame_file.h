@@ -1,0 +1,30 @@
+/* frame_file.h - the frame of a tick as a file of a recording: its name, what traces it to the tick that made it, and
+ * whether the one that is there is that one. */
+#ifndef RECORD_FRAME_FILE_H
+#define RECORD_FRAME_FILE_H
+
+#include "folder.h"
+#include "picture.h"
+
+#include <stdint.h>
+
+#define FRAME_NAME 40
+char *frame_name(uint64_t tick, char name[FRAME_NAME]);
+
+/* The tick of a frame's name; false for any other name. */
+bool frame_parse_name(const char *name, uint64_t *tick);
+
+/* Where a frame comes from; its texts say so. */
+typedef struct frame_origin {
+    uint64_t tick, session, scene; /* its number, and the digests of session.json and of the tick's scene */
+    uint64_t left_out;             /* elements of the scene that could not be drawn; said where there are any */
+} frame_origin;
+
+/* Write a picture as the frame of its tick. */
+bool frame_write(const char *folder, const picture *p, const frame_origin *origin, record_error *error);
+
+/* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
+ * among them is that of the pixels that are decoded. left_out is read from it. Else one sentence. */
+bool frame_check(const char *folder, frame_origin *origin, record_error *error);
+
+#endif

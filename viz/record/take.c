@@ -1,0 +1,94 @@
+/* take.c - see take.h. */
+#include "take.h"
+#include "frame_file.h"
+#include "tick_scene.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+bool take_open(take *t, const octree_session *session, const film_options *options, take_frames frames,
+               record_error *error)
+{
+    *t = (take){.options = options, .view = options->view, .frames = frames};
+    const octree_status status = octree_game_create(session, &t->game);
+    if (status != OCTREE_OK)
+        return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
+    return picture_fit(&t->view, octree_game_tree(t->game), error) &&
+           (frames == FRAMES_CHECK || picture_open(&t->picture, &t->view, &options->renderer, error));
+}
+
+void take_close(take *t)
+{
+    octree_game_destroy(t->game);
+    picture_close(&t->picture);
+    scene_release(&t->scene);
+    free(t->line);
+    *t = (take){0};
+}
+
+static bool draw_frame(take *t, frame_origin *origin, record_error *error)
+{
+    if (!picture_draw(&t->picture, &t->scene, error))
+        return false;
+    origin->left_out = renderer_left_out(t->picture.renderer);
+    return frame_write(t->options->folder, &t->picture, origin, error);
+}
+
+static bool take_frame(take *t, film_step *step, record_error *error)
+{
+    record_error unlike;
+    if (!tick_scene_build(&t->scene, &t->view, t->game))
+        return record_fail(error, "there is no memory for a scene");
+    t->extras.scene_digest = scene_digest(&t->scene);
+    frame_origin origin = {.tick = step->tick, .session = t->session_digest, .scene = t->extras.scene_digest};
+    bool done = t->frames != FRAMES_DRAW &&
+                frame_check(t->options->folder, &origin, t->frames == FRAMES_CHECK ? error : &unlike);
+    if (!done && t->frames != FRAMES_CHECK)
+        done = draw_frame(t, &origin, error);
+    step->left_out = origin.left_out;
+    step->over_budget = t->scene.tally.beyond || t->scene.tally.thinned;
+    return done;
+}
+
+static void describe_tree(take *t)
+{
+    const octree *tree = octree_game_tree(t->game);
+    if (t->has_tree && t->tree_version == octree_version(tree))
+        return;
+    t->has_tree = true;
+    t->tree_version = octree_version(tree);
+    t->extras.tree_digest = octree_digest(tree);
+    octree_statistics(tree, &t->extras.stats);
+}
+
+/* In memory: a line is written in one piece, and may be sent or compared instead. */
+static bool take_line(take *t, film_step *step, record_error *error)
+{
+    free(t->line);
+    t->line = NULL;
+    FILE *stream = open_memstream(&t->line, &step->size);
+    if (stream)
+        tick_write(stream, octree_game_tick(t->game), &t->extras);
+    const bool whole = stream && !ferror(stream);
+    if ((stream && fclose(stream) != 0) || !whole)
+        return record_fail(error, "there is no memory for the line of tick %" PRIu64, step->tick);
+    step->line = t->line;
+    return true;
+}
+
+bool take_tick(take *t, film_step *step, record_error *error)
+{
+    const octree_tick *tick = octree_game_tick(t->game);
+    char name[FRAME_NAME];
+    *step = (film_step){.tick = tick->number, .events = tick->events, .filmed = tick->number % t->options->every == 0};
+    t->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
+    describe_tree(t);
+    return (!step->filmed || take_frame(t, step, error)) && take_line(t, step, error);
+}
+
+bool take_advance(take *t, record_error *error)
+{
+    const octree_status status = octree_game_advance(t->game);
+    return status == OCTREE_OK || record_fail(error, "tick %" PRIu64 " cannot be played: %s",
+                                              octree_game_tick(t->game)->number, octree_status_text(status));
+}

@@ -1,0 +1,71 @@
+/* tick_log.c - see tick_log.h. */
+#include "tick_log.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Where a file system knows no locks there is nobody to ask. */
+static bool is_taken(int file)
+{
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    return fcntl(file, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
+}
+
+static bool fail_to_write(tick_log *log, record_error *error, const char *more)
+{
+    return record_fail(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
+}
+
+/* It is emptied behind the lock: the lines of another process stay. */
+static bool begin(tick_log *log, int file, record_error *error)
+{
+    if (is_taken(file))
+        return record_fail(error, "%s: another process is filming into it", log->path);
+    if (ftruncate(file, 0) == 0)
+        log->stream = fdopen(file, "wb");
+    return log->stream || fail_to_write(log, error, "");
+}
+
+bool tick_log_open(tick_log *log, const char *folder, const char *name, record_error *error)
+{
+    *log = (tick_log){.path = folder_path(folder, name)};
+    if (!log->path)
+        return record_fail(error, "there is no memory");
+    const int file = open(log->path, O_WRONLY | O_CREAT, 0666);
+    if (file < 0 ? fail_to_write(log, error, "") : begin(log, file, error))
+        return true;
+    if (file >= 0)
+        close(file);
+    free(log->path);
+    log->path = NULL;
+    return false;
+}
+
+static bool give_up(tick_log *log, record_error *error)
+{
+    const int reason = errno;
+    fclose(log->stream);
+    log->stream = NULL;
+    const bool cut = truncate(log->path, log->whole) == 0;
+    errno = reason;
+    return fail_to_write(log, error, cut ? "" : "; its last line is torn");
+}
+
+bool tick_log_add(tick_log *log, const char *line, size_t size, record_error *error)
+{
+    if (fwrite(line, 1, size, log->stream) != size || fflush(log->stream) != 0)
+        return give_up(log, error);
+    log->whole += (off_t)size;
+    return true;
+}
+
+bool tick_log_close(tick_log *log, record_error *error)
+{
+    const bool ok = !log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "");
+    free(log->path);
+    *log = (tick_log){0};
+    return ok;
+}

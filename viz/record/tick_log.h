@@ -1,0 +1,24 @@
+/* tick_log.h - ticks.jsonl while it grows: whole lines, whatever happens. */
+#ifndef RECORD_TICK_LOG_H
+#define RECORD_TICK_LOG_H
+
+#include "folder.h"
+
+#include <sys/types.h>
+
+typedef struct tick_log {
+    FILE *stream; /* null: not open */
+    char *path;
+    off_t whole; /* bytes up to the end of its last whole line */
+} tick_log;
+
+/* Begin a file of the folder anew. False where another process has it open so: two would spoil each other's frames. */
+bool tick_log_open(tick_log *log, const char *folder, const char *name, record_error *error);
+
+/* Add a line, its newline included. What cannot be written whole is cut off, and the log closed. */
+bool tick_log_add(tick_log *log, const char *line, size_t size, record_error *error);
+
+/* Close a log, open or not. */
+bool tick_log_close(tick_log *log, record_error *error);
+
+#endif
