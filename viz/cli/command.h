@@ -20,6 +20,7 @@ typedef struct command {
 
 int cmd_record(int argc, char **argv);
 int cmd_inspect(int argc, char **argv);
+int cmd_verify(int argc, char **argv);
 
 /* "octreel: " and a sentence on stderr; EXIT_TROUBLE. */
 int trouble(const char *format, ...);

@@ -6,6 +6,7 @@
 
 static const command commands[] = {
     {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
+    {"verify", cmd_verify, "play a recording again: is it still what its session makes?"},
     {"inspect", cmd_inspect, "build a tree from a point cloud, draw its subdivision, print its statistics"},
 };
 

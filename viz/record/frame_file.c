@@ -66,15 +66,15 @@ static bool says_digest(const char *path, const char *keyword, uint64_t digest)
     return says(path, keyword, digest_print(digest, text));
 }
 
-static bool check_pixels(const char *path, record_error *error)
+static bool check_pixels(const char *path, frame_origin *origin, record_error *error)
 {
     image_error unread;
     image pixels;
     if (!image_read_png(path, &pixels, &unread))
         return record_fail(error, "%s", unread.text);
-    const uint64_t digest = image_digest(&pixels);
+    origin->pixels = image_digest(&pixels);
     image_release(&pixels);
-    return says_digest(path, pixels_keyword, digest) ||
+    return says_digest(path, pixels_keyword, origin->pixels) ||
            record_fail(error, "%s: its pixels are not those that were drawn", path);
 }
 
@@ -82,7 +82,7 @@ static bool check_pixels(const char *path, record_error *error)
 static bool check_file(const char *path, frame_origin *origin, record_error *error)
 {
     char text[NUMBER_SIZE];
-    if (!check_pixels(path, error))
+    if (!check_pixels(path, origin, error))
         return false;
     if (!says_digest(path, session_keyword, origin->session))
         return record_fail(error, "%s: is a frame of another session", path);
@@ -93,6 +93,17 @@ static bool check_file(const char *path, frame_origin *origin, record_error *err
         return record_fail(error, "%s: shows the tick in another view, or is by another version of octreel", path);
     origin->left_out = image_read_text(path, left_out_keyword, text, sizeof text) ? strtoull(text, NULL, 10) : 0;
     return true;
+}
+
+bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
+{
+    record_error ignored;
+    char text[DIGEST_TEXT], *path = frame_path(folder, tick, &ignored);
+    const bool told = path && image_read_text(path, session_keyword, text, sizeof text);
+    if (told)
+        *session = strtoull(text, NULL, 16);
+    free(path);
+    return told;
 }
 
 bool frame_check(const char *folder, frame_origin *origin, record_error *error)

@@ -18,13 +18,17 @@ bool frame_parse_name(const char *name, uint64_t *tick);
 typedef struct frame_origin {
     uint64_t tick, session, scene; /* its number, and the digests of session.json and of the tick's scene */
     uint64_t left_out;             /* elements of the scene that could not be drawn; said where there are any */
+    uint64_t pixels;               /* of a frame that was checked: the digest of its pixels */
 } frame_origin;
 
 /* Write a picture as the frame of its tick. */
 bool frame_write(const char *folder, const picture *p, const frame_origin *origin, record_error *error);
 
+/* The session that the frame of a tick says it is of. False where it is not there or says nothing. */
+bool frame_session(const char *folder, uint64_t tick, uint64_t *session);
+
 /* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
- * among them is that of the pixels that are decoded. left_out is read from it. Else one sentence. */
+ * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
 bool frame_check(const char *folder, frame_origin *origin, record_error *error);
 
 #endif

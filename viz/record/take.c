@@ -31,7 +31,7 @@ static bool draw_frame(take *t, frame_origin *origin, record_error *error)
     if (!picture_draw(&t->picture, &t->scene, error))
         return false;
     origin->left_out = renderer_left_out(t->picture.renderer);
-    return frame_write(t->options->folder, &t->picture, origin, error);
+    return t->frames == FRAMES_SHOW || frame_write(t->options->folder, &t->picture, origin, error);
 }
 
 static bool take_frame(take *t, film_step *step, record_error *error)
@@ -41,7 +41,7 @@ static bool take_frame(take *t, film_step *step, record_error *error)
         return record_fail(error, "there is no memory for a scene");
     t->extras.scene_digest = scene_digest(&t->scene);
     frame_origin origin = {.tick = step->tick, .session = t->session_digest, .scene = t->extras.scene_digest};
-    bool done = t->frames != FRAMES_DRAW &&
+    bool done = (t->frames == FRAMES_KEEP || t->frames == FRAMES_CHECK) &&
                 frame_check(t->options->folder, &origin, t->frames == FRAMES_CHECK ? error : &unlike);
     if (!done && t->frames != FRAMES_CHECK)
         done = draw_frame(t, &origin, error);

@@ -11,6 +11,7 @@ typedef enum take_frames {
     FRAMES_DRAW,  /* it is drawn */
     FRAMES_KEEP,  /* it is drawn, unless it is there already, whole and right */
     FRAMES_CHECK, /* it must be there, whole and right; there is no renderer */
+    FRAMES_SHOW,  /* it is drawn, and stays in take.picture */
 } take_frames;
 
 typedef struct take {

@@ -119,11 +119,15 @@ static bool read_theme(session_reader *reader, json_t *value, const json_place *
     return (name && strcmp(name, theme_name()) == 0) || session_expected(reader, value, at, what);
 }
 
-/* What belongs to the recording and not to its view. */
-static bool pass_over(session_reader *reader, json_t *value, const json_place *at, void *into)
+/* What is read: the view comes first, so that places in it are places in this. */
+typedef struct recorded {
+    view view;
+    uint64_t every; /* what belongs to the recording and not to its view */
+} recorded;
+
+static bool read_every(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
-    (void)reader, (void)value, (void)at, (void)into;
-    return true;
+    return session_read_whole(reader, value, at, 1, SESSION_LAST_TICK, into);
 }
 
 static bool read_side(session_reader *reader, json_t *value, const json_place *at, void *into)
@@ -262,36 +266,51 @@ static const session_member members[] = {
     {"budget", session_read_id, offsetof(view, budget), false},
     {"aa", read_aa, offsetof(view, aa), false},
     {"theme", read_theme, 0, false},
-    {"every", pass_over, 0, false},
+    {"every", read_every, offsetof(recorded, every), false},
     {0},
 };
 
-static bool parse(session_reader *reader, view *v)
+static bool parse(session_reader *reader, recorded *into)
 {
     const size_t flags = JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL;
     json_error_t parsed;
     json_t *object = json_loadb(reader->object, (size_t)(reader->limit - reader->object), flags, &parsed);
     if (!object)
         return session_fail_line(reader, parsed.line > 1 ? (size_t)parsed.line : 1, "", parsed.text);
-    const bool done = session_read_members(reader, object, NULL, members, v);
+    const bool done = session_read_members(reader, object, NULL, members, into);
     json_decref(object);
     return done;
 }
 
-bool view_read(const char *folder, view *v, record_error *error)
+static bool read_file(const char *folder, recorded *into, record_error *error)
 {
     char reason[WHOLE_FILE_REASON], *text, *path = folder_path(folder, "recording.json");
     session_error unread;
     size_t size;
-    *v = (view){0};
+    *into = (recorded){.every = 1};
     if (!path)
         return record_fail(error, "there is no memory");
     bool done = whole_file_read(path, &text, &size, reason) || record_fail(error, "%s: %s", path, reason);
     if (done) {
         session_reader reader = {.name = path, .object = text, .limit = text + size, .line = 1, .error = &unread};
-        done = parse(&reader, v) || record_fail(error, "%s", unread.text);
+        done = parse(&reader, into) || record_fail(error, "%s", unread.text);
         free(text);
     }
     free(path);
     return done;
+}
+
+bool view_read_recording(const char *folder, view *v, uint64_t *every, record_error *error)
+{
+    recorded found;
+    const bool done = read_file(folder, &found, error);
+    *v = found.view;
+    *every = found.every;
+    return done;
+}
+
+bool view_read(const char *folder, view *v, record_error *error)
+{
+    uint64_t every;
+    return view_read_recording(folder, v, &every, error);
 }

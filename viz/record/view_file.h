@@ -23,4 +23,7 @@ void view_write(json_writer *w, const view *v);
  * False, with file, line and reason, when it is none. */
 bool view_read(const char *folder, view *v, record_error *error);
 
+/* The same, and each how many ticks a frame was filmed. */
+bool view_read_recording(const char *folder, view *v, uint64_t *every, record_error *error);
+
 #endif

@@ -1,0 +1,295 @@
+/* verify.c - see verify.h. */
+#include "verify.h"
+#include "frame_file.h"
+#include "octree/digest.h"
+#include "printable.h"
+#include "session_file.h"
+#include "take.h"
+#include "verify_line.h"
+#include "view_file.h"
+#include "who_drew.h"
+#include "whole_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* A line that is longer than this many times the one that belongs there is not read to its end. */
+#define LONGER 16
+#define LONG_ENOUGH 65536
+
+/* A recording that is being verified. */
+typedef struct verifying {
+    const char *folder;
+    const verify_options *options;
+    film_options film; /* as recording.json has it */
+    session_file session;
+    uint64_t ticks;
+    uint64_t session_digest, filmed_session; /* of session.json, and of the session that the frames are of */
+    line_reader lines;
+    take take;
+    bool stopped; /* at the first tick that differs */
+    verify_report *report;
+} verifying;
+
+/* The next finding, about a tick. */
+static verify_finding *find(verifying *v, verify_kind kind, uint64_t tick)
+{
+    verify_finding *finding = &v->report->findings[v->report->count++];
+    *finding = (verify_finding){.kind = kind, .has_tick = true, .tick = tick};
+    return finding;
+}
+
+static void say(verify_finding *finding, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(finding->text, sizeof finding->text, format, arguments);
+    va_end(arguments);
+}
+
+/* ---- What is there before any tick -------------------------------------------------------------------------- */
+
+static bool read_session(verifying *v, record_error *error)
+{
+    char reason[WHOLE_FILE_REASON], *text, *path = folder_path(v->folder, "session.json");
+    char *inside = folder_path(v->folder, ""); /* where files of points would be */
+    session_error unread;
+    size_t size;
+    bool ok = (path && inside) || record_fail(error, "there is no memory");
+    ok = ok && (whole_file_read(path, &text, &size, reason) || record_fail(error, "%s: %s", path, reason));
+    if (ok) {
+        v->session_digest = octree_digest_bytes(OCTREE_DIGEST_START, text, size);
+        ok = session_parse(path, inside, text, size, &v->session, &unread) || record_fail(error, "%s", unread.text);
+        free(text);
+    }
+    free(path);
+    free(inside);
+    return ok;
+}
+
+static bool open_lines(verifying *v, record_error *error)
+{
+    char *path = folder_path(v->folder, "ticks.jsonl");
+    const bool ok = path ? lines_open(&v->lines, path, error) : record_fail(error, "there is no memory");
+    free(path);
+    return ok;
+}
+
+static void check_session(verifying *v)
+{
+    if (!frame_session(v->folder, 0, &v->filmed_session) || v->filmed_session == v->session_digest)
+        return;
+    verify_finding *finding = find(v, VERIFY_SESSION, 0);
+    finding->has_tick = false;
+    say(finding,
+        "session.json is not the session that was filmed: its digest is %016" PRIx64
+        ", and the first frame is of %016" PRIx64,
+        v->session_digest, v->filmed_session);
+}
+
+static void check_size(verifying *v, const char *path)
+{
+    const view *wanted = &v->film.view;
+    image_error ignored;
+    image frame;
+    if (!image_read_png(path, &frame, &ignored))
+        return;
+    if (frame.width != wanted->width || frame.height != wanted->height) {
+        say(find(v, VERIFY_VIEW, 0), "recording.json says %d x %d pixels, and the first frame has %d x %d",
+            wanted->width, wanted->height, frame.width, frame.height);
+        v->stopped = true;
+    }
+    image_release(&frame);
+}
+
+static bool is_file(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/* What the first frame tells, before a renderer of the size that recording.json says is opened. Where it cannot be
+ * read, its tick will tell. */
+static bool check_first_frame(verifying *v, record_error *error)
+{
+    char name[FRAME_NAME], *path = folder_path(v->folder, frame_name(0, name));
+    v->filmed_session = v->session_digest;
+    if (!path)
+        return record_fail(error, "there is no memory");
+    if (is_file(path)) {
+        check_session(v);
+        check_size(v, path);
+    }
+    free(path);
+    return true;
+}
+
+/* ---- A tick ------------------------------------------------------------------------------------------------- */
+
+static bool check_line(verifying *v, const film_step *step, record_error *error)
+{
+    const line_state state = lines_next(&v->lines, LONGER * step->size + LONG_ENOUGH);
+    verify_finding finding = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
+    if (state == LINE_TROUBLE)
+        return record_fail(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
+    if (state == LINE_WHOLE && line_same(&v->lines, step->line, step->size, step->tick, &finding))
+        return true;
+    if (state == LINE_NONE)
+        say(&finding, "ticks.jsonl ends before it: %" PRIu64 " of %" PRIu64 " lines are missing", v->ticks - step->tick,
+            v->ticks);
+    else if (state == LINE_TORN)
+        say(&finding, "its line in ticks.jsonl is torn: the file ends within it");
+    else if (state == LINE_LONG)
+        say(&finding, "its line in ticks.jsonl does not end where it should");
+    v->report->findings[v->report->count++] = finding;
+    v->stopped = true;
+    return true;
+}
+
+static void tell_pixels(verifying *v, const char *path, verify_finding *finding)
+{
+    image_difference difference = {0};
+    image_error ignored;
+    image frame;
+    if (image_read_png(path, &frame, &ignored)) {
+        difference = image_compare(&frame, &v->take.picture.frame);
+        image_release(&frame);
+    }
+    v->report->pixels = difference.pixels;
+    const verify_report *r = v->report;
+    const bool same = strcmp(r->drawn_by, r->drawn_now) == 0;
+    say(finding, "%" PRIu64 " pixels from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s", difference.pixels,
+        difference.min_x, difference.min_y, difference.max_x, difference.max_y, r->drawn_by,
+        same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
+}
+
+static void tell_frame(verifying *v, const char *sentence, uint64_t tick)
+{
+    const size_t length = strlen(v->folder);
+    const bool inside = strncmp(sentence, v->folder, length) == 0 && sentence[length] == '/';
+    say(find(v, VERIFY_FRAME, tick), "%s", inside ? sentence + length + 1 : sentence);
+}
+
+static bool check_frame(verifying *v, const film_step *step, record_error *error)
+{
+    char name[FRAME_NAME], *path = folder_path(v->folder, frame_name(step->tick, name));
+    frame_origin origin = {.tick = step->tick, .session = v->filmed_session, .scene = v->take.extras.scene_digest};
+    record_error unlike;
+    if (!path)
+        return record_fail(error, "there is no memory");
+    v->stopped = true;
+    if (access(path, F_OK) != 0)
+        say(find(v, VERIFY_FRAME, step->tick), "%s is missing", name);
+    else if (!is_file(path))
+        say(find(v, VERIFY_FRAME, step->tick), "%s is not a regular file", name);
+    else if (!frame_check(v->folder, &origin, &unlike))
+        tell_frame(v, unlike.text, step->tick);
+    else if (origin.pixels != image_digest(&v->take.picture.frame))
+        tell_pixels(v, path, find(v, VERIFY_PIXELS, step->tick));
+    else
+        v->stopped = false;
+    free(path);
+    return true;
+}
+
+/* A film_sink: false also at the first tick that differs. */
+static bool check_tick(void *context, const film_step *step, record_error *error)
+{
+    verifying *v = context;
+    if (!check_line(v, step, error) || v->stopped)
+        return false;
+    if (step->filmed && (!check_frame(v, step, error) || v->stopped))
+        return false;
+    v->report->ticks++;
+    v->report->frames += step->filmed;
+    if (v->options->progress)
+        v->options->progress(step->tick + 1, v->ticks, v->options->context);
+    return true;
+}
+
+/* ---- What is there behind the last tick --------------------------------------------------------------------- */
+
+static void check_end_of_lines(verifying *v)
+{
+    if (lines_next(&v->lines, 0) == LINE_NONE)
+        return;
+    say(find(v, VERIFY_LINES, v->ticks), "ticks.jsonl has lines beyond the session, which has %" PRIu64 " ticks",
+        v->ticks);
+}
+
+/* What begins as a frame does, and is none of this recording. */
+static bool is_too_many(const verifying *v, const char *name)
+{
+    uint64_t tick;
+    return strncmp(name, "frame_", 6) == 0 &&
+           !(frame_parse_name(name, &tick) && tick < v->ticks && tick % v->film.every == 0);
+}
+
+/* The first of them by name, whatever the order of the folder. */
+static bool check_names(verifying *v, record_error *error)
+{
+    DIR *entries = opendir(v->folder);
+    char first[NAME_MAX + 1] = "";
+    uint64_t count = 0;
+    if (!entries)
+        return record_fail(error, "%s: the folder cannot be read: %s", v->folder, strerror(errno));
+    for (struct dirent *entry; (entry = readdir(entries));) {
+        if (!is_too_many(v, entry->d_name))
+            continue;
+        if (count++ == 0 || strcmp(entry->d_name, first) < 0)
+            snprintf(first, sizeof first, "%s", entry->d_name);
+    }
+    closedir(entries);
+    if (count == 0)
+        return true;
+    verify_finding *finding = find(v, VERIFY_FRAME, 0);
+    finding->has_tick = frame_parse_name(first, &finding->tick);
+    say(finding, "%s is no frame of this recording%s", make_printable(first),
+        count > 1 ? ", nor are others beside it" : "");
+    return true;
+}
+
+/* ---- All of it ---------------------------------------------------------------------------------------------- */
+
+static bool replay(verifying *v, record_error *error)
+{
+    const film_share all = {.last = v->ticks};
+    if (!take_open(&v->take, &v->session.session, &v->film, FRAMES_SHOW, error))
+        return false;
+    const renderer_info info = renderer_about(v->take.picture.renderer);
+    who_draws(&info, v->report->drawn_now, sizeof v->report->drawn_now);
+    if (!film_ticks(&v->take, &all, check_tick, v, error))
+        return v->stopped;
+    check_end_of_lines(v);
+    return true;
+}
+
+static bool verify_all(verifying *v, record_error *error)
+{
+    if (!view_read_recording(v->folder, &v->film.view, &v->film.every, error) || !read_session(v, error) ||
+        !open_lines(v, error))
+        return false;
+    v->ticks = octree_session_length(&v->session.session) + 1;
+    who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
+    return check_first_frame(v, error) && (v->stopped || replay(v, error)) && check_names(v, error);
+}
+
+bool verify_recording(const char *folder, const verify_options *options, verify_report *report, record_error *error)
+{
+    verifying v = {.folder = folder, .options = options, .report = report};
+    *report = (verify_report){0};
+    v.film.folder = folder;
+    v.film.renderer = options->renderer;
+    const bool ok = verify_all(&v, error);
+    take_close(&v.take);
+    lines_close(&v.lines);
+    session_release(&v.session);
+    return ok;
+}

@@ -1,0 +1,183 @@
+/* verify_line.c - see verify_line.h. */
+#include "verify_line.h"
+#include "json_place.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- Lines -------------------------------------------------------------------------------------------------- */
+
+bool lines_open(line_reader *reader, const char *path, record_error *error)
+{
+    struct stat status;
+    *reader = (line_reader){0};
+    /* Opening a pipe would wait for its other end. */
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return record_fail(error, "%s: is not a regular file", path);
+    reader->stream = fopen(path, "rb");
+    return reader->stream || record_fail(error, "%s: cannot be opened: %s", path, strerror(errno));
+}
+
+void lines_close(line_reader *reader)
+{
+    if (reader->stream)
+        fclose(reader->stream);
+    free(reader->line);
+    *reader = (line_reader){0};
+}
+
+static bool make_room(line_reader *reader)
+{
+    if (reader->size < reader->room)
+        return true;
+    const size_t room = reader->room ? 2 * reader->room : 1024;
+    char *grown = realloc(reader->line, room);
+    if (!grown)
+        return false;
+    reader->line = grown;
+    reader->room = room;
+    return true;
+}
+
+line_state lines_next(line_reader *reader, size_t limit)
+{
+    reader->size = 0;
+    for (int c; (c = getc(reader->stream)) != EOF;) {
+        if (reader->size == limit)
+            return LINE_LONG;
+        if (!make_room(reader))
+            return LINE_TROUBLE;
+        reader->line[reader->size++] = (char)c;
+        if (c == '\n')
+            return LINE_WHOLE;
+    }
+    if (ferror(reader->stream))
+        return LINE_TROUBLE;
+    return reader->size ? LINE_TORN : LINE_NONE;
+}
+
+/* ---- Values ------------------------------------------------------------------------------------------------- */
+
+#define VALUE_TEXT 96
+
+/* A value as JSON, cut where it is long; nothing in it that a terminal would obey. */
+static const char *value_text(const json_t *value, char text[VALUE_TEXT])
+{
+    char *whole = value ? json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
+    if (!whole)
+        return value ? "something else" : "missing";
+    const bool fits = strlen(whole) < VALUE_TEXT;
+    snprintf(text, VALUE_TEXT, "%.*s%s", fits ? VALUE_TEXT : VALUE_TEXT - 4, whole, fits ? "" : "...");
+    free(whole);
+    return text;
+}
+
+/* Two values that differ at a place, and nowhere before it. */
+static void tell_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+{
+    char place[128], texts[2][VALUE_TEXT];
+    json_place_format(at, place, sizeof place);
+    snprintf(finding->text, sizeof finding->text, "%s is %s in ticks.jsonl, and %s when it is played again",
+             strcmp(place, "scene") == 0 ? "the digest of its scene" : place, value_text(found, texts[0]),
+             value_text(expected, texts[1]));
+}
+
+static bool tell_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding);
+
+static bool tell_in_array(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+{
+    const size_t a = json_array_size(found), b = json_array_size(expected);
+    for (size_t i = 0; i < a || i < b; i++) {
+        const json_place inside = {at, NULL, i};
+        if (tell_difference(&inside, json_array_get(found, i), json_array_get(expected, i), finding))
+            return true;
+    }
+    return false;
+}
+
+/* In the order in which members are written; then what only the line that was found has. */
+static bool tell_in_object(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+{
+    const json_t *const both[] = {expected, found};
+    for (int i = 0; i < 2; i++) {
+        /* jansson has no iterator over what is const; it changes nothing. */
+        for (void *member = json_object_iter((json_t *)both[i]); member;
+             member = json_object_iter_next((json_t *)both[i], member)) {
+            const char *key = json_object_iter_key(member);
+            const json_place inside = {at, key, 0};
+            if (tell_difference(&inside, json_object_get(found, key), json_object_get(expected, key), finding)) {
+                if (!at)
+                    snprintf(finding->fact, sizeof finding->fact, "%s", key);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* False when there is none. */
+static bool tell_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+{
+    if (json_equal(found, expected))
+        return false;
+    if (json_is_object(found) && json_is_object(expected))
+        return tell_in_object(at, found, expected, finding);
+    if (json_is_array(found) && json_is_array(expected))
+        return tell_in_array(at, found, expected, finding);
+    tell_values(at, found, expected, finding);
+    return true;
+}
+
+/* ---- A line against a line ---------------------------------------------------------------------------------- */
+
+static void tell_line(verify_finding *finding, const char *what)
+{
+    finding->kind = VERIFY_LINES;
+    snprintf(finding->text, sizeof finding->text, "%s", what);
+}
+
+/* The number of another tick: lines were lost, doubled or exchanged. */
+static bool is_of_another(const json_t *found, uint64_t tick, verify_finding *finding)
+{
+    const json_t *number = json_object_get(found, "tick");
+    if (!json_is_integer(number) || json_integer_value(number) < 0 || (uint64_t)json_integer_value(number) == tick)
+        return false;
+    finding->kind = VERIFY_LINES;
+    snprintf(finding->text, sizeof finding->text,
+             "ticks.jsonl has the line of tick %" JSON_INTEGER_FORMAT " where that of tick %" PRIu64 " belongs",
+             json_integer_value(number), tick);
+    return true;
+}
+
+static void tell_objects(const json_t *found, const json_t *expected, uint64_t tick, verify_finding *finding)
+{
+    if (!json_is_object(found)) {
+        tell_line(finding, "its line in ticks.jsonl is no JSON object");
+    } else if (!is_of_another(found, tick, finding)) {
+        finding->kind = VERIFY_FACTS;
+        if (!tell_in_object(NULL, found, expected, finding))
+            tell_line(finding, "its line in ticks.jsonl says the same, but is not written as octreel writes it");
+        else if (strcmp(finding->fact, "scene") == 0)
+            finding->kind = VERIFY_SCENE;
+    }
+}
+
+bool line_same(const line_reader *found, const char *expected, size_t size, uint64_t tick, verify_finding *finding)
+{
+    if (found->size == size && memcmp(found->line, expected, size) == 0)
+        return true;
+    const size_t flags = JSON_REJECT_DUPLICATES;
+    json_error_t why;
+    json_t *a = json_loadb(found->line, found->size, flags, &why), *b = json_loadb(expected, size, flags, NULL);
+    if (a)
+        tell_objects(a, b, tick, finding);
+    else
+        tell_line(finding, "its line in ticks.jsonl is no JSON");
+    json_decref(a);
+    json_decref(b);
+    return false;
+}
