@@ -105,6 +105,68 @@ static void extreme_sizes_are_drawn_to_their_edges(void **state)
     }
 }
 
+/* A quarter of a billion pixels: only what is asked for is looked at. */
+static void the_largest_picture_is_drawn_to_its_corners(void **state)
+{
+    (void)state;
+    enum { SIDE = DRAW_MAX_SIDE };
+    const view v = view_of(SIDE, SIDE, CAMERA_ISO, VIEW_ALL_LAYERS);
+    const octree_box world = cube(-1, 1);
+    const scene_look look = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
+    const size_t last = (size_t)SIDE * SIDE - 1;
+    draw_error error = {""};
+    scene s = empty_scene(&v, &world);
+    for (int i = 0; i < 4; i++)
+        scene_add_panel(
+            &s, (scene_panel){.x = i % 2 * (SIDE - 1), .y = i / 2 * (SIDE - 1), .width = 1, .height = 1, .look = look});
+    renderer *r = open_renderer(SIDE, SIDE);
+    uint8_t *frame = malloc(last + 1);
+    assert_non_null(frame);
+    if (!renderer_draw(r, &s, frame, &error))
+        fail_msg("%s", error.text);
+    const size_t corners[4] = {0, SIDE - 1, last - SIDE + 1, last};
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(frame[corners[i]], theme_index(ROLE_TEXT, 0));
+    const uint8_t *first = memchr(frame + 1, frame[0], last);
+    assert_ptr_equal(first, frame + SIDE - 1);
+    free(frame);
+    scene_release(&s);
+    renderer_close(r);
+}
+
+/* Infinite and too far for doubles; NaN cannot be in a scene, since it is refused when it is added. */
+static void what_is_not_finite_changes_no_pixel_and_is_counted(void **state)
+{
+    (void)state;
+    static const double wrong[] = {NAN, INFINITY, -INFINITY};
+    scene s = busy_scene(320, 180, CAMERA_FOLLOW);
+    renderer *r = open_renderer(320, 180);
+    uint8_t *before = draw(r, &s);
+    assert_int_equal(renderer_left_out(r), 0);
+    for (size_t w = 0; w < 3; w++) {
+        for (int axis = 0; axis < 3; axis++) {
+            scene_box box = {.box = cube(-100, 100),
+                             .look = {.layer = LAYER_NODES, .role = ROLE_COLLISION, .width = 9}};
+            scene_segment segment = {.ends = {{1, 2, 3}, {4, 5, 6}}, .look = box.look};
+            scene_marker marker = {.look = box.look};
+            scene_label label = {.in_world = true, .text = "X", .look = box.look};
+            box.box.max[axis] = segment.ends[1][axis] = marker.at[axis] = label.at[axis] = wrong[w];
+            scene_add_box(&s, box);
+            scene_add_segment(&s, segment);
+            scene_add_marker(&s, marker);
+            scene_add_label(&s, label);
+        }
+    }
+    assert_int_equal(s.refused, 3 * 3 * 4);
+    uint8_t *after = draw(r, &s);
+    assert_same_frame(before, after, &s);
+    assert_int_equal(renderer_left_out(r), s.refused);
+    free(before);
+    free(after);
+    scene_release(&s);
+    renderer_close(r);
+}
+
 static void a_scene_of_another_size_is_refused(void **state)
 {
     (void)state;
@@ -246,6 +308,8 @@ int main(void)
         cmocka_unit_test(sizes_out_of_range_are_refused_with_a_sentence_that_names_them),
         cmocka_unit_test(the_renderer_says_who_draws),
         cmocka_unit_test(extreme_sizes_are_drawn_to_their_edges),
+        cmocka_unit_test(the_largest_picture_is_drawn_to_its_corners),
+        cmocka_unit_test(what_is_not_finite_changes_no_pixel_and_is_counted),
         cmocka_unit_test(a_scene_of_another_size_is_refused),
         cmocka_unit_test(a_frame_is_the_same_again_after_others_and_by_another_renderer),
         cmocka_unit_test(two_renderers_at_once_do_not_disturb_each_other),
