@@ -250,7 +250,9 @@ static bool check_names(verifying *v, record_error *error)
     if (count == 0)
         return true;
     verify_finding *finding = find(v, VERIFY_FRAME, 0);
-    finding->has_tick = frame_parse_name(first, &finding->tick);
+    uint64_t tick;
+    finding->has_tick = frame_parse_name(first, &tick);
+    finding->tick = finding->has_tick ? tick : 0;
     say(finding, "%s is no frame of this recording%s", make_printable(first),
         count > 1 ? ", nor are others beside it" : "");
     return true;

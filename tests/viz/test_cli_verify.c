@@ -1,0 +1,162 @@
+/* test_cli_verify.c - octreel verify: what it says, and how it ends. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "draw.h"
+#include "edits.h"
+#include "tick_lines.h"
+#include "verified.h"
+
+static void identical_recording_is_said_in_one_line(void **state)
+{
+    const place folder = film_short(*state);
+    char line[2048];
+    snprintf(line, sizeof line, "%s: identical: 14 ticks, 5 frames\n", folder.path);
+    command_result result = run_octreel(NULL, "verify %s", folder.path);
+    assert_done(&result);
+    assert_string_equal(result.out, line);
+    command_release(&result);
+}
+
+static void recording_of_the_program_is_identical_by_every_context(void **state)
+{
+    const place folder = place_in(*state, "film");
+    command_result result =
+        run_octreel(NULL, "record --keys wdn --size 320x180 --camera follow --aa 2 --every 2 -o %s", folder.path);
+    assert_done(&result);
+    command_release(&result);
+    for (int kind = 0; kind < DRAW_CONTEXTS; kind++) {
+        const char *name = draw_context_name((draw_context)kind);
+        result = run_octreel(NULL, "verify %s --context %s", folder.path, name);
+        if (draw_context_built((draw_context)kind)) {
+            assert_done(&result);
+            assert_non_null(strstr(result.out, "identical"));
+            command_release(&result);
+        } else {
+            assert_trouble(&result, name);
+        }
+    }
+}
+
+static void finding_is_a_line_and_ends_with_1(void **state)
+{
+    const place folder = film_short(*state);
+    char line[2048];
+    edit_line(folder.path, 4, "\"events\": [", "\"events\": [\"x\", ");
+    command_result result = run_octreel(NULL, "verify %s", folder.path);
+    assert_int_equal(result.status, 1);
+    assert_string_equal(result.err, "");
+    snprintf(line, sizeof line,
+             "%s: tick 4 differs in what happened: events[0] is \"x\" in ticks.jsonl, and \"moved\" when it is played "
+             "again\n",
+             folder.path);
+    assert_string_equal(result.out, line);
+    command_release(&result);
+}
+
+static void json_is_one_object(void **state)
+{
+    const place folder = film_short(*state);
+    command_result result = run_octreel(NULL, "verify %s --json", folder.path);
+    assert_done(&result);
+    json_t *said = json_read(result.out);
+    assert_members(said, "folder identical ticks frames findings drawn_by drawn_now");
+    assert_true(json_is_true(json_member(said, "identical")));
+    assert_whole_number(json_member(said, "ticks"), 14);
+    assert_whole_number(json_member(said, "frames"), 5);
+    assert_int_equal(json_array_size(json_member(said, "findings")), 0);
+    assert_non_null(strstr(json_string_value(json_member(said, "drawn_now")), "llvmpipe"));
+    json_decref(said);
+    command_release(&result);
+    edit_line(folder.path, 4, "\"player\": [", "\"player\": [1");
+    copy_file(folder.path, "frame_000003.png", "frame_000004.png");
+    result = run_octreel(NULL, "verify %s --json", folder.path);
+    assert_int_equal(result.status, 1);
+    assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
+    said = json_read(result.out);
+    assert_true(json_is_false(json_member(said, "identical")));
+    const json_t *findings = json_member(said, "findings"), *first = json_array_get(findings, 0);
+    assert_int_equal(json_array_size(findings), 2);
+    assert_members(first, "in tick fact text");
+    assert_string_equal(json_string_value(json_member(first, "in")), "facts");
+    assert_string_equal(json_string_value(json_member(first, "fact")), "player");
+    assert_whole_number(json_member(first, "tick"), 4);
+    assert_members(json_array_get(findings, 1), "in tick text");
+    json_decref(said);
+    command_release(&result);
+}
+
+static void what_cannot_be_verified_is_trouble(void **state)
+{
+    static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
+    const place folder = film_short(*state);
+    static const struct {
+        const char *arguments, *part;
+    } rows[] = {
+        {"", "one recording"},
+        {"a b", "one recording"},
+        {"nowhere", "nowhere/recording.json: cannot be opened"},
+        {"nowhere --context glx", "there is no context \"glx\""},
+        {"nowhere --any-renderer", "--context egl"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "verify %s", rows[i].arguments);
+        assert_trouble(&result, rows[i].part);
+    }
+    command_result result = run_octreel(&softpipe, "verify %s", folder.path);
+    assert_trouble(&result, "llvmpipe alone");
+    result = run_octreel(NULL, "verify %s --size 20x20", folder.path);
+    assert_int_equal(result.status, 2);
+    assert_non_null(strstr(result.err, "octreel verify --help"));
+    command_release(&result);
+    edit_file(folder.path, "session.json", "{", "");
+    result = run_octreel(NULL, "verify %s", folder.path);
+    assert_trouble(&result, "session.json:1");
+}
+
+static void help_teaches(void **state)
+{
+    (void)state;
+    command_result result = run_octreel(NULL, "verify --help");
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "usage: octreel verify RECORDING"));
+    assert_non_null(strstr(result.out, "--context"));
+    assert_non_null(strstr(result.out, "0 identical, 1 differs, 2 trouble"));
+    command_release(&result);
+    result = run_octreel(NULL, "--help");
+    assert_non_null(strstr(result.out, "  verify "));
+    command_release(&result);
+}
+
+static void progress_is_shown_on_a_terminal_alone(void **state)
+{
+    static const command_setting terminal = {.terminal = true};
+    if (!command_has_terminals()) {
+        print_message("a container without /dev/pts: there is no terminal to show progress on\n");
+        skip();
+    }
+    const place folder = film_short(*state);
+    command_result result = run_octreel(&terminal, "verify %s", folder.path);
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.err, "14/14 ticks"));
+    assert_null(strchr(result.err, '\n'));
+    assert_null(strchr(result.out, '\r'));
+    command_release(&result);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(identical_recording_is_said_in_one_line),
+        IN_FOLDER(recording_of_the_program_is_identical_by_every_context),
+        IN_FOLDER(finding_is_a_line_and_ends_with_1),
+        IN_FOLDER(json_is_one_object),
+        IN_FOLDER(what_cannot_be_verified_is_trouble),
+        cmocka_unit_test(help_teaches),
+        IN_FOLDER(progress_is_shown_on_a_terminal_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

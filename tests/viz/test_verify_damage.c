@@ -1,0 +1,95 @@
+/* test_verify_damage.c - verifying: no byte of a recording can change unnoticed, and none does harm. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "recordings.h"
+#include "verified.h"
+
+#define FLIPS 24 /* of each file */
+
+static place film_tiny(const temp_folder *own)
+{
+    const place folder = place_in(own, "film");
+    octree_session session = octree_session_default();
+    session.keys = "nd";
+    session.ticks = 0;
+    film_options options = small_film(folder.path);
+    options.view.width = 64;
+    options.view.height = 36;
+    assert_filmed(&session, &options);
+    return folder;
+}
+
+/* Trouble counts as noticed. */
+static bool is_noticed(const place *folder)
+{
+    const verify_options options = {.progress = NULL};
+    verify_report report;
+    record_error error = {""};
+    const bool verified = verify_recording(folder->path, &options, &report, &error);
+    if (!verified)
+        assert_true(strlen(error.text) > 0);
+    for (size_t i = 0; verified && i < report.count; i++)
+        assert_true(strlen(report.findings[i].text) > 0);
+    return !verified || report.count > 0;
+}
+
+/* Change single bytes, all over a file and its ends, in a way that the round of a loop chooses. */
+static void assert_changes(const place *folder, const char *name, bool all_noticed)
+{
+    static const unsigned char flips[] = {0x01, 0x20, 0x80, 0xff};
+    const place file = place_below(folder->path, name);
+    size_t size;
+    char *bytes = file_read(file.path, &size);
+    for (size_t i = 0; i < FLIPS; i++) {
+        const size_t at = i * (size - 1) / (FLIPS - 1);
+        bytes[at] = (char)((unsigned char)bytes[at] ^ flips[i % 4]);
+        file_write(file.path, bytes, size);
+        if (!is_noticed(folder) && all_noticed)
+            fail_msg("%s: byte %zu was changed, and nobody noticed", name, at);
+        bytes[at] = (char)((unsigned char)bytes[at] ^ flips[i % 4]);
+    }
+    file_write(file.path, bytes, size);
+    free(bytes);
+    assert_false(is_noticed(folder));
+}
+
+static void every_change_of_a_line_is_noticed(void **state)
+{
+    const place folder = film_tiny(*state);
+    assert_changes(&folder, "ticks.jsonl", true);
+}
+
+static void every_change_of_the_session_is_noticed(void **state)
+{
+    const place folder = film_tiny(*state);
+    assert_changes(&folder, "session.json", true);
+}
+
+static void every_change_of_a_frame_is_noticed(void **state)
+{
+    const place folder = film_tiny(*state);
+    assert_changes(&folder, "frame_000000.png", true);
+    assert_changes(&folder, "frame_000002.png", true);
+}
+
+/* A blank more or less, or a layer that shows nothing, makes no other frame; and who drew is not compared. */
+static void no_change_of_the_view_or_of_who_drew_does_harm(void **state)
+{
+    const place folder = film_tiny(*state);
+    assert_changes(&folder, "recording.json", false);
+    assert_changes(&folder, "renderer.json", false);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(every_change_of_a_line_is_noticed),
+        IN_FOLDER(every_change_of_the_session_is_noticed),
+        IN_FOLDER(every_change_of_a_frame_is_noticed),
+        IN_FOLDER(no_change_of_the_view_or_of_who_drew_does_harm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,185 @@
+/* test_verify_frames.c - verifying: frames that are missing, torn, exchanged, painted over, too many, or drawn by
+ * another renderer are found and told apart. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "edits.h"
+#include "recordings.h"
+#include "ticks_write.h"
+#include "verified.h"
+
+/* The texts of a frame, as they are; `pixels` in the place of the digest of its pixels, unless it is null. */
+static void write_with_texts(const char *path, const image *frame, const char *pixels)
+{
+    static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
+    char values[4][32];
+    image_text texts[4];
+    image_error error;
+    for (int i = 0; i < 4; i++) {
+        assert_true(image_read_text(path, keywords[i], values[i], sizeof values[i]));
+        texts[i] = (image_text){keywords[i], i == 3 && pixels ? pixels : values[i]};
+    }
+    assert_true(image_write_png(frame, path, texts, 4, &error));
+}
+
+static image read_frame(const char *path)
+{
+    image frame;
+    image_error error;
+    if (!image_read_png(path, &frame, &error))
+        fail_msg("%s", error.text);
+    return frame;
+}
+
+static void frame_that_is_stored_otherwise_is_identical(void **state)
+{
+    const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
+    image frame = read_frame(path.path);
+    assert_int_equal(frame.channels, 3); /* and what was written has a palette */
+    write_with_texts(path.path, &frame, NULL);
+    image_release(&frame);
+    assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
+}
+
+static void frame_that_is_missing_is_named(void **state)
+{
+    const place folder = film_short(*state);
+    remove(place_below(folder.path, "frame_000009.png").path);
+    assert_found(&folder, VERIFY_FRAME, 9, "frame_000009.png is missing");
+    remove(place_below(folder.path, "frame_000000.png").path);
+    assert_found(&folder, VERIFY_FRAME, 0, "frame_000000.png is missing");
+}
+
+static void frame_that_is_no_file_is_not_waited_for(void **state)
+{
+    static const char *const names[] = {"frame_000003.png", "frame_000000.png"};
+    static const uint64_t ticks[] = {3, 0};
+    const place folder = film_short(*state);
+    for (int i = 0; i < 2; i++) {
+        const place frame = place_below(folder.path, names[i]);
+        remove(frame.path);
+        assert_int_equal(mkfifo(frame.path, 0600), 0);
+        assert_found(&folder, VERIFY_FRAME, ticks[i], "is not a regular file");
+    }
+}
+
+static void frame_that_was_cut_is_found_wherever(void **state)
+{
+    const place folder = film_short(*state);
+    size_t size;
+    free(file_read(place_below(folder.path, "frame_000006.png").path, &size));
+    for (size_t length = size - 1; length > 0; length = length * 2 / 3) {
+        cut_file(folder.path, "frame_000006.png", length);
+        assert_found(&folder, VERIFY_FRAME, 6, "frame_000006.png: ");
+    }
+    cut_file(folder.path, "frame_000006.png", 0);
+    assert_found(&folder, VERIFY_FRAME, 6, "frame_000006.png: ");
+}
+
+static void frame_in_the_place_of_another_is_found(void **state)
+{
+    const place folder = film_short(*state);
+    copy_file(folder.path, "frame_000003.png", "frame_000012.png");
+    assert_found(&folder, VERIFY_FRAME, 12, "is the frame of another tick");
+}
+
+static void frame_of_another_recording_is_found(void **state)
+{
+    const place folder = film_short(*state), other = place_in(*state, "other");
+    octree_session session = octree_session_default();
+    film_options options = small_film(other.path);
+    session.keys = "sssssssss";
+    assert_filmed(&session, &options);
+    const place from = place_below(other.path, "frame_000006.png"), to = place_below(folder.path, "frame_000006.png");
+    assert_int_equal(rename(from.path, to.path), 0);
+    assert_found(&folder, VERIFY_FRAME, 6, "of another session");
+}
+
+static void frame_without_its_texts_is_found(void **state)
+{
+    const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
+    image frame = read_frame(path.path);
+    image_error error;
+    assert_true(image_write_png(&frame, path.path, NULL, 0, &error));
+    image_release(&frame);
+    assert_found(&folder, VERIFY_FRAME, 3, "frame_000003.png: ");
+}
+
+static void frame_that_was_painted_over_is_found(void **state)
+{
+    const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
+    image frame = read_frame(path.path);
+    frame.pixels[0] ^= 1;
+    write_with_texts(path.path, &frame, NULL);
+    image_release(&frame);
+    assert_found(&folder, VERIFY_FRAME, 3, "its pixels are not those that were drawn");
+}
+
+/* What another renderer would have left: a frame that tells the truth about itself. */
+static void only_pixels_are_told_with_both_renderers(void **state)
+{
+    const place folder = film_short(*state), path = place_below(folder.path, "frame_000006.png");
+    image frame = read_frame(path.path);
+    char digest[DIGEST_TEXT];
+    frame.pixels[3 * (SMALL_WIDTH * 20 + 10)] ^= 128;
+    frame.pixels[3 * (SMALL_WIDTH * 30 + 25) + 2] ^= 1;
+    digest_print(image_digest(&frame), digest);
+    write_with_texts(path.path, &frame, digest);
+    image_release(&frame);
+    verify_report report = assert_found(&folder, VERIFY_PIXELS, 6, "2 pixels from (10, 20) to (25, 30)");
+    assert_int_equal(report.pixels, 2);
+    assert_non_null(strstr(report.findings[0].text, "now drawn by the same"));
+    edit_file(folder.path, "renderer.json", "llvmpipe", "abacus");
+    edit_file(folder.path, "renderer.json", "Mesa/X.org", "\\u001b[2J");
+    report = assert_found(&folder, VERIFY_PIXELS, 6, "filmed by ");
+    const char *filmed = strstr(report.findings[0].text, "abacus"), *now = strstr(report.findings[0].text, "llvmpipe");
+    assert_true(filmed != NULL && now > filmed);
+    edit_file(folder.path, "renderer.json", "{", "[");
+    assert_found(&folder, VERIFY_PIXELS, 6, "filmed by an unknown renderer");
+}
+
+static void frames_that_are_too_many_are_found(void **state)
+{
+    static const struct {
+        const char *name;
+        bool has_tick;
+        uint64_t tick;
+    } rows[] = {
+        {"frame_000004.png", true, 4}, {"frame_000015.png", true, 15},
+        {"frame_3.png", false, 0},     {"frame_000003.png.part", false, 0},
+        {"frame_\033[2J", false, 0},   {"frame_99999999999999999999.png", false, 0},
+    };
+    const place folder = film_short(*state);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        copy_file(folder.path, "frame_000003.png", rows[i].name);
+        const verify_report report = verify(&folder);
+        assert_int_equal(report.count, 1);
+        assert_int_equal(report.findings[0].kind, VERIFY_FRAME);
+        assert_int_equal(report.findings[0].has_tick, rows[i].has_tick);
+        assert_int_equal(report.findings[0].tick, rows[i].tick);
+        assert_null(strchr(report.findings[0].text, '\033'));
+        assert_int_equal(report.ticks, SHORT_TICKS);
+        remove(place_below(folder.path, rows[i].name).path);
+    }
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(frame_that_is_stored_otherwise_is_identical),
+        IN_FOLDER(frame_that_is_missing_is_named),
+        IN_FOLDER(frame_that_is_no_file_is_not_waited_for),
+        IN_FOLDER(frame_that_was_cut_is_found_wherever),
+        IN_FOLDER(frame_in_the_place_of_another_is_found),
+        IN_FOLDER(frame_of_another_recording_is_found),
+        IN_FOLDER(frame_without_its_texts_is_found),
+        IN_FOLDER(frame_that_was_painted_over_is_found),
+        IN_FOLDER(only_pixels_are_told_with_both_renderers),
+        IN_FOLDER(frames_that_are_too_many_are_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
