@@ -68,15 +68,17 @@ static EGLDeviceEXT software_device(const egl *egl)
     return NULL;
 }
 
-static EGLDisplay find_display(const egl *egl, bool any_renderer)
+/* The display of the software device, or else the one without a window system, ready for use. */
+static EGLDisplay open_display(const egl *egl, bool any_renderer)
 {
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->GetProcAddress("eglGetPlatformDisplayEXT");
     const EGLDeviceEXT device = any_renderer ? NULL : software_device(egl);
-    if (!get)
-        return EGL_NO_DISPLAY;
-    return device ? get(EGL_PLATFORM_DEVICE_EXT, device, NULL)
-                  : get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    EGLDisplay display = get && device ? get(EGL_PLATFORM_DEVICE_EXT, device, NULL) : EGL_NO_DISPLAY;
+    if (display && egl->Initialize(display, NULL, NULL))
+        return display;
+    display = get ? get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL) : EGL_NO_DISPLAY;
+    return display && egl->Initialize(display, NULL, NULL) ? display : EGL_NO_DISPLAY;
 }
 
 /* Being made current twice changes nothing for EGL, also where another library was made current in between. */
@@ -108,8 +110,8 @@ static void close_context(context *face)
 static bool open_mesa(egl_context *c, bool any_renderer)
 {
     const egl *egl = &c->egl;
-    c->display = find_display(egl, any_renderer);
-    if (!c->display || !egl->Initialize(c->display, NULL, NULL) || !egl->BindAPI(EGL_OPENGL_API))
+    c->display = open_display(egl, any_renderer);
+    if (!c->display || !egl->BindAPI(EGL_OPENGL_API))
         return false;
     c->mesa = egl->CreateContext(c->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, NULL);
     return c->mesa && use(&c->face);
