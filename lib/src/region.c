@@ -56,7 +56,8 @@ static bool scan_next(descent *d)
 static bool let_wait(descent *d, const node *leaf)
 {
     const bool go_on = d->came - d->went < WAITING || scan_next(d);
-    prefetch(leaf->below);
+    for (uint32_t i = 0; i < leaf->count && i < 6; i += 2)
+        prefetch(&leaf_points(leaf)[i]); /* from there the processor sees where it goes */
     d->waiting[d->came++ % WAITING] = leaf;
     return go_on;
 }
