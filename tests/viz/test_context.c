@@ -124,6 +124,28 @@ static void kinds_draw_the_same_bytes(void **state)
     renderer_close(egl);
 }
 
+/* EGL's own choice of a device is the processor too, where there is no graphics card. */
+static void egl_draws_the_same_bytes_with_and_without_naming_its_device(void **state)
+{
+    (void)state;
+    const renderer_choice any = {.context = DRAW_EGL, .any_renderer = true};
+    draw_error error;
+    if (!draw_context_built(DRAW_EGL))
+        skip();
+    renderer *r = renderer_open(320, 180, &any, &error);
+    if (!r || strncmp(renderer_about(r).renderer, "llvmpipe", 8) != 0) {
+        renderer_close(r);
+        skip();
+    }
+    scene s = busy_scene(320, 180, CAMERA_FOLLOW);
+    uint8_t *a = draw(r, &s), *b = draw_once(&s);
+    assert_same_frame(a, b, &s);
+    free(a);
+    free(b);
+    scene_release(&s);
+    renderer_close(r);
+}
+
 /* Mesa holds one thing to be current where two libraries each have their own word for it. */
 static void contexts_of_two_kinds_do_not_disturb_each_other(void **state)
 {
@@ -160,6 +182,7 @@ int main(void)
         cmocka_unit_test(a_context_that_is_not_built_is_refused_by_name),
         cmocka_unit_test(the_first_kind_that_is_built_draws_when_none_is_asked_for),
         cmocka_unit_test(kinds_draw_the_same_bytes),
+        cmocka_unit_test(egl_draws_the_same_bytes_with_and_without_naming_its_device),
         cmocka_unit_test(contexts_of_two_kinds_do_not_disturb_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
