@@ -346,6 +346,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--camera up", "up"},
         {"--layers walls", "walls"},
         {"--color-by rainbow", "depth, occupancy, plain"},
+        {"--diagram up", "none, beside, only"},
         {"--slice z=99", "outside the world"},
         {"--region 9,9,9,10,10,10", "outside the world"},
         {"--depth 2:5", "--depths"},

@@ -1,7 +1,7 @@
 /* test_labels.c - the paths on nodes: right, at their nodes, none on another, and none left out without a reason. */
 #include "scenes.h"
 #include "brute.h"
-#include "panel.h"
+#include "layout.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* test_panel.c - the words and swatches beside a picture: what they tell, and that they fit their place. */
 #include "scenes.h"
-#include "panel.h"
+#include "brute.h"
+#include "layout.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -178,6 +179,33 @@ static void answers_are_told_in_words(void **state)
     scene_release(&s);
 }
 
+static void the_legend_has_what_the_diagram_shows(void **state)
+{
+    (void)state;
+    brute all = {0};
+    const octree_box world = cube(-1000, 1000);
+    brute_sample(&all, OCTREE_SAMPLE_UNIFORM, 3, &world, 4000);
+    octree *large = brute_tree(&all, world, 4, OCTREE_MAX_DEPTH);
+    all.count = 40;
+    octree *small = brute_tree(&all, world, 4, OCTREE_MAX_DEPTH);
+    for (int i = 0; i < 16; i++) {
+        view v = view_default();
+        scene s = {0};
+        v.diagram = i & 1 ? DIAGRAM_ONLY : DIAGRAM_BESIDE;
+        v.filter.leaves = i & 2;
+        const tree_look about = {.title = "legend", .node = i & 8 ? OCTREE_ROOT : 0};
+        assert_true(look_scene_build(&s, &v, i & 4 ? large : small, &about));
+        assert_true(says(&s, "inner node, leaf") && says(&s, "node, shallow to deep"));
+        assert_int_equal(says(&s, "node filtered out"), (i & 2) != 0);
+        assert_int_equal(says(&s, "nodes, log2, folded"), (i & 4) != 0);
+        assert_int_equal(says(&s, "way from the root"), (i & 8) != 0);
+        scene_release(&s);
+    }
+    brute_free(&all);
+    octree_destroy(small);
+    octree_destroy(large);
+}
+
 static void the_column_never_takes_more_than_half_the_picture(void **state)
 {
     (void)state;
@@ -242,6 +270,7 @@ int main(void)
         cmocka_unit_test(the_legend_leaves_out_queries_that_the_session_never_asks),
         cmocka_unit_test(a_sweep_is_told),
         cmocka_unit_test(answers_are_told_in_words),
+        cmocka_unit_test(the_legend_has_what_the_diagram_shows),
         cmocka_unit_test(the_column_never_takes_more_than_half_the_picture),
         cmocka_unit_test(a_picture_too_small_for_the_column_has_its_facts_all_the_same),
         cmocka_unit_test(numbers_of_any_length_stay_texts),

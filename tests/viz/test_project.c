@@ -346,6 +346,28 @@ static void a_segment_along_the_view_passes_every_band(void **state)
     }
 }
 
+static void segments_of_the_picture_are_clipped_and_need_no_camera(void **state)
+{
+    (void)state;
+    static const double ends[][2][3] = {
+        {{3, 4, 9}, {50, 60, -9}}, {{-1e9, 20, 0}, {1e9, 20, 0}}, {{0, -1e9, 0}, {9, -1e9, 0}}};
+    const octree_box world = cube(0, 1);
+    for (int samples = 1; samples <= 4; samples *= 2) {
+        view v = view_of(320, 180, CAMERA_ORBIT, VIEW_ALL_LAYERS);
+        v.aa = samples;
+        scene s = empty_scene(&v, &world);
+        s.view.width *= samples; /* as its samples see it */
+        s.view.height *= samples;
+        piece p;
+        assert_true(project_flat(&s, ends[0][0], ends[0][1], &p));
+        assert_true(p.band == 0 && p.from[0] == 3 * samples && p.from[1] == 4 * samples);
+        assert_true(p.to[0] == 50 * samples && p.to[1] == 60 * samples);
+        assert_true(project_flat(&s, ends[1][0], ends[1][1], &p));
+        assert_true(p.from[0] == -64 && p.to[0] == 320 * samples + 64 && p.from[1] == 20 * samples);
+        assert_false(project_flat(&s, ends[2][0], ends[2][1], &p));
+    }
+}
+
 static void points_have_the_band_of_their_depth(void **state)
 {
     (void)state;
@@ -376,6 +398,7 @@ int main(void)
         cmocka_unit_test(a_segment_to_far_off_keeps_its_direction),
         cmocka_unit_test(a_segment_across_the_picture_crosses_all_of_it),
         cmocka_unit_test(a_segment_along_the_view_passes_every_band),
+        cmocka_unit_test(segments_of_the_picture_are_clipped_and_need_no_camera),
         cmocka_unit_test(points_have_the_band_of_their_depth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

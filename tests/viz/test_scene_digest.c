@@ -73,6 +73,7 @@ static void every_member_of_every_element_counts(void **state)
     assert_named_counts(&s, &segment->id, &segment->look);
     assert_doubles_count(&s, segment->ends[0], 3);
     assert_doubles_count(&s, segment->ends[1], 3);
+    assert_member_counts(&s, &segment->in_picture, sizeof segment->in_picture, &(bool){true});
     scene_marker *marker = s.markers.items;
     assert_named_counts(&s, &marker->id, &marker->look);
     assert_doubles_count(&s, marker->at, 3);

@@ -37,6 +37,18 @@ static void every_colour_mode_is_found_by_its_name(void **state)
     assert_false(view_coloring_parse("", &coloring) || view_coloring_parse("Depth", &coloring));
 }
 
+static void every_place_of_the_diagram_is_found_by_its_name(void **state)
+{
+    (void)state;
+    view_diagram diagram;
+    for (int i = 0; i < DIAGRAM_COUNT; i++) {
+        assert_true(view_diagram_parse(view_diagram_name((view_diagram)i), &diagram));
+        assert_int_equal(diagram, i);
+    }
+    assert_null(view_diagram_name(DIAGRAM_COUNT));
+    assert_false(view_diagram_parse("", &diagram) || view_diagram_parse("Beside", &diagram));
+}
+
 static void every_layer_is_found_by_its_name(void **state)
 {
     (void)state;
@@ -134,6 +146,7 @@ int main(void)
         cmocka_unit_test(every_camera_is_found_by_its_name),
         cmocka_unit_test(unknown_cameras_are_refused),
         cmocka_unit_test(every_colour_mode_is_found_by_its_name),
+        cmocka_unit_test(every_place_of_the_diagram_is_found_by_its_name),
         cmocka_unit_test(every_layer_is_found_by_its_name),
         cmocka_unit_test(lists_of_layers_are_read_from_left_to_right),
         cmocka_unit_test(unknown_layers_are_pointed_at_and_change_nothing),

@@ -26,6 +26,7 @@ static view random_view(uint64_t *random)
     v.camera = (view_camera)random_below(random, CAMERA_COUNT);
     v.layers = (unsigned)random_below(random, VIEW_ALL_LAYERS + 1);
     v.coloring = (view_coloring)random_below(random, COLORING_COUNT);
+    v.diagram = (view_diagram)random_below(random, DIAGRAM_COUNT);
     v.fit = random_below(random, 2) ? FIT_BOX : FIT_WORLD;
     if (v.fit == FIT_BOX)
         v.focus = random_box(random);
@@ -50,8 +51,9 @@ static view random_view(uint64_t *random)
 static void assert_same_view(const view *a, const view *b)
 {
     assert_true(a->width == b->width && a->height == b->height && a->camera == b->camera && a->layers == b->layers);
-    assert_true(a->coloring == b->coloring && a->fit == b->fit);
-    assert_true(a->labels == b->labels && a->lod == b->lod && a->budget == b->budget && view_samples(a) == view_samples(b));
+    assert_true(a->coloring == b->coloring && a->diagram == b->diagram && a->fit == b->fit);
+    assert_true(a->labels == b->labels && a->lod == b->lod && a->budget == b->budget &&
+                view_samples(a) == view_samples(b));
     assert_memory_equal(&a->focus, &b->focus, sizeof a->focus);
     const view_filter *f = &a->filter, *g = &b->filter;
     assert_true(f->slice == g->slice && f->slice_at == g->slice_at && f->leaves == g->leaves);
@@ -108,6 +110,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {START "\"camera\": \"iso\", \"layers\": [\"nodes\", \"walls\"]}", "layers[1]: expected the name of a layer"},
         {START "\"camera\": \"iso\", \"layers\": 7}", "layers: expected a list of layers, found 7"},
         {VIEW ", \"color_by\": null}", "color_by: expected the name of a colour mode, found null"},
+        {VIEW ", \"diagram\": \"above\"}", "diagram: expected the name of a place for the diagram, found \"above\""},
         {VIEW ", \"slice\": {}}", "slice: expected an axis"},
         {VIEW ", \"slice\": {\"w\": 1}}", "slice: expected an axis"},
         {VIEW ", \"slice\": {\"x\": 1, \"y\": 1}}", "slice: expected an axis"},
@@ -171,6 +174,7 @@ static void camera_from_takes_the_whole_view_of_another_recording(void **state)
                 d = place_in(*state, "d");
     film("record --keys ww %s -o %s",
          "--size 200x100 --camera side --fit points --slice x=0 --depths 1:3 --leaves --color-by plain --layers -text "
+         "--diagram beside "
          "--region -900,-900,-900,500,500,500",
          a.path);
     char from[1100];

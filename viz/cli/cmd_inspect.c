@@ -141,7 +141,8 @@ static int report(const arguments *a, const inspection *made)
     const film_options options = {.view = a->view, .renderer = a->renderer};
     if (a->node && !inspect_find_node(made, a->node, &node, &error))
         return trouble("%s", error.text);
-    if (a->picture && !film_tree(made->tree, name, &options, a->picture, &drawn, &error))
+    const tree_look about = {.title = name, .node = a->node ? node.address : 0};
+    if (a->picture && !film_tree(made->tree, &about, &options, a->picture, &drawn, &error))
         return trouble("%s", error.text);
     if (drawn.over_budget)
         fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);

@@ -97,6 +97,11 @@ static const char *coloring_at(int i)
     return view_coloring_name((view_coloring)i);
 }
 
+static const char *diagram_at(int i)
+{
+    return view_diagram_name((view_diagram)i);
+}
+
 static const char *fit_at(int i)
 {
     static const char *const names[] = {[FIT_WORLD] = "world", [FIT_POINTS] = "points"};
@@ -167,6 +172,11 @@ static bool read_layers(const char *text, view *v)
 static bool read_coloring(const char *text, view *v)
 {
     return view_coloring_parse(text, &v->coloring) || no_such("colour mode", text, (int)strlen(text), coloring_at);
+}
+
+static bool read_diagram(const char *text, view *v)
+{
+    return view_diagram_parse(text, &v->diagram) || no_such("diagram", text, (int)strlen(text), diagram_at);
 }
 
 static bool read_slice(const char *text, view *v)
@@ -249,6 +259,8 @@ static const struct {
      NULL},
     {"layers", "LIST", read_layers, "(default all; -text leaves one out) with commas between, of", layer_at},
     {"color-by", "MODE", read_coloring, "what the colour of a node tells (default depth): one of", coloring_at},
+    {"diagram", "WHERE", read_diagram, "draw the tree as a tree, its root at the top (default none): one of",
+     diagram_at},
     {"slice", "AXIS=AT", read_slice, "only nodes that cut a plane, as in z=100, and the points of such leaves", NULL},
     {"depths", "A:B", read_depths, "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", NULL},
     {"leaves", NULL, read_leaves, "only leaves", NULL},

@@ -16,6 +16,15 @@ void painter_release(painter *p)
     memset(p, 0, sizeof *p);
 }
 
+static void stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_look look, unsigned depth)
+{
+    const pencil with = pencil_make(s, look, depth);
+    if (look.style == STYLE_DASHED)
+        stroke_dashed(&p->quads, &with, pieces, count);
+    else
+        stroke_solid(&p->quads, &with, pieces, count);
+}
+
 static void paint_segment(painter *p, const scene *s, const double from[3], const double to[3], scene_look look,
                           unsigned depth)
 {
@@ -23,11 +32,14 @@ static void paint_segment(painter *p, const scene *s, const double from[3], cons
     bool overflowed;
     const unsigned count = project_segment(s, from, to, pieces, &overflowed);
     p->overflowed += overflowed;
-    const pencil with = pencil_make(s, look, depth);
-    if (look.style == STYLE_DASHED)
-        stroke_dashed(&p->quads, &with, pieces, count);
-    else
-        stroke_solid(&p->quads, &with, pieces, count);
+    stroke(p, s, pieces, count, look, depth);
+}
+
+static void paint_flat(painter *p, const scene *s, const scene_segment *segment)
+{
+    piece flat;
+    if (project_flat(s, segment->ends[0], segment->ends[1], &flat))
+        stroke(p, s, &flat, 1, segment->look, 0);
 }
 
 static bool paint_boxes(painter *p, const scene *s)
@@ -120,13 +132,17 @@ bool paint(painter *p, const scene *picture)
         return false;
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *segment = &s->segments.items[i];
-        paint_segment(p, s, segment->ends[0], segment->ends[1], segment->look, 0);
+        if (!segment->in_picture)
+            paint_segment(p, s, segment->ends[0], segment->ends[1], segment->look, 0);
     }
     for (size_t i = 0; i < s->markers.count; i++)
         if (!is_point(&s->markers.items[i]))
             paint_marker(p, s, &s->markers.items[i]);
     for (size_t i = 0; i < s->panels.count; i++)
         stroke_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
+    for (size_t i = 0; i < s->segments.count; i++) /* on the panels of their layer */
+        if (s->segments.items[i].in_picture)
+            paint_flat(p, s, &s->segments.items[i]);
     for (size_t i = 0; i < s->labels.count; i++)
         letters_add(&p->quads, s, &s->labels.items[i]);
     return !p->quads.out_of_memory && quads_sort(&p->quads);

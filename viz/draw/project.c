@@ -110,6 +110,17 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
     return cut(s, a, b, pieces);
 }
 
+bool project_flat(const scene *s, const double from[3], const double to[3], piece *p)
+{
+    const int samples = view_samples(&s->view);
+    p->band = 0;
+    for (int axis = 0; axis < 2; axis++) {
+        p->from[axis] = from[axis] * samples;
+        p->to[axis] = to[axis] * samples;
+    }
+    return clip_to_picture(&s->view, p);
+}
+
 bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band)
 {
     double seen[3];

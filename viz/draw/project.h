@@ -17,6 +17,9 @@ typedef struct piece {
 unsigned project_segment(const scene *s, const double from[3], const double to[3], piece pieces[QUAD_BANDS],
                          bool *overflowed);
 
+/* The piece of a segment of the picture: nearest, clipped likewise. False when nothing of it is in the picture. */
+bool project_flat(const scene *s, const double from[3], const double to[3], piece *p);
+
 /* A point's pixel and band; false when it lies behind the camera or outside the picture. */
 bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band);
 

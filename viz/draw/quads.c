@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define DEPTHS 32
-#define ORDERS (LAYER_COUNT * QUAD_BANDS * DEPTHS)
+#define ORDERS ((LAYER_DIAGRAM + 1) * QUAD_BANDS * DEPTHS)
 
 uint16_t quad_order(unsigned layer, unsigned band, unsigned depth)
 {

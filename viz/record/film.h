@@ -5,6 +5,7 @@
 #include "draw.h"
 #include "folder.h"
 #include "octree/game.h"
+#include "tick_scene.h"
 
 typedef struct film_options {
     const char *folder;
@@ -29,8 +30,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
                   record_error *error);
 
 /* Draw one tree, with the view and the renderer of the options, and write it as a PNG: the one frame of *summary. */
-bool film_tree(const octree *tree, const char *title, const film_options *options, const char *path,
-               film_summary *summary,
-               record_error *error);
+bool film_tree(const octree *tree, const tree_look *about, const film_options *options, const char *path,
+               film_summary *summary, record_error *error);
 
 #endif

@@ -83,6 +83,8 @@ void view_write(json_writer *w, const view *v)
         write_box(w, "fit", &v->focus);
     write_layers(w, v);
     write_name(w, "color_by", view_coloring_name(v->coloring));
+    if (v->diagram != DIAGRAM_NONE)
+        write_name(w, "diagram", view_diagram_name(v->diagram));
     write_filter(w, &v->filter);
     if (v->labels) {
         write_key(w, "labels");
@@ -150,6 +152,13 @@ static bool read_coloring(session_reader *reader, json_t *value, const json_plac
     const char *name = json_string_value(value);
     return (name && view_coloring_parse(name, into)) ||
            session_expected(reader, value, at, "the name of a colour mode");
+}
+
+static bool read_diagram(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    const char *name = json_string_value(value);
+    return (name && view_diagram_parse(name, into)) ||
+           session_expected(reader, value, at, "the name of a place for the diagram");
 }
 
 static bool read_layer(session_reader *reader, json_t *value, const json_place *at, void *into)
@@ -257,6 +266,7 @@ static const session_member members[] = {
     {"fit", read_fit, 0, false},
     {"layers", read_layers, offsetof(view, layers), true},
     {"color_by", read_coloring, offsetof(view, coloring), false},
+    {"diagram", read_diagram, offsetof(view, diagram), false},
     {"slice", read_slice, offsetof(view, filter), false},
     {"depths", read_depths, offsetof(view, filter), false},
     {"leaves", read_truth, offsetof(view, filter.leaves), false},

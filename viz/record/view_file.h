@@ -4,6 +4,8 @@
  *   "lod": 2, "budget": 250000, "aa": 1,
  * and, where something of the tree is left out,
  *   "slice": {"z": 100}, "depths": [2, 5], "leaves": true, "region": {"min": [x, y, z], "max": [x, y, z]}
+ * where the tree is drawn as a tree too,
+ *   "diagram": "beside"
  * where nodes have their paths on them,
  *   "labels": true
  * and, where the camera frames a box and not the world,

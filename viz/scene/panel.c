@@ -1,17 +1,13 @@
 /* panel.c - see panel.h. */
 #include "panel.h"
+#include "diagram_legend.h"
+#include "layout.h"
 #include "number_text.h"
 #include "panel_pen.h"
 #include "panel_view.h"
 
 #include <stdio.h>
 #include <string.h>
-
-int panel_width(const view *v)
-{
-    const int width = COLUMN * view_unit(v);
-    return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
-}
 
 /* On one line where it fits, else on three. */
 static void write_position(pen *p, const char *name, const double position[3])
@@ -230,7 +226,9 @@ static void write_legend(pen *p, size_t max_depth, unsigned layers, bool swept)
 {
     const scene *s = p->scene;
     layers &= s->view.layers;
-    int lines = layers >> LAYER_NODES & 1;
+    if (view_shows(&s->view, LAYER_DIAGRAM))
+        layers |= 1u << LAYER_NODES;
+    int lines = (int)(layers >> LAYER_NODES & 1) + diagram_legend_lines(s);
     for (size_t i = 0; i < LEGEND_ENTRIES; i++)
         lines += is_listed(&legend[i], layers, swept);
     const int top = s->view.height / s->unit - MARGIN - lines * LINE;
@@ -239,6 +237,7 @@ static void write_legend(pen *p, size_t max_depth, unsigned layers, bool swept)
     p->y = top;
     if (layers >> LAYER_NODES & 1)
         write_node_legend(p, max_depth);
+    write_diagram_legend(p);
     for (size_t i = 0; i < LEGEND_ENTRIES; i++)
         if (is_listed(&legend[i], layers, swept))
             write_legend_entry(p, &legend[i]);

@@ -5,9 +5,6 @@
 #include "octree/game.h"
 #include "scene.h"
 
-/* The width of the column in pixels; 0 when the view has no text or the picture is too small for it. */
-int panel_width(const view *v);
-
 void add_tick_panel(scene *s, const octree_game *game);
 void add_tree_panel(scene *s, const octree *tree, const char *title);
 

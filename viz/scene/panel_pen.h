@@ -2,10 +2,11 @@
 #ifndef SCENE_PANEL_PEN_H
 #define SCENE_PANEL_PEN_H
 
+#include "layout.h"
 #include "scene.h"
 
 /* In units (view_unit). */
-#define COLUMN 160 /* the panel's width */
+#define COLUMN LAYOUT_COLUMN
 #define MARGIN 8
 #define LINE 13
 #define VALUE 54 /* where a row's value begins */

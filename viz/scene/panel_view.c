@@ -49,15 +49,27 @@ static void write_budget(pen *p, const scene_tally *tally)
     }
 }
 
+static void write_folded(pen *p, const scene_tally *tally)
+{
+    char text[SCENE_TEXT];
+    snprintf(text, sizeof text, tally->folded_from == tally->folded_to ? "depth %u" : "depths %u to %u",
+             tally->folded_from, tally->folded_to);
+    write_warning(p, "folded", text);
+}
+
 void write_left_out(pen *p)
 {
     const scene *s = p->scene;
     const scene_tally *tally = &s->tally;
     const bool unlabelled = s->view.labels && tally->labels < tally->nodes;
     char lod[NUMBER_WORDS];
-    if (!filter_is_on(&s->view.filter) && !tally->small && !tally->beyond && !tally->thinned && !unlabelled)
+    const bool less = filter_is_on(&s->view.filter) || tally->small || tally->beyond || tally->thinned || unlabelled;
+    if (less || tally->folded)
+        p->y += LINE / 2;
+    if (tally->folded)
+        write_folded(p, tally);
+    if (!less)
         return;
-    p->y += LINE / 2;
     write_filter(p, &s->view.filter);
     if (view_shows(&s->view, LAYER_NODES))
         write_row(p, "shown", "%zu nodes", tally->nodes);

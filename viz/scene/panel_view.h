@@ -5,7 +5,7 @@
 
 #include "panel_pen.h"
 
-/* A line for each thing that leaves something out, and how much is shown; nothing where all is shown. */
+/* A line for each thing that leaves something out or folds it, and how much is shown; nothing where all is shown. */
 void write_left_out(pen *p);
 
 /* The legend's line of the colours of nodes. */

@@ -140,7 +140,7 @@ uint64_t scene_digest(const scene *s)
     }
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *segment = &s->segments.items[i];
-        digest = digest_look(digest, segment->id, segment->look, 0);
+        digest = digest_look(digest, segment->id, segment->look, segment->in_picture);
         digest = digest_doubles(digest, segment->ends[0], 3);
         digest = digest_doubles(digest, segment->ends[1], 3);
     }

@@ -1,8 +1,8 @@
 /* scene.h - the draw list of one tick: what a frame shows, as plain arrays, without any GPU.
  *
  * World geometry (boxes, segments, markers, letters) is in world coordinates and is drawn through the camera; panels
- * and labels are in pixels. Every element has a layer, a role (its colour) and a stable id, unique within its kind and
- * layer.
+ * and labels, and segments that say so, are in pixels. Every element has a layer, a role (its colour) and a stable id,
+ * unique within its kind and layer.
  */
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
@@ -31,7 +31,8 @@ typedef struct scene_box {
 
 typedef struct scene_segment {
     uint64_t id;
-    double ends[2][3];
+    bool in_picture;
+    double ends[2][3]; /* world positions; or, in the picture, x and y in pixels */
     scene_look look;
 } scene_segment;
 
@@ -77,13 +78,16 @@ typedef struct scene_panel {
 
 /* How much of a tree is in a scene. */
 typedef struct scene_tally {
-    size_t nodes, points; /* shown */
-    size_t labels;        /* nodes with their path on them */
-    size_t small;         /* nodes left out by the view's lod */
-    size_t beyond;        /* nodes left out by its budget: all below `deepest` */
-    int deepest;          /* the depth that nodes are shown to where the budget bites */
-    size_t thinned;       /* points left out by the budget */
-    uint64_t one_in;      /* what is left is about one point in so many */
+    size_t nodes, points;            /* shown */
+    size_t labels;                   /* nodes with their path on them */
+    size_t small;                    /* nodes left out by the view's lod */
+    size_t beyond;                   /* nodes left out by its budget: all below `deepest` */
+    int deepest;                     /* the depth that nodes are shown to where the budget bites */
+    size_t thinned;                  /* points left out by the budget */
+    uint64_t one_in;                 /* what is left is about one point in so many */
+    size_t drawn, folded;            /* nodes in the diagram: one by one, and in its bars */
+    unsigned folded_from, folded_to; /* the depths that are bars */
+    size_t way;                      /* nodes on the way that it shows */
 } scene_tally;
 
 typedef struct scene {

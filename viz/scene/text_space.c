@@ -1,6 +1,6 @@
 /* text_space.c - see text_space.h. */
 #include "text_space.h"
-#include "panel.h"
+#include "layout.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,8 +30,8 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
     const double width = (double)strlen(text) * TEXT_LETTER * s->unit, height = TEXT_HEIGHT * s->unit;
     const double left = floor(middle[0] - width / 2), top = floor(middle[1] - height / 2);
     const double box[4] = {left - s->unit, top - s->unit, left + width + s->unit, top + height};
-    if (!(box[0] >= panel_width(&s->view) && box[1] >= 0 && box[2] <= s->view.width && box[3] <= s->view.height) ||
-        !is_free(t, box))
+    const camera_window w = layout_space(&s->view);
+    if (!(box[0] >= w.x && box[1] >= w.y && box[2] <= w.x + w.width && box[3] <= w.y + w.height) || !is_free(t, box))
         return false;
     memcpy(t->taken[t->count++], box, sizeof box);
     corner[0] = left;

@@ -1,6 +1,7 @@
 /* tick_scene.c - a tick of a game as a scene: the tree, and on top of it what the tick asked and met. */
 #include "tick_scene.h"
 #include "answer_layers.h"
+#include "diagram.h"
 #include "panel.h"
 #include "tree_layers.h"
 
@@ -114,30 +115,44 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
     }
 }
 
+/* The leaf that the player is in. */
+static octree_address leaf_of(const octree *tree, const double position[3])
+{
+    octree_node leaf;
+    return octree_locate(tree, position, &leaf) == OCTREE_OK ? leaf.address : 0;
+}
+
 bool tick_scene_build(scene *s, const view *v, const octree_game *game)
 {
     const octree_tick *tick = octree_game_tick(game);
     const octree_session *session = octree_game_session(game);
-    begin_scene(s, v, &session->tree.world, tick->player, tick->number, panel_width(v));
+    begin_scene(s, v, &session->tree.world, tick->player, tick->number);
     add_world(s, &session->tree.world);
     add_tree(s, octree_game_tree(game), session->body_count);
     add_answers(s, tick);
     add_player(s, tick, session);
     add_collision(s, tick, session);
+    add_diagram(s, octree_game_tree(game), leaf_of(octree_game_tree(game), tick->player));
     add_tick_panel(s, game);
     return !s->out_of_memory;
 }
 
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title)
 {
+    return look_scene_build(s, v, tree, &(tree_look){.title = title});
+}
+
+bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_look *about)
+{
     const octree_box world = octree_definition(tree).world;
     const octree_box *framed = v->fit == FIT_BOX ? &v->focus : &world;
     double center[3]; /* what a camera follows where nobody plays */
     for (int i = 0; i < 3; i++)
         center[i] = framed->min[i] / 2 + framed->max[i] / 2;
-    begin_scene(s, v, &world, center, 0, panel_width(v));
+    begin_scene(s, v, &world, center, 0);
     add_world(s, &world);
     add_tree(s, tree, octree_count(tree));
-    add_tree_panel(s, tree, title);
+    add_diagram(s, tree, about->node);
+    add_tree_panel(s, tree, about->title);
     return !s->out_of_memory;
 }

@@ -11,4 +11,12 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game);
 /* Fill a scene with a tree alone: its nodes, its points, and a line that names it. False when there is no memory. */
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title);
 
+/* What is said of a tree. */
+typedef struct tree_look {
+    const char *title;
+    octree_address node; /* the diagram shows the way to it; 0: to none */
+} tree_look;
+
+bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_look *about);
+
 #endif

@@ -1,16 +1,18 @@
 /* tree_layers.c - see tree_layers.h: where a scene begins, and its world. */
 #include "tree_layers.h"
 #include "axes.h"
+#include "layout.h"
 
 #include <string.h>
 
-void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick, int panel)
+void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick)
 {
     scene_clear(s);
     s->view = *v;
     s->unit = view_unit(v);
-    const camera_window window = {panel, 0, v->width - panel, v->height};
-    s->camera = camera_make(v, window, world, player, tick);
+    if (v->diagram == DIAGRAM_ONLY)
+        s->view.layers &= 1u << LAYER_TEXT;
+    s->camera = camera_make(v, layout_space(v), world, player, tick);
 }
 
 /* Where the slice and the region are: ids 1 and 2 beside the world's own box. */

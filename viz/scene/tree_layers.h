@@ -14,7 +14,11 @@ void add_world(scene *s, const octree_box *world);
  * their paths on them: see node_labels.h. */
 void add_tree(scene *s, const octree *tree, size_t expected);
 
-/* Empty the scene and set its view, unit and camera. `panel` pixels at the left are kept free of the world. */
-void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick, int panel);
+/* Empty the scene and set its view, unit and camera. Where the diagram takes the place of the space view, words are the
+ * one layer that is left. */
+void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick);
+
+/* The colour of a node of this depth and with so many points. */
+theme_role node_role(const view *v, unsigned depth, size_t points);
 
 #endif

@@ -80,15 +80,15 @@ static void add_points(tree_walk *w, const octree_node *leaf)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-static theme_role role_of(const view *v, const octree_node *node)
+theme_role node_role(const view *v, unsigned depth, size_t points)
 {
     switch (v->coloring) {
     case COLORING_OCCUPANCY:
-        return theme_node_role(theme_occupancy_step(node->count));
+        return theme_node_role(theme_occupancy_step(points));
     case COLORING_PLAIN:
         return ROLE_NODE_PLAIN;
     default:
-        return theme_node_role(node->depth);
+        return theme_node_role(depth);
     }
 }
 
@@ -121,7 +121,7 @@ static void add_box(tree_walk *w, const octree_node *node)
                          .id = node->address,
                          .box = node->box,
                          .depth = (uint8_t)node->depth,
-                         .look = {.layer = LAYER_NODES, .role = (uint8_t)role_of(&s->view, node), .width = 1},
+                         .look = {.layer = LAYER_NODES, .role = (uint8_t)node_role(&s->view, node->depth, node->count), .width = 1},
                      });
     w->at_depth[node->depth]++;
     s->tally.nodes++;

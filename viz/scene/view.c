@@ -8,6 +8,7 @@
 static const char *const camera_names[CAMERA_COUNT] = {VIEW_CAMERA_MAP(VIEW_TEXT)};
 static const char *const layer_names[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_TEXT)};
 static const char *const coloring_names[COLORING_COUNT] = {VIEW_COLORING_MAP(VIEW_TEXT)};
+static const char *const diagram_names[DIAGRAM_COUNT] = {VIEW_DIAGRAM_MAP(VIEW_TEXT)};
 #undef VIEW_TEXT
 
 view view_default(void)
@@ -43,6 +44,11 @@ const char *view_coloring_name(view_coloring coloring)
     return (unsigned)coloring < COLORING_COUNT ? coloring_names[coloring] : NULL;
 }
 
+const char *view_diagram_name(view_diagram diagram)
+{
+    return (unsigned)diagram < DIAGRAM_COUNT ? diagram_names[diagram] : NULL;
+}
+
 /* The place of a name among others, or -1. */
 static int find_name(const char *name, const char *const *names, int count)
 {
@@ -65,6 +71,14 @@ bool view_coloring_parse(const char *name, view_coloring *coloring)
     const int found = find_name(name, coloring_names, COLORING_COUNT);
     if (found >= 0)
         *coloring = (view_coloring)found;
+    return found >= 0;
+}
+
+bool view_diagram_parse(const char *name, view_diagram *diagram)
+{
+    const int found = find_name(name, diagram_names, DIAGRAM_COUNT);
+    if (found >= 0)
+        *diagram = (view_diagram)found;
     return found >= 0;
 }
 

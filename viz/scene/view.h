@@ -36,6 +36,12 @@
     X(OCCUPANCY, "occupancy") /* how many points are in it, on a fixed scale of powers of two */                       \
     X(PLAIN, "plain")         /* nothing */
 
+/* Where the tree is drawn as a tree, and the name of each choice. */
+#define VIEW_DIAGRAM_MAP(X)                                                                                            \
+    X(NONE, "none")     /* nowhere */                                                                                  \
+    X(BESIDE, "beside") /* beside the space view; below it in a picture that is higher than wide */                    \
+    X(ONLY, "only")     /* in place of the space view */
+
 typedef enum view_camera {
 #define VIEW_CAMERA_ENUM(name, text) CAMERA_##name,
     VIEW_CAMERA_MAP(VIEW_CAMERA_ENUM)
@@ -47,7 +53,8 @@ typedef enum view_layer {
 #define VIEW_LAYER_ENUM(name, text) LAYER_##name,
     VIEW_LAYER_MAP(VIEW_LAYER_ENUM)
 #undef VIEW_LAYER_ENUM
-        LAYER_COUNT
+        LAYER_COUNT,
+    LAYER_DIAGRAM = LAYER_COUNT /* on top of all; shown where view.diagram says so, and in no list of layers */
 } view_layer;
 
 typedef enum view_coloring {
@@ -56,6 +63,13 @@ typedef enum view_coloring {
 #undef VIEW_COLORING_ENUM
         COLORING_COUNT
 } view_coloring;
+
+typedef enum view_diagram {
+#define VIEW_DIAGRAM_ENUM(name, text) DIAGRAM_##name,
+    VIEW_DIAGRAM_MAP(VIEW_DIAGRAM_ENUM)
+#undef VIEW_DIAGRAM_ENUM
+        DIAGRAM_COUNT
+} view_diagram;
 
 /* What of the tree is shown; all zero is all of it. See filter.h. */
 typedef struct view_filter {
@@ -82,6 +96,7 @@ typedef struct view {
     octree_box focus; /* under FIT_BOX: the box */
     unsigned layers;  /* bit 1 << view_layer */
     view_coloring coloring;
+    view_diagram diagram;
     view_filter filter;
     bool labels;     /* the paths of nodes on their boxes */
     double lod;      /* pixels: boxes of nodes that appear smaller are left out where an ancestor's is drawn; 0: none */
@@ -107,17 +122,19 @@ static inline int view_samples(const view *v)
 
 static inline bool view_shows(const view *v, view_layer layer)
 {
-    return v->layers >> layer & 1;
+    return layer == LAYER_DIAGRAM ? v->diagram != DIAGRAM_NONE : v->layers >> layer & 1;
 }
 
 /* Names, and null beyond the last. */
 const char *view_camera_name(view_camera camera);
 const char *view_layer_name(view_layer layer);
 const char *view_coloring_name(view_coloring coloring);
+const char *view_diagram_name(view_diagram diagram);
 
 /* The inverse; false when there is no such name. */
 bool view_camera_parse(const char *name, view_camera *camera);
 bool view_coloring_parse(const char *name, view_coloring *coloring);
+bool view_diagram_parse(const char *name, view_diagram *diagram);
 
 /* Layers by a list of names with commas between, or "all" or "none"; "-text" leaves one out, and a list that begins so
  * starts from all. On failure *bad points at the name that is unknown. */

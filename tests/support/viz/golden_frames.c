@@ -37,6 +37,8 @@ const golden_frame golden_frames[] = {
     {"aa", "orbit", SHAPES, 219, NULL, 160, 90},
     {"lod", "orbit", TREE, 0, "clustered", 0, 0},
     {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
+    {"diagram", "iso", SHAPES, 225, NULL, 0, 0},
+    {"diagram_folded", "iso", "text", 0, "clustered", 320, 180},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
@@ -55,6 +57,8 @@ static const struct {
     {"aa", {.aa = 4}},
     {"lod", {.lod = 12}},
     {"budget", {.budget = 100}},
+    {"diagram", {.diagram = DIAGRAM_BESIDE}},
+    {"diagram_folded", {.diagram = DIAGRAM_ONLY, .coloring = COLORING_OCCUPANCY}},
     {"left_out",
      {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
 };

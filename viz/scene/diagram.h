@@ -1,0 +1,21 @@
+/* diagram.h - the tree drawn as a tree: the paper's Figure 2. Private to scene.
+ *
+ * A row a level, the root at the top. Nodes that have room are drawn one by one, with a line from each to its parent:
+ * inner nodes as squares, leaves as squares of half the side; in the colours of the space view, and those that the
+ * view's filter leaves out in grey. Levels that have no room are folded: bars that tell how many nodes stand in a
+ * column of the picture, each doubling a sixteenth of the row higher. See diagram_slots.h for what stands where.
+ */
+#ifndef SCENE_DIAGRAM_H
+#define SCENE_DIAGRAM_H
+
+#include "scene.h"
+
+/* The ids of what is no node: their highest bit is that of no address. */
+#define DIAGRAM_BAR_ID (UINT64_C(1) << 61)    /* and the depth << 32, and the column */
+#define DIAGRAM_WAY_ID (UINT64_C(1) << 62)    /* and the depth: what marks the nodes on the way */
+#define DIAGRAM_RING_ID (DIAGRAM_WAY_ID | 32) /* and the depth: what keeps mark and node apart */
+
+/* Add the diagram where the view shows one; `way` is the node to which the way from the root is shown, 0 for none. */
+void add_diagram(scene *s, const octree *tree, octree_address way);
+
+#endif

@@ -1,0 +1,199 @@
+/* diagram_slots.c - see diagram_slots.h. */
+#include "diagram_slots.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define OCTANTS 8
+
+/* ---- Which nodes -------------------------------------------------------------------------------------------- */
+
+/* The deepest level that may have room, shares not yet rounded up: there are as many as leaves of the tree that is cut
+ * off there, and empty octants where they count. */
+static unsigned deepest_possible(const octree_stats *stats, unsigned empty, size_t room)
+{
+    size_t leaves = 0, inner = 0; /* above */
+    unsigned depth = 0;
+    for (; depth < stats->depth; depth++) {
+        leaves += stats->leaves_at_depth[depth];
+        inner += stats->nodes_at_depth[depth] - stats->leaves_at_depth[depth];
+        if ((empty ? 1 + (OCTANTS - 1) * inner : leaves + stats->nodes_at_depth[depth + 1]) > room)
+            break;
+    }
+    return depth;
+}
+
+static size_t nodes_down_to(const octree_stats *stats, unsigned depth)
+{
+    size_t count = 0;
+    for (unsigned i = 0; i <= depth; i++)
+        count += stats->nodes_at_depth[i];
+    return count;
+}
+
+static octree_walk_order take_node(const octree_node *node, void *context)
+{
+    diagram_slots *slots = context;
+    slots->nodes[slots->count++] = (diagram_node){.address = node->address,
+                                                  .box = node->box,
+                                                  .points = node->count,
+                                                  .depth = (uint8_t)node->depth,
+                                                  .octants = node->octants,
+                                                  .leaf = node->leaf};
+    return node->depth < slots->deepest ? OCTREE_WALK_ON : OCTREE_WALK_SKIP;
+}
+
+static void drop_level(diagram_slots *slots)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < slots->count; i++)
+        if (slots->nodes[i].depth < slots->deepest)
+            slots->nodes[kept++] = slots->nodes[i];
+    slots->count = kept;
+    slots->deepest--;
+}
+
+/* ---- Shares ------------------------------------------------------------------------------------------------- */
+
+/* Up to the next of 1, 2, 3, 4, 6, 8, 12, 16, 24 ... */
+static uint64_t round_up(uint64_t shares)
+{
+    uint64_t step = 1;
+    while (step * 2 < shares)
+        step *= 2;
+    return shares <= step ? step : shares <= step + step / 2 ? step + step / 2 : step * 2;
+}
+
+static bool is_open(const diagram_slots *slots, const diagram_node *node)
+{
+    return !node->leaf && node->depth < slots->deepest;
+}
+
+static uint64_t share_of(const diagram_slots *slots, const diagram_node *node)
+{
+    return is_open(slots, node) ? round_up(node->below) : 1;
+}
+
+static unsigned empty_octants(const diagram_node *node)
+{
+    unsigned empty = OCTANTS;
+    for (unsigned octants = node->octants; octants; octants &= octants - 1)
+        empty--;
+    return empty;
+}
+
+/* From the last node to the first: a node's children are behind it. Returns the share of the root's octants. */
+static uint64_t add_shares(diagram_slots *slots)
+{
+    uint64_t below[OCTREE_MAX_DEPTH + 2] = {0}; /* of the nodes of a depth that wait for their parent */
+    for (size_t i = slots->count; i-- > 0;) {
+        diagram_node *node = &slots->nodes[i];
+        const unsigned depth = node->depth;
+        node->below = is_open(slots, node) ? below[depth + 1] + slots->empty * empty_octants(node) : 1;
+        below[depth + 1] = 0;
+        below[depth] += share_of(slots, node);
+    }
+    return slots->nodes[0].below;
+}
+
+/* ---- Slots -------------------------------------------------------------------------------------------------- */
+
+/* How far a node's slot has been dealt out. */
+typedef struct dealing {
+    const diagram_node *node;
+    unsigned octant; /* the next one */
+    uint64_t dealt;
+} dealing;
+
+/* The slot of the child at `octant`; those between the last one and it are empty. */
+static void deal(dealing *d, unsigned empty, unsigned octant, uint64_t share, diagram_node *child)
+{
+    const double left = d->node->left, width = d->node->right - left, all = (double)d->node->below;
+    const uint64_t from = d->dealt + empty * (octant - d->octant);
+    child->left = left + width * ((double)from / all);
+    child->right = left + width * ((double)(from + share) / all);
+    d->dealt = from + share;
+    d->octant = octant + 1;
+}
+
+static void place_nodes(diagram_slots *slots)
+{
+    dealing way[OCTREE_MAX_DEPTH + 1];
+    for (size_t i = 0; i < slots->count; i++) {
+        diagram_node *node = &slots->nodes[i];
+        const unsigned depth = node->depth;
+        node->left = 0;
+        node->right = 1;
+        if (depth)
+            deal(&way[depth - 1], slots->empty, octree_address_octant(node->address, depth - 1), share_of(slots, node),
+                 node);
+        way[depth] = (dealing){.node = node};
+    }
+}
+
+/* Take the levels that may have room, and drop those that have none. */
+static bool arrange(diagram_slots *slots, const octree *tree, unsigned empty, size_t room)
+{
+    slots->empty = empty;
+    slots->deepest = deepest_possible(&slots->stats, empty, room);
+    slots->count = 0;
+    slots->nodes = malloc(nodes_down_to(&slots->stats, slots->deepest) * sizeof *slots->nodes);
+    if (!slots->nodes)
+        return false;
+    octree_walk(tree, take_node, slots);
+    while (add_shares(slots) > room && slots->deepest > 0)
+        drop_level(slots);
+    return true;
+}
+
+bool diagram_arrange(diagram_slots *slots, const octree *tree, size_t room)
+{
+    *slots = (diagram_slots){0};
+    octree_statistics(tree, &slots->stats);
+    bool ok = arrange(slots, tree, 1, room);
+    if (ok && slots->deepest < slots->stats.depth) {
+        free(slots->nodes);
+        ok = arrange(slots, tree, 0, room);
+    }
+    if (ok)
+        place_nodes(slots);
+    return ok;
+}
+
+void diagram_slots_release(diagram_slots *slots)
+{
+    free(slots->nodes);
+    memset(slots, 0, sizeof *slots);
+}
+
+/* ---- What is folded ----------------------------------------------------------------------------------------- */
+
+typedef struct folding {
+    const diagram_slots *slots;
+    size_t next;               /* of the slots' nodes, which come in the same order */
+    const diagram_node *above; /* the last one */
+    size_t before;             /* points of `above` that have been passed */
+    diagram_visitor visit;
+    void *context;
+} folding;
+
+static octree_walk_order visit_node(const octree_node *node, void *context)
+{
+    folding *f = context;
+    if (node->depth <= f->slots->deepest) {
+        f->above = &f->slots->nodes[f->next++];
+        f->before = 0;
+        return OCTREE_WALK_ON;
+    }
+    const double middle = ((double)f->before + (double)node->count / 2) / (double)f->above->points;
+    f->visit(node, f->above->left + (f->above->right - f->above->left) * middle, f->context);
+    f->before += node->leaf ? node->count : 0;
+    return OCTREE_WALK_ON;
+}
+
+void diagram_visit_folded(const diagram_slots *slots, const octree *tree, diagram_visitor visit, void *context)
+{
+    folding f = {.slots = slots, .visit = visit, .context = context};
+    if (slots->deepest < slots->stats.depth)
+        octree_walk(tree, visit_node, &f);
+}
