@@ -216,6 +216,33 @@ static void a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn(void *
     scene_release(&s);
 }
 
+/* What a tree was asked is drawn as what a tick asked: the same elements. */
+static void answers_of_a_tree_are_drawn_as_those_of_a_tick(void **state)
+{
+    (void)state;
+    const octree_session session = asking_session();
+    const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS);
+    octree_game *game = start_game(&session);
+    scene tick = {0}, tree = {0};
+    while (octree_game_tick(game)->number < 219) /* which asks all that there is, by key and by session */
+        play_tick(game);
+    build_tick(&tick, &v, game);
+    const octree_tick *asked = octree_game_tick(game);
+    const tree_look about = {"tree", 0, asked->answers, asked->answer_count};
+    assert_true(look_scene_build(&tree, &v, octree_game_tree(game), &about));
+    for (unsigned layer = LAYER_RANGE; layer <= LAYER_NEAREST; layer++) {
+        const layer_counts a = count_layer(&tick, layer), b = count_layer(&tree, layer);
+        assert_true(a.boxes + a.segments + a.markers > 0 && a.boxes == b.boxes && a.segments == b.segments);
+        assert_true(a.markers == b.markers && a.labels == b.labels);
+    }
+    for (size_t i = 0; i < asked->answer_count; i++)
+        if (asked->answers[i].kind == OCTREE_QUERY_RANGE)
+            assert_non_null(only_box(&tree, LAYER_RANGE, i));
+    scene_release(&tick);
+    scene_release(&tree);
+    octree_game_destroy(game);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -223,6 +250,7 @@ int main(void)
         cmocka_unit_test(every_answer_of_random_sessions_is_shown_in_its_layer),
         cmocka_unit_test(a_number_never_covers_that_of_a_nearer_one),
         cmocka_unit_test(a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn),
+        cmocka_unit_test(answers_of_a_tree_are_drawn_as_those_of_a_tick),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -205,7 +205,7 @@ static void one_node_has_its_box_and_its_points(void **state)
     const place points = place_in(*state, "points.txt");
     file_write_text(points.path, "0 0 0\n8 8 8\n1 1 1\n7 0.5 0.25\n");
     json_t *root = inspect_json(points.path, "--capacity 1 --node root");
-    assert_members(root, "node depth leaf count box points");
+    assert_members(root, "cloud node depth leaf count box points");
     assert_int_equal(whole(root, "count"), 4);
     assert_int_equal(json_array_size(json_member(root, "points")), 0);
     json_decref(root);
@@ -351,7 +351,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--region 9,9,9,10,10,10", "outside the world"},
         {"--depth 2:5", "--depths"},
         {"--depth 3 --depths 4", "the tree ends at depth 3"},
-        {"second.txt", "one point cloud"},
+        {"second.txt", "one file"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
     file_write_text(points.path, "1 2 3\n");
@@ -361,7 +361,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         assert_int_equal(temp_folder_count(*state), 1);
     }
     command_result result = run_octreel(NULL, "inspect -o %s", picture.path);
-    assert_trouble(&result, "one point cloud");
+    assert_trouble(&result, "takes a point cloud");
 }
 
 /* What has no extent is seen all the same. */

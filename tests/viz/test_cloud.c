@@ -116,7 +116,7 @@ static void assert_file_is_refused(const char *path, const char *reason)
     cloud cloud;
     cloud_error error;
     char sentence[256];
-    assert_false(cloud_read(path, &cloud, &error));
+    assert_false(cloud_read(path, NULL, &cloud, &error));
     snprintf(sentence, sizeof sentence, "%s: %s", path, reason);
     assert_string_equal(error.text, sentence);
     assert_null(cloud.positions);
@@ -136,7 +136,7 @@ static void file_is_read(void **state)
     cloud cloud;
     cloud_error error;
     write_file(path, "1 2 3\n-4.5 5e10 0.1\n");
-    assert_true(cloud_read(path, &cloud, &error));
+    assert_true(cloud_read(path, NULL, &cloud, &error));
     assert_int_equal(cloud.count, 2);
     assert_memory_equal(cloud.positions, two_points, sizeof two_points);
     cloud_release(&cloud);

@@ -3,6 +3,7 @@
 #define CLI_COMMAND_H
 
 #include "draw.h"
+#include "octree/game.h"
 
 #include <getopt.h>
 #include <stdbool.h>
@@ -28,6 +29,11 @@ int trouble(const char *format, ...);
 /* Values of options: each says what is wrong with `text` on stderr and returns false when it does not fit. */
 bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
 bool read_box(const char *option, const char *text, octree_box *box); /* six numbers, min <= max */
+
+/* A query as in --nearest X,Y,Z[,K], --radius X,Y,Z,R and --range x0,y0,z0,x1,y1,z1. */
+bool read_nearest(const char *text, octree_query *query);
+bool read_radius(const char *text, octree_query *query);
+bool read_range(const char *text, octree_query *query);
 
 /* The options of a view are the same for every command that draws. They are collected while the command line is read,
  * and then become a view. */

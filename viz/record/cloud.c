@@ -38,6 +38,12 @@ bool cloud_add(cloud_file *file, const double position[3])
     return true;
 }
 
+void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total)
+{
+    if (file->watch && times % 65536 == 0)
+        file->watch->step((double)done / (double)total, file->watch->context);
+}
+
 static void write_error(const cloud_file *file, const char *place, const char *format, va_list arguments)
 {
     enum { LONGEST_NAME = 192 };
@@ -123,14 +129,18 @@ static bool parse_filled(cloud_file *file)
     return cloud_fail(file, "holds no points");
 }
 
+static bool parse(cloud_file *file)
+{
+    *file->out = (cloud){0};
+    bool parsed = parse_filled(file);
+    if (!parsed)
+        cloud_release(file->out);
+    return parsed;
+}
+
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, cloud_error *error)
 {
-    cloud_file file = {name, bytes, size, out, error};
-    *out = (cloud){0};
-    bool parsed = parse_filled(&file);
-    if (!parsed)
-        cloud_release(out);
-    return parsed;
+    return parse(&(cloud_file){name, bytes, size, out, error, NULL});
 }
 
 void cloud_release(cloud *cloud)
@@ -139,16 +149,16 @@ void cloud_release(cloud *cloud)
     memset(cloud, 0, sizeof *cloud);
 }
 
-bool cloud_read(const char *path, cloud *out, cloud_error *error)
+bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, cloud_error *error)
 {
     char *bytes, reason[WHOLE_FILE_REASON];
     size_t size;
     *out = (cloud){0};
     if (!whole_file_read(path, &bytes, &size, reason)) {
-        cloud_file file = {path, NULL, 0, out, error};
+        cloud_file file = {path, NULL, 0, out, error, NULL};
         return cloud_fail(&file, "%s", reason);
     }
-    const bool done = cloud_parse(path, (const unsigned char *)bytes, size, out, error);
+    const bool done = parse(&(cloud_file){path, (const unsigned char *)bytes, size, out, error, watch});
     free(bytes);
     return done;
 }

@@ -27,9 +27,16 @@ typedef struct cloud_error {
     char text[512];
 } cloud_error;
 
-/* Read a regular file into *out. False with the reason in *error; *out is then empty. A file without any point is an
- * error. Cost: O(size) in time and memory; a compressed PCD is bounded by 88 times its size, before its points. */
-bool cloud_read(const char *path, cloud *out, cloud_error *error);
+/* Who is told, now and then, what part of a file has been read, from 0 to 1. */
+typedef struct cloud_watch {
+    void (*step)(double part, void *context);
+    void *context;
+} cloud_watch;
+
+/* Read a regular file into *out; `watch` may be null. False with the reason in *error; *out is then empty. A file
+ * without any point is an error. Cost: O(size) in time and memory; a compressed PCD is bounded by 88 times its size,
+ * before its points. */
+bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, cloud_error *error);
 
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, cloud_error *error);

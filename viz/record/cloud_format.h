@@ -15,6 +15,7 @@ typedef struct cloud_file {
     size_t size; /* at least 1 */
     cloud *out;
     cloud_error *error;
+    const cloud_watch *watch; /* may be null */
 } cloud_file;
 
 /* The formats: each reads the whole file into file->out. False with the error written. */
@@ -30,6 +31,9 @@ bool cloud_is_pcd(const cloud_file *file);
 
 /* Append a point; one that is not finite is counted as skipped instead. False when there is no memory. */
 bool cloud_add(cloud_file *file, const double position[3]);
+
+/* Tell who watches, each 65536th time, that `done` of `total` have been read. `times` counts the calls. */
+void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total);
 
 /* Write the error's sentence, a printf format, and return false: for the file, a line from 1 on, a byte from 0 on. */
 bool cloud_fail(const cloud_file *file, const char *format, ...);

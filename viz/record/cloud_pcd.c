@@ -320,6 +320,7 @@ static bool read_ascii(pcd_reader *reader)
     for (uint64_t i = 0; i < reader->points; i++) {
         cloud_span line;
         double position[3];
+        cloud_tell(reader->file, i, i, reader->points);
         if (!cloud_next_filled_line(&reader->lines, &line))
             return cloud_fail_line(reader->file, reader->lines.number,
                                    "the file ends after %" PRIu64 " of %" PRIu64 " points", i, reader->points);
@@ -337,6 +338,7 @@ static bool add_points(const pcd_reader *reader, const unsigned char *bytes, con
 {
     for (size_t i = 0; i < reader->points; i++) {
         double position[3];
+        cloud_tell(reader->file, i, i, reader->points);
         for (int axis = 0; axis < 3; axis++)
             position[axis] = cloud_scalar_read(reader->axes[axis].type, false, bytes + first[axis] + i * step[axis]);
         if (!cloud_add(reader->file, position))

@@ -294,6 +294,7 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
     if (element->property_count == 0)
         return true;
     for (uint64_t row = 0; row < element->count; row++) {
+        cloud_tell(reader->file, row, row, element->count);
         if (!read_row(reader, element, row, position))
             return false;
         if (has_points && !cloud_add(reader->file, position))

@@ -144,6 +144,7 @@ bool cloud_parse_text(cloud_file *file)
         lines.at += 3;
     while (cloud_next_line(&lines, &line)) {
         double position[3];
+        cloud_tell(file, lines.number, (uint64_t)(lines.at - (const char *)file->bytes), file->size);
         line.begin = skip_blanks(line);
         if (is_over(line))
             continue;

@@ -46,7 +46,7 @@ static bool make_one(const char *path, record_error *error)
     return S_ISDIR(status.st_mode) || record_fail(error, "%s: the folder cannot be made: a file is in its place", path);
 }
 
-static bool make_all(const char *folder, record_error *error)
+bool folder_make(const char *folder, record_error *error)
 {
     char *path = strdup(folder);
     if (!path)
@@ -95,7 +95,7 @@ bool folder_prepare(const char *folder, record_error *error)
 {
     if (!*folder)
         return record_fail(error, "the folder's name is empty");
-    return make_all(folder, error) && check_empty(folder, error);
+    return folder_make(folder, error) && check_empty(folder, error);
 }
 
 static bool is_there_but_no_file(const char *path)

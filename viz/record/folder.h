@@ -14,7 +14,10 @@ typedef struct record_error {
 /* Write a sentence; always false, so that a caller can return it. */
 bool record_fail(record_error *error, const char *format, ...);
 
-/* Make the folder and its parents where they are missing. An existing folder must hold no recording and no frames. */
+/* Make the folder and its parents where they are missing. */
+bool folder_make(const char *folder, record_error *error);
+
+/* The same for a recording. An existing folder must hold no recording and no frames. */
 bool folder_prepare(const char *folder, record_error *error);
 
 /* Remove the files of a recording that did not come to its first frame. */

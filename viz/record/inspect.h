@@ -33,8 +33,8 @@ void inspect_print_json(const inspection *i, const char *name, FILE *out);
 /* The node at an address as it is typed, such as 0/3/7 or root. False, with a sentence, when there is none. */
 bool inspect_find_node(const inspection *i, const char *address, octree_node *node, record_error *error);
 
-/* One node: its box and, for a leaf, its points; for people or as JSON. */
-void inspect_print_node(const octree_node *node, bool json, FILE *out);
+/* One node of the cloud `name`: its box and, for a leaf, its points; for people or as JSON. */
+void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out);
 
 /* All nodes as CSV: address, depth, leaf, count, min_x ... max_z. */
 bool inspect_write_nodes(const inspection *i, const char *path, record_error *error);

@@ -188,9 +188,10 @@ void inspect_print_json(const inspection *i, const char *name, FILE *out)
     json_write_end_line(w);
 }
 
-static void print_node(const octree_node *node, FILE *out)
+static void print_node(const octree_node *node, const char *name, FILE *out)
 {
     char address[OCTREE_ADDRESS_TEXT];
+    fprintf(out, "%s\n", name);
     fprintf(out, "%s: %s of %zu points at depth %u\n", octree_address_format(node->address, address),
             node->leaf ? "leaf" : "inner node", node->count, node->depth);
     print_box(out, "  box", &node->box);
@@ -201,11 +202,13 @@ static void print_node(const octree_node *node, FILE *out)
     }
 }
 
-static void write_node(const octree_node *node, FILE *out)
+static void write_node(const octree_node *node, const char *name, FILE *out)
 {
     char address[OCTREE_ADDRESS_TEXT];
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
+    json_write_key(w, "cloud");
+    json_write_string(w, name);
     json_write_key(w, "node");
     json_write_string(w, octree_address_format(node->address, address));
     write_count(w, "depth", node->depth);
@@ -232,19 +235,18 @@ bool inspect_find_node(const inspection *i, const char *address, octree_node *no
 {
     octree_address parsed;
     if (!octree_address_parse(address, &parsed))
-        return record_fail(error,
-                           "\"%s\" is not a node's address; it is octants from the root down, as in 0/3/7, or root",
-                           address);
+        return record_fail(
+            error, "\"%s\" is not a node's address; it is octants from the root down, as in 0/3/7, or root", address);
     return octree_node_at(i->tree, parsed, node) == OCTREE_OK ||
            record_fail(error, "there is no node %s in this tree", address);
 }
 
-void inspect_print_node(const octree_node *node, bool json, FILE *out)
+void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out)
 {
     if (json)
-        write_node(node, out);
+        write_node(node, name, out);
     else
-        print_node(node, out);
+        print_node(node, name, out);
 }
 
 static octree_walk_order write_row(const octree_node *node, void *context)

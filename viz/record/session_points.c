@@ -124,7 +124,7 @@ static bool read_file(session_reader *reader, json_t *value, const json_place *a
     char *path = path_in_folder(reader->folder, json_string_value(value));
     if (!path)
         return session_fail(reader, at, "out of memory");
-    bool done = cloud_read(path, &cloud, &reason);
+    bool done = cloud_read(path, NULL, &cloud, &reason);
     free(path);
     if (!done) {
         snprintf(reader->error->text, sizeof reader->error->text, "%s", reason.text);

@@ -121,7 +121,7 @@ static void add_knearest(scene *s, const octree_answer *answer, size_t place)
     add_ranks(s, answer, place, look);
 }
 
-void add_answers(scene *s, const octree_tick *tick)
+void add_answers(scene *s, const octree_answer *answers, size_t count)
 {
     static void (*const adders[OCTREE_QUERY_KINDS])(scene *, const octree_answer *, size_t) = {
         [OCTREE_QUERY_RANGE] = add_range,
@@ -129,6 +129,6 @@ void add_answers(scene *s, const octree_tick *tick)
         [OCTREE_QUERY_KNEAREST] = add_knearest,
         [OCTREE_QUERY_RADIUS] = add_ball,
     };
-    for (size_t i = 0; i < tick->answer_count; i++)
-        adders[tick->answers[i].kind](s, &tick->answers[i], i);
+    for (size_t i = 0; i < count; i++)
+        adders[answers[i].kind](s, &answers[i], i);
 }

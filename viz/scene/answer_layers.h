@@ -12,7 +12,7 @@
 /* Neighbours are numbered up to this rank. */
 #define NUMBERED_RANKS 9
 
-/* Each answer in the layer of its kind. Ids begin with the answer's place in the tick; markers have their point's. */
-void add_answers(scene *s, const octree_tick *tick);
+/* Each answer in the layer of its kind. Ids begin with the answer's place among them; markers have their point's. */
+void add_answers(scene *s, const octree_answer *answers, size_t count);
 
 #endif

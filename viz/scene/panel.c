@@ -120,7 +120,7 @@ static void write_range(pen *p, const octree_answer *answer)
     write_ids(p, "range", answer->points, answer->count);
 }
 
-static void write_answers(pen *p, const octree_tick *tick)
+static void write_answers(pen *p, const octree_answer *answers, size_t count)
 {
     static void (*const writers[OCTREE_QUERY_KINDS])(pen *, const octree_answer *) = {
         [OCTREE_QUERY_RANGE] = write_range,
@@ -128,8 +128,8 @@ static void write_answers(pen *p, const octree_tick *tick)
         [OCTREE_QUERY_KNEAREST] = write_knearest,
         [OCTREE_QUERY_RADIUS] = write_radius,
     };
-    for (size_t i = 0; i < tick->answer_count; i++)
-        writers[tick->answers[i].kind](p, &tick->answers[i]);
+    for (size_t i = 0; i < count; i++)
+        writers[answers[i].kind](p, &answers[i]);
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
@@ -180,22 +180,33 @@ static const legend_entry legend[] = {
 
 #define LEGEND_ENTRIES (sizeof legend / sizeof legend[0])
 
+/* The layer of each kind of query. */
+static const view_layer query_layers[OCTREE_QUERY_KINDS] = {
+    [OCTREE_QUERY_RANGE] = LAYER_RANGE,
+    [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
+    [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
+    [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
+};
+
 /* The layers that a session can show, as bits: those of queries that it never asks are left out. The nearest point is
  * asked for by a key too. */
 static unsigned layers_of(const octree_session *session)
 {
-    static const view_layer layers[OCTREE_QUERY_KINDS] = {
-        [OCTREE_QUERY_RANGE] = LAYER_RANGE,
-        [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
-        [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
-        [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
-    };
     unsigned asked = 1u << LAYER_NEAREST, others = VIEW_ALL_LAYERS;
     for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++)
-        others &= ~(1u << layers[i]);
+        others &= ~(1u << query_layers[i]);
     for (size_t i = 0; i < session->query_count; i++)
-        asked |= 1u << layers[session->queries[i].kind];
+        asked |= 1u << query_layers[session->queries[i].kind];
     return asked | others;
+}
+
+/* And those of a tree alone. */
+static unsigned layers_of_tree(const tree_look *about)
+{
+    unsigned layers = 1u << LAYER_NODES | 1u << LAYER_POINTS;
+    for (size_t i = 0; i < about->answer_count; i++)
+        layers |= 1u << query_layers[about->answers[i].kind];
+    return layers;
 }
 
 static void fill_line(pen *p, theme_role role, scene_style style)
@@ -286,25 +297,28 @@ void add_tick_panel(scene *s, const octree_game *game)
     write_left_out(&p);
     p.y += LINE / 2;
     write_ids(&p, "hits", tick->hits, tick->hit_count);
-    write_answers(&p, tick);
+    write_answers(&p, tick->answers, tick->answer_count);
     write_refusals(&p, tick);
     write_addresses(&p, "split", tick->splits, tick->split_count);
     write_addresses(&p, "merged", tick->merges, tick->merge_count);
     write_legend(&p, session->tree.max_depth, layers_of(session), session->player.sweep);
 }
 
-void add_tree_panel(scene *s, const octree *tree, const char *title)
+void add_tree_panel(scene *s, const octree *tree, const tree_look *about)
 {
     if (panel_width(&s->view) == 0) {
         write_left_out(&(pen){.scene = s, .y = 4});
         return;
     }
     pen p = begin_panel(s);
-    write_title(&p, title);
+    write_title(&p, about->title);
     write_statistics(&p, tree);
     write_left_out(&p);
     p.y += LINE / 2;
     const octree_box world = octree_definition(tree).world;
     write_world(&p, &world);
-    write_legend(&p, octree_definition(tree).max_depth, 1u << LAYER_NODES | 1u << LAYER_POINTS, false);
+    if (about->answer_count)
+        p.y += LINE / 2;
+    write_answers(&p, about->answers, about->answer_count);
+    write_legend(&p, octree_definition(tree).max_depth, layers_of_tree(about), false);
 }

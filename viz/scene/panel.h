@@ -3,9 +3,9 @@
 #define SCENE_PANEL_H
 
 #include "octree/game.h"
-#include "scene.h"
+#include "tick_scene.h"
 
 void add_tick_panel(scene *s, const octree_game *game);
-void add_tree_panel(scene *s, const octree *tree, const char *title);
+void add_tree_panel(scene *s, const octree *tree, const tree_look *about);
 
 #endif

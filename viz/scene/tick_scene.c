@@ -129,7 +129,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game)
     begin_scene(s, v, &session->tree.world, tick->player, tick->number);
     add_world(s, &session->tree.world);
     add_tree(s, octree_game_tree(game), session->body_count);
-    add_answers(s, tick);
+    add_answers(s, tick->answers, tick->answer_count);
     add_player(s, tick, session);
     add_collision(s, tick, session);
     add_diagram(s, octree_game_tree(game), leaf_of(octree_game_tree(game), tick->player));
@@ -152,7 +152,8 @@ bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_lo
     begin_scene(s, v, &world, center, 0);
     add_world(s, &world);
     add_tree(s, tree, octree_count(tree));
+    add_answers(s, about->answers, about->answer_count);
     add_diagram(s, tree, about->node);
-    add_tree_panel(s, tree, about->title);
+    add_tree_panel(s, tree, about);
     return !s->out_of_memory;
 }

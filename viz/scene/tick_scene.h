@@ -15,6 +15,8 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *t
 typedef struct tree_look {
     const char *title;
     octree_address node; /* the diagram shows the way to it; 0: to none */
+    const octree_answer *answers;
+    size_t answer_count;
 } tree_look;
 
 bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_look *about);

@@ -117,11 +117,12 @@ static void add_box(tree_walk *w, const octree_node *node)
         s->tally.beyond++;
         return;
     }
+    const theme_role role = node_role(&s->view, node->depth, node->count);
     scene_add_box(s, (scene_box){
                          .id = node->address,
                          .box = node->box,
                          .depth = (uint8_t)node->depth,
-                         .look = {.layer = LAYER_NODES, .role = (uint8_t)node_role(&s->view, node->depth, node->count), .width = 1},
+                         .look = {.layer = LAYER_NODES, .role = (uint8_t)role, .width = 1},
                      });
     w->at_depth[node->depth]++;
     s->tally.nodes++;

@@ -1,0 +1,278 @@
+/* test_cli_queries.c - octreel inspect asked on its command line: its answers are those of a scan over all points. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "brute.h"
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "images.h"
+#include "tick_lines.h"
+
+enum { POINTS = 600, REACH = 50 };
+
+/* Points with whole coordinates, some of them equal, numbered as inspect does. */
+static brute make_points(uint64_t seed)
+{
+    brute all = {0};
+    for (uint64_t i = 0; i < POINTS; i++) {
+        double at[3];
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = (double)random_below(&seed, 2 * REACH + 1) - REACH;
+        brute_insert(&all, i % 10 ? at : (double[]){1, 2, 3}, i);
+    }
+    return all;
+}
+
+static place write_points(void **state, const char *name, const brute *all)
+{
+    const place file = place_in(*state, name);
+    FILE *out = fopen(file.path, "wb");
+    assert_non_null(out);
+    for (size_t i = 0; i < all->count; i++)
+        fprintf(out, "%g %g %g\n", all->points[i].position[0], all->points[i].position[1], all->points[i].position[2]);
+    assert_int_equal(fclose(out), 0);
+    return file;
+}
+
+static double real(const json_t *object, const char *name)
+{
+    const json_t *value = json_member(object, name);
+    assert_true(json_is_real(value));
+    return json_real_value(value);
+}
+
+static void assert_place(const json_t *list, const double expected[3])
+{
+    assert_int_equal(json_array_size(list), 3);
+    for (size_t i = 0; i < 3; i++)
+        assert_true(json_real_value(json_array_get(list, i)) == expected[i]);
+}
+
+/* No more than there is to look at; and for an answer something was looked at. */
+static void assert_cost(const json_t *answer)
+{
+    const json_t *cost = json_member(answer, "cost");
+    assert_members(cost, "nodes leaves points pruned");
+    assert_true(real(cost, "leaves") <= real(cost, "nodes"));
+    assert_true(real(cost, "nodes") >= 1 || real(answer, "found") == 0);
+    assert_true(real(cost, "points") <= POINTS);
+}
+
+/* The points of an answer; `distances` may be null. */
+static void assert_points(const json_t *answer, const octree_point *points, const double *distances, size_t count)
+{
+    const json_t *list = json_member(answer, "points");
+    assert_true(real(answer, "found") == (double)count);
+    assert_int_equal(json_array_size(list), count);
+    for (size_t i = 0; i < count; i++) {
+        const json_t *point = json_array_get(list, i);
+        assert_members(point, distances ? "id position distance" : "id position");
+        assert_whole_number(json_member(point, "id"), points[i].id);
+        assert_place(json_member(point, "position"), points[i].position);
+        assert_true(!distances || fabs(real(point, "distance") - distances[i]) <= 1e-15 * distances[i]);
+    }
+    assert_cost(answer);
+}
+
+static void assert_nearest(const json_t *answer, const brute *all, const double target[3], size_t k)
+{
+    octree_neighbor *nearest;
+    octree_point points[POINTS];
+    double distances[POINTS];
+    const size_t count = brute_nearest_k(all, target, k, OCTREE_SKIP_NONE, 0, &nearest);
+    for (size_t i = 0; i < count; i++) {
+        points[i] = nearest[i].point;
+        distances[i] = nearest[i].distance;
+    }
+    free(nearest);
+    assert_points(answer, points, distances, count);
+}
+
+static void assert_ball(const json_t *answer, const brute *all, const double center[3], double radius)
+{
+    brute found = {0};
+    brute_radius(all, center, radius, &found);
+    assert_string_equal(json_string_value(json_member(answer, "query")), "radius");
+    assert_place(json_member(answer, "center"), center);
+    assert_nearest(answer, all, center, found.count); /* all that is in the ball is nearer than what is not */
+    brute_free(&found);
+}
+
+static void assert_box(const json_t *answer, const brute *all, const octree_box *box)
+{
+    brute found = {0};
+    brute_range(all, box, &found);
+    if (found.count)
+        qsort(found.points, found.count, sizeof *found.points, octree_compare_points);
+    assert_string_equal(json_string_value(json_member(answer, "query")), "range");
+    assert_points(answer, found.points, NULL, found.count);
+    brute_free(&found);
+}
+
+static void random_place(uint64_t *random, double at[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        at[axis] = (double)random_below(random, 4 * REACH + 1) - 2 * REACH;
+}
+
+/* One query of each kind, inside the world and outside, in one command. */
+static void ask_all_kinds(const place *file, const brute *all, uint64_t *random)
+{
+    double a[3], b[3], c[3];
+    octree_box box;
+    random_place(random, a);
+    random_place(random, b);
+    random_place(random, c);
+    for (int axis = 0; axis < 3; axis++) {
+        box.min[axis] = fmin(a[axis], b[axis]);
+        box.max[axis] = fmax(a[axis], b[axis]);
+    }
+    const size_t k = 1 + random_below(random, POINTS + 3);
+    const double radius = (double)random_below(random, 2 * REACH);
+    command_result result = run_octreel(
+        NULL,
+        "inspect %s --capacity 3 --json --nearest %g,%g,%g --range=%g,%g,%g,%g,%g,%g --radius %g,%g,%g,%g --nearest "
+        "%g,%g,%g,%zu",
+        file->path, a[0], a[1], a[2], box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2], b[0],
+        b[1], b[2], radius, c[0], c[1], c[2], k);
+    assert_done(&result);
+    json_t *object = json_read(result.out);
+    assert_members(object, "cloud answers");
+    const json_t *answers = json_member(object, "answers");
+    assert_int_equal(json_array_size(answers), 4);
+    assert_nearest(json_array_get(answers, 0), all, a, 1);
+    assert_box(json_array_get(answers, 1), all, &box);
+    assert_ball(json_array_get(answers, 2), all, b, radius);
+    assert_nearest(json_array_get(answers, 3), all, c, k);
+    json_decref(object);
+    command_release(&result);
+}
+
+static void answers_are_those_of_a_scan(void **state)
+{
+    uint64_t random = 17;
+    brute all = make_points(4);
+    const place file = write_points(state, "points.txt", &all);
+    for (int round = 0; round < 25; round++)
+        ask_all_kinds(&file, &all, &random);
+    brute_free(&all);
+}
+
+/* The same answers in words. */
+static void answers_for_people_name_what_was_found(void **state)
+{
+    static const char *const rows[][2] = {
+        {"--nearest 7.5,8,8", "nearest to 7.5 8 8: 1 found\n  1: 8 8 8  at 0.5\n  cost: "},
+        {"--nearest 0,0,0,2", "2 nearest to 0 0 0: 2 found\n  0: 0 0 0  at 0\n  2: 3 0 4  at 5\n  cost: "},
+        {"--radius 3,0,0,4", "radius 4 about 3 0 0: 2 found\n  0: 0 0 0  at 3\n  2: 3 0 4  at 4\n  cost: "},
+        {"--range -1,-1,-1,3,3,4", "range -1 -1 -1  to  3 3 4: 2 found\n  0: 0 0 0\n  2: 3 0 4\n  cost: "},
+        {"--range 4,4,4,5,5,5", ": 0 found\n  cost: "},
+        {"--nearest -100,0,0", "  note: the place lies outside the world\n  0: 0 0 0  at 100\n"},
+        {"--nearest 1,2,3,4", ": 3 found\n  note: the tree holds no more points\n"},
+        {"--range 90,0,0,91,1,1", ": 0 found\n  note: the box lies outside the world\n  cost: "},
+        {"--radius 90,0,0,1", ": 0 found\n  note: the ball lies outside the world\n  cost: "},
+        {"--radius -1,0,0,1", ": 1 found\n  note: the centre lies outside the world\n  0: 0 0 0  at 1\n"},
+        {"--radius 1e308,1e308,1e308,1e307", "  note: the ball lies outside the world\n"},
+        {"--range -1e308,-1e308,-1e308,1e308,1e308,1e308", ": 3 found\n  0: 0 0 0\n  1: 8 8 8\n  2: 3 0 4\n"},
+        {"--world 50,50,50,60,60,60 --nearest 0,0,0", ": 0 found\n  note: the tree holds no points\n"},
+    };
+    const place file = place_in(*state, "points.txt");
+    file_write_text(file.path, "0 0 0\n8 8 8\n3 0 4\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "inspect %s %s", file.path, rows[i][0]);
+        assert_done(&result);
+        if (strncmp(result.out, "points.txt\n", 11) != 0 || !strstr(result.out, rows[i][1]))
+            fail_msg("%s: \"%s\" is not in \"%s\"", rows[i][0], rows[i][1], result.out);
+        command_release(&result);
+    }
+}
+
+static void notes_are_in_json_too(void **state)
+{
+    const place file = place_in(*state, "points.txt");
+    file_write_text(file.path, "0 0 0\n8 8 8\n");
+    command_result result = run_octreel(NULL, "inspect %s --json --nearest 9,0,0 --nearest 1,0,0", file.path);
+    assert_done(&result);
+    json_t *object = json_read(result.out);
+    const json_t *answers = json_member(object, "answers");
+    assert_members(json_array_get(answers, 0), "query target k found points note cost");
+    assert_members(json_array_get(answers, 1), "query target k found points cost");
+    json_decref(object);
+    command_release(&result);
+}
+
+static void queries_that_do_not_fit_are_refused_in_one_sentence(void **state)
+{
+    static const char *const rows[][2] = {
+        {"--nearest 1,2", "--nearest takes a place"},
+        {"--nearest 1,2,3,4,5", "--nearest takes a place"},
+        {"--nearest=", "\"\" in \"\" is not a finite number"},
+        {"--nearest 1,,3", "is not a finite number"},
+        {"--nearest 1,2,x", "\"x\" in \"1,2,x\""},
+        {"--nearest nan,2,3", "\"nan\" in \"nan,2,3\" is not a finite number"},
+        {"--nearest 1,inf,3", "\"inf\""},
+        {"--nearest 1,2,1e999", "\"1e999\""},
+        {"--nearest 1,2,3,0", "whole and at least 1"},
+        {"--nearest 1,2,3,-2", "whole and at least 1"},
+        {"--nearest 1,2,3,2.5", "whole and at least 1"},
+        {"--nearest 1,2,3,1e300", "whole and at least 1"},
+        {"--radius 1,2,3", "--radius takes a centre and a radius"},
+        {"--radius 1,2,3,4,5", "--radius takes a centre and a radius"},
+        {"--radius 1,2,3,-1", "must not be negative"},
+        {"--radius 1,2,3,NaN", "\"NaN\""},
+        {"--range 1,2,3,4,5", "--range takes two corners"},
+        {"--range 1,2,3,4,5,6,7", "--range takes two corners"},
+        {"--range 1,2,3,4,1,6", "min is above max on y"},
+        {"--range 1,2,3,4,5,nan", "\"nan\""},
+    };
+    const place file = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
+    file_write_text(file.path, "0 0 0\n8 8 8\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "inspect %s -o %s %s", file.path, picture.path, rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+        assert_false(file_exists(picture.path));
+    }
+}
+
+/* Where its layer is shown a query makes another picture, and elsewhere none. */
+static void queries_are_drawn_in_their_layers(void **state)
+{
+    static const char *const queries[] = {"nearest 9,-9,9", "nearest 9,-9,9,5", "radius 9,-9,9,20",
+                                          "range 0,0,0,30,30,30"};
+    static const char *const layers[] = {"nearest", "knearest", "radius", "range"};
+    brute all = make_points(5);
+    const place file = write_points(state, "points.txt", &all), picture = place_in(*state, "tree.png");
+    for (size_t i = 0; i < 8; i++) {
+        image frames[2];
+        for (int asked = 0; asked < 2; asked++) {
+            command_result result =
+                run_octreel(NULL, "inspect %s -o %s --size 160x90 --layers nodes%s%s %s%s", file.path, picture.path,
+                            i < 4 ? "," : "", i < 4 ? layers[i] : "", asked ? "--" : "", asked ? queries[i % 4] : "");
+            assert_done(&result);
+            command_release(&result);
+            frames[asked] = assert_read(picture.path);
+        }
+        const image_difference asked = image_compare(&frames[0], &frames[1]);
+        assert_int_equal(image_same(&asked), i >= 4);
+        image_release(&frames[0]);
+        image_release(&frames[1]);
+    }
+    brute_free(&all);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(answers_are_those_of_a_scan),
+        IN_FOLDER(answers_for_people_name_what_was_found),
+        IN_FOLDER(notes_are_in_json_too),
+        IN_FOLDER(queries_that_do_not_fit_are_refused_in_one_sentence),
+        IN_FOLDER(queries_are_drawn_in_their_layers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,70 @@
+/* inspect_output.c - see inspect_output.h. */
+#include "inspect_output.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+const char *inspect_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static bool ends_in(const char *text, const char *ending)
+{
+    const size_t length = strlen(text), tail = strlen(ending);
+    return length >= tail && strcmp(text + (length - tail), ending) == 0;
+}
+
+static bool is_there(const char *path, bool *folder)
+{
+    struct stat status;
+    const bool there = stat(path, &status) == 0;
+    *folder = there && S_ISDIR(status.st_mode);
+    return there;
+}
+
+static bool check_names(const inspect_output *output, char *const *clouds, size_t count, record_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (strcmp(inspect_base_name(clouds[i]), inspect_base_name(clouds[j])) == 0)
+                return record_fail(error, "%s: %s and %s would be the same file in %s", output->option, clouds[j],
+                                   clouds[i], output->given);
+    return true;
+}
+
+bool inspect_output_check(inspect_output *output, char *const *clouds, size_t count, record_error *error)
+{
+    if (!output->given)
+        return true;
+    const bool there = is_there(output->given, &output->folder);
+    output->folder = output->folder || ends_in(output->given, "/");
+    if (count > 1 && !output->folder && (there || ends_in(output->given, output->ending)))
+        return record_fail(error, "%s %s is one file; for several clouds it takes a folder", output->option,
+                           output->given);
+    output->folder = output->folder || count > 1;
+    return !output->folder || check_names(output, clouds, count, error);
+}
+
+char *inspect_output_path(const inspect_output *output, const char *cloud, record_error *error)
+{
+    const char *name = inspect_base_name(cloud);
+    const size_t size = strlen(output->given) + strlen(name) + strlen(output->ending) + 2;
+    char *path = malloc(size);
+    if (!path) {
+        record_fail(error, "there is no memory");
+        return NULL;
+    }
+    if (!output->folder) {
+        memcpy(path, output->given, strlen(output->given) + 1);
+        return path;
+    }
+    const char *between = ends_in(output->given, "/") ? "" : "/";
+    snprintf(path, size, "%s%s%s%s", output->given, between, name, output->ending);
+    if (folder_make(output->given, error))
+        return path;
+    free(path);
+    return NULL;
+}
