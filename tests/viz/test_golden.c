@@ -61,8 +61,9 @@ static void frame_is_its_reference(void **state)
         read_renderer(before, sizeof before);
         fail_msg("%s differs in %llu pixels, by up to %d, within (%d,%d)-(%d,%d): see %s.out.png and %s.diff.png in "
                  "tests/ of the build folder.\nreference: %s\nnow:       %s",
-                 frame->name, (unsigned long long)difference.pixels, difference.largest_delta, difference.min_x,
-                 difference.min_y, difference.max_x, difference.max_y, frame->name, frame->name, before, renderer);
+                 frame->name, (unsigned long long)difference.unlike.pixels, difference.unlike.largest_channel,
+                 difference.unlike.min_x, difference.unlike.min_y, difference.unlike.max_x, difference.unlike.max_y,
+                 frame->name, frame->name, before, renderer);
     }
     image_release(&drawn);
     image_release(&reference);

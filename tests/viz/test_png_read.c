@@ -1,10 +1,15 @@
-/* test_png_read.c - PNG files of every kind to RGB: the legal ones rightly, the hostile ones with a sentence. */
+/* test_png_read.c - PNG files of every kind to pixels: the legal ones without loss, the hostile ones with a sentence.
+ */
 #include "images.h"
+#include "naive_compare.h"
 #include "png_by_hand.h"
 #include "temp_folder.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
 /* A way of storing pixels in a PNG. */
 typedef struct kind {
@@ -130,42 +135,48 @@ static double alpha_of(kind kind, int x, int y)
     return 0;
 }
 
-/* What a channel must be, 0 to 255, before it is rounded. */
-static double expected_channel(kind kind, int x, int y, int channel)
+/* What a channel must be, 0 to 1. */
+static double expected_channel(kind kind, int x, int y, int channel, const double ground[3])
 {
     double alpha = alpha_of(kind, x, y);
     double value;
     if (kind.color_type == PALETTE) {
         image_color color = palette_color(sample_at(kind, x, y, 0));
-        value = channel == 0 ? color.r : channel == 1 ? color.g : color.b;
+        value = (channel == 0 ? color.r : channel == 1 ? color.g : color.b) / 255.0;
     } else {
         bool grey = kind.color_type == GREY || kind.color_type == GREY_ALPHA;
-        value = 255.0 * sample_at(kind, x, y, grey ? 0 : channel) / largest_of(kind);
+        value = (double)sample_at(kind, x, y, grey ? 0 : channel) / largest_of(kind);
     }
-    return value * alpha + 255 * (1 - alpha);
+    return value * alpha + ground[channel] * (1 - alpha);
 }
 
-static void assert_decoded(const image *image, kind kind)
+/* As near as the image's samples can be: opaque pixels exactly, of whatever depth. */
+static void assert_decoded(const image *image, kind kind, const double ground[3])
 {
     assert_true(image->width == SIDE && image->height == SIDE);
-    /* 16-bit colours and alphas are rounded to 8 bits first. */
-    bool wide_alpha = kind.depth == 16 && kind.color_type >= GREY_ALPHA;
-    double tolerance = wide_alpha ? 1.5 : 0.5;
-    for (int n = 0; n < 3 * SIDE * SIDE; n++) {
-        double expected = expected_channel(kind, n / 3 % SIDE, n / 3 / SIDE, n % 3);
-        double off = image->pixels[n] - expected;
-        if (off > tolerance || off < -tolerance)
-            fail_msg("type %d depth %d interlaced %d keyed %d: sample %d is %d, not %g", kind.color_type, kind.depth,
-                     kind.interlaced, kind.keyed, n, image->pixels[n], expected);
+    assert_int_equal(image->wide, kind.depth == 16);
+    assert_int_equal(image->channels,
+                     kind.color_type == PALETTE || (kind.color_type == GREY && kind.depth <= 8) ? 1 : 3);
+    assert_int_equal(image->transparent, kind.keyed || kind.color_type >= GREY_ALPHA);
+    for (int n = 0; n < SIDE * SIDE; n++) {
+        double read[3];
+        naive_color(image, n % SIDE, n / SIDE, read);
+        for (int i = 0; i < 3; i++) {
+            double expected = expected_channel(kind, n % SIDE, n / SIDE, i, ground);
+            bool opaque = alpha_of(kind, n % SIDE, n / SIDE) == 1;
+            if (fabs(read[i] - expected) > (opaque ? 1e-9 : 0.500001 / (image->wide ? 65535 : 255)))
+                fail_msg("type %d depth %d interlaced %d keyed %d: channel %d of pixel %d is %g, not %g",
+                         kind.color_type, kind.depth, kind.interlaced, kind.keyed, i, n, read[i], expected);
+        }
     }
 }
 
-static void every_legal_kind_is_read_as_rgb_over_white(void **state)
+/* Every kind, interlaced or not, with and without a colour that is clear. */
+static void for_every_kind(void (*visit)(const char *path, kind kind), const char *path)
 {
     static const int stored[][2] = {{GREY, 1},    {GREY, 2},       {GREY, 4},        {GREY, 8},      {GREY, 16},
                                     {RGB, 8},     {RGB, 16},       {PALETTE, 1},     {PALETTE, 2},   {PALETTE, 4},
                                     {PALETTE, 8}, {GREY_ALPHA, 8}, {GREY_ALPHA, 16}, {RGB_ALPHA, 8}, {RGB_ALPHA, 16}};
-    const char *path = temp_file(*state, "a.png");
     for (size_t i = 0; i < sizeof stored / sizeof stored[0]; i++) {
         for (int variant = 0; variant < 4; variant++) {
             kind kind = {stored[i][0], stored[i][1], variant % 2 == 1, variant / 2 == 1};
@@ -174,11 +185,78 @@ static void every_legal_kind_is_read_as_rgb_over_white(void **state)
             png_bytes file;
             make_png(&file, kind);
             png_bytes_save(&file, file.size, path);
-            image image = assert_read(path);
-            assert_decoded(&image, kind);
-            image_release(&image);
+            visit(path, kind);
         }
     }
+}
+
+static void check_over_white(const char *path, kind kind)
+{
+    image image = assert_read(path);
+    assert_decoded(&image, kind, (double[]){1, 1, 1});
+    image_release(&image);
+}
+
+static void every_legal_kind_is_read_without_loss(void **state)
+{
+    for_every_kind(check_over_white, temp_file(*state, "a.png"));
+}
+
+static void check_over_color(const char *path, kind kind)
+{
+    image image;
+    image_error error;
+    assert_true(image_read_png_over(path, (image_color){0, 51, 255}, &image, &error));
+    assert_decoded(&image, kind, (double[]){0, 0.2, 1});
+    image_release(&image);
+}
+
+static void every_legal_kind_lies_over_the_background_asked_for(void **state)
+{
+    for_every_kind(check_over_color, temp_file(*state, "a.png"));
+}
+
+static void check_ends(const char *path, kind kind)
+{
+    (void)kind;
+    int width, height;
+    bool ends;
+    image_error error;
+    assert_true(image_read_png_ends(path, &width, &height, &ends, &error));
+    assert_true(width == SIDE && height == SIDE && ends);
+}
+
+static void size_and_end_are_told_without_the_pixels(void **state)
+{
+    const char *path = temp_file(*state, "a.png");
+    for_every_kind(check_ends, path);
+    int width, height;
+    bool ends;
+    image_error error;
+    png_bytes file;
+    png_bytes_load(&file, path);
+    png_bytes_save(&file, file.size - 1, path);
+    assert_true(image_read_png_ends(path, &width, &height, &ends, &error));
+    assert_false(ends);
+    png_bytes_save(&file, 20, path);
+    assert_false(image_read_png_ends(path, &width, &height, &ends, &error));
+    assert_sentence(&error, path, "cut short");
+}
+
+/* A file of 16 bits a sample that 8 would hold is the same picture, and is stored as one. */
+static void wide_files_of_narrow_pictures_become_narrow(void **state)
+{
+    const char *path = temp_file(*state, "a.png");
+    static const uint8_t row[] = {0, 7, 7, 255, 255, 0, 0, 90, 90, 91, 91, 92, 92};
+    png_bytes file, rows = {.size = 0};
+    png_bytes_put(&rows, row, sizeof row);
+    png_put_header(&file, 2, 1, 16, RGB, false);
+    png_put_rows_and_end(&file, &rows);
+    png_bytes_save(&file, file.size, path);
+    image image = assert_read(path);
+    assert_false(image.wide);
+    assert_memory_equal(image.pixels, ((uint8_t[]){7, 255, 0, 90, 91, 92}), 6);
+    image_release(&image);
 }
 
 static void assert_unreadable(const char *path, const char *reason)
@@ -267,6 +345,30 @@ static void huge_sides_are_refused_before_memory_is_spent(void **state)
     }
 }
 
+/* A picture that this program may read, in a file of a few bytes. */
+static void pixels_that_a_file_is_too_short_for_are_refused(void **state)
+{
+    static const int types[] = {GREY, RGB, GREY_ALPHA, RGB_ALPHA};
+    const char *path = temp_file(*state, "a.png");
+    for (size_t i = 0; i < 4; i++) {
+        png_bytes file, rows = {.size = 100};
+        struct rusage before, after;
+        png_put_header(&file, 16384, 16384, 16, types[i], i % 2 == 1);
+        png_put_rows_and_end(&file, &rows);
+        assert_int_equal(getrusage(RUSAGE_SELF, &before), 0);
+        assert_bytes_unreadable(&file, path, "more pixels than it can hold");
+        assert_int_equal(getrusage(RUSAGE_SELF, &after), 0);
+        assert_true(after.ru_maxrss - before.ru_maxrss < 20000); /* kilobytes */
+    }
+}
+
+static void pipe_is_refused_without_waiting(void **state)
+{
+    const char *path = temp_file(*state, "pipe");
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_unreadable(path, "not a regular file");
+}
+
 static void too_few_pixels_are_an_error(void **state)
 {
     png_bytes file, rows = {.data = {0}, .size = 4 * 5 - 1};
@@ -345,7 +447,12 @@ static void texts_are_found_by_their_keyword(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(every_legal_kind_is_read_as_rgb_over_white),
+        WITH_FOLDER(every_legal_kind_is_read_without_loss),
+        WITH_FOLDER(every_legal_kind_lies_over_the_background_asked_for),
+        WITH_FOLDER(size_and_end_are_told_without_the_pixels),
+        WITH_FOLDER(wide_files_of_narrow_pictures_become_narrow),
+        WITH_FOLDER(pixels_that_a_file_is_too_short_for_are_refused),
+        WITH_FOLDER(pipe_is_refused_without_waiting),
         WITH_FOLDER(missing_file_and_folder_are_told_apart),
         WITH_FOLDER(what_is_no_png_is_refused),
         WITH_FOLDER(truncation_anywhere_is_an_error),

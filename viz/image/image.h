@@ -1,7 +1,7 @@
 /* image.h - pixels, PNG files, and the difference of two images. Knows neither GL nor trees.
  *
- * An image is either indexed (one byte a pixel into a palette) or RGB (three bytes a pixel), rows from the top down,
- * without padding.
+ * An image is either indexed (one byte a pixel into a palette) or RGB (three samples a pixel, of 8 bits or, when it was
+ * read from such a file, of 16), rows from the top down, without padding.
  */
 #ifndef OCTREEL_IMAGE_H
 #define OCTREEL_IMAGE_H
@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* A side of a picture that this program draws or reads is at most this many pixels. */
 #define IMAGE_MAX_SIDE 16384
@@ -25,9 +26,17 @@ typedef struct image_palette {
 typedef struct image {
     int width, height;
     int channels;          /* 1: indices into the palette; 3: r, g, b */
+    bool wide;             /* a sample has 16 bits, in this machine's byte order, not 8; channels is then 3 */
+    bool transparent;      /* read from a file that is transparent somewhere: it was laid over a background */
     image_palette palette; /* read when channels is 1 */
-    uint8_t *pixels;       /* width * height * channels bytes, owned */
+    uint8_t *pixels;       /* width * height * image_pixel_size() bytes, owned */
 } image;
+
+/* Bytes of a pixel: 1, 3 or 6. */
+static inline size_t image_pixel_size(const image *image)
+{
+    return (size_t)image->channels * (image->wide ? 2 : 1);
+}
 
 /* A failed operation writes one sentence here, "<path>: <reason>"; a done one leaves it alone. Never NULL. */
 typedef struct image_error {
@@ -40,8 +49,11 @@ bool image_create(image *image, int width, int height, int channels);
 /* Free the pixels and zero the image; a zeroed image is allowed. */
 void image_release(image *image);
 
-/* The colour of a pixel inside the image. */
+/* The colour of a pixel inside the image; of 16 bits a sample to the nearest of 8. */
 image_color image_color_at(const image *image, int x, int y);
+
+/* Whether each pixel of an indexed image has a colour in its palette. */
+bool image_has_colors(const image *image);
 
 /* A digest of size and colours (not of how they are stored): equal for an indexed image and its RGB twin. */
 uint64_t image_digest(const image *image);
@@ -64,10 +76,23 @@ bool image_write_png(const image *image, const char *path, const image_text *tex
 #define IMAGE_LIBRARY_TEXT 64
 char *image_library(char text[IMAGE_LIBRARY_TEXT]);
 
-/* Read any PNG as RGB, 16 bits rounded to 8; transparency is laid over white, gamma and colour profiles are ignored.
- * Refuses files whose sides exceed IMAGE_MAX_SIDE before memory is spent on them, and whatever is cut short or fails a
- * checksum. The image is created; when it fails, it is zeroed. */
+/* Read any PNG without loss: palettes, and greys of up to 8 bits, become indexed images, the others RGB ones, with 16
+ * bits a sample only where 8 cannot hold them. What is transparent is laid over white; gamma and colour profiles are
+ * ignored. Refused are files that are no regular files, whatever is cut short or fails a checksum, sides beyond
+ * IMAGE_MAX_SIDE, and more pixels than so many compressed bytes can hold: memory stays within 8 bytes a pixel, and
+ * within 8300 times the file's size. The image is created; when it fails, it is zeroed. */
 bool image_read_png(const char *path, image *image, image_error *error);
+
+/* The same over a background of one's own. */
+bool image_read_png_over(const char *path, image_color background, image *image, image_error *error);
+
+/* The same from a stream of `size` bytes; `name` stands for the path in sentences. */
+bool image_read_png_stream(FILE *stream, uint64_t size, const char *name, image_color background, image *image,
+                           image_error *error);
+
+/* Read no more than a PNG's beginning and its end: the size, and whether it ends as a PNG does. False when it does not
+ * begin as one. */
+bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, image_error *error);
 
 /* Read the first tEXt chunk with this keyword, of those before the pixels, into text (cut at size - 1). False when
  * there is none or the file cannot be read that far. The pixels are not decoded. */
@@ -77,21 +102,54 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
  * factor * factor, rounded to the nearest. False, and nothing done, when the two do not fit together so. */
 bool image_shrink(const image *from, int factor, image *small);
 
-/* How two images differ: counting only. Judging is image_same(). */
-typedef struct image_difference {
-    bool same_size;
-    uint64_t pixels;      /* pixels with any unlike channel; 0 when the sizes are unlike */
-    int largest_delta;    /* the largest difference of a channel, 0..255 */
-    int first_x, first_y; /* the first unlike pixel in reading order, -1 when there is none */
-    int min_x, min_y;     /* the box around all of them, both corners in it; -1 when there is none */
+/* ---- Differences: counting and judging are two functions ----------------------------------------------------- */
+
+/* How far two colours are from each other for the eye: the measure of Kotsarenko and Ramos ("Measuring perceived color
+ * difference using YIQ NTSC transmission color space in mobile applications", 2010), as a part of its largest value:
+ * the scale of pixelmatch's and odiff's threshold. 0 is the same colour and nothing else is. */
+#define IMAGE_DELTA_UNIT "YIQ"
+
+typedef struct image_rectangle {
+    int x, y, width, height; /* may reach beyond the image */
+} image_rectangle;
+
+/* Which differences are forgiven; all zero forgives none. */
+typedef struct image_tolerance {
+    uint64_t max_pixels; /* so many unlike pixels, after all else is forgiven */
+    double max_delta;    /* unlike pixels no farther apart than this, in IMAGE_DELTA_UNIT */
+    bool antialias;      /* pixels that anti-aliasing explains; see antialias.c */
+    const image_rectangle *ignored;
+    size_t ignored_count;
+} image_tolerance;
+
+/* Some unlike pixels: how many, how bad, where. Places are -1 when there are none. */
+typedef struct image_tally {
+    uint64_t pixels;
+    double worst_delta;   /* of the farthest pair of colours, in IMAGE_DELTA_UNIT */
+    int worst_x, worst_y; /* the first pixel in reading order that has it */
+    int largest_channel;  /* the largest difference of a channel, of any pixel */
+    int min_x, min_y;     /* the box around all of them, both corners in it */
     int max_x, max_y;
+} image_tally;
+
+typedef struct image_difference {
+    bool same_size;       /* else nothing is counted */
+    int channel_range;    /* what largest_channel is out of: 255, or 65535 where an image has 16 bits a sample */
+    image_tally unlike;   /* pixels with any unlike channel, but for those ignored */
+    image_tally counted;  /* of these, what is not forgiven */
+    uint64_t close;       /* forgiven: within max_delta */
+    uint64_t antialiased; /* forgiven: by anti-aliasing, of those beyond max_delta */
+    uint64_t ignored;     /* unlike, in ignored rectangles: part of no tally */
 } image_difference;
 
 /* Colours are compared, so an indexed image and its RGB twin are alike. */
 image_difference image_compare(const image *a, const image *b);
+image_difference image_compare_within(const image *a, const image *b, const image_tolerance *tolerance);
 
-/* The one judgement: the same size and no unlike pixel. */
+/* The judgements: the same size and no unlike pixel at all; the same size and no more counted ones than are forgiven.
+ */
 bool image_same(const image_difference *difference);
+bool image_forgiven(const image_difference *difference, const image_tolerance *tolerance);
 
 /* A picture of the difference: unlike pixels in red over a faint grey copy of `a`. Created in RGB at the common size:
  * where sizes are unlike, the part that both have, from the top left corner. False when there is no memory. */

@@ -1,14 +1,21 @@
-/* png_read.c - a PNG file, whoever wrote it, to RGB pixels or to one of its texts. */
+/* png_read.c - a PNG file, whoever wrote it, to pixels, to its size or to one of its texts. */
 #include "fault.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Bounds on what a hostile file may claim beside its pixels. */
 #define LARGEST_CHUNK 8000000
 #define MOST_TEXTS 1000
+
+/* Deflate spends at least two bits on 258 bytes. */
+#define MOST_BYTES_A_BYTE 1032
+
+/* Compressed bytes are handed to zlib in pieces of this size. */
+#define COMPRESSED_BUFFER_SIZE ((size_t)1 << 16)
 
 /* What to do with an opened file, between setjmp and the clean-up: png_error() ends it. */
 typedef void png_task(png_structp png, png_infop info, void *context);
@@ -57,85 +64,93 @@ static bool run(png_structp png, png_infop info, FILE *file, png_task *task, voi
     return true;
 }
 
-static bool read_file(const char *path, png_task *task, void *context, image_error *error)
+static bool read_stream(FILE *file, png_task *task, void *context, image_fault *fault)
 {
-    image_fault fault = {path, error};
-    FILE *file = fopen(path, "rb");
-    if (file == NULL)
-        return image_fault_report(&fault, "", strerror(errno));
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault, image_fault_raise, ignore_warning);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, fault, image_fault_raise, ignore_warning);
     png_infop info = png == NULL ? NULL : png_create_info_struct(png);
-    bool done = info == NULL ? image_fault_report(&fault, "libpng does not start: ", strerror(ENOMEM))
+    bool done = info == NULL ? image_fault_report(fault, "libpng does not start: ", strerror(ENOMEM))
                              : run(png, info, file, task, context);
     png_destroy_read_struct(&png, &info, NULL);
-    fclose(file); /* only read from: nothing is left to fail */
     return done;
 }
 
-/* Have libpng deliver one byte a sample, and return the samples of a pixel: 1 (an index), 3 or 4 (with alpha). Laying
- * over white is not left to libpng: 1.6.39 turns the white of 16-bit files into 254. */
-static size_t set_conversion(png_structp png, png_infop info)
+/* Opening a pipe would wait for its other end; a device may never end. */
+static FILE *open_file(const image_fault *fault, uint64_t *size)
 {
-    int color_type = png_get_color_type(png, info);
-    if (color_type == PNG_COLOR_TYPE_PALETTE) {
+    struct stat status;
+    FILE *file = NULL;
+    if (stat(fault->path, &status) != 0)
+        image_fault_report(fault, "", strerror(errno));
+    else if (!S_ISREG(status.st_mode))
+        image_fault_report(fault, "", S_ISDIR(status.st_mode) ? strerror(EISDIR) : "it is not a regular file");
+    else if ((file = fopen(fault->path, "rb")) == NULL)
+        image_fault_report(fault, "", strerror(errno));
+    else
+        *size = (uint64_t)status.st_size;
+    return file;
+}
+
+/* ---- Pixels ------------------------------------------------------------------------------------------------- */
+
+/* What a file is turned into. */
+typedef struct picture_request {
+    image *out;
+    uint64_t file_size;
+    image_color background;
+    png_byte color_type, depth; /* as stored */
+    size_t samples;             /* of a pixel as libpng delivers it: 1, an index or a grey; 3; or 4, with alpha */
+} picture_request;
+
+static bool is_indexed(const picture_request *r)
+{
+    return r->color_type == PNG_COLOR_TYPE_PALETTE || (r->color_type == PNG_COLOR_TYPE_GRAY && r->depth <= 8);
+}
+
+/* Have libpng deliver whole samples, as exact as they are. Laying over a background is not left to it: 1.6.39 turns the
+ * white of 16-bit files into 254. */
+static void set_conversion(png_structp png, png_infop info, picture_request *r)
+{
+    r->color_type = png_get_color_type(png, info);
+    r->depth = png_get_bit_depth(png, info);
+    const bool keyed = png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+    r->out->wide = r->depth == 16;
+    r->out->transparent = keyed || (r->color_type & PNG_COLOR_MASK_ALPHA) != 0;
+    r->samples = r->out->transparent ? 4 : 3;
+    if (is_indexed(r)) {
+        r->samples = 1;
         png_set_packing(png);
-        return 1;
+        return;
     }
     png_set_expand(png);
-    png_set_scale_16(png);
     png_set_gray_to_rgb(png);
-    bool transparent = (color_type & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(png, info, PNG_INFO_tRNS) != 0;
-    return transparent ? 4 : 3;
+    const uint16_t one = 1;
+    if (r->depth == 16 && *(const uint8_t *)&one == 1)
+        png_set_swap(png);
 }
 
-static uint8_t over_white(unsigned value, unsigned alpha)
+/* Refuse before memory is spent on it. */
+static void check_size(png_structp png, png_infop info, const picture_request *r)
 {
-    return (uint8_t)((value * alpha + 255 * (255 - alpha) + 127) / 255);
+    const png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+    if (width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
+        png_error(png, "a side is longer than this program's largest picture");
+    const uint64_t stored = (uint64_t)png_get_rowbytes(png, info) * height;
+    if (stored / MOST_BYTES_A_BYTE > r->file_size)
+        png_error(png, "the file is cut short, or claims more pixels than it can hold");
 }
 
-/* From four bytes a pixel to three, in place. */
-static void lay_over_white(uint8_t *pixels, size_t count)
+static void create_pixels(png_structp png, png_infop info, picture_request *r)
 {
-    for (size_t n = 0; n < count; n++) {
-        for (size_t i = 0; i < 3; i++)
-            pixels[3 * n + i] = over_white(pixels[4 * n + i], pixels[4 * n + 3]);
-    }
-}
-
-/* From one byte a pixel to three, in place and so from the end. libpng lets indices beyond the palette pass. */
-static void look_up_colors(png_structp png, png_infop info, uint8_t *pixels, size_t count)
-{
-    png_colorp palette = NULL;
-    png_bytep alphas = NULL;
-    int color_count = 0, alpha_count = 0;
-    png_get_PLTE(png, info, &palette, &color_count);
-    png_get_tRNS(png, info, &alphas, &alpha_count, NULL);
-    image_color colors[256] = {{0, 0, 0}};
-    for (int i = 0; i < color_count; i++) {
-        unsigned alpha = i < alpha_count ? alphas[i] : 255;
-        colors[i].r = over_white(palette[i].red, alpha);
-        colors[i].g = over_white(palette[i].green, alpha);
-        colors[i].b = over_white(palette[i].blue, alpha);
-    }
-    for (size_t n = count; n-- > 0;) {
-        if (pixels[n] >= color_count)
-            png_error(png, "a pixel's index lies beyond the palette");
-        memcpy(pixels + 3 * n, &colors[pixels[n]], 3);
-    }
-}
-
-/* The image at its size, with room for `samples` bytes a pixel. */
-static bool create_roomy(image *image, png_uint_32 width, png_uint_32 height, size_t samples)
-{
-    if (!image_create(image, (int)width, (int)height, 3))
-        return false;
-    if (samples <= 3)
-        return true;
-    uint8_t *roomy = realloc(image->pixels, (size_t)width * height * samples);
-    if (roomy == NULL)
-        return false;
-    image->pixels = roomy;
-    return true;
+    image *out = r->out;
+    out->width = (int)png_get_image_width(png, info);
+    out->height = (int)png_get_image_height(png, info);
+    out->channels = r->samples == 1 ? 1 : 3;
+    const size_t row_size = (size_t)out->width * r->samples * (out->wide ? 2 : 1);
+    if (png_get_rowbytes(png, info) != row_size)
+        png_error(png, "libpng cannot turn it into whole samples");
+    out->pixels = malloc(row_size * (size_t)out->height);
+    if (out->pixels == NULL)
+        png_error(png, strerror(ENOMEM));
 }
 
 static void read_rows(png_structp png, const image *image, size_t row_size, int passes)
@@ -146,36 +161,180 @@ static void read_rows(png_structp png, const image *image, size_t row_size, int 
     }
 }
 
+static unsigned mix(unsigned value, unsigned ground, unsigned alpha, unsigned most)
+{
+    return (value * alpha + ground * (most - alpha) + most / 2) / most;
+}
+
+static image_color mix_color(image_color color, image_color ground, unsigned alpha)
+{
+    return (image_color){(uint8_t)mix(color.r, ground.r, alpha, 255), (uint8_t)mix(color.g, ground.g, alpha, 255),
+                         (uint8_t)mix(color.b, ground.b, alpha, 255)};
+}
+
+/* From four samples a pixel to three, in place. */
+static void lay_over(uint8_t *pixels, size_t count, image_color ground)
+{
+    for (size_t n = 0; n < count; n++) {
+        const uint8_t *from = pixels + 4 * n;
+        const image_color color = mix_color((image_color){from[0], from[1], from[2]}, ground, from[3]);
+        memcpy(pixels + 3 * n, &color, 3);
+    }
+}
+
+static void lay_over_wide(uint8_t *pixels, size_t count, image_color ground)
+{
+    const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
+    for (size_t n = 0; n < count; n++) {
+        uint16_t from[4], to[3];
+        memcpy(from, pixels + n * sizeof from, sizeof from);
+        for (size_t i = 0; i < 3; i++)
+            to[i] = (uint16_t)mix(from[i], grounds[i], from[3], 65535);
+        memcpy(pixels + n * sizeof to, to, sizeof to);
+    }
+}
+
+static bool fits_bytes(const uint8_t *samples, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (samples[2 * i] != samples[2 * i + 1]) /* a multiple of 257 */
+            return false;
+    return true;
+}
+
+/* An image has 16 bits a sample only where it needs them, so that equal pictures are stored alike. */
+static void narrow_where_exact(image *out)
+{
+    const size_t count = 3 * (size_t)out->width * (size_t)out->height;
+    if (!fits_bytes(out->pixels, count))
+        return;
+    for (size_t i = 0; i < count; i++)
+        out->pixels[i] = out->pixels[2 * i];
+    out->wide = false;
+}
+
+/* The colours that the indices, or the greys, of a file stand for. */
+static void set_colors(png_structp png, png_infop info, const picture_request *r)
+{
+    image_palette *palette = &r->out->palette;
+    png_colorp colors = NULL;
+    png_bytep alphas = NULL;
+    png_color_16p key = NULL;
+    int alpha_count = 0;
+    png_get_tRNS(png, info, &alphas, &alpha_count, &key);
+    const bool grey = r->color_type == PNG_COLOR_TYPE_GRAY;
+    if (grey)
+        palette->count = 1 << r->depth;
+    else
+        png_get_PLTE(png, info, &colors, &palette->count);
+    for (int i = 0; i < palette->count; i++) {
+        const uint8_t level = (uint8_t)(grey ? i * 255 / (palette->count - 1) : 0);
+        const image_color color =
+            grey ? (image_color){level, level, level} : (image_color){colors[i].red, colors[i].green, colors[i].blue};
+        unsigned alpha = 255;
+        if (grey)
+            alpha = r->out->transparent && key->gray == i ? 0 : 255;
+        else if (i < alpha_count)
+            alpha = alphas[i];
+        palette->colors[i] = mix_color(color, r->background, alpha);
+    }
+}
+
+/* From what libpng delivered to what an image holds. */
+static void finish_pixels(png_structp png, png_infop info, const picture_request *r)
+{
+    image *out = r->out;
+    const size_t count = (size_t)out->width * (size_t)out->height;
+    if (r->samples == 1) {
+        set_colors(png, info, r);
+        if (!image_has_colors(out)) /* libpng lets indices beyond the palette pass */
+            png_error(png, "a pixel's index lies beyond the palette");
+    }
+    if (r->samples == 4 && !out->wide)
+        lay_over(out->pixels, count, r->background);
+    if (r->samples == 4 && out->wide)
+        lay_over_wide(out->pixels, count, r->background);
+    if (out->wide)
+        narrow_where_exact(out);
+}
+
 static void decode(png_structp png, png_infop info, void *context)
 {
-    image *out = (image *)context;
+    picture_request *r = (picture_request *)context;
+    png_set_compression_buffer_size(png, COMPRESSED_BUFFER_SIZE);
     png_read_info(png, info);
-    png_uint_32 width = png_get_image_width(png, info);
-    png_uint_32 height = png_get_image_height(png, info);
-    if (width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
-        png_error(png, "a side is longer than this program's largest picture");
-    size_t samples = set_conversion(png, info);
-    int passes = png_set_interlace_handling(png);
+    check_size(png, info, r);
+    set_conversion(png, info, r);
+    const int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
-    if (png_get_rowbytes(png, info) != width * samples)
-        png_error(png, "libpng cannot turn it into 8-bit samples");
-    if (!create_roomy(out, width, height, samples))
-        png_error(png, strerror(ENOMEM));
-    read_rows(png, out, width * samples, passes);
+    create_pixels(png, info, r);
+    read_rows(png, r->out, png_get_rowbytes(png, info), passes);
     png_read_end(png, NULL);
-    if (samples == 1)
-        look_up_colors(png, info, out->pixels, (size_t)width * height);
-    if (samples == 4)
-        lay_over_white(out->pixels, (size_t)width * height);
+    finish_pixels(png, info, r);
+}
+
+bool image_read_png_stream(FILE *stream, uint64_t size, const char *name, image_color background, image *image,
+                           image_error *error)
+{
+    image_fault fault = {name, error};
+    picture_request request = {.out = image, .file_size = size, .background = background};
+    memset(image, 0, sizeof *image);
+    if (read_stream(stream, decode, &request, &fault))
+        return true;
+    image_release(image);
+    return false;
+}
+
+bool image_read_png_over(const char *path, image_color background, image *image, image_error *error)
+{
+    const image_fault fault = {path, error};
+    uint64_t size;
+    memset(image, 0, sizeof *image);
+    FILE *file = open_file(&fault, &size);
+    if (file == NULL)
+        return false;
+    const bool done = image_read_png_stream(file, size, path, background, image, error);
+    fclose(file); /* only read from: nothing is left to fail */
+    return done;
 }
 
 bool image_read_png(const char *path, image *image, image_error *error)
 {
-    memset(image, 0, sizeof *image);
-    if (read_file(path, decode, image, error))
-        return true;
-    image_release(image);
-    return false;
+    return image_read_png_over(path, (image_color){255, 255, 255}, image, error);
+}
+
+/* ---- What can be told without the pixels --------------------------------------------------------------------- */
+
+static void read_size(png_structp png, png_infop info, void *context)
+{
+    int *sides = (int *)context;
+    png_read_info(png, info);
+    sides[0] = (int)png_get_image_width(png, info);
+    sides[1] = (int)png_get_image_height(png, info);
+}
+
+static bool ends_as_png(FILE *file)
+{
+    static const uint8_t end[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    uint8_t last[sizeof end];
+    return fseek(file, -(long)sizeof last, SEEK_END) == 0 && fread(last, sizeof last, 1, file) == 1 &&
+           memcmp(last, end, sizeof end) == 0;
+}
+
+bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, image_error *error)
+{
+    image_fault fault = {path, error};
+    uint64_t size;
+    int sides[2] = {0, 0};
+    FILE *file = open_file(&fault, &size);
+    if (file == NULL)
+        return false;
+    const bool begins = read_stream(file, read_size, sides, &fault);
+    *width = sides[0];
+    *height = sides[1];
+    *ends = begins && ends_as_png(file);
+    fclose(file);
+    return begins;
 }
 
 static void find_text(png_structp png, png_infop info, void *context)
@@ -198,5 +357,12 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
 {
     text_request request = {.keyword = keyword, .text = text, .size = size};
     image_error unread;
-    return read_file(path, find_text, &request, &unread) && request.found;
+    image_fault fault = {path, &unread};
+    uint64_t file_size;
+    FILE *file = open_file(&fault, &file_size);
+    if (file == NULL)
+        return false;
+    const bool read = read_stream(file, find_text, &request, &fault);
+    fclose(file);
+    return read && request.found;
 }

@@ -19,26 +19,20 @@ typedef struct content {
     size_t text_count;
 } content;
 
-static uint8_t largest_byte(const uint8_t *bytes, size_t size)
-{
-    uint8_t largest = 0;
-    for (size_t i = 0; i < size; i++)
-        largest = bytes[i] > largest ? bytes[i] : largest;
-    return largest;
-}
-
 /* Why this image cannot be written, or NULL. */
 static const char *refusal(const image *image)
 {
     if (image->pixels == NULL || image->width < 1 || image->height < 1)
         return "the image has no pixels";
+    if (image->wide)
+        return "the image has more than 8 bits a sample";
     if (image->channels == 3)
         return NULL;
     if (image->channels != 1)
         return "the image has neither one channel nor three";
     if (image->palette.count < 1 || image->palette.count > 256)
         return "the palette has not 1 to 256 colours";
-    if (largest_byte(image->pixels, (size_t)image->width * (size_t)image->height) >= image->palette.count)
+    if (!image_has_colors(image))
         return "a pixel's index lies beyond the palette";
     return NULL;
 }

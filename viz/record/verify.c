@@ -155,18 +155,18 @@ static bool check_line(verifying *v, const film_step *step, record_error *error)
 
 static void tell_pixels(verifying *v, const char *path, verify_finding *finding)
 {
-    image_difference difference = {0};
+    image_tally unlike = {0};
     image_error ignored;
     image frame;
     if (image_read_png(path, &frame, &ignored)) {
-        difference = image_compare(&frame, &v->take.picture.frame);
+        unlike = image_compare(&frame, &v->take.picture.frame).unlike;
         image_release(&frame);
     }
-    v->report->pixels = difference.pixels;
+    v->report->pixels = unlike.pixels;
     const verify_report *r = v->report;
     const bool same = strcmp(r->drawn_by, r->drawn_now) == 0;
-    say(finding, "%" PRIu64 " pixels from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s", difference.pixels,
-        difference.min_x, difference.min_y, difference.max_x, difference.max_y, r->drawn_by,
+    say(finding, "%" PRIu64 " pixels from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s", unlike.pixels,
+        unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y, r->drawn_by,
         same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
