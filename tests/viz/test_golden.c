@@ -1,7 +1,8 @@
 /* test_golden.c - the frames of golden/ are drawn as they were: exactly.
  *
- * What differs is left in the current folder as <name>.out.png, with <name>.diff.png beside it, and both renderers are
- * named. `test_golden --update` writes the references anew: the target golden-update runs it, nothing else does.
+ * All are drawn into the folder golden/ of the build's tests and compared with the references as octreel diff does it;
+ * what differs is left there, with <name>.diff.png in the current folder, and both renderers are named.
+ * `test_golden --draw` draws and does no more: the target golden-update runs it, and octreel accept behind it.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,123 +11,62 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <cmocka.h>
-#include <dirent.h>
 
 #include "golden_frames.h"
+#include "report.h"
 
-#define RENDERER_FILE OCTREEL_GOLDEN "/renderer.txt"
 #define NAME_SIZE 512
+#define TEXT_SIZE 256
 
-static void read_renderer(char *text, int size)
+/* All frames, drawn and compared. */
+typedef struct gallery {
+    diff_side references, drawn;
+    diff_result result;
+    char renderer[TEXT_SIZE]; /* who drew them */
+} gallery;
+
+/* What a test is about. */
+typedef struct exhibit {
+    const gallery *gallery;
+    const golden_frame *frame;
+} exhibit;
+
+static const char *file_name(const golden_frame *frame, char name[NAME_SIZE])
 {
-    FILE *file = fopen(RENDERER_FILE, "r");
-    if (!file || !fgets(text, size, file))
-        snprintf(text, (size_t)size, "unknown");
-    text[strcspn(text, "\n")] = 0;
-    if (file)
-        fclose(file);
+    snprintf(name, NAME_SIZE, "%s.ref.png", frame->name);
+    return name;
 }
 
-static void leave_evidence(const golden_frame *frame, const image *drawn, const image *reference)
+/* ---- Drawing ------------------------------------------------------------------------------------------------ */
+
+/* Frames that were drawn by an earlier build are none of this one's. */
+static bool empty_folder(void)
 {
-    char name[NAME_SIZE];
-    image_error error;
-    image difference;
-    snprintf(name, sizeof name, "%s.out.png", frame->name);
-    image_write_png(drawn, name, NULL, 0, &error);
-    if (!image_draw_difference(reference, drawn, &difference))
-        return;
-    snprintf(name, sizeof name, "%s.diff.png", frame->name);
-    image_write_png(&difference, name, NULL, 0, &error);
-    image_release(&difference);
+    diff_side before;
+    record_error error;
+    mkdir(OCTREEL_DRAWN, 0777);
+    if (!diff_side_open(&before, OCTREEL_DRAWN, &error))
+        return fprintf(stderr, "%s\n", error.text) < 0;
+    bool ok = true;
+    for (size_t i = 0; i < before.count; i++)
+        ok = remove(before.frames[i].path) == 0 && ok;
+    diff_side_release(&before);
+    return ok;
 }
 
-static void frame_is_its_reference(void **state)
+static bool draw_one(const golden_frame *frame, char *renderer)
 {
-    const golden_frame *frame = *state;
-    char renderer[256], before[256], path[NAME_SIZE];
-    record_error failed;
-    image_error unread;
-    image drawn, reference;
-    if (!golden_draw(frame, &drawn, renderer, sizeof renderer, &failed))
-        fail_msg("%s", failed.text);
-    snprintf(path, sizeof path, "%s/%s.ref.png", OCTREEL_GOLDEN, frame->name);
-    if (!image_read_png(path, &reference, &unread))
-        fail_msg("%s", unread.text);
-    const image_difference difference = image_compare(&reference, &drawn);
-    if (!image_same(&difference)) {
-        leave_evidence(frame, &drawn, &reference);
-        read_renderer(before, sizeof before);
-        fail_msg("%s differs in %llu pixels, by up to %d, within (%d,%d)-(%d,%d): see %s.out.png and %s.diff.png in "
-                 "tests/ of the build folder.\nreference: %s\nnow:       %s",
-                 frame->name, (unsigned long long)difference.unlike.pixels, difference.unlike.largest_channel,
-                 difference.unlike.min_x, difference.unlike.min_y, difference.unlike.max_x, difference.unlike.max_y,
-                 frame->name, frame->name, before, renderer);
-    }
-    image_release(&drawn);
-    image_release(&reference);
-}
-
-static bool is_known(const char *file)
-{
-    for (size_t i = 0; i < golden_frame_count; i++) {
-        const size_t length = strlen(golden_frames[i].name);
-        if (strncmp(file, golden_frames[i].name, length) == 0 && strcmp(file + length, ".ref.png") == 0)
-            return true;
-    }
-    return false;
-}
-
-/* Visit the references that no frame is drawn for. Returns their number. */
-static int unknown_references(bool delete)
-{
-    int count = 0;
-    DIR *folder = opendir(OCTREEL_GOLDEN);
-    for (struct dirent *entry; folder && (entry = readdir(folder));) {
-        char path[NAME_SIZE];
-        if (!strstr(entry->d_name, ".ref.png") || is_known(entry->d_name))
-            continue;
-        count++;
-        printf("nobody draws golden/%s%s\n", entry->d_name, delete ? ": removed" : "");
-        snprintf(path, sizeof path, "%s/%s", OCTREEL_GOLDEN, entry->d_name);
-        if (delete)
-            remove(path);
-    }
-    if (folder)
-        closedir(folder);
-    return count;
-}
-
-static void every_reference_has_its_frame(void **state)
-{
-    (void)state;
-    assert_int_equal(unknown_references(false), 0);
-}
-
-/* A reference with the same pixels stays as it is, so that what is committed is what changed. */
-static bool is_unchanged(const char *path, const image *drawn)
-{
-    image_error unread;
-    image reference;
-    if (!image_read_png(path, &reference, &unread))
-        return false;
-    const image_difference difference = image_compare(&reference, drawn);
-    image_release(&reference);
-    return image_same(&difference);
-}
-
-static bool update_one(const golden_frame *frame, char *renderer, size_t size)
-{
-    char path[NAME_SIZE];
+    char name[NAME_SIZE], path[2 * NAME_SIZE];
     record_error failed = {""};
     image_error unwritten = {""};
     image drawn;
-    bool ok = golden_draw(frame, &drawn, renderer, size, &failed);
-    snprintf(path, sizeof path, "%s/%s.ref.png", OCTREEL_GOLDEN, frame->name);
+    snprintf(path, sizeof path, "%s/%s", OCTREEL_DRAWN, file_name(frame, name));
+    bool ok = golden_draw(frame, &drawn, renderer, TEXT_SIZE, &failed);
     if (ok) {
-        ok = is_unchanged(path, &drawn) || image_write_png(&drawn, path, NULL, 0, &unwritten);
+        ok = image_write_png(&drawn, path, NULL, 0, &unwritten);
         image_release(&drawn);
     }
     if (!ok)
@@ -134,33 +74,122 @@ static bool update_one(const golden_frame *frame, char *renderer, size_t size)
     return ok;
 }
 
-static int update_all(void)
+static bool draw_all(char *renderer)
 {
-    char renderer[256] = "";
+    if (!empty_folder())
+        return false;
     for (size_t i = 0; i < golden_frame_count; i++)
-        if (!update_one(&golden_frames[i], renderer, sizeof renderer))
-            return 2;
-    unknown_references(true);
-    FILE *file = fopen(RENDERER_FILE, "w");
-    if (!file)
-        return 2;
-    const bool written = fprintf(file, "%s\n", renderer) > 0;
-    return fclose(file) == 0 && written ? 0 : 2;
+        if (!draw_one(&golden_frames[i], renderer))
+            return false;
+    FILE *file = fopen(OCTREEL_DRAWN "/renderer.txt", "w");
+    const bool written = file && fprintf(file, "%s\n", renderer) > 0;
+    return file && fclose(file) == 0 && written;
+}
+
+/* ---- Judging ------------------------------------------------------------------------------------------------ */
+
+static bool open_gallery(gallery *g)
+{
+    const diff_options exact = diff_options_default();
+    record_error error = {""};
+    if (draw_all(g->renderer) && diff_side_open(&g->references, OCTREEL_GOLDEN, &error) &&
+        diff_side_open(&g->drawn, OCTREEL_DRAWN, &error) &&
+        diff_run(&g->references, &g->drawn, &exact, &g->result, &error))
+        return true;
+    fprintf(stderr, "%s\n", error.text);
+    return false;
+}
+
+static void close_gallery(gallery *g)
+{
+    diff_release(&g->result);
+    diff_side_release(&g->references);
+    diff_side_release(&g->drawn);
+}
+
+static void read_renderer(char text[TEXT_SIZE])
+{
+    FILE *file = fopen(OCTREEL_GOLDEN "/renderer.txt", "r");
+    if (!file || !fgets(text, TEXT_SIZE, file))
+        snprintf(text, TEXT_SIZE, "unknown");
+    text[strcspn(text, "\n")] = 0;
+    if (file)
+        fclose(file);
+}
+
+static void draw_difference(const golden_frame *frame, const diff_pair *pair)
+{
+    char name[NAME_SIZE];
+    image_error error;
+    image reference, drawn, difference;
+    if (!pair->a || !image_read_png(pair->a->path, &reference, &error))
+        return;
+    if (image_read_png(pair->b->path, &drawn, &error)) {
+        snprintf(name, sizeof name, "%s.diff.png", frame->name);
+        if (image_draw_difference(&reference, &drawn, &difference)) {
+            image_write_png(&difference, name, NULL, 0, &error);
+            image_release(&difference);
+        }
+        image_release(&drawn);
+    }
+    image_release(&reference);
+}
+
+static void fail_pair(const gallery *g, const diff_pair *pair)
+{
+    char *sentence = NULL, before[TEXT_SIZE];
+    size_t size;
+    FILE *out = open_memstream(&sentence, &size);
+    assert_non_null(out);
+    diff_print_pair(out, pair);
+    fclose(out);
+    read_renderer(before);
+    fail_msg("%s: see golden/ and .diff.png in tests/ of the build folder.\nreference: %s\nnow:       %s", sentence,
+             before, g->renderer);
+}
+
+static void frame_is_its_reference(void **state)
+{
+    const exhibit *e = *state;
+    char name[NAME_SIZE];
+    const diff_pair *pair = diff_find(&e->gallery->result, file_name(e->frame, name));
+    assert_non_null(pair);
+    if (diff_finding_verdict(pair->finding) == DIFF_SAME)
+        return;
+    draw_difference(e->frame, pair);
+    fail_pair(e->gallery, pair);
+}
+
+static void every_reference_has_its_frame(void **state)
+{
+    const exhibit *e = *state;
+    for (size_t i = 0; i < e->gallery->result.count; i++)
+        if (e->gallery->result.pairs[i].finding == FOUND_NO_FRAME)
+            fail_msg("nobody draws %s", e->gallery->result.pairs[i].a->path);
+}
+
+static int run_exhibits(gallery *g, struct CMUnitTest *tests, exhibit *exhibits)
+{
+    const size_t count = golden_frame_count;
+    for (size_t i = 0; i <= count; i++) {
+        exhibits[i] = (exhibit){g, i < count ? &golden_frames[i] : NULL};
+        tests[i] = (struct CMUnitTest){.name = i < count ? golden_frames[i].name : "every_reference_has_its_frame",
+                                       .test_func = i < count ? frame_is_its_reference : every_reference_has_its_frame,
+                                       .initial_state = &exhibits[i]};
+    }
+    return _cmocka_run_group_tests("golden", tests, count + 1, NULL, NULL);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc > 1 && strcmp(argv[1], "--update") == 0)
-        return update_all();
+    gallery g = {.renderer = ""};
+    if (argc > 1 && strcmp(argv[1], "--draw") == 0)
+        return draw_all(g.renderer) ? 0 : 2;
     struct CMUnitTest *tests = calloc(golden_frame_count + 1, sizeof *tests);
-    if (!tests)
-        return 2;
-    for (size_t i = 0; i < golden_frame_count; i++)
-        tests[i] = (struct CMUnitTest){.name = golden_frames[i].name,
-                                       .test_func = frame_is_its_reference,
-                                       .initial_state = (void *)(uintptr_t)&golden_frames[i]};
-    tests[golden_frame_count] = (struct CMUnitTest)cmocka_unit_test(every_reference_has_its_frame);
-    const int failed = _cmocka_run_group_tests("golden", tests, golden_frame_count + 1, NULL, NULL);
+    exhibit *exhibits = calloc(golden_frame_count + 1, sizeof *exhibits);
+    const int failed = tests && exhibits && open_gallery(&g) ? run_exhibits(&g, tests, exhibits) : 2;
+    close_gallery(&g);
+    free(exhibits);
     free(tests);
     return failed;
 }

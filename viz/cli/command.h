@@ -3,6 +3,7 @@
 #define CLI_COMMAND_H
 
 #include "draw.h"
+#include "image.h"
 #include "octree/game.h"
 
 #include <getopt.h>
@@ -22,13 +23,19 @@ typedef struct command {
 int cmd_record(int argc, char **argv);
 int cmd_inspect(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
+int cmd_diff(int argc, char **argv);
+int cmd_digest(int argc, char **argv);
+int cmd_accept(int argc, char **argv);
 
 /* "octreel: " and a sentence on stderr; EXIT_TROUBLE. */
 int trouble(const char *format, ...);
 
 /* Values of options: each says what is wrong with `text` on stderr and returns false when it does not fit. */
 bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
-bool read_box(const char *option, const char *text, octree_box *box); /* six numbers, min <= max */
+bool read_box(const char *option, const char *text, octree_box *box);                  /* six numbers, min <= max */
+bool read_rectangle(const char *option, const char *text, image_rectangle *rectangle); /* left, top, width, height */
+bool read_color(const char *option, const char *text, image_color *color);             /* RRGGBB or #RRGGBB */
+bool read_part(const char *option, const char *text, double *value);                   /* 0 to 1 */
 
 /* A query as in --nearest X,Y,Z[,K], --radius X,Y,Z,R and --range x0,y0,z0,x1,y1,z1. */
 bool read_nearest(const char *text, octree_query *query);

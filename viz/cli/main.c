@@ -8,6 +8,9 @@ static const command commands[] = {
     {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
     {"verify", cmd_verify, "play a recording again: is it still what its session makes?"},
     {"inspect", cmd_inspect, "build a tree from a point cloud, draw its subdivision, print its statistics"},
+    {"diff", cmd_diff, "compare two pictures, folders of them or recordings, exactly or within a tolerance"},
+    {"digest", cmd_digest, "write digests of many frames, a small reference for diff"},
+    {"accept", cmd_accept, "take over new frames as the reference"},
 };
 
 #define COMMANDS (sizeof commands / sizeof commands[0])

@@ -77,6 +77,37 @@ bool read_box(const char *option, const char *text, octree_box *box)
     return true;
 }
 
+bool read_rectangle(const char *option, const char *text, image_rectangle *rectangle)
+{
+    const char *at = text;
+    uint64_t values[4] = {0};
+    bool ok = true;
+    for (int i = 0; ok && i < 4; i++, at++)
+        ok = take_number(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
+    if (!ok || values[2] == 0 || values[3] == 0)
+        return refuse("%s takes left, top, width and height in pixels, as in 10,20,300,40, not \"%s\"", option, text);
+    *rectangle = (image_rectangle){(int)values[0], (int)values[1], (int)values[2], (int)values[3]};
+    return true;
+}
+
+bool read_color(const char *option, const char *text, image_color *color)
+{
+    const char *digits = text[0] == '#' ? text + 1 : text;
+    if (strlen(digits) != 6 || strspn(digits, "0123456789abcdefABCDEF") != 6)
+        return refuse("%s takes a colour as in ff8000, not \"%s\"", option, text);
+    const unsigned long value = strtoul(digits, NULL, 16);
+    *color = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
+    return true;
+}
+
+bool read_part(const char *option, const char *text, double *value)
+{
+    const char *limit = text + strlen(text), *end = text;
+    if (number_parse(text, limit, &end, value) && end == limit && *value >= 0 && *value <= 1)
+        return true;
+    return refuse("%s takes a number from 0 to 1, not \"%s\"", option, text);
+}
+
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
 /* Names, by their place; null beyond the last. */

@@ -50,6 +50,14 @@ renderer_info renderer_about(const renderer *r);
 /* Draw a scene whose picture has the renderer's size in samples into width * height indices, rows from the top. */
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error);
 
+/* A rectangle of the picture, in its pixels; it may reach beyond the border. */
+typedef struct draw_box {
+    int x, y, width, height;
+} draw_box;
+
+/* Where a scene's letters and panels are: no text lights a pixel outside these boxes. Needs no renderer. */
+void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
+
 /* Elements of the last scene that are not in its frame: NaN or infinite, or too far off for doubles. */
 size_t renderer_left_out(const renderer *r);
 

@@ -51,3 +51,15 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
         quads_add(list, &q);
     }
 }
+
+bool letters_box(const scene *s, const scene_label *label, draw_box *box)
+{
+    char text[SCENE_TEXT];
+    if (!place(s, label, &box->x, &box->y))
+        return false;
+    memcpy(text, label->text, sizeof text);
+    const int scale = s->unit * label->look.width;
+    box->width = stb_easy_font_width(text) * scale;
+    box->height = stb_easy_font_height(text) * scale;
+    return true;
+}

@@ -68,6 +68,11 @@ static const char *const recording_files[] = {"recording.json", "session.json", 
 
 #define RECORDING_FILES (sizeof recording_files / sizeof recording_files[0])
 
+const char *folder_fact_name(size_t i)
+{
+    return i < RECORDING_FILES ? recording_files[i] : NULL;
+}
+
 /* What tells a folder that was filmed into. */
 static bool belongs_to_recording(const char *name)
 {

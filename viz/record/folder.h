@@ -23,6 +23,9 @@ bool folder_prepare(const char *folder, record_error *error);
 /* Remove the files of a recording that did not come to its first frame. */
 void folder_abandon(const char *folder);
 
+/* The names of a recording's files beside its frames; null beyond the last. */
+const char *folder_fact_name(size_t i);
+
 /* "folder/name"; owned by the caller, null when there is no memory. */
 char *folder_path(const char *folder, const char *name);
 

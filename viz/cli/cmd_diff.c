@@ -1,0 +1,148 @@
+/* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
+#include "command.h"
+#include "report.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "usage: octreel diff REFERENCE COMPARED [OPTION ...]\n\n"
+    "Compare pictures, exactly unless told otherwise. Each side is a PNG, a folder of PNGs (those directly in it), a\n"
+    "recording, or a file of digests made by octreel digest. Frames belong together by their names; a frame without a\n"
+    "reference is a difference, and so is a reference without a frame.\n\n"
+    "Forgiven is only what is asked for, and every verdict says so:\n"
+    "      --max-pixels N    up to N unlike pixels a frame, after all below is forgiven\n"
+    "      --max-delta D     colours no farther apart than D in the unit YIQ (Kotsarenko and Ramos 2010), from 0, the\n"
+    "                        same, to 1: pixelmatch's and odiff's threshold, which is 0.1 there by default\n"
+    "      --antialias       pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)\n"
+    "      --ignore X,Y,W,H  a rectangle of pixels; may be given again\n"
+    "      --ignore-layer text  in recordings: the panel and all letters, wherever they are in each frame\n\n"
+    "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
+    "      --json            print JSON\n"
+    "  -h, --help\n\n"
+    "Exit status: 0 the same, or all forgiven; 1 different; 2 trouble, as when a picture cannot be read.\n\n"
+    "Examples: octreel diff before.png after.png\n"
+    "          octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
+    "          octreel digest frames -o frames.digests && octreel diff frames.digests frames\n";
+
+typedef struct arguments {
+    diff_options options;
+    image_rectangle *ignored; /* owned */
+    bool json;
+} arguments;
+
+static const struct option options[] = {
+    {"max-pixels", required_argument, NULL, 'p'},
+    {"max-delta", required_argument, NULL, 'd'},
+    {"antialias", no_argument, NULL, 'a'},
+    {"ignore", required_argument, NULL, 'i'},
+    {"ignore-layer", required_argument, NULL, 'l'},
+    {"background", required_argument, NULL, 'b'},
+    {"json", no_argument, NULL, 'j'},
+    {"help", no_argument, NULL, 'h'},
+    {NULL, 0, NULL, 0},
+};
+
+static bool add_rectangle(arguments *a, const char *text)
+{
+    image_tolerance *t = &a->options.tolerance;
+    image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
+    if (!grown) {
+        trouble("there is no memory for what is ignored");
+        return false;
+    }
+    t->ignored = a->ignored = grown;
+    return read_rectangle("--ignore", text, &grown[t->ignored_count]) && ++t->ignored_count;
+}
+
+static bool read_layer(const char *text, bool *ignore_text)
+{
+    *ignore_text = strcmp(text, "text") == 0;
+    if (!*ignore_text)
+        trouble("--ignore-layer takes text, not \"%s\"", text);
+    return *ignore_text;
+}
+
+static bool take_option(arguments *a, int option)
+{
+    switch (option) {
+    case 'p':
+        return read_count("--max-pixels", optarg, 0, UINT32_MAX, &a->options.tolerance.max_pixels);
+    case 'd':
+        return read_part("--max-delta", optarg, &a->options.tolerance.max_delta);
+    case 'a':
+        a->options.tolerance.antialias = true;
+        return true;
+    case 'i':
+        return add_rectangle(a, optarg);
+    case 'l':
+        return read_layer(optarg, &a->options.ignore_text);
+    case 'b':
+        return read_color("--background", optarg, &a->options.background);
+    case 'j':
+        a->json = true;
+        return true;
+    default:
+        fputs("octreel diff --help tells what it takes\n", stderr);
+        return false;
+    }
+}
+
+/* The first sentence of what cannot be read, and how many more there are. */
+static int tell_trouble(const diff_result *result)
+{
+    size_t i = 0;
+    while (result->pairs[i].finding != FOUND_UNREADABLE)
+        i++;
+    const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "there is no memory";
+    const size_t more = result->found[FOUND_UNREADABLE] - 1;
+    return more ? trouble("%s (and %zu more)", sentence, more) : trouble("%s", sentence);
+}
+
+static int report(const arguments *a, const diff_side *reference, const diff_side *compared, const diff_result *result)
+{
+    static const int statuses[] = {
+        [DIFF_SAME] = EXIT_DONE, [DIFF_DIFFERENT] = EXIT_FINDING, [DIFF_TROUBLE] = EXIT_TROUBLE};
+    const diff_report all = {reference, compared, &a->options, result};
+    if (a->json)
+        diff_report_json(stdout, &all);
+    else if (result->found[FOUND_UNREADABLE] < result->count) /* else nothing was compared */
+        diff_report_text(stdout, &all);
+    return result->verdict == DIFF_TROUBLE ? tell_trouble(result) : statuses[result->verdict];
+}
+
+static int compare(const arguments *a, const char *paths[2])
+{
+    diff_side sides[2] = {{0}, {0}};
+    diff_result result = {0};
+    record_error error;
+    const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
+                    diff_run(&sides[0], &sides[1], &a->options, &result, &error);
+    const int status = ok ? report(a, &sides[0], &sides[1], &result) : trouble("%s", error.text);
+    diff_release(&result);
+    diff_side_release(&sides[0]);
+    diff_side_release(&sides[1]);
+    return status;
+}
+
+int cmd_diff(int argc, char **argv)
+{
+    arguments a = {.options = diff_options_default()};
+    int status = EXIT_TROUBLE;
+    bool ok = true, asked = false;
+    optind = 1;
+    for (int option; ok && !asked && (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
+        asked = option == 'h';
+        ok = asked || take_option(&a, option);
+    }
+    if (asked)
+        status = fputs(help, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
+    else if (ok && argc - optind != 2)
+        status = trouble("diff takes a reference and what is compared with it; octreel diff --help tells more");
+    else if (ok)
+        status = compare(&a, (const char *[]){argv[optind], argv[optind + 1]});
+    free(a.ignored);
+    return status;
+}

@@ -1,0 +1,75 @@
+/* cmd_digest.c - octreel digest: the pixels of many frames as a small text file. */
+#include "command.h"
+#include "digest_file.h"
+
+#include <getopt.h>
+#include <stdio.h>
+
+static const char help[] =
+    "usage: octreel digest FOLDER [-o FILE] [OPTION ...]\n\n"
+    "Write a digest of each frame's pixels as text, one line a frame: a baseline of a few kilobytes that octreel diff\n"
+    "takes in place of pictures. FOLDER is a recording or a folder of PNGs; a single PNG will do.\n\n"
+    "  -o, --output FILE     where it goes (default: standard output)\n"
+    "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
+    "  -h, --help\n\n"
+    "Examples: octreel digest frames -o frames.digests\n"
+    "          octreel diff frames.digests frames\n\n"
+    "The file: \"octreel-digests 1\", \"background ffffff\", and then, in the order of the names' bytes, lines such "
+    "as\n"
+    "  0123456789abcdef 1280x720 frame_000000.png\n";
+
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'},
+    {"background", required_argument, NULL, 'b'},
+    {"help", no_argument, NULL, 'h'},
+    {NULL, 0, NULL, 0},
+};
+
+static bool write_file(const diff_side *side, const char *path, record_error *error)
+{
+    part_file file;
+    if (!path)
+        return digest_file_write(stdout, side, error);
+    if (!part_open(&file, path, error))
+        return false;
+    return digest_file_write(file.stream, side, error) ? part_close(&file, error) : part_abandon(&file);
+}
+
+static int digest_it(const char *folder, const char *path, image_color background)
+{
+    diff_side side;
+    record_error error;
+    if (!diff_side_open(&side, folder, &error))
+        return trouble("%s", error.text);
+    int status = EXIT_DONE;
+    if (side.kind == DIFF_DIGESTS)
+        status = trouble("%s: it is a file of digests already", folder);
+    else if (side.count == 0)
+        status = trouble("%s: there is no PNG in it", folder);
+    else if (!digest_all(&side, background, &error) || !write_file(&side, path, &error))
+        status = trouble("%s", error.text);
+    diff_side_release(&side);
+    return status;
+}
+
+int cmd_digest(int argc, char **argv)
+{
+    image_color background = {255, 255, 255};
+    const char *path = NULL;
+    optind = 1;
+    for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
+        if (option == 'h') {
+            fputs(help, stdout);
+            return EXIT_DONE;
+        }
+        if (option == '?')
+            fputs("octreel digest --help tells what it takes\n", stderr);
+        if (option == '?' || (option == 'b' && !read_color("--background", optarg, &background)))
+            return EXIT_TROUBLE;
+        if (option == 'o')
+            path = optarg;
+    }
+    if (argc - optind != 1)
+        return trouble("digest takes one folder of frames; octreel digest --help tells more");
+    return digest_it(argv[optind], path, background);
+}

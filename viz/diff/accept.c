@@ -1,0 +1,262 @@
+/* accept.c - see accept.h. */
+#include "accept.h"
+#include "digest_file.h"
+#include "report.h"
+#include "same_bytes.h"
+#include "whole_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* What happens to a reference. */
+typedef enum action { KEPT, CHANGED, ADDED, REMOVED, ACTIONS } action;
+
+/* Both sides while the new one is taken over. */
+typedef struct accepting {
+    const accept_options *options;
+    diff_side reference, frames;
+    bool is_new; /* there was no reference */
+    diff_result result;
+    action *actions; /* one a pair */
+    size_t counts[ACTIONS];
+    FILE *out;
+} accepting;
+
+/* ---- What is to be done ------------------------------------------------------------------------------------- */
+
+static bool is_there(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0;
+}
+
+/* A reference that is to be made is an empty one of the kind that fits. */
+static bool open_sides(accepting *a, record_error *error)
+{
+    const accept_options *o = a->options;
+    if (!diff_side_open(&a->frames, o->frames, error))
+        return false;
+    if (a->frames.kind == DIFF_DIGESTS)
+        return record_fail(error, "%s: pictures are accepted, not digests of them", o->frames);
+    if (a->frames.count == 0)
+        return record_fail(error, "%s: there is no PNG in it", o->frames);
+    a->is_new = !is_there(o->reference);
+    if (a->is_new) {
+        a->reference = (diff_side){.path = o->reference, .kind = a->frames.kind};
+        return true;
+    }
+    if (!diff_side_open(&a->reference, o->reference, error))
+        return false;
+    if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
+        return record_fail(error, "%s is a recording, %s is none: its ticks would be those of other frames",
+                           o->reference, o->frames);
+    if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
+        a->reference.kind = DIFF_RECORDING; /* an empty folder is to become one */
+    return true;
+}
+
+static bool is_named(const accept_options *options, const char *name)
+{
+    for (size_t i = 0; i < options->name_count; i++)
+        if (strcmp(options->names[i], name) == 0)
+            return true;
+    return options->name_count == 0;
+}
+
+static bool check_names(const accepting *a, record_error *error)
+{
+    for (size_t i = 0; i < a->options->name_count; i++)
+        if (!diff_find(&a->result, a->options->names[i]))
+            return record_fail(error, "there is no frame %s, neither in %s nor in %s", a->options->names[i],
+                               a->frames.path, a->reference.path);
+    return true;
+}
+
+static action action_for(const diff_pair *pair)
+{
+    switch (pair->finding) {
+    case FOUND_SAME_BYTES:
+    case FOUND_SAME_PIXELS:
+        return KEPT;
+    case FOUND_NO_FRAME:
+        return REMOVED;
+    case FOUND_NO_REFERENCE:
+        return ADDED;
+    default:
+        return CHANGED;
+    }
+}
+
+/* A frame that cannot be read becomes no reference; a reference that cannot be read may be replaced. */
+static bool check_frame(const accepting *a, diff_pair *pair, record_error *error)
+{
+    image_error unread;
+    return digest_frame(pair->b->path, a->reference.background, &pair->about[1], &unread) ||
+           record_fail(error, "%s", unread.text);
+}
+
+static bool decide(accepting *a, record_error *error)
+{
+    a->actions = calloc(a->result.count, sizeof *a->actions);
+    if (!a->actions)
+        return record_fail(error, "there is no memory for %zu frames", a->result.count);
+    for (size_t i = 0; i < a->result.count; i++) {
+        diff_pair *pair = &a->result.pairs[i];
+        a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair) : KEPT;
+        a->counts[a->actions[i]]++;
+        if ((a->actions[i] == CHANGED || a->actions[i] == ADDED) && !check_frame(a, pair, error))
+            return false;
+    }
+    return true;
+}
+
+static bool compare(accepting *a, record_error *error)
+{
+    diff_options exact = diff_options_default();
+    if (a->reference.kind == DIFF_DIGESTS)
+        exact.background = a->reference.background;
+    else
+        a->reference.background = exact.background;
+    return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_names(a, error) && decide(a, error);
+}
+
+/* ---- Doing it ------------------------------------------------------------------------------------------------ */
+
+static bool copy_file(const char *from, const char *to, record_error *error)
+{
+    char *bytes, reason[WHOLE_FILE_REASON];
+    size_t size;
+    part_file file;
+    if (!whole_file_read(from, &bytes, &size, reason))
+        return record_fail(error, "%s: %s", from, reason);
+    bool ok = part_open(&file, to, error);
+    if (ok) {
+        fwrite(bytes, 1, size, file.stream); /* part_close tells */
+        ok = part_close(&file, error);
+    }
+    free(bytes);
+    return ok;
+}
+
+static bool remove_file(const char *path, record_error *error)
+{
+    return remove(path) == 0 || record_fail(error, "%s: cannot be removed: %s", path, strerror(errno));
+}
+
+static bool copy_into(const char *from, const char *folder, const char *name, record_error *error)
+{
+    char *to = folder_path(folder, name);
+    const bool ok = to ? copy_file(from, to, error) : record_fail(error, "there is no memory");
+    free(to);
+    return ok;
+}
+
+static bool write_picture(const accepting *a, const diff_pair *pair, action what, record_error *error)
+{
+    if (what == REMOVED)
+        return remove_file(pair->a->path, error);
+    if (a->reference.kind == DIFF_PICTURE || pair->a)
+        return copy_file(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
+    return copy_into(pair->b->path, a->reference.path, pair->b->name, error);
+}
+
+static void say(const accepting *a, const diff_pair *pair, action what)
+{
+    static const char *const words[] = {[CHANGED] = "changed", [ADDED] = "new", [REMOVED] = "removed"};
+    fprintf(a->out, "  %-8s ", words[what]);
+    if (what == CHANGED)
+        diff_print_pair(a->out, pair);
+    else
+        fputs(diff_pair_name(pair), a->out);
+    if (what == ADDED)
+        fprintf(a->out, ": %dx%d", pair->about[1].width, pair->about[1].height);
+    fputc('\n', a->out);
+}
+
+static bool write_pictures(const accepting *a, record_error *error)
+{
+    for (size_t i = 0; i < a->result.count; i++)
+        if (a->actions[i] != KEPT && a->reference.kind != DIFF_DIGESTS &&
+            !write_picture(a, &a->result.pairs[i], a->actions[i], error))
+            return false;
+    return true;
+}
+
+/* The references that there are now, kept ones with the digests that they had. */
+static bool write_digests(const accepting *a, record_error *error)
+{
+    diff_side now = {.path = a->reference.path, .kind = DIFF_DIGESTS, .background = a->reference.background};
+    part_file file;
+    bool ok = true;
+    for (size_t i = 0; ok && i < a->result.count; i++) {
+        const diff_pair *pair = &a->result.pairs[i];
+        if (a->actions[i] == CHANGED || a->actions[i] == ADDED)
+            ok = diff_side_add(&now, pair->b->name, pair->about[1], error);
+        else if (a->actions[i] == KEPT && pair->a)
+            ok = diff_side_add(&now, pair->a->name, pair->a->digest, error);
+    }
+    ok = ok && part_open(&file, now.path, error);
+    if (ok)
+        ok = digest_file_write(file.stream, &now, error) ? part_close(&file, error) : part_abandon(&file);
+    diff_side_release(&now);
+    return ok;
+}
+
+/* What else is in a recording tells of its frames. */
+static bool write_facts(const accepting *a, record_error *error)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && folder_fact_name(i); i++) {
+        char *from = folder_path(a->frames.path, folder_fact_name(i));
+        char *to = folder_path(a->reference.path, folder_fact_name(i));
+        ok = (from && to) || record_fail(error, "there is no memory");
+        if (ok && is_there(from) && !same_bytes(from, to))
+            ok = copy_file(from, to, error);
+        free(from);
+        free(to);
+    }
+    return ok;
+}
+
+static bool write_all(const accepting *a, record_error *error)
+{
+    const bool whole = a->options->name_count == 0;
+    const diff_kind kind = a->reference.kind;
+    if (a->is_new && kind != DIFF_PICTURE && !folder_prepare(a->reference.path, error))
+        return false;
+    if (kind == DIFF_DIGESTS)
+        return write_digests(a, error);
+    if (!write_pictures(a, error))
+        return false;
+    return kind != DIFF_RECORDING || !whole || write_facts(a, error);
+}
+
+static void tell(const accepting *a)
+{
+    size_t said = 0;
+    for (size_t i = 0; i < a->result.count; i++)
+        if (a->actions[i] != KEPT && said++ < DIFF_REPORT_LINES)
+            say(a, &a->result.pairs[i], a->actions[i]);
+    if (said > DIFF_REPORT_LINES)
+        fprintf(a->out, "  ... and %zu more\n", said - DIFF_REPORT_LINES);
+    const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
+    fprintf(a->out, "%s: %zu before, %zu after: %zu changed, %zu new, %zu removed\n", a->reference.path, before, after,
+            a->counts[CHANGED], a->counts[ADDED], a->counts[REMOVED]);
+    if (a->reference.kind == DIFF_RECORDING && a->options->name_count > 0 && said > 0)
+        fprintf(a->out, "Its ticks are still those of before; to take them over too, accept all frames.\n");
+}
+
+bool accept_frames(const accept_options *options, FILE *out, record_error *error)
+{
+    accepting a = {.options = options, .out = out};
+    const bool ok = open_sides(&a, error) && compare(&a, error) && write_all(&a, error);
+    if (ok)
+        tell(&a);
+    free(a.actions);
+    diff_release(&a.result);
+    diff_side_release(&a.reference);
+    diff_side_release(&a.frames);
+    return ok;
+}

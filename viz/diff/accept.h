@@ -1,0 +1,21 @@
+/* accept.h - new frames become the reference. */
+#ifndef DIFF_ACCEPT_H
+#define DIFF_ACCEPT_H
+
+#include "diff.h"
+
+#include <stdio.h>
+
+typedef struct accept_options {
+    const char *reference;    /* a PNG, a folder, a recording or a file of digests; made where there is nothing */
+    const char *frames;       /* a PNG, a folder or a recording */
+    const char *const *names; /* the frames to take over; */
+    size_t name_count;        /* none: all of them, and references without a frame are removed */
+} accept_options;
+
+/* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is. Of a
+ * recording that is taken over whole, so are its other files. What is done is said on `out` as it is done. False with a
+ * sentence: before anything is written when a side, a new frame or a name is no good. */
+bool accept_frames(const accept_options *options, FILE *out, record_error *error);
+
+#endif

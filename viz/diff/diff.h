@@ -1,0 +1,74 @@
+/* diff.h - two sides are compared frame by frame, and each pair gets its finding. */
+#ifndef DIFF_DIFF_H
+#define DIFF_DIFF_H
+
+#include "side.h"
+
+/* Each finding, its name in reports, and what it means for the whole. */
+#define DIFF_FINDING_MAP(X)                                                                                            \
+    X(SAME_BYTES, "same bytes", DIFF_SAME)          /* told without decoding */                                        \
+    X(SAME_PIXELS, "same pixels", DIFF_SAME)        /* stored in unlike ways */                                        \
+    X(WITHIN, "within tolerance", DIFF_SAME)        /* unlike, and all of it forgiven */                               \
+    X(PIXELS, "pixels", DIFF_DIFFERENT)             /* unlike beyond the tolerance */                                  \
+    X(SIZE, "size", DIFF_DIFFERENT)                 /* of unlike width or height */                                    \
+    X(DIGEST, "digest", DIFF_DIFFERENT)             /* of one size, and of unlike digests */                           \
+    X(NO_FRAME, "no frame", DIFF_DIFFERENT)         /* a reference, and nothing to compare with it */                  \
+    X(NO_REFERENCE, "no reference", DIFF_DIFFERENT) /* and the other way round */                                      \
+    X(UNREADABLE, "unreadable", DIFF_TROUBLE)
+
+typedef enum diff_finding {
+#define DIFF_FINDING_ENUM(name, text, verdict) FOUND_##name,
+    DIFF_FINDING_MAP(DIFF_FINDING_ENUM)
+#undef DIFF_FINDING_ENUM
+        DIFF_FINDINGS
+} diff_finding;
+
+/* In the order of what counts most: any trouble is trouble, any difference is one. */
+typedef enum diff_verdict { DIFF_SAME, DIFF_DIFFERENT, DIFF_TROUBLE } diff_verdict;
+
+const char *diff_finding_name(diff_finding finding);
+diff_verdict diff_finding_verdict(diff_finding finding);
+
+typedef struct diff_options {
+    image_tolerance tolerance;
+    image_color background; /* transparent pixels are laid over it */
+    bool ignore_text;       /* nor is the text layer of recordings looked at */
+} diff_options;
+
+/* Exact, over white. */
+diff_options diff_options_default(void);
+
+/* A frame of the reference (a), a frame that is compared with it (b), and what came of it. */
+typedef struct diff_pair {
+    const diff_frame *a, *b; /* null: there is none */
+    diff_finding finding;
+    frame_digest about[2];       /* the sizes, and the digests where one side has no pixels; zero: not looked at */
+    bool transparent;            /* the background shows in one of them */
+    image_difference difference; /* where both were decoded */
+    image_rectangle *ignored;    /* the tolerance's, and those of text; owned */
+    size_t ignored_count;
+    char *trouble; /* the sentence of what is unreadable; owned */
+} diff_pair;
+
+typedef struct diff_result {
+    diff_pair *pairs; /* in the order of names */
+    size_t count;
+    size_t found[DIFF_FINDINGS]; /* pairs of each finding */
+    diff_verdict verdict;
+} diff_result;
+
+/* Compare b with the reference a. Identical files are told by their bytes, on all cores; what is left is decoded, each
+ * pair on two cores, with as many pairs at a time as that leaves room for: on two cores no more than two pictures are
+ * in memory. Both sides must outlive the result. False, with a sentence, when the sides cannot be compared at all: a
+ * picture with a folder, a tolerance for digests, two empty folders. */
+bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
+              record_error *error);
+void diff_release(diff_result *result);
+
+/* The name of a pair: that of its new frame, or of the reference that has none. */
+const char *diff_pair_name(const diff_pair *pair);
+
+/* The pair of a name, or null. */
+const diff_pair *diff_find(const diff_result *result, const char *name);
+
+#endif

@@ -1,0 +1,182 @@
+/* digest_file.c - see digest_file.h. */
+#include "digest_file.h"
+#include "parallel.h"
+#include "whole_file.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_LINE DIGEST_FILE_BEGINNING "1"
+
+/* ---- Reading ------------------------------------------------------------------------------------------------- */
+
+/* Exactly `digits` hexadecimal digits in lower case, behind which *at is moved. */
+static bool take_hexadecimal(const char **at, int digits, uint64_t *value)
+{
+    static const char all[] = "0123456789abcdef";
+    *value = 0;
+    for (int i = 0; i < digits; i++, (*at)++) {
+        const char *digit = **at ? strchr(all, **at) : NULL;
+        if (!digit)
+            return false;
+        *value = *value << 4 | (uint64_t)(digit - all);
+    }
+    return true;
+}
+
+static bool take_side_length(const char **at, int *value)
+{
+    *value = 0;
+    if (**at < '1' || **at > '9')
+        return false;
+    for (; **at >= '0' && **at <= '9' && *value <= IMAGE_MAX_SIDE; (*at)++)
+        *value = 10 * *value + (**at - '0');
+    return *value <= IMAGE_MAX_SIDE;
+}
+
+static bool take_character(const char **at, char expected)
+{
+    if (**at != expected)
+        return false;
+    (*at)++;
+    return true;
+}
+
+static bool holds_control(const char *name)
+{
+    for (; *name; name++)
+        if ((unsigned char)*name < ' ' || *name == 127)
+            return true;
+    return false;
+}
+
+static bool parse_background(const char *line, image_color *color)
+{
+    static const char word[] = "background ";
+    uint64_t value;
+    if (strncmp(line, word, sizeof word - 1) != 0)
+        return false;
+    line += sizeof word - 1;
+    if (!take_hexadecimal(&line, 6, &value) || *line)
+        return false;
+    *color = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
+    return true;
+}
+
+static bool parse_frame(const char *line, frame_digest *digest, const char **name)
+{
+    const bool ok = take_hexadecimal(&line, 16, &digest->pixels) && take_character(&line, ' ') &&
+                    take_side_length(&line, &digest->width) && take_character(&line, 'x') &&
+                    take_side_length(&line, &digest->height) && take_character(&line, ' ');
+    *name = line;
+    return ok && *line && !holds_control(line) && !strchr(line, '/');
+}
+
+static bool take_line(diff_side *side, const char *line, size_t number, record_error *error)
+{
+    frame_digest digest;
+    const char *name;
+    if (number == 1)
+        return strcmp(line, FIRST_LINE) == 0 ||
+               record_fail(error, "%s:1: this version reads \"%s\" alone", side->path, FIRST_LINE);
+    if (number == 2)
+        return parse_background(line, &side->background) ||
+               record_fail(error, "%s:2: expected a background, as in \"background ffffff\"", side->path);
+    if (!parse_frame(line, &digest, &name))
+        return record_fail(error, "%s:%zu: expected a digest, a size and a name, as in \"%016d 1280x720 frame.png\"",
+                           side->path, number, 0);
+    if (side->count > 0 && strcmp(side->frames[side->count - 1].name, name) >= 0)
+        return record_fail(error, "%s:%zu: names must be in order, each but once", side->path, number);
+    return diff_side_add(side, name, digest, error);
+}
+
+bool digest_file_parse(diff_side *side, char *text, size_t size, record_error *error)
+{
+    char *const limit = text + size;
+    size_t number = 0;
+    side->kind = DIFF_DIGESTS;
+    if (memchr(text, 0, size))
+        return record_fail(error, "%s: it holds a zero byte, so it is no text", side->path);
+    for (char *line = text, *next; line < limit; line = next) {
+        char *end = line + strcspn(line, "\n");
+        next = end + 1;
+        if (end > line && end[-1] == '\r')
+            end[-1] = 0;
+        *end = 0;
+        if (!take_line(side, line, ++number, error))
+            return false;
+    }
+    return number >= 2 || record_fail(error, "%s: it ends before its second line", side->path);
+}
+
+bool digest_file_read(diff_side *side, record_error *error)
+{
+    char *bytes, reason[WHOLE_FILE_REASON];
+    size_t size;
+    if (!whole_file_read(side->path, &bytes, &size, reason))
+        return record_fail(error, "%s: %s", side->path, reason);
+    bytes[size] = 0;
+    const bool ok = digest_file_parse(side, bytes, size, error);
+    free(bytes);
+    return ok;
+}
+
+/* ---- Writing ------------------------------------------------------------------------------------------------- */
+
+bool digest_file_write(FILE *out, const diff_side *side, record_error *error)
+{
+    const image_color ground = side->background;
+    for (size_t i = 0; i < side->count; i++)
+        if (holds_control(side->frames[i].name))
+            return record_fail(error, "%s: a file's name has a character that a line cannot hold", side->path);
+    fprintf(out, "%s\nbackground %02x%02x%02x\n", FIRST_LINE, ground.r, ground.g, ground.b);
+    for (size_t i = 0; i < side->count; i++) {
+        const diff_frame *frame = &side->frames[i];
+        fprintf(out, "%016" PRIx64 " %dx%d %s\n", frame->digest.pixels, frame->digest.width, frame->digest.height,
+                frame->name);
+    }
+    return true;
+}
+
+/* ---- Digests of pictures ------------------------------------------------------------------------------------- */
+
+bool digest_frame(const char *path, image_color background, frame_digest *digest, image_error *error)
+{
+    image picture;
+    if (!image_read_png_over(path, background, &picture, error))
+        return false;
+    *digest = (frame_digest){image_digest(&picture), picture.width, picture.height};
+    image_release(&picture);
+    return true;
+}
+
+typedef struct digesting {
+    diff_side *side;
+    image_error *errors; /* one a frame; empty where it was read */
+} digesting;
+
+static void digest_one(size_t i, void *context)
+{
+    const digesting *d = context;
+    diff_frame *frame = &d->side->frames[i];
+    if (!digest_frame(frame->path, d->side->background, &frame->digest, &d->errors[i]))
+        frame->digest = (frame_digest){0};
+}
+
+bool digest_all(diff_side *side, image_color background, record_error *error)
+{
+    if (side->kind == DIFF_DIGESTS)
+        return true;
+    digesting d = {side, calloc(side->count + 1, sizeof *d.errors)};
+    if (!d.errors)
+        return record_fail(error, "there is no memory for the frames of %s", side->path);
+    side->background = background;
+    parallel_for(side->count, parallel_cores(), digest_one, &d);
+    bool ok = true;
+    for (size_t i = 0; ok && i < side->count; i++)
+        if (side->frames[i].digest.width == 0)
+            ok = record_fail(error, "%s", d.errors[i].text);
+    free(d.errors);
+    return ok;
+}

@@ -1,0 +1,43 @@
+/* parallel.c - see parallel.h. */
+#include "parallel.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+enum { MOST_THREADS = 64 };
+
+/* Shared by the workers: each takes the next piece. */
+typedef struct work {
+    atomic_size_t next;
+    size_t count;
+    parallel_task *task;
+    void *context;
+} work;
+
+static void *run_worker(void *shared)
+{
+    work *w = shared;
+    for (size_t i; (i = atomic_fetch_add(&w->next, 1)) < w->count;)
+        w->task(i, w->context);
+    return NULL;
+}
+
+unsigned parallel_cores(void)
+{
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores > 1 ? (unsigned)cores : 1;
+}
+
+void parallel_for(size_t count, unsigned workers, parallel_task *task, void *context)
+{
+    work w = {.count = count, .task = task, .context = context};
+    pthread_t threads[MOST_THREADS];
+    size_t started = 0;
+    while (started < MOST_THREADS && started + 1 < workers && started + 1 < count &&
+           pthread_create(&threads[started], NULL, run_worker, &w) == 0)
+        started++;
+    run_worker(&w);
+    for (size_t i = 0; i < started; i++)
+        pthread_join(threads[i], NULL);
+}

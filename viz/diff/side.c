@@ -1,0 +1,161 @@
+/* side.c - see side.h. */
+#include "side.h"
+#include "digest_file.h"
+#include "frame_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+const char *diff_kind_name(diff_kind kind)
+{
+    static const char *const names[] = {
+        [DIFF_PICTURE] = "picture",
+        [DIFF_FOLDER] = "folder",
+        [DIFF_RECORDING] = "recording",
+        [DIFF_DIGESTS] = "digests",
+    };
+    return names[kind];
+}
+
+const char *diff_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static bool grow(diff_side *side)
+{
+    if (side->count < side->room)
+        return true;
+    const size_t room = side->room ? 2 * side->room : 64;
+    diff_frame *frames = realloc(side->frames, room * sizeof *frames);
+    if (!frames)
+        return false;
+    side->frames = frames;
+    side->room = room;
+    return true;
+}
+
+static char *path_of(const diff_side *side, const char *name)
+{
+    return side->kind == DIFF_PICTURE ? strdup(side->path) : folder_path(side->path, name);
+}
+
+bool diff_side_add(diff_side *side, const char *name, frame_digest digest, record_error *error)
+{
+    diff_frame frame = {.name = strdup(name), .digest = digest};
+    const bool has_path = side->kind != DIFF_DIGESTS;
+    if (frame.name && has_path)
+        frame.path = path_of(side, name);
+    if (frame.name && (frame.path || !has_path) && grow(side)) {
+        side->frames[side->count++] = frame;
+        return true;
+    }
+    free(frame.name);
+    free(frame.path);
+    return record_fail(error, "there is no memory for the frames of %s", side->path);
+}
+
+static bool is_png_name(const char *name)
+{
+    const size_t length = strlen(name);
+    return name[0] != '.' && length > 4 && strcasecmp(name + length - 4, ".png") == 0;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
+}
+
+static bool belongs(const diff_side *side, const char *name)
+{
+    uint64_t tick;
+    return side->kind == DIFF_RECORDING ? frame_parse_name(name, &tick) : is_png_name(name);
+}
+
+static bool is_recording(const char *folder)
+{
+    struct stat status;
+    char *path = folder_path(folder, "recording.json");
+    const bool is = path && stat(path, &status) == 0;
+    free(path);
+    return is;
+}
+
+static bool read_folder(diff_side *side, record_error *error)
+{
+    DIR *entries = opendir(side->path);
+    if (!entries)
+        return record_fail(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
+    side->kind = is_recording(side->path) ? DIFF_RECORDING : DIFF_FOLDER;
+    bool ok = true;
+    errno = 0;
+    for (struct dirent *entry; ok && (entry = readdir(entries)); errno = 0)
+        if (belongs(side, entry->d_name))
+            ok = diff_side_add(side, entry->d_name, (frame_digest){0}, error);
+    if (ok && errno)
+        ok = record_fail(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
+    closedir(entries);
+    if (side->count > 0)
+        qsort(side->frames, side->count, sizeof *side->frames, by_name);
+    return ok;
+}
+
+/* By their first bytes: a damaged picture is one still, and its reader tells what is wrong with it. */
+static bool read_file(diff_side *side, record_error *error)
+{
+    char first[sizeof DIGEST_FILE_BEGINNING] = "";
+    FILE *file = fopen(side->path, "rb");
+    if (!file)
+        return record_fail(error, "%s: %s", side->path, strerror(errno));
+    const size_t size = fread(first, 1, sizeof first - 1, file);
+    fclose(file);
+    if (size >= 4 && memcmp(first, "\x89PNG", 4) == 0) {
+        side->kind = DIFF_PICTURE;
+        return diff_side_add(side, diff_base_name(side->path), (frame_digest){0}, error);
+    }
+    if (strcmp(first, DIGEST_FILE_BEGINNING) == 0) {
+        side->kind = DIFF_DIGESTS;
+        return digest_file_read(side, error);
+    }
+    return record_fail(error, "%s: it is no PNG, no folder and no file of digests", side->path);
+}
+
+bool diff_side_open(diff_side *side, const char *path, record_error *error)
+{
+    struct stat status;
+    bool ok;
+    *side = (diff_side){.path = path};
+    if (stat(path, &status) != 0)
+        ok = record_fail(error, "%s: %s", path, strerror(errno));
+    else if (S_ISDIR(status.st_mode))
+        ok = read_folder(side, error);
+    else if (S_ISREG(status.st_mode))
+        ok = read_file(side, error);
+    else
+        ok = record_fail(error, "%s: it is neither a file nor a folder", path);
+    if (!ok)
+        diff_side_release(side);
+    return ok;
+}
+
+void diff_side_release(diff_side *side)
+{
+    for (size_t i = 0; i < side->count; i++) {
+        free(side->frames[i].name);
+        free(side->frames[i].path);
+    }
+    free(side->frames);
+    *side = (diff_side){0};
+}
+
+const diff_frame *diff_side_find(const diff_side *side, const char *name)
+{
+    const diff_frame wanted = {.name = (char *)name};
+    return side->count ? bsearch(&wanted, side->frames, side->count, sizeof wanted, by_name) : NULL;
+}

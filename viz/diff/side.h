@@ -1,0 +1,51 @@
+/* side.h - one of the two things that are compared: a picture, a folder of them, a recording, or a file of digests. */
+#ifndef DIFF_SIDE_H
+#define DIFF_SIDE_H
+
+#include "folder.h"
+#include "image.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum diff_kind { DIFF_PICTURE, DIFF_FOLDER, DIFF_RECORDING, DIFF_DIGESTS } diff_kind;
+
+/* What a file of digests knows of a frame. */
+typedef struct frame_digest {
+    uint64_t pixels; /* image_digest() */
+    int width, height;
+} frame_digest;
+
+typedef struct diff_frame {
+    char *name;          /* of the file, without folders */
+    char *path;          /* null in a file of digests */
+    frame_digest digest; /* zero where there is a path */
+} diff_frame;
+
+typedef struct diff_side {
+    const char *path; /* as it was given; not owned */
+    diff_kind kind;
+    diff_frame *frames; /* in the order of their names' bytes, no name twice */
+    size_t count, room;
+    image_color background; /* of a file of digests: what transparent pixels were laid over */
+} diff_side;
+
+/* See what a path is. A folder stands for the PNG files in it, those with a dot before their name and those in folders
+ * below left out; a recording for its frames. False when it is none of the four; side is then empty. */
+bool diff_side_open(diff_side *side, const char *path, record_error *error);
+void diff_side_release(diff_side *side);
+
+/* "picture", "folder", "recording", "digests". */
+const char *diff_kind_name(diff_kind kind);
+
+/* Put a frame behind the others: a copy of its name, its path where the side's kind has paths, and its digest. */
+bool diff_side_add(diff_side *side, const char *name, frame_digest digest, record_error *error);
+
+/* The frame of this name, or null. */
+const diff_frame *diff_side_find(const diff_side *side, const char *name);
+
+/* The part behind the last slash. */
+const char *diff_base_name(const char *path);
+
+#endif
