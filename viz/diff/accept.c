@@ -204,19 +204,26 @@ static bool write_digests(const accepting *a, record_error *error)
     return ok;
 }
 
-/* What else is in a recording tells of its frames. */
+static bool copy_fact(const accepting *a, const char *name, record_error *error)
+{
+    char *from = folder_path(a->frames.path, name), *to = folder_path(a->reference.path, name);
+    bool ok = (from && to) || record_fail(error, "there is no memory");
+    if (ok && is_there(from) && !same_bytes(from, to))
+        ok = copy_file(from, to, error);
+    free(from);
+    free(to);
+    return ok;
+}
+
+/* What else is in a recording tells of its frames, and these tell of their session, though their pixels be the same. */
 static bool write_facts(const accepting *a, record_error *error)
 {
     bool ok = true;
-    for (size_t i = 0; ok && folder_fact_name(i); i++) {
-        char *from = folder_path(a->frames.path, folder_fact_name(i));
-        char *to = folder_path(a->reference.path, folder_fact_name(i));
-        ok = (from && to) || record_fail(error, "there is no memory");
-        if (ok && is_there(from) && !same_bytes(from, to))
-            ok = copy_file(from, to, error);
-        free(from);
-        free(to);
-    }
+    for (size_t i = 0; ok && i < a->result.count; i++)
+        if (a->result.pairs[i].finding == FOUND_SAME_PIXELS)
+            ok = copy_fact(a, diff_pair_name(&a->result.pairs[i]), error);
+    for (size_t i = 0; ok && folder_fact_name(i); i++)
+        ok = copy_fact(a, folder_fact_name(i), error);
     return ok;
 }
 

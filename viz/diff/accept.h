@@ -13,9 +13,9 @@ typedef struct accept_options {
     size_t name_count;        /* none: all of them, and references without a frame are removed */
 } accept_options;
 
-/* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is. Of a
- * recording that is taken over whole, so are its other files. What is done is said on `out` as it is done. False with a
- * sentence: before anything is written when a side, a new frame or a name is no good. */
+/* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is; but
+ * of a recording that is accepted whole, all files are taken over. What was done is said on `out` at the end. False
+ * with a sentence: before anything is written when a side, a new frame or a name is no good. */
 bool accept_frames(const accept_options *options, FILE *out, record_error *error);
 
 #endif

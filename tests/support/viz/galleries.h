@@ -1,0 +1,39 @@
+/* galleries.h - folders of small pictures for tests of comparisons, and sides opened on them. */
+#ifndef GALLERIES_H
+#define GALLERIES_H
+
+#include "diff.h"
+#include "files.h"
+
+#define GALLERY_WIDTH 24
+#define GALLERY_HEIGHT 16
+
+/* A picture whose pixels follow from `seed`; release it. */
+image gallery_picture(uint64_t seed);
+
+/* Write it, with `spoilt` of its pixels (at most 16, from the first one of row 3 on) one level of green off. */
+void gallery_write(const char *path, uint64_t seed, int spoilt);
+
+/* Make a folder in a test's folder and write picture i of the seed i into it for each of the names, which have blanks
+ * between them. */
+place gallery_make(const temp_folder *in, const char *folder, const char *names);
+
+/* The test fails, with the sentence, where a side cannot be opened or compared. */
+diff_side assert_side(const char *path);
+
+/* Both sides and what came of them. */
+typedef struct comparison_of {
+    diff_side a, b;
+    diff_result result;
+} comparison_of;
+
+comparison_of assert_compared(const char *a, const char *b, const diff_options *options);
+void comparison_release(comparison_of *made);
+
+/* What was found for a name; the test fails when there is no such pair. */
+diff_finding finding_of(const comparison_of *made, const char *name);
+
+/* No comparison: the sentence holds `part`. */
+void assert_not_compared(const char *a, const char *b, const diff_options *options, const char *part);
+
+#endif

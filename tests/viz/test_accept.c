@@ -1,0 +1,242 @@
+/* test_accept.c - octreel accept: what becomes the reference, what goes, and what is left alone. */
+#include "commands.h"
+#include "fixture.h"
+#include "galleries.h"
+#include "recordings.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* CI runs these tests too. */
+static int without_ci(void **state)
+{
+    unsetenv("CI");
+    return temp_folder_make(state);
+}
+
+static command_result accept_all(const place *reference, const place *frames)
+{
+    command_result result = run_octreel(NULL, "accept %s %s", reference->path, frames->path);
+    assert_done(&result);
+    return result;
+}
+
+static void assert_says(command_result *result, const char *part)
+{
+    if (!strstr(result->out, part))
+        fail_msg("\"%s\" does not say \"%s\"", result->out, part);
+}
+
+/* A reference and a later state of it: 1 unchanged, 2 changed, 3 gone, 4 new. */
+typedef struct change {
+    place before, after;
+} change;
+
+static change make_change(void **state)
+{
+    const change made = {gallery_make(*state, "golden", "1.png 2.png 3.png"),
+                         gallery_make(*state, "new", "1.png 2.png 4.png")};
+    gallery_write(place_below(made.after.path, "2.png").path, 1, 5);
+    gallery_write(place_below(made.after.path, "4.png").path, 77, 0);
+    return made;
+}
+
+static void all_new_frames_become_the_reference(void **state)
+{
+    const change c = make_change(state);
+    command_result result = accept_all(&c.before, &c.after);
+    assert_says(&result, "changed  2.png: 5 of 384 pixels differ");
+    assert_says(&result, "removed  3.png");
+    assert_says(&result, "new      4.png: 24x16");
+    assert_says(&result, "3 before, 3 after: 1 changed, 1 new, 1 removed");
+    command_release(&result);
+    assert_same_folders(c.before.path, c.after.path, NULL);
+    result = accept_all(&c.before, &c.after);
+    assert_says(&result, "3 before, 3 after: 0 changed, 0 new, 0 removed");
+    command_release(&result);
+}
+
+static void named_frames_alone_are_taken_over(void **state)
+{
+    const change c = make_change(state);
+    command_result result = run_octreel(NULL, "accept %s %s 4.png", c.before.path, c.after.path);
+    assert_done(&result);
+    assert_says(&result, "3 before, 4 after: 0 changed, 1 new, 0 removed");
+    command_release(&result);
+    comparison_of made = assert_compared(c.before.path, c.after.path, NULL);
+    assert_int_equal(finding_of(&made, "2.png"), FOUND_PIXELS);
+    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_FRAME);
+    assert_int_equal(finding_of(&made, "4.png"), FOUND_SAME_BYTES);
+    comparison_release(&made);
+    result = run_octreel(NULL, "accept %s %s 2.png 3.png", c.before.path, c.after.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_same_folders(c.before.path, c.after.path, NULL);
+}
+
+static void nothing_is_accepted_where_ci_is_set(void **state)
+{
+    const change c = make_change(state);
+    const place untouched = gallery_make(*state, "untouched", "1.png 2.png 3.png");
+    static const char *const values[] = {"CI=true", "CI=1", "CI="};
+    for (size_t i = 0; i < 3; i++) {
+        const command_setting setting = {.environment = {values[i]}};
+        command_result result = run_octreel(&setting, "accept %s %s", c.before.path, c.after.path);
+        assert_trouble(&result, "CI is set");
+    }
+    assert_same_folders(c.before.path, untouched.path, NULL);
+}
+
+/* A reference with the same pixels keeps its bytes, so that what is committed is what changed. */
+static void same_pixels_leave_a_reference_alone(void **state)
+{
+    const place before = gallery_make(*state, "golden", "1.png"), after = gallery_make(*state, "new", "");
+    static const image_text texts[] = {{"Comment", "new"}};
+    image picture = gallery_picture(0);
+    image_error error;
+    assert_true(image_write_png(&picture, place_below(after.path, "1.png").path, texts, 1, &error));
+    image_release(&picture);
+    command_result result = accept_all(&before, &after);
+    assert_says(&result, "0 changed");
+    command_release(&result);
+    comparison_of made = assert_compared(before.path, after.path, NULL);
+    assert_int_equal(finding_of(&made, "1.png"), FOUND_SAME_PIXELS);
+    comparison_release(&made);
+}
+
+static void before_anything_is_written_all_is_checked(void **state)
+{
+    const change c = make_change(state);
+    const place untouched = gallery_make(*state, "untouched", "1.png 2.png 3.png"),
+                empty = gallery_make(*state, "empty", "");
+    command_result result = run_octreel(NULL, "accept %s %s 2.png nix.png", c.before.path, c.after.path);
+    assert_trouble(&result, "there is no frame nix.png");
+    result = run_octreel(NULL, "accept %s %s", c.before.path, empty.path);
+    assert_trouble(&result, "there is no PNG in it");
+    assert_int_equal(truncate(place_below(c.after.path, "4.png").path, 200), 0);
+    result = run_octreel(NULL, "accept %s %s", c.before.path, c.after.path);
+    assert_trouble(&result, "4.png: the file is cut short");
+    assert_same_folders(c.before.path, untouched.path, NULL);
+    result = run_octreel(NULL, "accept %s", c.before.path);
+    assert_trouble(&result, "accept takes a reference and what is new");
+}
+
+static void a_reference_that_cannot_be_read_is_replaced(void **state)
+{
+    const change c = make_change(state);
+    assert_int_equal(truncate(place_below(c.before.path, "1.png").path, 100), 0);
+    command_result result = accept_all(&c.before, &c.after);
+    assert_says(&result, "changed  1.png: cannot be read");
+    command_release(&result);
+    assert_same_folders(c.before.path, c.after.path, NULL);
+}
+
+static void a_reference_is_made_where_there_is_none(void **state)
+{
+    const place frames = gallery_make(*state, "new", "1.png 2.png"), folder = place_in(*state, "made/golden"),
+                one = place_below(frames.path, "2.png"), picture = place_in(*state, "one.png");
+    command_result result = accept_all(&folder, &frames);
+    assert_says(&result, "0 before, 2 after");
+    command_release(&result);
+    assert_same_folders(folder.path, frames.path, NULL);
+    result = accept_all(&picture, &one);
+    command_release(&result);
+    comparison_of made = assert_compared(picture.path, one.path, NULL);
+    assert_int_equal(made.result.verdict, DIFF_SAME);
+    comparison_release(&made);
+    gallery_write(one.path, 8, 3);
+    result = accept_all(&picture, &one);
+    assert_says(&result, "1 before, 1 after: 1 changed");
+    command_release(&result);
+}
+
+static void digests_are_accepted_line_by_line(void **state)
+{
+    const change c = make_change(state);
+    const place digests = place_in(*state, "golden.digests"), fresh = place_in(*state, "fresh.digests");
+    command_result result = run_octreel(NULL, "digest %s -o %s", c.before.path, digests.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "accept %s %s 2.png", digests.path, c.after.path);
+    assert_done(&result);
+    assert_says(&result, "3 before, 3 after: 1 changed, 0 new, 0 removed");
+    command_release(&result);
+    comparison_of made = assert_compared(digests.path, c.after.path, NULL);
+    assert_int_equal(finding_of(&made, "2.png"), FOUND_SAME_PIXELS);
+    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_FRAME);
+    assert_int_equal(finding_of(&made, "4.png"), FOUND_NO_REFERENCE);
+    comparison_release(&made);
+    result = accept_all(&digests, &c.after);
+    command_release(&result);
+    result = run_octreel(NULL, "digest %s -o %s", c.after.path, fresh.path);
+    command_release(&result);
+    char *accepted = file_read(digests.path, NULL), *expected = file_read(fresh.path, NULL);
+    assert_string_equal(accepted, expected);
+    free(accepted);
+    free(expected);
+}
+
+static void film(const place *folder, const char *keys)
+{
+    octree_session session = octree_session_default();
+    film_options options = small_film(folder->path);
+    session.keys = keys;
+    assert_filmed(&session, &options);
+}
+
+static void a_recording_is_taken_over_with_its_ticks(void **state)
+{
+    const place before = place_in(*state, "golden"), after = place_in(*state, "new"), made = place_in(*state, "made");
+    film(&before, "wwd");
+    film(&after, "ds");
+    command_result result = run_octreel(NULL, "accept %s %s frame_000001.png", before.path, after.path);
+    assert_done(&result);
+    assert_says(&result, "Its ticks are still those of before");
+    command_release(&result);
+    result = accept_all(&before, &after);
+    command_release(&result);
+    assert_same_folders(before.path, after.path, NULL);
+    result = accept_all(&made, &after);
+    command_release(&result);
+    assert_same_folders(made.path, after.path, NULL);
+}
+
+static void a_recording_is_no_reference_for_plain_pictures(void **state)
+{
+    const place before = place_in(*state, "golden"), after = gallery_make(*state, "new", "frame_000000.png");
+    film(&before, "w");
+    command_result result = run_octreel(NULL, "accept %s %s", before.path, after.path);
+    assert_trouble(&result, "is a recording");
+}
+
+static void an_unwritable_reference_is_trouble(void **state)
+{
+    const change c = make_change(state);
+    const command_setting full = {.file_limit = 16};
+    const place untouched = gallery_make(*state, "untouched", "1.png 2.png 3.png");
+    command_result result = run_octreel(&full, "accept %s %s 2.png", c.before.path, c.after.path);
+    assert_trouble(&result, "2.png: cannot be written");
+    assert_same_folders(c.before.path, untouched.path, NULL);
+}
+
+#define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, without_ci, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FOLDER(all_new_frames_become_the_reference),
+        WITH_FOLDER(named_frames_alone_are_taken_over),
+        WITH_FOLDER(nothing_is_accepted_where_ci_is_set),
+        WITH_FOLDER(same_pixels_leave_a_reference_alone),
+        WITH_FOLDER(before_anything_is_written_all_is_checked),
+        WITH_FOLDER(a_reference_that_cannot_be_read_is_replaced),
+        WITH_FOLDER(a_reference_is_made_where_there_is_none),
+        WITH_FOLDER(digests_are_accepted_line_by_line),
+        WITH_FOLDER(a_recording_is_taken_over_with_its_ticks),
+        WITH_FOLDER(a_recording_is_no_reference_for_plain_pictures),
+        WITH_FOLDER(an_unwritable_reference_is_trouble),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

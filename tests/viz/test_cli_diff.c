@@ -1,0 +1,254 @@
+/* test_cli_diff.c - octreel diff and digest: exit statuses, what is said, JSON, and what is refused. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "fixture.h"
+#include "galleries.h"
+#include "tick_lines.h"
+
+static void assert_ends(command_result *result, int status, const char *part)
+{
+    assert_string_equal(result->err, "");
+    assert_int_equal(result->status, status);
+    if (!strstr(result->out, part))
+        fail_msg("\"%s\" does not say \"%s\"", result->out, part);
+    command_release(result);
+}
+
+/* A picture and the same with five pixels of green one level off. */
+typedef struct twins {
+    place a, b;
+} twins;
+
+static twins make_pair(void **state)
+{
+    const twins made = {place_in(*state, "a.png"), place_in(*state, "b.png")};
+    gallery_write(made.a.path, 3, 0);
+    gallery_write(made.b.path, 3, 5);
+    return made;
+}
+
+static void status_and_words_tell_the_verdict(void **state)
+{
+    const twins p = make_pair(state);
+    command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.a.path);
+    assert_ends(&result, 0, "same: 1 frame, 1 the same by its bytes\ncompared exactly\n");
+    result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
+    assert_ends(&result, 1,
+                "different: 1 of 1 frame\n  b.png: 5 of 384 pixels differ; worst 0.0027 YIQ at (0,3), channels by up "
+                "to 1 of 255; within (0,3)-(4,3)\ncompared exactly\n");
+}
+
+/* With every verdict: what was forgiven, and what the worst of it is. */
+static void tolerance_is_printed_with_every_verdict(void **state)
+{
+    const twins p = make_pair(state);
+    static const struct {
+        const char *options, *words;
+        int status;
+    } cases[] = {
+        {"--max-pixels 5", "forgiven: up to 5 pixels a frame\n", 0},
+        {"--max-pixels 4", "forgiven: up to 4 pixels a frame\n", 1},
+        {"--max-delta 0.0027", "forgiven: colours within 0.0027 YIQ\n", 0},
+        {"--max-delta 0.0026", "forgiven: colours within 0.0026 YIQ\n", 1},
+        {"--ignore 0,0,3,16 --ignore 3,3,9,1", "the 3x16 pixels at (0,0), the 9x1 pixels at (3,3)\n", 0},
+        {"--ignore 0,0,3,16", "2 of 384 pixels differ, 3 more in what is ignored; worst 0.0027 YIQ at (3,3)", 1},
+        {"--antialias --max-pixels 5 --max-delta 0.001", "up to 5 pixels a frame, colours within 0.001 YIQ, anti-al",
+         0},
+        {"--max-delta 1", "b.png: forgiven: 0 pixels count; 5 of 384 pixels differ, 5 of them close; worst 0.0027", 0},
+        {"--max-delta 0", "compared exactly\n", 1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        command_result result = run_octreel(NULL, "diff %s %s %s", p.a.path, p.b.path, cases[i].options);
+        assert_ends(&result, cases[i].status, cases[i].words);
+    }
+}
+
+static void trouble_is_said_and_is_status_2(void **state)
+{
+    const twins p = make_pair(state);
+    const place folder = gallery_make(*state, "folder", "1.png"), text = place_in(*state, "text");
+    file_write_text(text.path, "no picture");
+    static const char *const bad[][2] = {
+        {"--max-pixels -1", "--max-pixels takes a whole number"},
+        {"--max-delta 1.5", "--max-delta takes a number from 0 to 1"},
+        {"--max-delta x", "--max-delta takes a number from 0 to 1"},
+        {"--max-delta nan", "--max-delta takes a number from 0 to 1"},
+        {"--ignore 1,2,3", "--ignore takes left, top, width and height"},
+        {"--ignore 1,2,0,4", "--ignore takes left, top, width and height"},
+        {"--ignore 1,2,3,4,5", "--ignore takes left, top, width and height"},
+        {"--ignore-layer nodes", "--ignore-layer takes text"},
+        {"--ignore-layer text", "recordings alone"},
+        {"--background red", "--background takes a colour"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        command_result result = run_octreel(NULL, "diff %s %s %s", p.a.path, p.b.path, bad[i][0]);
+        assert_trouble(&result, bad[i][1]);
+    }
+    command_result result = run_octreel(NULL, "diff %s", p.a.path);
+    assert_trouble(&result, "diff takes a reference and what is compared with it");
+    result = run_octreel(NULL, "diff %s %s", p.a.path, folder.path);
+    assert_trouble(&result, "a picture is compared with a picture");
+    result = run_octreel(NULL, "diff %s %s", p.a.path, text.path);
+    assert_trouble(&result, "it is no PNG, no folder and no file of digests");
+    assert_int_equal(truncate(p.b.path, 120), 0);
+    result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
+    assert_trouble(&result, "b.png: the file is cut short");
+}
+
+/* What can be read is compared all the same. */
+static void one_unreadable_frame_leaves_the_others_compared(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 3.png");
+    assert_int_equal(truncate(place_below(b.path, "2.png").path, 120), 0);
+    gallery_write(place_below(b.path, "3.png").path, 2, 1);
+    command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
+    assert_int_equal(result.status, 2);
+    assert_non_null(strstr(result.err, "octreel: "));
+    assert_non_null(strstr(result.err, "2.png: the file is cut short\n"));
+    assert_non_null(strstr(result.out, "trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\n"));
+    assert_non_null(strstr(result.out, "  3.png: 1 of 384 pixels differ"));
+    command_release(&result);
+}
+
+static double number(const json_t *object, const char *name)
+{
+    return json_number_value(json_member(object, name));
+}
+
+static void assert_tally(const json_t *tally, double pixels)
+{
+    assert_members(tally, "pixels worst_delta worst_at largest_channel min max");
+    assert_true(number(tally, "pixels") == pixels);
+    assert_true(fabs(number(tally, "worst_delta") - 0.0026635) < 1e-6);
+    assert_true(number(tally, "largest_channel") == 1);
+}
+
+static void json_tells_all_of_it(void **state)
+{
+    const twins p = make_pair(state);
+    command_result result = run_octreel(NULL, "diff %s %s --json --ignore 0,0,1,4 --max-pixels 1", p.a.path, p.b.path);
+    assert_int_equal(result.status, 1);
+    json_t *object = json_read(result.out);
+    assert_members(object, "verdict reference compared tolerance background frames found findings");
+    assert_string_equal(json_string_value(json_member(object, "verdict")), "different");
+    assert_string_equal(json_string_value(json_member(json_member(object, "reference"), "kind")), "picture");
+    const json_t *tolerance = json_member(object, "tolerance");
+    assert_members(tolerance, "max_pixels max_delta delta_unit antialias ignore ignore_layers");
+    assert_true(number(tolerance, "max_pixels") == 1);
+    assert_string_equal(json_string_value(json_member(tolerance, "delta_unit")), "YIQ");
+    assert_int_equal(json_array_size(json_array_get(json_member(tolerance, "ignore"), 0)), 4);
+    const json_t *finding = json_array_get(json_member(object, "findings"), 0);
+    assert_members(finding, "frame finding reference_size frame_size channel_range unlike counted close antialiased "
+                            "ignored");
+    assert_string_equal(json_string_value(json_member(finding, "finding")), "pixels");
+    assert_tally(json_member(finding, "unlike"), 4);
+    assert_tally(json_member(finding, "counted"), 4);
+    assert_true(number(finding, "ignored") == 1);
+    json_decref(object);
+    command_release(&result);
+}
+
+static void json_is_said_in_trouble_too(void **state)
+{
+    const twins p = make_pair(state);
+    assert_int_equal(truncate(p.a.path, 77), 0);
+    command_result result = run_octreel(NULL, "diff %s %s --json", p.a.path, p.b.path);
+    assert_int_equal(result.status, 2);
+    json_t *object = json_read(result.out);
+    assert_string_equal(json_string_value(json_member(object, "verdict")), "trouble");
+    const json_t *finding = json_array_get(json_member(object, "findings"), 0);
+    assert_non_null(strstr(json_string_value(json_member(finding, "trouble")), "cut short"));
+    json_decref(object);
+    command_release(&result);
+}
+
+static void long_lists_are_cut_for_people_and_not_for_programs(void **state)
+{
+    const place a = gallery_make(*state, "a", ""), b = gallery_make(*state, "b", "");
+    for (int i = 0; i < 60; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%02d.png", i);
+        gallery_write(place_below(a.path, name).path, 1, 0);
+        gallery_write(place_below(b.path, name).path, 1, 1);
+    }
+    command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
+    assert_ends(&result, 1, "\n  ... and 20 more; --json lists all\n");
+    result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
+    json_t *object = json_read(result.out);
+    assert_int_equal(json_array_size(json_member(object, "findings")), 60);
+    json_decref(object);
+    command_release(&result);
+}
+
+static void digest_writes_what_diff_takes(void **state)
+{
+    const place folder = gallery_make(*state, "a", "1.png 2.png"), file = place_in(*state, "a.digests");
+    command_result result = run_octreel(NULL, "digest %s", folder.path);
+    assert_done(&result);
+    file_write_text(file.path, result.out);
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", file.path, folder.path);
+    assert_ends(&result, 0, "same: 2 frames, 2 the same by their pixels\n");
+    gallery_write(place_below(folder.path, "2.png").path, 1, 1);
+    result = run_octreel(NULL, "diff %s %s", file.path, folder.path);
+    assert_ends(&result, 1, "2.png: pixels differ: digest ");
+    result = run_octreel(NULL, "digest %s", file.path);
+    assert_trouble(&result, "a file of digests already");
+    result = run_octreel(NULL, "digest");
+    assert_trouble(&result, "digest takes one folder");
+    result = run_octreel(NULL, "digest %s -o %s/missing/x", folder.path, folder.path);
+    assert_trouble(&result, "cannot be written");
+    assert_int_equal(truncate(place_below(folder.path, "2.png").path, 50), 0);
+    result = run_octreel(NULL, "digest %s -o %s", folder.path, file.path);
+    assert_trouble(&result, "2.png: ");
+}
+
+static void help_teaches(void **state)
+{
+    (void)state;
+    static const char *const commands[][2] = {
+        {"diff", "Exit status: 0 the same"}, {"digest", "octreel-digests 1"}, {"accept", "CI"}};
+    for (size_t i = 0; i < 3; i++) {
+        command_result result = run_octreel(NULL, "%s --help", commands[i][0]);
+        assert_ends(&result, 0, commands[i][1]);
+    }
+}
+
+/* ImageMagick counts as we do; where it is not installed this is skipped. */
+static void imagemagick_counts_the_same_pixels(void **state)
+{
+    const twins p = make_pair(state);
+    char line[4096];
+    if (!program_is_there("compare"))
+        skip();
+    for (int spoilt = 1; spoilt < 16; spoilt += 7) {
+        gallery_write(p.b.path, 3, spoilt);
+        snprintf(line, sizeof line, "compare -metric AE %s %s null: 2>&1", p.a.path, p.b.path);
+        command_result result = run_shell(line);
+        assert_int_equal(strtol(result.out, NULL, 10), spoilt);
+        command_release(&result);
+    }
+}
+
+#define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FOLDER(status_and_words_tell_the_verdict),
+        WITH_FOLDER(tolerance_is_printed_with_every_verdict),
+        WITH_FOLDER(trouble_is_said_and_is_status_2),
+        WITH_FOLDER(one_unreadable_frame_leaves_the_others_compared),
+        WITH_FOLDER(json_tells_all_of_it),
+        WITH_FOLDER(json_is_said_in_trouble_too),
+        WITH_FOLDER(long_lists_are_cut_for_people_and_not_for_programs),
+        WITH_FOLDER(digest_writes_what_diff_takes),
+        cmocka_unit_test(help_teaches),
+        WITH_FOLDER(imagemagick_counts_the_same_pixels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

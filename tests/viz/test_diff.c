@@ -1,0 +1,334 @@
+/* test_diff.c - two sides: which frame belongs to which, and what is found of each pair. */
+#include "galleries.h"
+#include "fixture.h"
+#include "recordings.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- Sides -------------------------------------------------------------------------------------------------- */
+
+static void a_folder_stands_for_its_pictures_in_order(void **state)
+{
+    const place folder = gallery_make(*state, "a", "b.png a.png B.PNG c.PNG frame.png");
+    file_write_text(place_below(folder.path, "notes.txt").path, "no picture");
+    file_write_text(place_below(folder.path, ".hidden.png").path, "no picture");
+    file_write_text(place_below(folder.path, "a.png.part").path, "no picture");
+    static const char *const expected[] = {"B.PNG", "a.png", "b.png", "c.PNG", "frame.png"};
+    diff_side side = assert_side(folder.path);
+    assert_int_equal(side.kind, DIFF_FOLDER);
+    assert_int_equal(side.count, 5);
+    for (size_t i = 0; i < side.count; i++) {
+        assert_string_equal(side.frames[i].name, expected[i]);
+        assert_ptr_equal(diff_side_find(&side, expected[i]), &side.frames[i]);
+    }
+    assert_null(diff_side_find(&side, "d.png"));
+    diff_side_release(&side);
+}
+
+static void a_recording_stands_for_its_frames_alone(void **state)
+{
+    const place folder = gallery_make(*state, "a", "frame_000000.png frame_000001.png film_sheet.png");
+    file_write_text(place_below(folder.path, "recording.json").path, "{}");
+    diff_side side = assert_side(folder.path);
+    assert_int_equal(side.kind, DIFF_RECORDING);
+    assert_int_equal(side.count, 2);
+    diff_side_release(&side);
+}
+
+static void assert_no_side(const char *path, const char *part)
+{
+    diff_side side;
+    record_error error = {""};
+    assert_false(diff_side_open(&side, path, &error));
+    assert_non_null(strstr(error.text, part));
+    assert_null(side.frames);
+}
+
+static void what_is_no_side_is_refused(void **state)
+{
+    const place text = place_in(*state, "text.png"), fifo = place_in(*state, "pipe");
+    file_write_text(text.path, "no picture, whatever its name");
+    assert_int_equal(mkfifo(fifo.path, 0600), 0);
+    assert_no_side(text.path, "no PNG, no folder and no file of digests");
+    assert_no_side(fifo.path, "neither a file nor a folder");
+    assert_no_side(place_in(*state, "missing").path, "missing: No such file");
+}
+
+/* ---- Pairs -------------------------------------------------------------------------------------------------- */
+
+static void frames_belong_together_by_their_names(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 4.png 5.png"),
+                b = gallery_make(*state, "b", "1.png 2.png 3.png 5.png 6.png");
+    gallery_write(place_below(b.path, "5.png").path, 3, 7); /* a's 5.png, spoilt */
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    assert_int_equal(made.result.count, 6);
+    assert_int_equal(finding_of(&made, "1.png"), FOUND_SAME_BYTES);
+    assert_int_equal(finding_of(&made, "2.png"), FOUND_SAME_BYTES);
+    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_REFERENCE);
+    assert_int_equal(finding_of(&made, "4.png"), FOUND_NO_FRAME);
+    assert_int_equal(finding_of(&made, "5.png"), FOUND_PIXELS);
+    assert_int_equal(finding_of(&made, "6.png"), FOUND_NO_REFERENCE);
+    assert_int_equal(made.result.found[FOUND_NO_REFERENCE], 2);
+    assert_int_equal(made.result.verdict, DIFF_DIFFERENT);
+    const image_difference *difference = &diff_find(&made.result, "5.png")->difference;
+    assert_int_equal(difference->unlike.pixels, 7);
+    assert_true(difference->unlike.min_y == 3 && difference->unlike.max_y == 3 && difference->unlike.max_x == 6);
+    comparison_release(&made);
+}
+
+static void recordings_of_unlike_length_differ(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    octree_session session = octree_session_default();
+    film_options options = small_film(a.path);
+    session.keys = "ww";
+    assert_filmed(&session, &options);
+    options.folder = b.path;
+    options.every = 2;
+    assert_filmed(&session, &options);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    assert_int_equal(made.result.count, 3);
+    assert_int_equal(made.result.found[FOUND_SAME_BYTES], 2);
+    assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_NO_FRAME);
+    assert_int_equal(made.result.verdict, DIFF_DIFFERENT);
+    comparison_release(&made);
+}
+
+static void two_pictures_are_a_pair_whatever_their_names(void **state)
+{
+    const place a = place_in(*state, "old.png"), b = place_in(*state, "a_new.png");
+    gallery_write(a.path, 5, 0);
+    gallery_write(b.path, 5, 2);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    assert_int_equal(made.result.count, 1);
+    assert_int_equal(finding_of(&made, "a_new.png"), FOUND_PIXELS);
+    comparison_release(&made);
+}
+
+static void what_cannot_be_compared_is_refused(void **state)
+{
+    const place folder = gallery_make(*state, "a", "1.png"), empty = gallery_make(*state, "b", "");
+    const place picture = place_below(folder.path, "1.png");
+    diff_options options = diff_options_default();
+    assert_not_compared(folder.path, picture.path, NULL, "a picture is compared with a picture");
+    assert_not_compared(empty.path, empty.path, NULL, "nothing to compare");
+    options.ignore_text = true;
+    assert_not_compared(folder.path, folder.path, &options, "recordings alone");
+    comparison_of made = assert_compared(empty.path, folder.path, NULL);
+    assert_int_equal(finding_of(&made, "1.png"), FOUND_NO_REFERENCE);
+    comparison_release(&made);
+}
+
+/* ---- Findings ----------------------------------------------------------------------------------------------- */
+
+/* The same pixels, in a file of other bytes. */
+static void write_otherwise(const char *path, uint64_t seed)
+{
+    static const image_text texts[] = {{"Comment", "the same"}};
+    image picture = gallery_picture(seed);
+    image_error error;
+    assert_true(image_write_png(&picture, path, texts, 1, &error));
+    image_release(&picture);
+}
+
+static void same_pixels_in_other_bytes_are_the_same(void **state)
+{
+    const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
+    gallery_write(a.path, 9, 0);
+    write_otherwise(b.path, 9);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    assert_int_equal(finding_of(&made, "b.png"), FOUND_SAME_PIXELS);
+    assert_int_equal(made.result.verdict, DIFF_SAME);
+    comparison_release(&made);
+}
+
+static void unlike_sizes_are_a_finding_of_their_own(void **state)
+{
+    const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
+    image wide, tall;
+    image_error error;
+    diff_options all = {.tolerance = {.max_pixels = UINT64_MAX, .max_delta = 1, .antialias = true}};
+    assert_true(image_create(&wide, 6, 4, 3) && image_create(&tall, 4, 6, 3));
+    assert_true(image_write_png(&wide, a.path, NULL, 0, &error) && image_write_png(&tall, b.path, NULL, 0, &error));
+    comparison_of made = assert_compared(a.path, b.path, &all);
+    const diff_pair *pair = &made.result.pairs[0];
+    assert_int_equal(pair->finding, FOUND_SIZE);
+    assert_true(pair->about[0].width == 6 && pair->about[0].height == 4 && pair->about[1].width == 4);
+    assert_int_equal(made.result.verdict, DIFF_DIFFERENT);
+    comparison_release(&made);
+    image_release(&wide);
+    image_release(&tall);
+}
+
+static void cut_short(const char *path, size_t size)
+{
+    assert_int_equal(truncate(path, (off_t)size), 0);
+}
+
+/* Though two halves of a picture are equal byte by byte. */
+static void what_cannot_be_read_is_trouble(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 3.png");
+    cut_short(place_below(a.path, "1.png").path, 300);
+    cut_short(place_below(b.path, "1.png").path, 300);
+    cut_short(place_below(b.path, "2.png").path, 0);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    assert_int_equal(finding_of(&made, "1.png"), FOUND_UNREADABLE);
+    assert_int_equal(finding_of(&made, "2.png"), FOUND_UNREADABLE);
+    assert_int_equal(finding_of(&made, "3.png"), FOUND_SAME_BYTES);
+    assert_non_null(strstr(diff_find(&made.result, "1.png")->trouble, "1.png: the file is cut short"));
+    assert_int_equal(made.result.verdict, DIFF_TROUBLE);
+    comparison_release(&made);
+}
+
+static void bytes_behind_the_end_of_equal_files_do_no_harm(void **state)
+{
+    const place a = place_in(*state, "a.png");
+    size_t size;
+    gallery_write(a.path, 1, 0);
+    char *bytes = file_read(a.path, &size); /* with a zero behind them */
+    file_write(a.path, bytes, size + 1);
+    free(bytes);
+    comparison_of made = assert_compared(a.path, a.path, NULL);
+    assert_int_equal(made.result.verdict, DIFF_SAME);
+    comparison_release(&made);
+}
+
+static void tolerance_forgives_what_was_asked_for(void **state)
+{
+    const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
+    gallery_write(a.path, 2, 0);
+    gallery_write(b.path, 2, 6);
+    const image_rectangle row = {0, 3, 4, 1};
+    const struct {
+        image_tolerance tolerance;
+        diff_finding finding;
+    } cases[] = {
+        {{.max_pixels = 5}, FOUND_PIXELS},
+        {{.max_pixels = 6}, FOUND_WITHIN},
+        {{.max_delta = 0.001}, FOUND_PIXELS},
+        {{.max_delta = 0.01}, FOUND_WITHIN},
+        {{.ignored = &row, .ignored_count = 1}, FOUND_PIXELS},
+        {{.ignored = &row, .ignored_count = 1, .max_pixels = 1}, FOUND_PIXELS},
+        {{.ignored = &row, .ignored_count = 1, .max_pixels = 2}, FOUND_WITHIN},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const diff_options options = {.tolerance = cases[i].tolerance};
+        comparison_of made = assert_compared(a.path, b.path, &options);
+        assert_int_equal(finding_of(&made, "b.png"), cases[i].finding);
+        assert_int_equal(made.result.pairs[0].difference.unlike.pixels, cases[i].tolerance.ignored_count ? 2 : 6);
+        comparison_release(&made);
+    }
+}
+
+/* More pairs than cores and threads, most of them different: each gets its own finding. */
+static void many_pairs_at_once_keep_apart(void **state)
+{
+    enum { PAIRS = 150 };
+    const place a = gallery_make(*state, "a", ""), b = gallery_make(*state, "b", "");
+    char name[32];
+    for (int i = 0; i < PAIRS; i++) {
+        snprintf(name, sizeof name, "frame_%06d.png", i);
+        gallery_write(place_below(a.path, name).path, (uint64_t)i, 0);
+        gallery_write(place_below(b.path, name).path, (uint64_t)i, i % 17);
+    }
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    for (int i = 0; i < PAIRS; i++) {
+        snprintf(name, sizeof name, "frame_%06d.png", i);
+        assert_int_equal(finding_of(&made, name), i % 17 ? FOUND_PIXELS : FOUND_SAME_BYTES);
+        assert_int_equal(diff_find(&made.result, name)->difference.unlike.pixels, i % 17);
+    }
+    comparison_release(&made);
+}
+
+/* ---- Text --------------------------------------------------------------------------------------------------- */
+
+static void set_red(const char *path, int x, int y)
+{
+    image frame, red;
+    image_error error;
+    assert_true(image_read_png(path, &frame, &error));
+    assert_true(image_create(&red, frame.width, frame.height, 3));
+    for (int n = 0; n < frame.width * frame.height; n++) {
+        const image_color color = image_color_at(&frame, n % frame.width, n / frame.width);
+        memcpy(red.pixels + 3 * n, &color, 3);
+    }
+    memcpy(red.pixels + 3 * (y * frame.width + x), "\xff\0\0", 3);
+    assert_true(image_write_png(&red, path, NULL, 0, &error));
+    image_release(&frame);
+    image_release(&red);
+}
+
+static void text_of_recordings_is_ignored_where_it_is(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    octree_session session = octree_session_default();
+    film_options film = small_film(a.path);
+    diff_options options = diff_options_default();
+    session.keys = "wd";
+    film.view.width = 480;
+    film.view.height = 270;
+    assert_filmed(&session, &film);
+    film.folder = b.path;
+    assert_filmed(&session, &film);
+    set_red(place_below(b.path, "frame_000001.png").path, 70, 10);  /* in the panel */
+    set_red(place_below(b.path, "frame_000002.png").path, 470, 10); /* in no letter */
+    comparison_of made = assert_compared(a.path, b.path, &options);
+    assert_int_equal(made.result.found[FOUND_PIXELS], 2);
+    comparison_release(&made);
+    options.ignore_text = true;
+    made = assert_compared(a.path, b.path, &options);
+    assert_int_equal(finding_of(&made, "frame_000000.png"), FOUND_SAME_BYTES);
+    assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_WITHIN);
+    assert_int_equal(diff_find(&made.result, "frame_000001.png")->difference.ignored, 1);
+    assert_int_equal(finding_of(&made, "frame_000002.png"), FOUND_PIXELS);
+    comparison_release(&made);
+}
+
+/* One side is enough, and a folder of plain pictures may be the other. */
+static void text_is_told_by_the_side_that_is_a_recording(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    octree_session session = octree_session_default();
+    film_options film = small_film(a.path);
+    const diff_options options = {.ignore_text = true};
+    session.keys = "";
+    assert_filmed(&session, &film);
+    film.folder = b.path;
+    assert_filmed(&session, &film);
+    remove(place_below(b.path, "recording.json").path);
+    set_red(place_below(b.path, "frame_000000.png").path, 5, 6); /* in "tick 0" */
+    comparison_of made = assert_compared(a.path, b.path, &options);
+    assert_int_equal(made.result.verdict, DIFF_SAME);
+    comparison_release(&made);
+    remove(place_below(a.path, "session.json").path);
+    assert_not_compared(a.path, b.path, &options, "session.json");
+}
+
+#define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FOLDER(a_folder_stands_for_its_pictures_in_order),
+        WITH_FOLDER(a_recording_stands_for_its_frames_alone),
+        WITH_FOLDER(what_is_no_side_is_refused),
+        WITH_FOLDER(frames_belong_together_by_their_names),
+        WITH_FOLDER(recordings_of_unlike_length_differ),
+        WITH_FOLDER(two_pictures_are_a_pair_whatever_their_names),
+        WITH_FOLDER(what_cannot_be_compared_is_refused),
+        WITH_FOLDER(same_pixels_in_other_bytes_are_the_same),
+        WITH_FOLDER(unlike_sizes_are_a_finding_of_their_own),
+        WITH_FOLDER(what_cannot_be_read_is_trouble),
+        WITH_FOLDER(bytes_behind_the_end_of_equal_files_do_no_harm),
+        WITH_FOLDER(tolerance_forgives_what_was_asked_for),
+        WITH_FOLDER(many_pairs_at_once_keep_apart),
+        WITH_FOLDER(text_of_recordings_is_ignored_where_it_is),
+        WITH_FOLDER(text_is_told_by_the_side_that_is_a_recording),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
