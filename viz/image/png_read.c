@@ -135,7 +135,7 @@ static void check_size(png_structp png, png_infop info, const picture_request *r
     if (width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
         png_error(png, "a side is longer than this program's largest picture");
     const uint64_t stored = (uint64_t)png_get_rowbytes(png, info) * height;
-    if (stored / MOST_BYTES_A_BYTE > r->file_size)
+    if (stored > MOST_BYTES_A_BYTE * r->file_size)
         png_error(png, "the file is cut short, or claims more pixels than it can hold");
 }
 

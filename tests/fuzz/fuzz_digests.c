@@ -1,0 +1,61 @@
+/* fuzz_digests.c - libFuzzer entry of the reader of digest files: what is read is written, and reads back the same.
+ * Build with clang -fsanitize=fuzzer,address,undefined.
+ */
+#include "digest_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static bool parse(const void *data, size_t size, diff_side *side)
+{
+    record_error error = {""};
+    char *text = malloc(size + 1);
+    if (!text)
+        abort();
+    memcpy(text, data, size);
+    text[size] = 0;
+    *side = (diff_side){.path = "fuzz"};
+    const bool ok = digest_file_parse(side, text, size, &error);
+    if (!ok && error.text[0] == 0)
+        abort();
+    free(text);
+    return ok;
+}
+
+static char *write_side(const diff_side *side, size_t *size)
+{
+    record_error error;
+    char *text = NULL;
+    FILE *out = open_memstream(&text, size);
+    if (!out || !digest_file_write(out, side, &error) || fclose(out) != 0)
+        abort();
+    return text;
+}
+
+static void check_round_trip(const diff_side *side)
+{
+    diff_side again;
+    size_t size, size_again;
+    char *text = write_side(side, &size);
+    if (!parse(text, size, &again))
+        abort();
+    char *text_again = write_side(&again, &size_again);
+    if (size != size_again || memcmp(text, text_again, size) != 0)
+        abort();
+    free(text_again);
+    free(text);
+    diff_side_release(&again);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    diff_side side;
+    if (size == 0)
+        return 0;
+    if (parse(data, size, &side))
+        check_round_trip(&side);
+    diff_side_release(&side);
+    return 0;
+}
