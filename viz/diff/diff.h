@@ -6,14 +6,14 @@
 
 /* Each finding, its name in reports, and what it means for the whole. */
 #define DIFF_FINDING_MAP(X)                                                                                            \
-    X(SAME_BYTES, "same bytes", DIFF_SAME)          /* told without decoding */                                        \
-    X(SAME_PIXELS, "same pixels", DIFF_SAME)        /* stored in unlike ways */                                        \
-    X(WITHIN, "within tolerance", DIFF_SAME)        /* unlike, and all of it forgiven */                               \
+    X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* told without decoding */                                        \
+    X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* stored in unlike ways */                                        \
+    X(WITHIN, "within_tolerance", DIFF_SAME)        /* unlike, and all of it forgiven */                               \
     X(PIXELS, "pixels", DIFF_DIFFERENT)             /* unlike beyond the tolerance */                                  \
     X(SIZE, "size", DIFF_DIFFERENT)                 /* of unlike width or height */                                    \
     X(DIGEST, "digest", DIFF_DIFFERENT)             /* of one size, and of unlike digests */                           \
-    X(NO_FRAME, "no frame", DIFF_DIFFERENT)         /* a reference, and nothing to compare with it */                  \
-    X(NO_REFERENCE, "no reference", DIFF_DIFFERENT) /* and the other way round */                                      \
+    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* a reference, and nothing to compare with it */                  \
+    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* and the other way round */                                      \
     X(UNREADABLE, "unreadable", DIFF_TROUBLE)
 
 typedef enum diff_finding {
