@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <zlib.h>
 
 /* A way of storing pixels in a PNG. */
 typedef struct kind {
@@ -318,6 +319,25 @@ static void wrong_crc_of_any_chunk_is_an_error(void **state)
     }
 }
 
+/* Every byte has a CRC; the stream's own Adler-32 is not asked as well. */
+static void stream_with_a_wrong_sum_of_its_own_is_read_as_it_is(void **state)
+{
+    const char *path = temp_file(*state, "a.png");
+    static const uint8_t rows[] = {0, 10, 20, 30, 0, 40, 50, 60};
+    uint8_t packed[64];
+    uLongf size = sizeof packed;
+    png_bytes file;
+    assert_int_equal(compress(packed, &size, rows, sizeof rows), Z_OK);
+    packed[size - 1] ^= 1;
+    png_put_header(&file, 3, 2, 8, GREY, false);
+    png_put_chunk(&file, "IDAT", packed, size);
+    png_put_chunk(&file, "IEND", NULL, 0);
+    png_bytes_save(&file, file.size, path);
+    image image = assert_read(path);
+    assert_memory_equal(image.pixels, ((uint8_t[]){10, 20, 30, 40, 50, 60}), 6);
+    image_release(&image);
+}
+
 static void any_flipped_bit_is_an_error(void **state)
 {
     const char *path = temp_file(*state, "a.png");
@@ -457,6 +477,7 @@ int main(void)
         WITH_FOLDER(what_is_no_png_is_refused),
         WITH_FOLDER(truncation_anywhere_is_an_error),
         WITH_FOLDER(wrong_crc_of_any_chunk_is_an_error),
+        WITH_FOLDER(stream_with_a_wrong_sum_of_its_own_is_read_as_it_is),
         WITH_FOLDER(any_flipped_bit_is_an_error),
         WITH_FOLDER(huge_sides_are_refused_before_memory_is_spent),
         WITH_FOLDER(too_few_pixels_are_an_error),
