@@ -123,6 +123,16 @@ static void before_anything_is_written_all_is_checked(void **state)
     assert_trouble(&result, "accept takes a reference and what is new");
 }
 
+static void a_folder_of_other_pictures_is_left_alone(void **state)
+{
+    const place pictures = gallery_make(*state, "pictures", "cat.png dog.png"),
+                untouched = gallery_make(*state, "untouched", "cat.png dog.png"),
+                frames = gallery_make(*state, "new", "1.png");
+    command_result result = run_octreel(NULL, "accept %s %s", pictures.path, frames.path);
+    assert_trouble(&result, "all its 2 references would go");
+    assert_same_folders(pictures.path, untouched.path, NULL);
+}
+
 static void a_reference_that_cannot_be_read_is_replaced(void **state)
 {
     const change c = make_change(state);
@@ -231,6 +241,7 @@ int main(void)
         WITH_FOLDER(nothing_is_accepted_where_ci_is_set),
         WITH_FOLDER(same_pixels_leave_a_reference_alone),
         WITH_FOLDER(before_anything_is_written_all_is_checked),
+        WITH_FOLDER(a_folder_of_other_pictures_is_left_alone),
         WITH_FOLDER(a_reference_that_cannot_be_read_is_replaced),
         WITH_FOLDER(a_reference_is_made_where_there_is_none),
         WITH_FOLDER(digests_are_accepted_line_by_line),

@@ -112,6 +112,15 @@ static bool decide(accepting *a, record_error *error)
     return true;
 }
 
+/* Where not one reference has a frame, a wrong folder was given: its pictures are not to be lost. */
+static bool check_overlap(const accepting *a, record_error *error)
+{
+    const size_t references = a->reference.count;
+    return references == 0 || a->options->name_count > 0 || a->counts[REMOVED] < references ||
+           record_fail(error, "%s: all its %zu references would go, for %s has none of their names", a->reference.path,
+                       references, a->frames.path);
+}
+
 static bool compare(accepting *a, record_error *error)
 {
     diff_options exact = diff_options_default();
@@ -119,7 +128,8 @@ static bool compare(accepting *a, record_error *error)
         exact.background = a->reference.background;
     else
         a->reference.background = exact.background;
-    return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_names(a, error) && decide(a, error);
+    return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_names(a, error) &&
+           decide(a, error) && check_overlap(a, error);
 }
 
 /* ---- Doing it ------------------------------------------------------------------------------------------------ */
