@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 /* Read at a time, so that memory does not grow with the files. */
-enum { PIECE = 1 << 16 };
+enum { PIECE = 1 << 14 };
 
 /* Bytes that were read: fewer than asked for at the end, or -1. */
 static ssize_t read_piece(int file, unsigned char piece[PIECE])

@@ -15,7 +15,7 @@
 #define MOST_BYTES_A_BYTE 1032
 
 /* Compressed bytes are handed to zlib in pieces of this size. */
-#define COMPRESSED_BUFFER_SIZE ((size_t)1 << 16)
+#define COMPRESSED_BUFFER_SIZE ((size_t)1 << 14)
 
 /* What to do with an opened file, between setjmp and the clean-up: png_error() ends it. */
 typedef void png_task(png_structp png, png_infop info, void *context);
