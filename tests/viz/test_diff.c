@@ -1,6 +1,7 @@
 /* test_diff.c - two sides: which frame belongs to which, and what is found of each pair. */
 #include "galleries.h"
 #include "fixture.h"
+#include "images.h"
 #include "recordings.h"
 
 #include <stdlib.h>
@@ -249,18 +250,10 @@ static void many_pairs_at_once_keep_apart(void **state)
 
 static void set_red(const char *path, int x, int y)
 {
-    image frame, red;
-    image_error error;
-    assert_true(image_read_png(path, &frame, &error));
-    assert_true(image_create(&red, frame.width, frame.height, 3));
-    for (int n = 0; n < frame.width * frame.height; n++) {
-        const image_color color = image_color_at(&frame, n % frame.width, n / frame.width);
-        memcpy(red.pixels + 3 * n, &color, 3);
-    }
-    memcpy(red.pixels + 3 * (y * frame.width + x), "\xff\0\0", 3);
-    assert_true(image_write_png(&red, path, NULL, 0, &error));
+    image frame = assert_read_rgb(path);
+    memcpy(frame.pixels + 3 * (y * frame.width + x), "\xff\0\0", 3);
+    assert_written(&frame, path);
     image_release(&frame);
-    image_release(&red);
 }
 
 static void text_of_recordings_is_ignored_where_it_is(void **state)

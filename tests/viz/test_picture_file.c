@@ -28,9 +28,8 @@ static void decoded_pixels_are_those_that_were_drawn(void **state)
     const place file = place_in(*state, "frame.png");
     for (int samples = 1; samples <= 4; samples *= 2) {
         picture p = write_picture(samples, file.path);
-        image read = assert_read(file.path);
+        image read = assert_read_rgb(file.path);
         size_t lit = 0;
-        assert_int_equal(read.channels, 3);
         for (size_t i = 0; i < 320 * 180; i++) {
             const uint8_t *drawn = p.frame.pixels + (samples > 1 ? 3 * i : i);
             const theme_color color =

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "edits.h"
+#include "images.h"
 #include "recordings.h"
 #include "ticks_write.h"
 #include "verified.h"
@@ -24,20 +25,10 @@ static void write_with_texts(const char *path, const image *frame, const char *p
     assert_true(image_write_png(frame, path, texts, 4, &error));
 }
 
-static image read_frame(const char *path)
-{
-    image frame;
-    image_error error;
-    if (!image_read_png(path, &frame, &error))
-        fail_msg("%s", error.text);
-    return frame;
-}
-
 static void frame_that_is_stored_otherwise_is_identical(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
-    image frame = read_frame(path.path);
-    assert_int_equal(frame.channels, 3); /* and what was written has a palette */
+    image frame = assert_read_rgb(path.path); /* what was written has a palette */
     write_with_texts(path.path, &frame, NULL);
     image_release(&frame);
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
@@ -100,7 +91,7 @@ static void frame_of_another_recording_is_found(void **state)
 static void frame_without_its_texts_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
-    image frame = read_frame(path.path);
+    image frame = assert_read_rgb(path.path);
     image_error error;
     assert_true(image_write_png(&frame, path.path, NULL, 0, &error));
     image_release(&frame);
@@ -110,7 +101,7 @@ static void frame_without_its_texts_is_found(void **state)
 static void frame_that_was_painted_over_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
-    image frame = read_frame(path.path);
+    image frame = assert_read_rgb(path.path);
     frame.pixels[0] ^= 1;
     write_with_texts(path.path, &frame, NULL);
     image_release(&frame);
@@ -121,7 +112,7 @@ static void frame_that_was_painted_over_is_found(void **state)
 static void only_pixels_are_told_with_both_renderers(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000006.png");
-    image frame = read_frame(path.path);
+    image frame = assert_read_rgb(path.path);
     char digest[DIGEST_TEXT];
     frame.pixels[3 * (SMALL_WIDTH * 20 + 10)] ^= 128;
     frame.pixels[3 * (SMALL_WIDTH * 30 + 25) + 2] ^= 1;

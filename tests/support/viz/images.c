@@ -40,6 +40,18 @@ image assert_read(const char *path)
     return read;
 }
 
+image assert_read_rgb(const char *path)
+{
+    image read = assert_read(path), rgb;
+    assert_true(image_create(&rgb, read.width, read.height, 3));
+    for (int n = 0; n < read.width * read.height; n++) {
+        const image_color color = image_color_at(&read, n % read.width, n / read.width);
+        memcpy(rgb.pixels + 3 * n, &color, 3);
+    }
+    image_release(&read);
+    return rgb;
+}
+
 void assert_sentence(const image_error *error, const char *path, const char *reason)
 {
     size_t length = strlen(path);
