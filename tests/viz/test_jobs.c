@@ -143,7 +143,10 @@ static void job_that_is_killed_is_named_with_its_frames(void **state)
     kill(job, SIGKILL);
     command_result result = end_of(&b);
     assert_non_null(strstr(result.err, " of 2 was killed by signal 9 (Killed); frame_"));
-    assert_non_null(strstr(result.err, " to frame_004000.png are missing, which --resume films"));
+    assert_non_null(strstr(result.err, " are missing, which --resume films"));
+    const uint64_t first = strtoull(strstr(result.err, "frame_") + strlen("frame_"), NULL, 10);
+    for (uint64_t tick = 0; tick <= first; tick++)
+        assert_int_equal(file_exists(frame_place(folder.path, tick).path), tick < first);
     assert_trouble(&result, "job ");
 }
 
@@ -168,7 +171,7 @@ static void film_of_several_jobs_that_is_stopped_says_how_to_go_on(void **state)
         assert_nothing_half_written(folder.path);
         assert_true(file_exists(place_below(folder.path, "index.html").path));
         const size_t lines = for_each_line(folder.path, NULL, NULL);
-        assert_true(lines >= 3 && lines < 4000);
+        assert_true(lines >= 1 && lines < 4000); /* the second job may have been slow */
         assert_int_equal(strtoul(result.err + strlen("octreel: stopped after "), NULL, 10), lines);
         for (uint64_t tick = 0; tick < lines; tick++)
             assert_true(file_exists(frame_place(folder.path, tick).path));
