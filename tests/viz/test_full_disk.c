@@ -9,29 +9,70 @@
 #include "fixture.h"
 #include "recordings.h"
 
+#define FILM "record --size 160x90 --every 9"
+
 /* From a limit that stops the first file to one that stops ticks.jsonl in its last lines, and then index.html, which
- * has more bytes; frames have some 2400. */
-static void recording_that_outgrows_the_disk_leaves_only_whole_files(void **state)
+ * has more bytes; frames have some 2400. With room again the same words, and --resume, complete it. */
+static void recording_that_outgrows_the_disk_leaves_only_whole_files_and_is_resumed(void **state)
 {
     static const size_t limits[] = {1,    100,  190,  400,  1500,  2000,  2300, 2420,
                                     3000, 4095, 4096, 4097, 30000, 74000, 90000};
+    const place whole = place_in(*state, "whole");
+    command_result result = run_octreel(NULL, FILM " -o %s", whole.path);
+    assert_done(&result);
+    command_release(&result);
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
         char name[32];
         snprintf(name, sizeof name, "film%zu", limits[i]);
         const place folder = place_in(*state, name);
         const command_setting full = {.file_limit = limits[i]};
-        command_result result = run_octreel(&full, "record --size 160x90 --every 3 -o %s", folder.path);
+        result = run_octreel(&full, FILM " --jobs %d -o %s", (int)(i % 2) + 1, folder.path);
         assert_non_null(strstr(result.err, folder.path));
         assert_trouble(&result, "File too large");
         assert_nothing_half_written(folder.path);
+        result = run_octreel(NULL, FILM " --resume -o %s", folder.path);
+        assert_done(&result);
+        command_release(&result);
+        assert_same_folders(whole.path, folder.path, NULL);
     }
+}
+
+/* Somebody takes the folder away after a few ticks. */
+static void take_away(uint64_t done, uint64_t total, void *context)
+{
+    const char *folder = context;
+    (void)total;
+    if (done == 5) {
+        command_result result = run_script("mv %s %s.gone", folder, folder);
+        assert_done(&result);
+        command_release(&result);
+    }
+}
+
+static void folder_that_vanishes_is_an_error_that_names_it(void **state)
+{
+    const place folder = place_in(*state, "film"), gone = place_in(*state, "film.gone");
+    const octree_session session = short_session("wwddeennwwdd");
+    film_options options = small_film(folder.path);
+    film_summary summary;
+    record_error error = {""};
+    char path[sizeof folder.path];
+    snprintf(path, sizeof path, "%s", folder.path);
+    options.progress = take_away;
+    options.context = path;
+    assert_false(film_session(&session, &options, &summary, &error));
+    assert_non_null(strstr(error.text, frame_place(folder.path, 5).path));
+    assert_non_null(strstr(error.text, "No such file or directory"));
+    assert_false(file_exists(folder.path));
+    assert_nothing_half_written(gone.path);
+    assert_int_equal(for_each_line(gone.path, NULL, NULL), 5);
 }
 
 static void recording_that_fits_the_disk_is_done(void **state)
 {
     const place folder = place_in(*state, "film");
     const command_setting roomy = {.file_limit = 1000000};
-    command_result result = run_octreel(&roomy, "record --size 160x90 --every 3 -o %s", folder.path);
+    command_result result = run_octreel(&roomy, FILM " -o %s", folder.path);
     assert_done(&result);
     command_release(&result);
     assert_nothing_half_written(folder.path);
@@ -106,7 +147,8 @@ static void help_and_version_that_cannot_be_written_are_trouble(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(recording_that_outgrows_the_disk_leaves_only_whole_files),
+        IN_FOLDER(recording_that_outgrows_the_disk_leaves_only_whole_files_and_is_resumed),
+        IN_FOLDER(folder_that_vanishes_is_an_error_that_names_it),
         IN_FOLDER(recording_that_fits_the_disk_is_done),
         IN_FOLDER(each_file_that_cannot_be_written_is_named),
         IN_FOLDER(picture_that_cannot_be_written_is_named_and_leaves_nothing),

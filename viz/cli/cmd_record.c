@@ -2,10 +2,13 @@
 #include "command.h"
 #include "film.h"
 #include "film_report.h"
-#include "session_file.h"
+#include "folder_files.h"
+#include "view_file.h"
 
 #include <getopt.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 static const char help[] =
     "usage: octreel record [SESSION] -o DIR [OPTION ...]\n\n"
@@ -14,13 +17,23 @@ static const char help[] =
     "played.\n\n"
     "  -o, --output DIR      where the recording goes; a new folder, or one without a recording\n"
     "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait\n"
-    "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n";
+    "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n"
+    "      --ticks A:B       film the ticks from A to B - 1 alone, as a part; parts go into one folder, from any "
+    "number\n"
+    "                        of machines, and octreel join makes it whole; A: and :B will do, B may be beyond the end\n"
+    "      --jobs N          processes that film at the same time (default: one a core, fewer for a few frames); the\n"
+    "                        bytes are the same\n"
+    "      --resume          complete what is in DIR; frames that are there and right are kept. Without SESSION and\n"
+    "                        without options, those of DIR are taken\n";
 
 static const char more_help[] =
     "      --json            print a summary as JSON on stdout\n"
     "  -h, --help\n\n"
+    "Ctrl-C finishes the frame in hand, and says how to go on.\n\n"
     "Examples: octreel record -o frames\n"
-    "          octreel record session.json --keys wwdn --camera orbit --size 640x360 -o frames\n";
+    "          octreel record session.json --keys wwdn --camera orbit --size 640x360 -o frames\n"
+    "          octreel record --resume -o frames\n"
+    "          octreel record session.json --ticks 1000:2000 -o frames\n";
 
 typedef struct arguments {
     const char *session, *keys;
@@ -33,12 +46,23 @@ static const struct option own_options[] = {
     {"output", required_argument, NULL, 'o'},
     {"keys", required_argument, NULL, 'k'},
     {"every", required_argument, NULL, 'e'},
+    {"ticks", required_argument, NULL, 't'},
+    {"jobs", required_argument, NULL, 'p'},
+    {"resume", no_argument, NULL, 'r'},
     {"json", no_argument, NULL, 'j'},
     {"help", no_argument, NULL, 'h'},
     {"context", required_argument, NULL, OPTION_CONTEXT},
     {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER},
     {NULL, 0, NULL, 0},
 };
+
+static bool read_jobs(const char *text, unsigned *jobs)
+{
+    uint64_t value = 0;
+    const bool ok = read_count("--jobs", text, 1, FILM_MOST_JOBS, &value);
+    *jobs = (unsigned)value;
+    return ok;
+}
 
 /* False when a value does not fit; the sentence is printed. */
 static bool take_option(arguments *a, int option)
@@ -58,6 +82,13 @@ static bool take_option(arguments *a, int option)
         return read_context(optarg, &a->film.renderer);
     case OPTION_ANY_RENDERER:
         return a->film.renderer.any_renderer = true;
+    case 't':
+        return read_ticks(optarg, &a->film.first, &a->film.last);
+    case 'p':
+        return read_jobs(optarg, &a->film.jobs);
+    case 'r':
+        a->film.resume = true;
+        return true;
     case 'j':
         a->json = true;
         return true;
@@ -67,38 +98,70 @@ static bool take_option(arguments *a, int option)
     }
 }
 
-static void on_progress(uint64_t done, uint64_t total, void *context)
-{
-    progress_show(context, done, total);
-}
-
 static int film_it(arguments *a, const octree_session *session)
 {
-    progress p = progress_start("ticks");
+    watch w = watch_begin("ticks");
     film_summary summary;
     record_error error;
-    a->film.progress = on_progress;
-    a->film.context = &p;
-    const bool ok = film_session(session, &a->film, &summary, &error);
-    progress_end(&p);
+    if (a->film.jobs == 0)
+        a->film.jobs = film_default_jobs(session, &a->film);
+    a->film.progress = watch_progress;
+    a->film.keep_going = watch_keep_going;
+    a->film.context = &w;
+    const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
+    progress_end(&w.progress);
     if (!ok)
-        return trouble("%s", error.text);
-    film_report(stdout, &summary, &a->film, progress_seconds(&p), a->json);
-    return EXIT_DONE;
+        trouble("%s", error.text);
+    else if (!whole)
+        film_report_stopped(stderr, &summary, &a->film);
+    else
+        film_report(stdout, &summary, &a->film, progress_seconds(&w.progress), a->json);
+    watch_end(&w);
+    return whole ? EXIT_DONE : EXIT_TROUBLE;
+}
+
+static bool has_file(const char *folder, const char *name)
+{
+    char *path = folder_path(folder, name);
+    const bool there = path && access(path, F_OK) == 0;
+    free(path);
+    return there;
+}
+
+/* A recording that is resumed stands for what the command line leaves out. */
+static bool read_film(arguments *a)
+{
+    record_error error;
+    uint64_t every = 1;
+    if (a->film.resume && has_file(a->film.folder, "recording.json") &&
+        !view_read_recording(a->film.folder, &a->film.view, &every, &error)) {
+        trouble("%s", error.text);
+        return false;
+    }
+    if (a->film.every == 0)
+        a->film.every = every;
+    return read_view(&a->view, &a->film.view);
+}
+
+static bool read_session(const arguments *a, session_file *file, record_error *error)
+{
+    session_error unread;
+    uint64_t digest;
+    const octree_session paper = octree_session_default();
+    if (!a->session && a->film.resume && has_file(a->film.folder, "session.json"))
+        return read_session_file(a->film.folder, file, &digest, error);
+    const bool ok = a->session ? session_read(a->session, file, &unread) : session_copy(&paper, file, &unread);
+    return ok || record_fail(error, "%s", unread.text);
 }
 
 static int play(arguments *a)
 {
     session_file file = {0};
-    session_error error;
-    bool ok;
-    if (a->session) {
-        ok = session_read(a->session, &file, &error);
-    } else {
-        const octree_session paper = octree_session_default();
-        ok = session_copy(&paper, &file, &error);
-    }
-    ok = ok && (!a->keys || session_set_keys(&file, a->keys, &error));
+    session_error unknown;
+    record_error error;
+    bool ok = read_session(a, &file, &error);
+    if (ok && a->keys && !session_set_keys(&file, a->keys, &unknown))
+        ok = record_fail(&error, "%s", unknown.text);
     const int status = ok ? film_it(a, &file.session) : trouble("%s", error.text);
     session_release(&file);
     return status;
@@ -106,7 +169,7 @@ static int play(arguments *a)
 
 int cmd_record(int argc, char **argv)
 {
-    arguments a = {.film = {.view = view_default(), .every = 1}};
+    arguments a = {.film = {.view = view_default()}};
     struct option options[COMMAND_OPTIONS];
     join_options(own_options, options);
     optind = 1;
@@ -126,5 +189,5 @@ int cmd_record(int argc, char **argv)
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
     a.session = argv[optind];
-    return check_renderer(&a.film.renderer) && read_view(&a.view, &a.film.view) ? play(&a) : EXIT_TROUBLE;
+    return check_renderer(&a.film.renderer) && read_film(&a) ? play(&a) : EXIT_TROUBLE;
 }

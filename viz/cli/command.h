@@ -7,6 +7,7 @@
 #include "octree/game.h"
 
 #include <getopt.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -21,6 +22,7 @@ typedef struct command {
 } command;
 
 int cmd_record(int argc, char **argv);
+int cmd_join(int argc, char **argv);
 int cmd_inspect(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
 int cmd_diff(int argc, char **argv);
@@ -36,6 +38,7 @@ bool read_box(const char *option, const char *text, octree_box *box);           
 bool read_rectangle(const char *option, const char *text, image_rectangle *rectangle); /* left, top, width, height */
 bool read_color(const char *option, const char *text, image_color *color);             /* RRGGBB or #RRGGBB */
 bool read_part(const char *option, const char *text, double *value);                   /* 0 to 1 */
+bool read_ticks(const char *text, uint64_t *first, uint64_t *last);                    /* A:B, A: or :B; first < last */
 
 /* A query as in --nearest X,Y,Z[,K], --radius X,Y,Z,R and --range x0,y0,z0,x1,y1,z1. */
 bool read_nearest(const char *text, octree_query *query);
@@ -83,5 +86,21 @@ void progress_end(progress *p);
 
 /* Seconds since it was started. */
 double progress_seconds(const progress *p);
+
+/* A long work that is watched: its progress is shown, and the signals that ask to end it (SIGHUP, SIGINT, SIGTERM,
+ * where they are not ignored) are held back. No handler and no global: whoever works asks whether one is waiting. */
+typedef struct watch {
+    progress progress;
+    sigset_t held, before;
+} watch;
+
+watch watch_begin(const char *unit);
+
+/* For who works: progress, and whether to keep going; the context is the watch. */
+void watch_progress(uint64_t done, uint64_t total, void *context);
+bool watch_keep_going(void *context);
+
+/* Hold signals back no longer. One that waits ends the program by that signal, as its sender expects. */
+void watch_end(const watch *w);
 
 #endif

@@ -6,6 +6,7 @@
 
 static const command commands[] = {
     {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
+    {"join", cmd_join, "make a recording that was filmed in parts whole"},
     {"verify", cmd_verify, "play a recording again: is it still what its session makes?"},
     {"inspect", cmd_inspect, "build a tree from a point cloud, draw its subdivision, print its statistics"},
     {"diff", cmd_diff, "compare two pictures, folders of them or recordings, exactly or within a tolerance"},
@@ -22,7 +23,7 @@ static int print_help(FILE *out)
         fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].line);
     fputs("\n  octreel COMMAND --help   what a command takes\n"
           "  octreel --version        the version, and who would draw\n\n"
-          "Exit status: 0 done, 1 finding, 2 trouble.\n",
+          "Exit status: 0 done, 1 finding, 2 trouble; stopped by a signal, that signal's (130 for Ctrl-C).\n",
           out);
     return out == stdout ? EXIT_DONE : EXIT_TROUBLE;
 }

@@ -61,6 +61,19 @@ bool read_count(const char *option, const char *text, uint64_t min, uint64_t max
     return refuse("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", option, min, max, text);
 }
 
+bool read_ticks(const char *text, uint64_t *first, uint64_t *last)
+{
+    const char *at = text;
+    *first = 0;
+    *last = UINT64_MAX;
+    const bool begins = take_number(&at, UINT64_MAX - 1, first), open = *at == ':';
+    at += open;
+    const bool ends = open && take_number(&at, UINT64_MAX, last);
+    if (open && (begins || ends) && *at == 0 && *first < *last)
+        return true;
+    return refuse("--ticks takes ticks as in 100:200 (from 100 to 199), 100: or :200, not \"%s\"", text);
+}
+
 bool read_box(const char *option, const char *text, octree_box *box)
 {
     const char *at = text, *limit = text + strlen(text);

@@ -4,6 +4,7 @@
 #include "json_write.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 static double rate_of(const film_summary *summary, double seconds)
 {
@@ -39,6 +40,43 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_write_end_line(w);
 }
 
+/* A word as a shell reads it. */
+static void put_word(FILE *out, const char *text)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+:,";
+    if (*text && strspn(text, plain) == strlen(text)) {
+        fputs(text, out);
+        return;
+    }
+    fputs(*text == '-' ? "'./" : "'", out);
+    for (; *text; text++)
+        fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
+    putc('\'', out);
+}
+
+void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options)
+{
+    if (summary->ticks == 0) {
+        fputs("octreel: stopped before a tick was filmed\n", out);
+        return;
+    }
+    fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " ticks; to go on: octreel record --resume",
+            summary->ticks, summary->total);
+    if (options->last != 0)
+        fprintf(out, " --ticks %" PRIu64 ":%" PRIu64, options->first, options->first + summary->total);
+    fputs(" -o ", out);
+    put_word(out, options->folder);
+    putc('\n', out);
+}
+
+static void report_part(FILE *out, const film_summary *summary, const film_options *options)
+{
+    fprintf(out, "a part, from tick %" PRIu64 " to %" PRIu64 "; when all parts are there: octreel join ",
+            options->first, options->first + summary->ticks - 1);
+    put_word(out, options->folder);
+    putc('\n', out);
+}
+
 void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json)
 {
     const char *folder = options->folder;
@@ -56,6 +94,11 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(i), summary->events[i]);
+    if (options->last != 0) {
+        putc('\n', out);
+        report_part(out, summary, options);
+        return;
+    }
     fputs("\n\nIts index.html shows it in a browser. ffmpeg, where it is installed, makes of it\n", out);
     film_commands(out, options, summary->frames);
 }

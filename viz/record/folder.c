@@ -1,5 +1,6 @@
 /* folder.c - see folder.h. */
 #include "folder.h"
+#include "parts.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -48,6 +49,8 @@ static bool make_one(const char *path, record_error *error)
 
 bool folder_make(const char *folder, record_error *error)
 {
+    if (!*folder)
+        return record_fail(error, "the folder's name is empty");
     char *path = strdup(folder);
     if (!path)
         return record_fail(error, "there is no memory");
@@ -76,10 +79,11 @@ const char *folder_fact_name(size_t i)
 /* What tells a folder that was filmed into. */
 static bool belongs_to_recording(const char *name)
 {
+    uint64_t first, last;
     for (size_t i = 0; i < RECORDING_FILES; i++)
         if (strcmp(name, recording_files[i]) == 0)
             return true;
-    return strncmp(name, "frame_", 6) == 0;
+    return strncmp(name, "frame_", 6) == 0 || part_parse_name(name, &first, &last);
 }
 
 static bool check_empty(const char *folder, record_error *error)
@@ -98,8 +102,6 @@ static bool check_empty(const char *folder, record_error *error)
 
 bool folder_prepare(const char *folder, record_error *error)
 {
-    if (!*folder)
-        return record_fail(error, "the folder's name is empty");
     return folder_make(folder, error) && check_empty(folder, error);
 }
 
@@ -173,4 +175,38 @@ void folder_abandon(const char *folder)
             remove(path);
         free(path);
     }
+}
+
+/* "session.json.part" and the like. */
+static bool is_unfinished(const char *name)
+{
+    for (size_t i = 0; i < RECORDING_FILES; i++) {
+        const size_t length = strlen(recording_files[i]);
+        if (strncmp(name, recording_files[i], length) == 0 && name[length] == '.')
+            return true;
+    }
+    const char *end = strrchr(name, '.');
+    return strncmp(name, "frame_", 6) == 0 && strcmp(end ? end : "", ".part") == 0;
+}
+
+static bool remove_entry(const char *folder, const char *name, record_error *error)
+{
+    char *path = folder_path(folder, name);
+    const bool removed = path && (remove(path) == 0 || errno == ENOENT);
+    free(path);
+    return removed || record_fail(error, "%s/%s: cannot be removed: %s", folder, name, strerror(errno));
+}
+
+bool folder_sweep(const char *folder, record_error *error)
+{
+    uint64_t first, last;
+    DIR *entries = opendir(folder);
+    if (!entries)
+        return record_fail(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(entries));)
+        if (is_unfinished(entry->d_name) || part_parse_name(entry->d_name, &first, &last))
+            ok = remove_entry(folder, entry->d_name, error);
+    closedir(entries);
+    return ok;
 }

@@ -26,6 +26,10 @@ void folder_abandon(const char *folder);
 /* The names of a recording's files beside its frames; null beyond the last. */
 const char *folder_fact_name(size_t i);
 
+/* Remove what a recording that is whole has no more use for: the lines of its parts, and files that were half written
+ * when something killed who wrote them. */
+bool folder_sweep(const char *folder, record_error *error);
+
 /* "folder/name"; owned by the caller, null when there is no memory. */
 char *folder_path(const char *folder, const char *name);
 
@@ -45,5 +49,10 @@ bool part_abandon(part_file *file);
 
 /* Write a whole file of the folder so. */
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, record_error *error);
+
+/* The same where several processes have these bytes to write, at the same time perhaps: what is there already stays,
+ * and *same says whether it has these bytes. `writer` is a word that no other of them has. */
+bool folder_write_once(const char *folder, const char *name, const char *writer, const char *bytes, size_t size,
+                       bool *same, record_error *error);
 
 #endif

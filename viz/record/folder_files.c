@@ -3,8 +3,8 @@
 #include "image.h"
 #include "json_write.h"
 #include "octree/digest.h"
-#include "session_file.h"
 #include "view_file.h"
+#include "whole_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,17 +23,30 @@ static bool begin_file(memory_file *file, record_error *error)
     return file->stream || record_fail(error, "there is no memory");
 }
 
-static bool end_file(memory_file *file, const char *folder, const char *name, record_error *error)
+/* `unlike` is said of a file that is there with other bytes; null: those are as good. */
+static bool put_file(const memory_file *file, const folder_place *place, const char *name, const char *unlike,
+                     record_error *error)
+{
+    bool same;
+    if (!place->writer)
+        return folder_write(place->folder, name, file->bytes, file->size, error);
+    if (!folder_write_once(place->folder, name, place->writer, file->bytes, file->size, &same, error))
+        return false;
+    return same || !unlike || record_fail(error, "%s/%s: %s", place->folder, name, unlike);
+}
+
+static bool end_file(memory_file *file, const folder_place *place, const char *name, const char *unlike,
+                     record_error *error)
 {
     const bool whole = !ferror(file->stream);
     const bool closed = fclose(file->stream) == 0;
-    const bool ok = whole && closed ? folder_write(folder, name, file->bytes, file->size, error)
+    const bool ok = whole && closed ? put_file(file, place, name, unlike, error)
                                     : record_fail(error, "there is no memory for %s", name);
     free(file->bytes);
     return ok;
 }
 
-bool write_session_file(const char *folder, const octree_session *session, uint64_t *digest, record_error *error)
+bool write_session_file(const folder_place *place, const octree_session *session, uint64_t *digest, record_error *error)
 {
     memory_file file;
     if (!begin_file(&file, error))
@@ -41,7 +54,24 @@ bool write_session_file(const char *folder, const octree_session *session, uint6
     session_write(session, file.stream);
     fflush(file.stream);
     *digest = octree_digest_bytes(OCTREE_DIGEST_START, file.bytes, file.size);
-    return end_file(&file, folder, "session.json", error);
+    return end_file(&file, place, "session.json", "is another session, or was changed by hand", error);
+}
+
+bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error)
+{
+    char reason[WHOLE_FILE_REASON], *bytes, *path = folder_path(folder, "session.json");
+    session_error unread;
+    size_t size;
+    if (!path)
+        return record_fail(error, "there is no memory");
+    bool ok = whole_file_read(path, &bytes, &size, reason) || record_fail(error, "%s: %s", path, reason);
+    if (ok) {
+        *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
+        ok = session_parse(path, folder, bytes, size, file, &unread) || record_fail(error, "%s", unread.text);
+        free(bytes);
+    }
+    free(path);
+    return ok;
 }
 
 static void write_text(json_writer *w, const char *key, const char *text)
@@ -65,7 +95,7 @@ static void end_object(json_writer *w)
     json_write_end_line(w);
 }
 
-bool write_recording_file(const char *folder, const view *v, uint64_t every, record_error *error)
+bool write_recording_file(const folder_place *place, const view *v, uint64_t every, record_error *error)
 {
     memory_file file;
     if (!begin_file(&file, error))
@@ -78,10 +108,10 @@ bool write_recording_file(const char *folder, const view *v, uint64_t every, rec
     write_text(w, "theme", theme_name());
     write_count(w, "every", every);
     end_object(w);
-    return end_file(&file, folder, "recording.json", error);
+    return end_file(&file, place, "recording.json", "tells of another view (size, camera, layers, every ...)", error);
 }
 
-bool write_renderer_file(const char *folder, const renderer_info *info, record_error *error)
+bool write_renderer_file(const folder_place *place, const renderer_info *info, record_error *error)
 {
     char library[IMAGE_LIBRARY_TEXT];
     memory_file file;
@@ -95,5 +125,5 @@ bool write_renderer_file(const char *folder, const renderer_info *info, record_e
     write_text(w, "version", info->version);
     write_text(w, "png", image_library(library));
     end_object(w);
-    return end_file(&file, folder, "renderer.json", error);
+    return end_file(&file, place, "renderer.json", NULL, error);
 }

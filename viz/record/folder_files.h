@@ -5,14 +5,25 @@
 #include "draw.h"
 #include "folder.h"
 #include "octree/game.h"
+#include "session_file.h"
+
+/* Where they go. */
+typedef struct folder_place {
+    const char *folder;
+    const char *writer; /* of folder_write_once(), where the folder may be that of a recording already; else null */
+} folder_place;
 
 /* session.json; *digest is that of its bytes. */
-bool write_session_file(const char *folder, const octree_session *session, uint64_t *digest, record_error *error);
+bool write_session_file(const folder_place *place, const octree_session *session, uint64_t *digest,
+                        record_error *error);
+
+/* Read it back; the caller releases *file. */
+bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error);
 
 /* recording.json: format version and view. */
-bool write_recording_file(const char *folder, const view *v, uint64_t every, record_error *error);
+bool write_recording_file(const folder_place *place, const view *v, uint64_t every, record_error *error);
 
-/* renderer.json: the one file that may differ between machines. */
-bool write_renderer_file(const char *folder, const renderer_info *info, record_error *error);
+/* renderer.json: the one file that may differ between machines. Of several who draw the first is named. */
+bool write_renderer_file(const folder_place *place, const renderer_info *info, record_error *error);
 
 #endif

@@ -1,28 +1,76 @@
 /* recording.c - see recording.h. */
 #include "recording.h"
 #include "folder_files.h"
+#include "parts.h"
 #include "viewer.h"
 
-static bool write_files(const recording *r, const octree_session *session, const view *v, const renderer_info *info,
+#include <stdlib.h>
+#include <unistd.h>
+
+static bool is_part(const recording *r)
+{
+    return r->options->last != 0;
+}
+
+static bool write_files(const recording *r, const char *writer, const octree_session *session, const view *v,
+                        const renderer_info *info, uint64_t *digest, record_error *error)
+{
+    const folder_place place = {r->options->folder, writer};
+    return write_recording_file(&place, v, r->options->every, error) &&
+           write_session_file(&place, session, digest, error) && write_renderer_file(&place, info, error);
+}
+
+static bool open_log(recording *r, record_error *error)
+{
+    char name[PART_NAME] = "ticks.jsonl";
+    if (is_part(r))
+        part_name(r->share.first, r->share.last, name);
+    return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
+}
+
+/* A folder of its own. The log comes first: who opened it has the folder. */
+static bool begin_alone(recording *r, const octree_session *session, const view *v, const renderer_info *info,
                         uint64_t *digest, record_error *error)
 {
     const char *folder = r->options->folder;
-    return write_recording_file(folder, v, r->options->every, error) &&
-           write_session_file(folder, session, digest, error) && write_renderer_file(folder, info, error);
+    record_error late;
+    if (!folder_prepare(folder, error) || !open_log(r, error))
+        return false;
+    if (write_files(r, NULL, session, v, info, digest, error))
+        return true;
+    tick_log_close(&r->log, false, &late);
+    folder_abandon(folder);
+    return false;
+}
+
+/* Without being told so, nothing is filmed twice. */
+static bool check_new_part(const recording *r, record_error *error)
+{
+    char name[PART_NAME];
+    char *path = folder_path(r->options->folder, part_name(r->share.first, r->share.last, name));
+    if (!path)
+        return record_fail(error, "there is no memory");
+    const bool there = access(path, F_OK) == 0;
+    free(path);
+    return !there || record_fail(error, "%s: already holds this part (%s); --resume completes what is there of it",
+                                 r->options->folder, name);
+}
+
+/* A folder that may be that of this recording already, and that others may be filming into. The log comes last: what is
+ * there stays unless the recording is this one. */
+static bool begin_shared(recording *r, const octree_session *session, const view *v, const renderer_info *info,
+                         uint64_t *digest, record_error *error)
+{
+    char writer[PART_NAME];
+    part_name(r->share.first, r->share.last, writer);
+    return folder_make(r->options->folder, error) && (r->options->resume || check_new_part(r, error)) &&
+           write_files(r, writer, session, v, info, digest, error) && open_log(r, error);
 }
 
 bool recording_begin(recording *r, const octree_session *session, const view *v, const renderer_info *info,
                      uint64_t *digest, record_error *error)
 {
-    const char *folder = r->options->folder;
-    if (!folder_prepare(folder, error) || !tick_log_open(&r->log, folder, "ticks.jsonl", error))
-        return false;
-    if (write_files(r, session, v, info, digest, error))
-        return true;
-    record_error ignored;
-    tick_log_close(&r->log, &ignored);
-    folder_abandon(folder);
-    return false;
+    return (is_part(r) || r->options->resume ? begin_shared : begin_alone)(r, session, v, info, digest, error);
 }
 
 void summary_add(film_summary *summary, const film_step *step)
@@ -42,14 +90,17 @@ bool recording_add(void *context, const film_step *step, record_error *error)
         return false;
     summary_add(r->summary, step);
     if (r->options->progress)
-        r->options->progress(r->summary->ticks, r->ticks, r->options->context);
+        r->options->progress(r->summary->ticks, r->summary->total, r->options->context);
     return true;
 }
 
 bool recording_end(recording *r, bool ok, record_error *error)
 {
     record_error late;
-    if (!tick_log_close(&r->log, ok ? error : &late))
-        ok = false;
-    return ok && viewer_write(r->options->folder, error);
+    const char *folder = r->options->folder;
+    const bool whole = ok && r->summary->ticks == r->summary->total;
+    ok = tick_log_close(&r->log, whole, ok ? error : &late) && ok;
+    if (!ok || is_part(r))
+        return ok;
+    return viewer_write(folder, error) && (!whole || !r->options->resume || folder_sweep(folder, error));
 }

@@ -9,7 +9,7 @@
 typedef struct recording {
     const film_options *options;
     film_summary *summary;
-    uint64_t ticks; /* that there are to record */
+    film_share share; /* the ticks that there are to record */
     tick_log log;
 } recording;
 

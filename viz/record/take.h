@@ -51,15 +51,17 @@ bool take_tick(take *t, film_step *step, record_error *error);
 /* Play the next tick. */
 bool take_advance(take *t, record_error *error);
 
-/* The ticks [first, last) of a session. */
+/* The ticks [first, last) of a session; where a count is given, of each `count` frames, with the ticks up to the next
+ * one, only that of this index. */
 typedef struct film_share {
     uint64_t first, last;
+    uint64_t index, count;
 } film_share;
 
 /* What is done with each tick of a share, in their order. */
 typedef bool film_sink(void *context, const film_step *step, record_error *error);
 
-/* Play on to the end of a share and take its ticks. */
+/* Play on to the end of a share and take its ticks. Ends early, and true, where options->keep_going says so. */
 bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context, record_error *error);
 
 #endif

@@ -20,22 +20,23 @@ static bool fail_to_write(tick_log *log, record_error *error, const char *more)
 }
 
 /* It is emptied behind the lock: the lines of another process stay. */
-static bool begin(tick_log *log, int file, record_error *error)
+static bool begin(tick_log *log, int file, bool keep, record_error *error)
 {
     if (is_taken(file))
         return record_fail(error, "%s: another process is filming into it", log->path);
-    if (ftruncate(file, 0) == 0)
-        log->stream = fdopen(file, "wb");
+    log->kept = keep ? lseek(file, 0, SEEK_END) : 0;
+    if (log->kept >= 0 && lseek(file, 0, SEEK_SET) == 0 && (keep || ftruncate(file, 0) == 0))
+        log->stream = fdopen(file, "r+b");
     return log->stream || fail_to_write(log, error, "");
 }
 
-bool tick_log_open(tick_log *log, const char *folder, const char *name, record_error *error)
+bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, record_error *error)
 {
     *log = (tick_log){.path = folder_path(folder, name)};
     if (!log->path)
         return record_fail(error, "there is no memory");
-    const int file = open(log->path, O_WRONLY | O_CREAT, 0666);
-    if (file < 0 ? fail_to_write(log, error, "") : begin(log, file, error))
+    const int file = open(log->path, O_RDWR | O_CREAT, 0666);
+    if (file < 0 ? fail_to_write(log, error, "") : begin(log, file, keep, error))
         return true;
     if (file >= 0)
         close(file);
@@ -54,17 +55,42 @@ static bool give_up(tick_log *log, record_error *error)
     return fail_to_write(log, error, cut ? "" : "; its last line is torn");
 }
 
+/* Whether the earlier log goes on with this line. */
+static bool is_kept(const tick_log *log, const char *line, size_t size)
+{
+    if (log->kept - log->whole < (off_t)size)
+        return false;
+    for (size_t i = 0; i < size; i++)
+        if (getc(log->stream) != (unsigned char)line[i])
+            return false;
+    return true;
+}
+
+/* The earlier log goes on otherwise: from here on it is forgotten. */
+static bool forget(tick_log *log)
+{
+    log->kept = 0;
+    return fseeko(log->stream, log->whole, SEEK_SET) == 0 && ftruncate(fileno(log->stream), log->whole) == 0;
+}
+
 bool tick_log_add(tick_log *log, const char *line, size_t size, record_error *error)
 {
+    if (log->kept > 0 && is_kept(log, line, size)) {
+        log->whole += (off_t)size;
+        return true;
+    }
+    if (log->kept > 0 && !forget(log))
+        return give_up(log, error);
     if (fwrite(line, 1, size, log->stream) != size || fflush(log->stream) != 0)
         return give_up(log, error);
     log->whole += (off_t)size;
     return true;
 }
 
-bool tick_log_close(tick_log *log, record_error *error)
+bool tick_log_close(tick_log *log, bool whole, record_error *error)
 {
-    const bool ok = !log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "");
+    const bool cut = !log->stream || !whole || log->kept == 0 || forget(log) || fail_to_write(log, error, "");
+    const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "")) && cut;
     free(log->path);
     *log = (tick_log){0};
     return ok;

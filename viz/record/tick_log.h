@@ -10,15 +10,18 @@ typedef struct tick_log {
     FILE *stream; /* null: not open */
     char *path;
     off_t whole; /* bytes up to the end of its last whole line */
+    off_t kept;  /* bytes of an earlier log that may be the next lines; 0: none */
 } tick_log;
 
-/* Begin a file of the folder anew. False where another process has it open so: two would spoil each other's frames. */
-bool tick_log_open(tick_log *log, const char *folder, const char *name, record_error *error);
+/* Begin a file of the folder anew; with `keep` what is there stays as far as the lines to come are the same, so that
+ * nothing is lost where they do not come. False where another process has it open so: two would spoil each other's
+ * frames. */
+bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, record_error *error);
 
 /* Add a line, its newline included. What cannot be written whole is cut off, and the log closed. */
 bool tick_log_add(tick_log *log, const char *line, size_t size, record_error *error);
 
-/* Close a log, open or not. */
-bool tick_log_close(tick_log *log, record_error *error);
+/* Close a log, open or not. A log that is whole ends with the last line that was added. */
+bool tick_log_close(tick_log *log, bool whole, record_error *error);
 
 #endif

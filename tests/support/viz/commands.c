@@ -199,6 +199,11 @@ command_result run_octreel(const command_setting *setting, const char *format, .
     return run(setting == NULL ? &plain : setting, arguments);
 }
 
+const char *octreel_program(void)
+{
+    return OCTREEL_PROGRAM;
+}
+
 command_result run_shell(const char *line)
 {
     static char shell[] = "/bin/sh", option[] = "-c";
@@ -207,6 +212,17 @@ command_result run_shell(const char *line)
     const int length = snprintf(copy, sizeof copy, "%s", line);
     assert_true(length >= 0 && length < LINE);
     return run(&plain, (char *[]){shell, option, copy, NULL});
+}
+
+command_result run_script(const char *format, ...)
+{
+    char line[LINE];
+    va_list values;
+    va_start(values, format);
+    const int length = vsnprintf(line, sizeof line, format, values);
+    va_end(values);
+    assert_true(length >= 0 && length < LINE);
+    return run_shell(line);
 }
 
 bool program_is_there(const char *name)

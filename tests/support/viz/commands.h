@@ -23,8 +23,14 @@ typedef struct command_result {
  * the program cannot be run. */
 command_result run_octreel(const command_setting *setting, const char *format, ...);
 
+/* The path of octreel, for lines of a shell. */
+const char *octreel_program(void);
+
 /* Run a line as a shell does. The test fails when there is no shell. */
 command_result run_shell(const char *line);
+
+/* The same for the line that a format gives. */
+command_result run_script(const char *format, ...);
 
 /* Whether a shell finds a program of this name. */
 bool program_is_there(const char *name);

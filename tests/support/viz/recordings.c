@@ -6,6 +6,7 @@
 
 #include "files.h"
 #include "fixture.h"
+#include "frame_file.h"
 #include "png_by_hand.h"
 #include "session_file.h"
 #include "theme.h"
@@ -17,6 +18,39 @@ film_options small_film(const char *folder)
     options.view.width = SMALL_WIDTH;
     options.view.height = SMALL_HEIGHT;
     return options;
+}
+
+octree_session short_session(const char *keys)
+{
+    octree_session session = octree_session_default();
+    session.keys = keys;
+    return session;
+}
+
+film_options part_of(film_options options, uint64_t first, uint64_t last)
+{
+    options.first = first;
+    options.last = last;
+    return options;
+}
+
+static bool count_down(void *context)
+{
+    uint64_t *left = context;
+    return *left > 0 && --*left > 0;
+}
+
+film_options stopped_after(film_options options, uint64_t *ticks)
+{
+    options.keep_going = count_down;
+    options.context = ticks;
+    return options;
+}
+
+place frame_place(const char *folder, uint64_t tick)
+{
+    char name[FRAME_NAME];
+    return place_below(folder, frame_name(tick, name));
 }
 
 film_summary assert_filmed(const octree_session *session, const film_options *options)
@@ -53,7 +87,8 @@ size_t for_each_line(const char *folder, void (*visit)(const char *line, size_t 
     size_t number = 0;
     for (char *line = text, *end; (end = strchr(line, '\n')) != NULL; line = end + 1, number++) {
         *end = '\0';
-        visit(line, number, context);
+        if (visit)
+            visit(line, number, context);
     }
     free(text);
     return number;

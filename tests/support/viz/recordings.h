@@ -2,6 +2,7 @@
 #ifndef RECORDINGS_H
 #define RECORDINGS_H
 
+#include "files.h"
 #include "film.h"
 #include "image.h"
 
@@ -11,6 +12,18 @@
 
 /* Every tick, all layers, small, into this folder. */
 film_options small_film(const char *folder);
+
+/* The default session with these keys alone. */
+octree_session short_session(const char *keys);
+
+/* The same options for the ticks [first, last). */
+film_options part_of(film_options options, uint64_t first, uint64_t last);
+
+/* Options that stop behind `*ticks` ticks; that counts down. */
+film_options stopped_after(film_options options, uint64_t *ticks);
+
+/* The path of a frame. */
+place frame_place(const char *folder, uint64_t tick);
 
 /* Film; the test fails, with the sentence, when it is not done. */
 film_summary assert_filmed(const octree_session *session, const film_options *options);
@@ -22,7 +35,8 @@ image assert_whole_frame(const char *path, int width, int height);
  * one, whole JSON in the other files, and no .part. */
 void assert_nothing_half_written(const char *folder);
 
-/* Do something with each line of ticks.jsonl, which is zero-terminated without its newline. Returns their number. */
+/* Do something with each line of ticks.jsonl, which is zero-terminated without its newline; `visit` may be null.
+ * Returns their number. */
 size_t for_each_line(const char *folder, void (*visit)(const char *line, size_t number, void *context), void *context);
 
 #endif

@@ -1,0 +1,14 @@
+/* traced.h - octreel run call by call: what would be left if it were killed at one of them can be looked at. */
+#ifndef TRACED_H
+#define TRACED_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Run octreel with these arguments, blanks between them, and stop it before each call with which its first thread
+ * opens, writes, cuts, closes, renames, links or removes a file, once there is something of the name `since`. visit()
+ * is told how many such calls there were before; where it returns false the program is killed there. Returns false
+ * where the system does not let one process follow another. The test fails when the program fails. */
+bool trace_octreel(const char *arguments, const char *since, bool (*visit)(size_t call, void *context), void *context);
+
+#endif

@@ -1,0 +1,471 @@
+/* test_parts.c - a session filmed in parts: what a part leaves, what it refuses, and how parts become the same bytes as
+ * one film. What is missing or wrong is named. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "join.h"
+#include "parts.h"
+#include "random_session.h"
+#include "recordings.h"
+
+enum { TICKS = 17 };
+
+static const char KEYS[] = "wwddeennwwddssaa"; /* one less than TICKS */
+
+static void film_part(const octree_session *session, const char *folder, uint64_t first, uint64_t last)
+{
+    const film_options options = part_of(small_film(folder), first, last);
+    assert_filmed(session, &options);
+}
+
+/* All of it at once, and in three parts, the last one first. */
+static place film_whole(void **state)
+{
+    const place folder = place_in(*state, "whole");
+    const octree_session session = short_session(KEYS);
+    const film_options options = small_film(folder.path);
+    assert_filmed(&session, &options);
+    return folder;
+}
+
+static place film_parts(void **state)
+{
+    const place folder = place_in(*state, "parts");
+    const octree_session session = short_session(KEYS);
+    film_part(&session, folder.path, 11, TICKS);
+    film_part(&session, folder.path, 0, 5);
+    film_part(&session, folder.path, 5, 11);
+    return folder;
+}
+
+static void assert_joined(const char *folder)
+{
+    film_options options = {.folder = folder};
+    film_summary summary;
+    record_error error = {""};
+    if (!join_parts(&options, &summary, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(summary.ticks, TICKS);
+}
+
+/* The sentence holds both, and nothing is written or removed. */
+static void assert_not_joined(const char *folder, const char *what, const char *reason)
+{
+    film_options options = {.folder = folder};
+    film_summary summary;
+    record_error error = {""};
+    listing before = folder_list(folder);
+    assert_false(join_parts(&options, &summary, &error));
+    if (strstr(error.text, what) == NULL || strstr(error.text, reason) == NULL)
+        fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, what, reason);
+    listing after = folder_list(folder);
+    assert_int_equal(before.count, after.count);
+    listing_release(&before);
+    listing_release(&after);
+}
+
+static void part_leaves_its_frames_and_its_lines(void **state)
+{
+    static const char *const names[] = {"frame_000005.png", "frame_000006.png", "frame_000007.png", "recording.json",
+                                        "renderer.json",    "session.json",     "ticks_5_8.jsonl"};
+    const place folder = place_in(*state, "film");
+    const octree_session session = short_session(KEYS);
+    const film_options options = part_of(small_film(folder.path), 5, 8);
+    const film_summary summary = assert_filmed(&session, &options);
+    assert_int_equal(summary.ticks, 3);
+    assert_int_equal(summary.frames, 3);
+    assert_int_equal(summary.total, 3);
+    listing found = folder_list(folder.path);
+    assert_int_equal(found.count, sizeof names / sizeof names[0]);
+    for (size_t i = 0; i < found.count; i++)
+        assert_string_equal(found.names[i], names[i]);
+    listing_release(&found);
+}
+
+static void parts_join_to_the_bytes_of_one_film(void **state)
+{
+    const place whole = film_whole(state), parts = film_parts(state);
+    assert_joined(parts.path);
+    assert_same_folders(whole.path, parts.path, NULL);
+    assert_joined(parts.path); /* and once more */
+    assert_same_folders(whole.path, parts.path, NULL);
+}
+
+static void parts_that_overlap_and_agree_join(void **state)
+{
+    const place whole = film_whole(state), parts = film_parts(state);
+    const octree_session session = short_session(KEYS);
+    film_part(&session, parts.path, 2, 14);
+    film_part(&session, parts.path, 4, 6);
+    film_part(&session, parts.path, 0, TICKS);
+    assert_joined(parts.path);
+    assert_same_folders(whole.path, parts.path, NULL);
+}
+
+static void stopped_film_and_a_part_join(void **state)
+{
+    const place whole = film_whole(state), parts = place_in(*state, "parts");
+    const octree_session session = short_session(KEYS);
+    uint64_t ticks = 6;
+    const film_options options = small_film(parts.path), stopped = stopped_after(options, &ticks);
+    assert_int_equal(assert_filmed(&session, &stopped).ticks, 6);
+    film_part(&session, parts.path, 6, TICKS);
+    assert_joined(parts.path);
+    assert_same_folders(whole.path, parts.path, NULL);
+}
+
+static void session_with_edits_and_every_third_frame_joins(void **state)
+{
+    static random_session made;
+    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    random_session_full(&made, 3);
+    film_options options = small_film(whole.path);
+    options.every = 7;
+    options.view.camera = CAMERA_FOLLOW;
+    options.view.fit = FIT_POINTS;
+    const film_summary all = assert_filmed(&made.session, &options);
+    options.folder = parts.path;
+    film_summary sum = {0};
+    for (uint64_t at = 0; at < all.ticks; at += 31) {
+        const film_options part = part_of(options, at, at + 31); /* the last one reaches beyond the end */
+        const film_summary summary = assert_filmed(&made.session, &part);
+        sum.ticks += summary.ticks;
+        sum.frames += summary.frames;
+    }
+    assert_int_equal(sum.ticks, all.ticks);
+    assert_int_equal(sum.frames, all.frames);
+    film_summary joined;
+    record_error error = {""};
+    film_options found = {.folder = parts.path};
+    if (!join_parts(&found, &joined, &error))
+        fail_msg("%s", error.text);
+    assert_memory_equal(&joined, &all, sizeof joined);
+    assert_int_equal(found.every, 7);
+    assert_same_folders(whole.path, parts.path, NULL);
+}
+
+static void joining_that_is_stopped_changes_nothing(void **state)
+{
+    const place parts = film_parts(state), copy = place_in(*state, "copy");
+    uint64_t ticks = 9;
+    film_options options = stopped_after(small_film(parts.path), &ticks);
+    film_summary summary;
+    record_error error = {""};
+    command_result copied = run_script("cp -r %s %s", parts.path, copy.path);
+    assert_done(&copied);
+    command_release(&copied);
+    assert_true(join_parts(&options, &summary, &error));
+    assert_int_equal(summary.ticks, 9);
+    assert_int_equal(summary.total, TICKS);
+    assert_same_folders(parts.path, copy.path, NULL);
+}
+
+/* ---- What is missing ---------------------------------------------------------------------------------------- */
+
+static void missing_parts_are_named_by_their_ticks(void **state)
+{
+    const place parts = film_parts(state);
+    remove(place_below(parts.path, "ticks_5_11.jsonl").path);
+    assert_not_joined(parts.path, "no part has the ticks 5 to 10;", "--resume");
+    remove(place_below(parts.path, "ticks_11_17.jsonl").path);
+    assert_not_joined(parts.path, "no part has the ticks 5 to 16;", "--resume");
+    const octree_session session = short_session(KEYS);
+    film_part(&session, parts.path, 7, 8);
+    film_part(&session, parts.path, 10, 11);
+    assert_not_joined(parts.path, "no part has the ticks 5, 6, 8, 9, 11 to 16;", "--resume");
+    remove(place_below(parts.path, "ticks_0_5.jsonl").path);
+    assert_not_joined(parts.path, "no part has the ticks 0 to 6, 8, 9, 11 to 16;", "--resume");
+    film_part(&session, parts.path, 1, 2);
+    film_part(&session, parts.path, 3, 4);
+    film_part(&session, parts.path, 5, 6);
+    assert_not_joined(parts.path, "no part has the ticks 0, 2, 4 and 9 more;", "--resume");
+}
+
+static void part_that_was_not_finished_misses_its_last_ticks(void **state)
+{
+    const place parts = film_parts(state), lines = place_below(parts.path, "ticks_5_11.jsonl");
+    size_t size;
+    char *text = file_read(lines.path, &size);
+    file_write(lines.path, text, size - 3); /* the last line is torn */
+    assert_not_joined(parts.path, "no part has the tick 10;", "--resume");
+    file_write(lines.path, text, 0);
+    assert_not_joined(parts.path, "no part has the ticks 5 to 10;", "--resume");
+    free(text);
+}
+
+static void missing_frames_are_named(void **state)
+{
+    const place parts = film_parts(state);
+    remove(frame_place(parts.path, 16).path);
+    assert_not_joined(parts.path, "frame_000016.png is missing", "--resume");
+    remove(frame_place(parts.path, 0).path);
+    remove(frame_place(parts.path, 3).path);
+    remove(frame_place(parts.path, 4).path);
+    remove(frame_place(parts.path, 5).path);
+    assert_not_joined(
+        parts.path, "frame_000000.png, frame_000003.png to frame_000005.png, frame_000016.png are missing", "--resume");
+}
+
+static void files_of_the_recording_that_are_missing_are_named(void **state)
+{
+    static const char *const names[] = {"renderer.json", "session.json", "recording.json"};
+    const place parts = film_parts(state);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        remove(place_below(parts.path, names[i]).path);
+        assert_not_joined(parts.path, names[i], i == 0 ? "is missing" : "No such file or directory");
+    }
+}
+
+/* ---- What is wrong ------------------------------------------------------------------------------------------ */
+
+static void part_that_tells_another_tick_is_named(void **state)
+{
+    const place parts = film_parts(state), lines = place_below(parts.path, "ticks_5_11.jsonl");
+    char *text = file_read(lines.path, NULL), *third = strstr(text, "\"tick\": 7,");
+    assert_non_null(third);
+    *strstr(third, "\"events\"") = ' ';
+    file_write_text(lines.path, text);
+    assert_not_joined(parts.path, "ticks_5_11.jsonl: tick 7 ", "another session");
+    free(text);
+}
+
+static void overlap_that_differs_is_named(void **state)
+{
+    const place parts = film_parts(state), lines = place_below(parts.path, "ticks_4_6.jsonl");
+    const octree_session session = short_session(KEYS);
+    film_part(&session, parts.path, 4, 6);
+    char *text = file_read(lines.path, NULL);
+    *strstr(strstr(text, "\"tick\": 5,"), "\"tree\"") = ' ';
+    file_write_text(lines.path, text);
+    assert_not_joined(parts.path, "ticks_4_6.jsonl: tick 5 ", "another session");
+    free(text);
+}
+
+static void part_with_more_lines_or_ticks_than_there_are_is_named(void **state)
+{
+    const place parts = film_parts(state), lines = place_below(parts.path, "ticks_5_11.jsonl");
+    char *text = file_read(lines.path, NULL);
+    FILE *file = fopen(lines.path, "a");
+    fputs("{}\n", file);
+    fclose(file);
+    assert_not_joined(parts.path, "ticks_5_11.jsonl", "more lines than ticks");
+    file_write_text(lines.path, text);
+    file_write_text(place_below(parts.path, "ticks_3_18.jsonl").path, "");
+    assert_not_joined(parts.path, "ticks_3_18.jsonl", "whose last tick is 16");
+    free(text);
+}
+
+static void frame_that_is_not_whole_is_named(void **state)
+{
+    const place parts = film_parts(state), frame = frame_place(parts.path, 8);
+    size_t size;
+    char *bytes = file_read(frame.path, &size);
+    const size_t sizes[] = {0, 7, 60, size / 2, size - 12, size - 1};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        file_write(frame.path, bytes, sizes[i]);
+        assert_not_joined(parts.path, frame.path, ": ");
+    }
+    bytes[size - 30] ^= 4;
+    file_write(frame.path, bytes, size);
+    assert_not_joined(parts.path, frame.path, ": ");
+    free(bytes);
+}
+
+static void frame_of_another_tick_session_or_view_is_named(void **state)
+{
+    const place parts = film_parts(state), frame = frame_place(parts.path, 8), other = place_in(*state, "other");
+    char *own = NULL, *others;
+    size_t own_size, size;
+    own = file_read(frame.path, &own_size);
+    others = file_read(frame_place(parts.path, 9).path, &size);
+    file_write(frame.path, others, size);
+    assert_not_joined(parts.path, frame.path, "another tick");
+    free(others);
+    octree_session session = short_session("wwddeennwwddssaw");
+    film_part(&session, other.path, 8, 10);
+    others = file_read(frame_place(other.path, 8).path, &size);
+    file_write(frame.path, others, size);
+    assert_not_joined(parts.path, frame.path, "another session");
+    free(others);
+    session = short_session(KEYS);
+    film_options view = part_of(small_film(place_in(*state, "view").path), 8, 10);
+    view.view.camera = CAMERA_TOP;
+    assert_filmed(&session, &view);
+    others = file_read(frame_place(view.folder, 8).path, &size);
+    file_write(frame.path, others, size);
+    assert_not_joined(parts.path, frame.path, "another view");
+    free(others);
+    file_write(frame.path, own, own_size);
+    assert_joined(parts.path);
+    free(own);
+}
+
+static void session_that_was_changed_by_hand_is_found(void **state)
+{
+    const place parts = film_parts(state), session = place_below(parts.path, "session.json");
+    char *text = file_read(session.path, NULL), *keys = strstr(text, "wwdd");
+    assert_non_null(keys);
+    keys[15] = 'w';
+    file_write_text(session.path, text);
+    assert_not_joined(parts.path, frame_place(parts.path, 0).path, "another session");
+    free(text);
+}
+
+static void frame_that_the_recording_has_not_is_named(void **state)
+{
+    const place parts = film_parts(state), extra = frame_place(parts.path, TICKS);
+    file_write_text(extra.path, "");
+    assert_not_joined(parts.path, extra.path, "no frame of this recording");
+}
+
+/* ---- Parts that are refused --------------------------------------------------------------------------------- */
+
+static void assert_not_filmed(const octree_session *session, const film_options *options, const char *what,
+                              const char *reason)
+{
+    film_summary summary;
+    record_error error = {""};
+    assert_false(film_session(session, options, &summary, &error));
+    if (strstr(error.text, what) == NULL || strstr(error.text, reason) == NULL)
+        fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, what, reason);
+}
+
+static void part_of_another_recording_is_refused_and_changes_nothing(void **state)
+{
+    const place parts = film_parts(state), copy = place_in(*state, "copy");
+    command_result copied = run_script("cp -r %s %s", parts.path, copy.path);
+    assert_done(&copied);
+    command_release(&copied);
+    const octree_session session = short_session(KEYS), other = short_session("wwd");
+    film_options options = part_of(small_film(parts.path), 2, 4);
+    assert_not_filmed(&other, &options, "session.json", "another session");
+    options.view.camera = CAMERA_TOP;
+    assert_not_filmed(&session, &options, "recording.json", "another view");
+    options = part_of(small_film(parts.path), 2, 4);
+    options.every = 2;
+    assert_not_filmed(&session, &options, "recording.json", "every");
+    options = part_of(small_film(parts.path), 0, 5);
+    assert_not_filmed(&session, &options, "ticks_0_5.jsonl", "--resume");
+    assert_same_folders(parts.path, copy.path, NULL);
+}
+
+static void part_beyond_the_session_is_refused_and_makes_nothing(void **state)
+{
+    const place folder = place_in(*state, "film");
+    const octree_session session = short_session(KEYS);
+    const film_options options = part_of(small_film(folder.path), TICKS, TICKS + 5);
+    assert_not_filmed(&session, &options, "from tick 17 on", "last tick is 16");
+    assert_false(file_exists(folder.path));
+}
+
+static void whole_film_is_not_made_into_a_folder_with_parts(void **state)
+{
+    const place parts = film_parts(state);
+    const octree_session session = short_session(KEYS);
+    const film_options options = small_film(parts.path);
+    assert_not_filmed(&session, &options, parts.path, "already holds a recording");
+}
+
+/* ---- The program -------------------------------------------------------------------------------------------- */
+
+/* At the same time, into a folder that is not there yet. */
+static void four_parts_in_four_processes_are_the_bytes_of_one_film(void **state)
+{
+    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    command_result result = run_octreel(NULL, "record --size 160x90 --camera orbit -o %s", whole.path);
+    assert_done(&result);
+    command_release(&result);
+    result =
+        run_script("for t in :64 64:128 128:192 192:256; do %s record --size 160x90 --camera orbit --ticks $t -o %s & "
+                   "pids=\"$pids $!\"; done; for p in $pids; do wait $p || exit; done",
+                   octreel_program(), parts.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "join %s --json", parts.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "\"ticks\": 253, \"frames\": 253"));
+    command_release(&result);
+    assert_same_folders(whole.path, parts.path, NULL);
+}
+
+static void gnu_parallel_films_the_parts(void **state)
+{
+    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    if (!program_is_there("parallel"))
+        skip();
+    command_result result = run_octreel(NULL, "record --size 160x90 -o %s", whole.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_script(
+        "parallel %s record --size 160x90 --jobs 1 -o %s --ticks {}:'{= $_ += 64 =}' ::: $(seq 0 64 252) && %s "
+        "join %s",
+        octreel_program(), parts.path, octreel_program(), parts.path);
+    assert_int_equal(result.status, 0); /* parallel may ask to be cited */
+    command_release(&result);
+    assert_same_folders(whole.path, parts.path, NULL);
+}
+
+static void command_lines_of_parts_that_make_no_sense_are_refused(void **state)
+{
+    static const char *const rows[][2] = {
+        {"record --ticks 5 -o x", "100:200"},   {"record --ticks : -o x", "100:200"},
+        {"record --ticks 5:5 -o x", "100:200"}, {"record --ticks 7:5 -o x", "100:200"},
+        {"record --ticks a:5 -o x", "100:200"}, {"record --ticks 5:b -o x", "100:200"},
+        {"record --ticks -1:5 -o x", "-1:5"},   {"record --ticks 5:6:7 -o x", "5:6:7"},
+        {"record --ticks 253: -o x", "252"},    {"record --jobs 0 -o x", "--jobs"},
+        {"record --jobs 257 -o x", "256"},      {"join", "one recording"},
+        {"join a b", "one recording"},          {"join absent", "absent/recording.json"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "%s", rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+        assert_false(file_exists("x"));
+    }
+}
+
+static void join_says_in_one_sentence_what_is_missing(void **state)
+{
+    const place parts = film_parts(state);
+    remove(place_below(parts.path, "ticks_0_5.jsonl").path);
+    command_result result = run_octreel(NULL, "join %s", parts.path);
+    assert_trouble(&result, "no part has the ticks 0 to 4");
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(part_leaves_its_frames_and_its_lines),
+        IN_FOLDER(parts_join_to_the_bytes_of_one_film),
+        IN_FOLDER(parts_that_overlap_and_agree_join),
+        IN_FOLDER(stopped_film_and_a_part_join),
+        IN_FOLDER(session_with_edits_and_every_third_frame_joins),
+        IN_FOLDER(joining_that_is_stopped_changes_nothing),
+        IN_FOLDER(missing_parts_are_named_by_their_ticks),
+        IN_FOLDER(part_that_was_not_finished_misses_its_last_ticks),
+        IN_FOLDER(missing_frames_are_named),
+        IN_FOLDER(files_of_the_recording_that_are_missing_are_named),
+        IN_FOLDER(part_that_tells_another_tick_is_named),
+        IN_FOLDER(overlap_that_differs_is_named),
+        IN_FOLDER(part_with_more_lines_or_ticks_than_there_are_is_named),
+        IN_FOLDER(frame_that_is_not_whole_is_named),
+        IN_FOLDER(frame_of_another_tick_session_or_view_is_named),
+        IN_FOLDER(session_that_was_changed_by_hand_is_found),
+        IN_FOLDER(frame_that_the_recording_has_not_is_named),
+        IN_FOLDER(part_of_another_recording_is_refused_and_changes_nothing),
+        IN_FOLDER(part_beyond_the_session_is_refused_and_makes_nothing),
+        IN_FOLDER(whole_film_is_not_made_into_a_folder_with_parts),
+        IN_FOLDER(four_parts_in_four_processes_are_the_bytes_of_one_film),
+        IN_FOLDER(gnu_parallel_films_the_parts),
+        cmocka_unit_test(command_lines_of_parts_that_make_no_sense_are_refused),
+        IN_FOLDER(join_says_in_one_sentence_what_is_missing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
