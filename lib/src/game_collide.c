@@ -29,8 +29,8 @@ static octree_status collide_resting(octree_game *game, const octree_point *self
 {
     const octree_tick *tick = &game->tick;
     resting_collector found = {game, {&game->memory, &game->hits, false}};
-    const octree_status status = octree_collide_swept(game->tree, tick->from, tick->attempt,
-                                                      game->session->player.box_size, self, collect_resting, &found);
+    const octree_status status = octree_collide_swept(
+        game->tree, tick->from, tick->attempt, game->session->player.box_size, self, NULL, collect_resting, &found);
     return found.hits.failed ? OCTREE_NO_MEMORY : status;
 }
 
