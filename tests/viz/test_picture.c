@@ -413,6 +413,56 @@ static void a_hundred_thousand_segments_are_all_drawn(void **state)
     scene_release(&s);
 }
 
+/* Where a cut line lies on another, its dashes are seen and between them the ground, and nothing of the other. */
+static void a_cut_line_leaves_nothing_of_the_one_beneath(void **state)
+{
+    (void)state;
+    renderer *r = open_renderer(WIDTH, HEIGHT);
+    for (int i = 0; i < 40; i++) {
+        scene s = blank_scene(CAMERA_ISO);
+        scene_segment line = line_of(-100, 2 * i, -90, 120, 10 - i, i);
+        line.look.layer = LAYER_NODES;
+        scene_add_segment(&s, line);
+        uint8_t *alone = draw(r, &s);
+        line.look = (scene_look){.layer = LAYER_RANGE, .role = ROLE_NEAREST, .style = STYLE_CUT, .width = 1};
+        scene_add_segment(&s, line);
+        uint8_t *cut = draw(r, &s);
+        size_t dashes = 0, gaps = 0;
+        for (size_t at = 0; at < WIDTH * HEIGHT; at++) {
+            dashes += cut[at] / THEME_SHADES == ROLE_NEAREST;
+            gaps += alone[at] != 0 && cut[at] == 0;
+            assert_true(cut[at] / THEME_SHADES == ROLE_NEAREST || cut[at] == 0);
+        }
+        assert_true(gaps > dashes / 3 && gaps < dashes);
+        free(alone);
+        free(cut);
+        scene_release(&s);
+    }
+    renderer_close(r);
+}
+
+static void a_bold_line_is_two_pixels_wide_in_a_small_picture(void **state)
+{
+    (void)state;
+    scene s = blank_scene(CAMERA_TOP);
+    assert_int_equal(s.unit, 1);
+    scene_segment line = line_of(0, -100, 0, 0, 100, 0);
+    double ends[2][2];
+    line.look.width = 2;
+    pixel_of(&s, line.ends[0], ends[0]);
+    pixel_of(&s, line.ends[1], ends[1]);
+    scene_add_segment(&s, line);
+    uint8_t *frame = draw_once(&s);
+    for (int y = (int)ends[1][1] + 2; y < (int)ends[0][1] - 2; y++) {
+        size_t lit = 0;
+        for (int x = 0; x < WIDTH; x++)
+            lit += frame[y * WIDTH + x] != 0;
+        assert_int_equal(lit, 2);
+    }
+    free(frame);
+    scene_release(&s);
+}
+
 /* The later layer of two at one place is the one that is seen, whatever their depth and order in the list. */
 static void later_layers_lie_on_top(void **state)
 {
@@ -453,6 +503,8 @@ int main(void)
         cmocka_unit_test(a_thousand_points_on_a_pixel_look_like_one),
         cmocka_unit_test(panels_and_marks_are_cut_off_at_the_edge_of_the_picture),
         cmocka_unit_test(a_hundred_thousand_segments_are_all_drawn),
+        cmocka_unit_test(a_cut_line_leaves_nothing_of_the_one_beneath),
+        cmocka_unit_test(a_bold_line_is_two_pixels_wide_in_a_small_picture),
         cmocka_unit_test(later_layers_lie_on_top),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
