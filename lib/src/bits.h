@@ -24,6 +24,19 @@ static inline unsigned bits_lowest(uint64_t mask)
 #endif
 }
 
+/* Index of the highest set bit; mask must not be 0. */
+static inline unsigned bits_highest(uint64_t mask)
+{
+#if defined(__GNUC__)
+    return 63 - (unsigned)__builtin_clzll(mask);
+#else
+    unsigned index = 0;
+    while (mask >>= 1)
+        index++;
+    return index;
+#endif
+}
+
 /* Spread the low 21 bits so that two zero bits follow each. */
 static inline uint64_t bits_spread(uint64_t x)
 {

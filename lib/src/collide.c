@@ -34,8 +34,9 @@ static bool visit_others(const octree_point *point, void *context)
     return is_self(c->self, point) || c->visit(point, c->context);
 }
 
-octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
-                             octree_point_visitor visit, void *context)
+octree_status octree_collide_search(const octree *tree, const double center[3], double box_size,
+                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
+                                    void *context)
 {
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
@@ -43,5 +44,11 @@ octree_status octree_collide(const octree *tree, const double center[3], double 
     const octree_status status = octree_collision_box(center, box_size, &box);
     if (status != OCTREE_OK)
         return status;
-    return octree_range(tree, &box, visit_others, &(collision){self, visit, context});
+    return octree_range_search(tree, &box, how, visit_others, &(collision){self, visit, context});
+}
+
+octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
+                             octree_point_visitor visit, void *context)
+{
+    return octree_collide_search(tree, center, box_size, self, NULL, visit, context);
 }

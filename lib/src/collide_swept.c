@@ -19,7 +19,8 @@ static bool visit_touched(const octree_point *point, void *context)
 }
 
 octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,
-                                   const octree_point *self, octree_point_visitor visit, void *context)
+                                   const octree_point *self, const octree_search *how, octree_point_visitor visit,
+                                   void *context)
 {
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
@@ -33,5 +34,6 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
         start.min[i] = fmin(start.min[i], end.min[i]);
         start.max[i] = fmax(start.max[i], end.max[i]);
     }
-    return octree_range(tree, &start, visit_touched, &(sweeping){{from, to, box_size}, self, visit, context});
+    return octree_range_search(tree, &start, how, visit_touched,
+                               &(sweeping){{from, to, box_size}, self, visit, context});
 }

@@ -76,6 +76,8 @@ void octree_game_destroy(octree_game *game)
     list_release(&memory, &game->inner_before, sizeof(octree_address));
     list_release(&memory, &game->splits, sizeof(octree_address));
     list_release(&memory, &game->merges, sizeof(octree_address));
+    list_release(&memory, &game->visits, sizeof(octree_visit));
+    list_release(&memory, &game->hit_leaves, sizeof(octree_address));
     arena_give(&memory, game, sizeof *game);
 }
 
@@ -84,6 +86,7 @@ static void begin_tick(octree_game *game, char key)
     game->hits.count = game->found.count = game->near.count = 0;
     game->refusals.count = game->answers.count = 0;
     game->splits.count = game->merges.count = 0;
+    game->visits.count = game->hit_leaves.count = 0;
     game->tick.number++;
     game->tick.key = key;
     game->tick.events = 0;

@@ -28,9 +28,10 @@ static bool collect_resting(const octree_point *point, void *context)
 static octree_status collide_resting(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
+    const octree_search how = game_search(game, &game->tick.hit_cost);
     resting_collector found = {game, {&game->memory, &game->hits, false}};
-    const octree_status status = octree_collide_swept(game->tree, tick->from, tick->attempt,
-                                                      game->session->player.box_size, self, collect_resting, &found);
+    const octree_status status = octree_collide_swept(
+        game->tree, tick->from, tick->attempt, game->session->player.box_size, self, &how, collect_resting, &found);
     return found.hits.failed ? OCTREE_NO_MEMORY : status;
 }
 
@@ -40,7 +41,10 @@ static octree_status collide_moved(octree_game *game)
     point_collector hits = {&game->memory, &game->hits, false};
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
-        if (!was_moved(game, body) || !sweep_touches(&box, body->before, body->position))
+        if (!was_moved(game, body))
+            continue;
+        game->tick.hit_cost.points++;
+        if (!sweep_touches(&box, body->before, body->position))
             continue;
         octree_point hit = {.id = body->id};
         memcpy(hit.position, body->position, sizeof hit.position);
@@ -67,9 +71,10 @@ static octree_status trace_hits(octree_game *game)
 
 static octree_status collide_at_end(octree_game *game, const octree_point *self)
 {
+    const octree_search how = game_search(game, &game->tick.hit_cost);
     point_collector hits = {&game->memory, &game->hits, false};
-    const octree_status status =
-        octree_collide(game->tree, game->tick.attempt, game->session->player.box_size, self, collect_point, &hits);
+    const octree_status status = octree_collide_search(game->tree, game->tick.attempt, game->session->player.box_size,
+                                                       self, &how, collect_point, &hits);
     return hits.failed ? OCTREE_NO_MEMORY : status;
 }
 
@@ -87,7 +92,8 @@ octree_status game_collide(octree_game *game, const double to[3])
     memcpy(tick->from, tick->player, sizeof tick->from);
     memcpy(tick->attempt, to, sizeof tick->attempt);
     tick->swept = game->session->player.sweep;
-    game->hits.count = 0;
+    tick->hit_cost = (octree_cost){0};
+    game->hits.count = game->visits.count = 0;
     octree_status status = tick->swept ? collide_on_the_way(game, &self) : collide_at_end(game, &self);
     game_sort_points(game->hits.items, game->hits.count);
     if (status == OCTREE_OK && tick->swept)

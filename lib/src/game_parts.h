@@ -23,6 +23,9 @@ struct octree_game {
     list refusals;                            /* octree_refusal */
     list answers;                             /* octree_answer */
     list inner, inner_before, splits, merges; /* octree_address */
+    list visits;                              /* octree_visit: as they come, until game_finish_visits */
+    list hit_leaves;                          /* octree_address: the same */
+    bool lost_visits;                         /* there was no memory for one of them */
 };
 
 bool game_is_key(char key);
@@ -47,6 +50,12 @@ octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status wh
 
 /* Collect what the player's box meets into `hits`, by id: about the end of its step or, swept, on the way there. */
 octree_status game_collide(octree_game *game, const double to[3]);
+
+/* A search that adds to `cost` and to the tick's visits. */
+octree_search game_search(octree_game *game, octree_cost *cost);
+
+/* Sort the tick's visits and count them; find the leaves of its hits and answers, which are published. */
+octree_status game_finish_visits(octree_game *game);
 
 /* A visitor that appends points to a list of octree_point; it stops, and says so, when there is no memory. */
 typedef struct point_collector {

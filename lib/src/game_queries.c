@@ -34,11 +34,12 @@ static octree_answer pose(const octree_query *query, const double player[3])
 static octree_status find_points(octree_game *game, octree_answer *answer)
 {
     const size_t before = game->found.count;
+    const octree_search how = game_search(game, &answer->cost);
     point_collector found = {&game->memory, &game->found, false};
     const octree_status status =
         answer->kind == OCTREE_QUERY_RANGE
-            ? octree_range(game->tree, &answer->box, collect_point, &found)
-            : octree_radius(game->tree, answer->target, answer->radius, NULL, collect_point, &found);
+            ? octree_range_search(game->tree, &answer->box, &how, collect_point, &found)
+            : octree_radius(game->tree, answer->target, answer->radius, &how, collect_point, &found);
     answer->count = game->found.count - before;
     if (status != OCTREE_OK || found.failed)
         return found.failed ? OCTREE_NO_MEMORY : status;
@@ -49,8 +50,9 @@ static octree_status find_points(octree_game *game, octree_answer *answer)
 
 static octree_status find_neighbors(octree_game *game, octree_answer *answer, bool at_player)
 {
-    const octree_search how = {.skip = at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE,
-                               .skip_id = game->session->player.id};
+    octree_search how = game_search(game, &answer->cost);
+    how.skip = at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
+    how.skip_id = game->session->player.id;
     const size_t before = game->near.count, all = octree_count(game->tree);
     const size_t k = answer->k < all ? answer->k : all;
     while (game->near.count < before + k)
@@ -155,7 +157,8 @@ octree_status game_finish_tick(octree_game *game)
         status = ask_all(game);
     if (status == OCTREE_OK)
         status = compare_node_sets(game);
-    if (status == OCTREE_OK)
-        publish(game);
-    return status;
+    if (status != OCTREE_OK)
+        return status;
+    publish(game);
+    return game_finish_visits(game);
 }

@@ -29,9 +29,14 @@ bool node_set_fill(arena *memory, list *set, const octree *tree)
 /* Pre-order: by the place of the cell's lowest corner, the larger cell first. */
 static bool comes_before(octree_address a, octree_address b)
 {
-    const unsigned a_depth = octree_address_depth(a), b_depth = octree_address_depth(b);
-    const uint64_t a_code = a << 3 * (OCTREE_MAX_DEPTH - a_depth), b_code = b << 3 * (OCTREE_MAX_DEPTH - b_depth);
-    return a_code != b_code ? a_code < b_code : a_depth < b_depth;
+    const uint64_t a_place = a << (63 - bits_highest(a)), b_place = b << (63 - bits_highest(b));
+    return a_place != b_place ? a_place < b_place : a < b;
+}
+
+int node_set_compare(const void *a, const void *b)
+{
+    const octree_address *p = a, *q = b;
+    return comes_before(*p, *q) ? -1 : comes_before(*q, *p);
 }
 
 bool node_set_subtract(arena *memory, const list *a, const list *b, list *out)

@@ -4,6 +4,9 @@
 
 #include "list.h"
 
+/* For qsort: addresses in pre-order. */
+int node_set_compare(const void *a, const void *b);
+
 /* Fill a list of octree_address with the inner nodes in pre-order. False when there is no memory. */
 bool node_set_fill(arena *memory, list *set, const octree *tree);
 

@@ -92,9 +92,11 @@ static unsigned scan(const void *shape, const octree_point *points, unsigned cou
     return found;
 }
 
-static octant_masks measure_root(const box_shape *s)
+static octant_masks measure_root(const box_shape *s, const octree *tree)
 {
     octant_masks root = {1, 1};
+    if (misses_world(tree, s->box))
+        return (octant_masks){0, 0};
     for (int i = 0; i < 3; i++)
         if (s->whole.min[i] >= 0 || s->whole.max[i] < (int32_t)PLANE_GRID)
             root.inside = 0;
@@ -116,8 +118,6 @@ static octree_box widen(const octree_box *box, double epsilon)
 static size_t run_query(const octree *tree, const octree_box *box, const octree_search *how, octree_point_visitor visit,
                         void *context)
 {
-    if (misses_world(tree, box))
-        return 0;
     const octree_box wide = widen(box, how->epsilon);
     box_shape shape;
     shape.box = box;
@@ -132,7 +132,7 @@ static size_t run_query(const octree *tree, const octree_box *box, const octree_
         .context = context,
         .meter = {.how = how},
     };
-    region_descend(&r, measure_root(&shape));
+    region_descend(&r, measure_root(&shape, tree));
     meter_report(&r.meter);
     return r.count;
 }

@@ -239,7 +239,7 @@ bool ask_collide_swept(trial *t)
         t->verdicts[i] = !is_left_out(self, p) && quick_touches(from, to, size, p->position) ? MUST : MUST_NOT;
     }
     gather_begin(t, 0);
-    const octree_status status = octree_collide_swept(t->tree, from, to, size, self, gather, &t->found);
+    const octree_status status = octree_collide_swept(t->tree, from, to, size, self, NULL, gather, &t->found);
     return (said_ok(t, status, "collide_swept") && judge(t, "collide_swept")) ||
            trial_add(t, "; from (%a, %a, %a) to (%a, %a, %a), the size %a", from[0], from[1], from[2], to[0], to[1],
                      to[2], size);

@@ -246,6 +246,44 @@ static void ranges_miss_nothing_and_stay_within_epsilon(void **state)
     assert_true(more > 0); /* the knob is real */
 }
 
+static void collisions_miss_nothing_and_stay_within_epsilon_and_on_the_way_are_exact(void **state)
+{
+    (void)state;
+    size_t more = 0;
+    uint64_t random = 3;
+    brute all = {0};
+    brute_scatter(&all, &random, 300, 30, UINT64_MAX);
+    octree *tree = brute_tree(&all, cube(-32, 32), 3, 21);
+    for (int i = 0; i < 300; i++) {
+        double from[3], to[3], size = (double)random_below(&random, 12),
+                               epsilon = (double)random_below(&random, 60) / 4;
+        random_target(&random, 30, from);
+        random_target(&random, 30, to);
+        const octree_search how = {.epsilon = epsilon, .mode = (octree_mode)(i % 2)};
+        brute inner = {0}, found = {0}, outer = {0};
+        assert_int_equal(octree_collide_search(tree, from, size, NULL, &how, brute_collect, &found), OCTREE_OK);
+        brute_collide(&all, from, size, NULL, &inner);
+        brute_collide(&all, from, size + epsilon, NULL, &outer);
+        more += found.count - inner.count;
+        assert_between(&inner, &found, &outer);
+        assert_int_equal(octree_collide_swept(tree, from, to, size, NULL, &how, brute_collect, &found), OCTREE_OK);
+        for (size_t j = 0; j < all.count; j++)
+            if (brute_touches(from, to, size, all.points[j].position, all.points[j].position))
+                brute_collect(&all.points[j], &inner);
+        assert_true(brute_equal(&inner, &found));
+        brute_free(&inner);
+        brute_free(&found);
+    }
+    assert_true(more > 0);
+    static const octree_search bad = {.epsilon = -1};
+    const double at[3] = {0};
+    brute found = {0};
+    assert_int_equal(octree_collide_search(tree, at, 1, NULL, &bad, brute_collect, &found), OCTREE_BAD_SIZE);
+    assert_int_equal(octree_collide_swept(tree, at, at, 1, NULL, &bad, brute_collect, &found), OCTREE_BAD_SIZE);
+    octree_destroy(tree);
+    brute_free(&all);
+}
+
 static void epsilon_zero_is_exact(void **state)
 {
     (void)state;
@@ -433,6 +471,7 @@ int main(void)
         cmocka_unit_test(an_epsilon_does_not_lose_what_is_within_a_radius),
         cmocka_unit_test(the_nearest_within_a_radius_is_within_its_ratio),
         cmocka_unit_test(ranges_miss_nothing_and_stay_within_epsilon),
+        cmocka_unit_test(collisions_miss_nothing_and_stay_within_epsilon_and_on_the_way_are_exact),
         cmocka_unit_test(epsilon_zero_is_exact),
         cmocka_unit_test(epsilon_takes_any_box_and_length),
         cmocka_unit_test(epsilon_saves_work_on_clusters),

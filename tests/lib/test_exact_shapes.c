@@ -87,7 +87,7 @@ static void ask(const octree *tree, const question *q, answer *a)
     else if (q->kind == COLLIDE)
         assert_int_equal(octree_collide(tree, q->at, q->length, NULL, add, a), OCTREE_OK);
     else if (q->kind == SWEPT)
-        assert_int_equal(octree_collide_swept(tree, q->at, q->to, q->length, NULL, add, a), OCTREE_OK);
+        assert_int_equal(octree_collide_swept(tree, q->at, q->to, q->length, NULL, NULL, add, a), OCTREE_OK);
     else
         ask_neighbors(tree, q, a);
     if (q->kind >= RADIUS)

@@ -31,8 +31,9 @@ static void assert_swept_in(const octree *tree, const brute *all, const sweep *s
     for (size_t i = 0; i < all->count; i++)
         if (exact_touches(s->from, s->to, s->size, all->points[i].position, all->points[i].position))
             brute_collect(&all->points[i], &expected);
-    assert_int_equal(octree_collide_swept(tree, s->from, s->to, s->size, NULL, brute_collect, &found), OCTREE_OK);
-    assert_int_equal(octree_collide_swept(tree, s->to, s->from, s->size, NULL, brute_collect, &reversed), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, s->from, s->to, s->size, NULL, NULL, brute_collect, &found), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, s->to, s->from, s->size, NULL, NULL, brute_collect, &reversed),
+                     OCTREE_OK);
     find_wrong(&expected, &found, s);
     find_wrong(&expected, &reversed, &back);
     assert_true(brute_equal(&expected, &found) && brute_equal(&expected, &reversed)); /* each once */
@@ -213,7 +214,7 @@ static bool ends_tell_all(const double from[3], const double to[3], double size)
     brute all = {0}, ends = {0}, swept = {0};
     add_around(&all, (const double[3]){from[0] + size, 0.25, 0.25}, 2);
     octree *tree = brute_tree(&all, cube(-8, 8), 4, 21);
-    assert_int_equal(octree_collide_swept(tree, from, to, size, NULL, brute_collect, &swept), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, from, to, size, NULL, NULL, brute_collect, &swept), OCTREE_OK);
     for (size_t i = 0; i < all.count; i++) {
         brute one = {0};
         octree *alone = make_tree(cube(-8, 8), 1, 21, OCTREE_REFUSE);

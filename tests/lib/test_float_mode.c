@@ -55,7 +55,7 @@ static uint64_t ask_everything(octree *tree, octree_game *game)
         octree_range_collect(tree, &box, NULL, points, 2, &count),
         octree_radius(tree, here, 5, NULL, ignore, NULL),
         octree_collide(tree, here, 5, NULL, ignore, NULL),
-        octree_collide_swept(tree, here, there, 5, NULL, ignore, NULL),
+        octree_collide_swept(tree, here, there, 5, NULL, NULL, ignore, NULL),
         octree_nearest(tree, here, OCTREE_SKIP_NONE, 0, &nearest),
         octree_nearest_k(tree, here, 1, NULL, &nearest, &count),
         octree_nearest_within(tree, here, 5, NULL, &nearest),

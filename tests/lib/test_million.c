@@ -112,7 +112,7 @@ static void ask_a_million_equal_points(const octree *tree)
     assert_int_equal(octree_radius(tree, aside, 0.125, NULL, count_visit, &visits), OCTREE_OK);
     assert_int_equal(octree_radius(tree, aside, 0.5, NULL, count_visit, &visits), OCTREE_OK);
     assert_int_equal(octree_collide(tree, aside, 0.125, NULL, count_visit, &visits), OCTREE_OK);
-    assert_int_equal(octree_collide_swept(tree, aside, away, 0.75, NULL, count_visit, &visits), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, aside, away, 0.75, NULL, NULL, count_visit, &visits), OCTREE_OK);
     assert_int_equal(visits, 3 * million);
     assert_int_equal(octree_nearest(tree, aside, OCTREE_SKIP_NONE, 0, &nearest), OCTREE_OK); /* a million ties */
     assert_int_equal(nearest.point.id, 0);

@@ -10,13 +10,13 @@
 
 static void sweep_into(const octree *tree, const double from[3], const double to[3], double size, brute *found)
 {
-    assert_int_equal(octree_collide_swept(tree, from, to, size, NULL, brute_collect, found), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, from, to, size, NULL, NULL, brute_collect, found), OCTREE_OK);
 }
 
 static size_t hits(const octree *tree, const double from[3], const double to[3], double size, const octree_point *self)
 {
     brute found = {0};
-    assert_int_equal(octree_collide_swept(tree, from, to, size, self, brute_collect, &found), OCTREE_OK);
+    assert_int_equal(octree_collide_swept(tree, from, to, size, self, NULL, brute_collect, &found), OCTREE_OK);
     size_t count = found.count;
     brute_free(&found);
     return count;
@@ -51,10 +51,10 @@ static void swept_refuses_null(void **state)
     const double at[3] = {0, 0, 0};
     assert_int_equal(octree_insert(tree, at, 1), OCTREE_OK);
     brute found = {0};
-    assert_int_equal(octree_collide_swept(NULL, at, at, 1, NULL, brute_collect, &found), OCTREE_NULL_ARGUMENT);
-    assert_int_equal(octree_collide_swept(tree, NULL, at, 1, NULL, brute_collect, &found), OCTREE_NULL_ARGUMENT);
-    assert_int_equal(octree_collide_swept(tree, at, NULL, 1, NULL, brute_collect, &found), OCTREE_NULL_ARGUMENT);
-    assert_int_equal(octree_collide_swept(tree, at, at, 1, NULL, NULL, &found), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_collide_swept(NULL, at, at, 1, NULL, NULL, brute_collect, &found), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_collide_swept(tree, NULL, at, 1, NULL, NULL, brute_collect, &found), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_collide_swept(tree, at, NULL, 1, NULL, NULL, brute_collect, &found), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_collide_swept(tree, at, at, 1, NULL, NULL, NULL, &found), OCTREE_NULL_ARGUMENT);
     assert_int_equal(found.count, 0);
     octree_destroy(tree);
 }
@@ -75,14 +75,14 @@ static void swept_refuses_bad_sizes_and_places(void **state)
                  {INFINITY, OCTREE_NOT_FINITE},
                  {-INFINITY, OCTREE_NOT_FINITE}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
-        assert_int_equal(octree_collide_swept(tree, at, at, sizes[i].size, NULL, brute_collect, &found),
+        assert_int_equal(octree_collide_swept(tree, at, at, sizes[i].size, NULL, NULL, brute_collect, &found),
                          sizes[i].status);
     static const double values[] = {NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 9; i++) {
         double bad[3] = {0, 0, 0};
         bad[i % 3] = values[i / 3];
-        assert_int_equal(octree_collide_swept(tree, bad, at, 1, NULL, brute_collect, &found), OCTREE_NOT_FINITE);
-        assert_int_equal(octree_collide_swept(tree, at, bad, 1, NULL, brute_collect, &found), OCTREE_NOT_FINITE);
+        assert_int_equal(octree_collide_swept(tree, bad, at, 1, NULL, NULL, brute_collect, &found), OCTREE_NOT_FINITE);
+        assert_int_equal(octree_collide_swept(tree, at, bad, 1, NULL, NULL, brute_collect, &found), OCTREE_NOT_FINITE);
     }
     assert_int_equal(found.count, 0);
     assert_int_equal(hits(tree, at, at, -0.0, NULL), 1);
@@ -369,7 +369,8 @@ static void the_visitor_can_stop_after_any_number(void **state)
     const double from[3] = {0, -3, 0}, to[3] = {0, 3, 0};
     for (size_t stop = 1; stop <= 21; stop++) {
         patience p = {stop, 0};
-        assert_int_equal(octree_collide_swept(tree, from, to, 1, NULL, visit_until_out_of_patience, &p), OCTREE_OK);
+        assert_int_equal(octree_collide_swept(tree, from, to, 1, NULL, NULL, visit_until_out_of_patience, &p),
+                         OCTREE_OK);
         assert_int_equal(p.visits, stop < 20 ? stop : 20);
     }
     octree_destroy(tree);

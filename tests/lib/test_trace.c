@@ -156,14 +156,64 @@ static void what_lies_apart_from_the_world_prunes_the_root(void **state)
     static trace t;
     t.count = 0;
     octree_neighbor found;
-    const octree_search how = {.trace = note, .trace_context = &t};
+    octree_cost cost = {0};
+    const octree_search how = {.cost = &cost, .trace = note, .trace_context = &t};
     const double far_off[3] = {9, 9, 9};
+    const octree_box box = cube(8, 9);
+    assert_int_equal(octree_range_search(tree, &box, &how, ignore, NULL), OCTREE_OK);
     assert_int_equal(octree_radius(tree, far_off, 1, &how, ignore, NULL), OCTREE_OK);
     assert_int_equal(octree_nearest_within(tree, far_off, 1, &how, &found), OCTREE_NOT_FOUND);
-    assert_int_equal(t.count, 2);
+    assert_int_equal(t.count, 3);
     for (size_t i = 0; i < t.count; i++)
         assert_true(t.items[i].node == OCTREE_ROOT && t.items[i].touch == OCTREE_TOUCH_PRUNED);
+    assert_true(cost.nodes == 0 && cost.pruned == 3);
     octree_destroy(tree);
+}
+
+static void assert_same_traces(const trace *a, octree_cost cost_a, const trace *b, octree_cost cost_b)
+{
+    assert_int_equal(a->count, b->count);
+    for (size_t i = 0; i < a->count; i++)
+        assert_true(a->items[i].node == b->items[i].node && a->items[i].touch == b->items[i].touch);
+    assert_true(cost_a.nodes == cost_b.nodes && cost_a.leaves == cost_b.leaves && cost_a.points == cost_b.points &&
+                cost_a.pruned == cost_b.pruned);
+}
+
+/* A collision asks for its box, and on the way for the box around the whole step. */
+static void collisions_are_traced_as_the_boxes_that_they_ask_for(void **state)
+{
+    (void)state;
+    static trace of_collision, of_box;
+    uint64_t random = 8;
+    brute all = {0};
+    octree *tree = sampled_tree(&all, OCTREE_SAMPLE_CLUSTERED);
+    for (int i = 0; i < 60; i++) {
+        double from[3], to[3];
+        const double size = random_between(&random, 0, 0.3);
+        for (int axis = 0; axis < 3; axis++) {
+            from[axis] = random_between(&random, -1, 1);
+            to[axis] = i % 2 ? random_between(&random, -1, 1) : from[axis];
+        }
+        octree_cost collision_cost = {0}, box_cost = {0};
+        const octree_search collide = {.cost = &collision_cost, .trace = note, .trace_context = &of_collision};
+        const octree_search range = {.cost = &box_cost, .trace = note, .trace_context = &of_box};
+        octree_box box, end;
+        octree_collision_box(from, size, &box);
+        octree_collision_box(to, size, &end);
+        for (int axis = 0; axis < 3; axis++) {
+            box.min[axis] = fmin(box.min[axis], end.min[axis]);
+            box.max[axis] = fmax(box.max[axis], end.max[axis]);
+        }
+        of_collision.count = of_box.count = 0;
+        assert_int_equal(octree_range_search(tree, &box, &range, ignore, NULL), OCTREE_OK);
+        assert_int_equal(i % 2 ? octree_collide_swept(tree, from, to, size, NULL, &collide, ignore, NULL)
+                               : octree_collide_search(tree, from, size, NULL, &collide, ignore, NULL),
+                         OCTREE_OK);
+        assert_true(of_box.count > 0);
+        assert_same_traces(&of_collision, collision_cost, &of_box, box_cost);
+    }
+    octree_destroy(tree);
+    brute_free(&all);
 }
 
 int main(void)
@@ -172,6 +222,7 @@ int main(void)
         cmocka_unit_test(a_range_names_what_it_visits_takes_and_leaves_out),
         cmocka_unit_test(a_ball_and_neighbors_name_every_node_that_they_count),
         cmocka_unit_test(what_lies_apart_from_the_world_prunes_the_root),
+        cmocka_unit_test(collisions_are_traced_as_the_boxes_that_they_ask_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

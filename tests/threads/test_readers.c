@@ -40,7 +40,7 @@ static void ask(reader *r, const double at[3])
     octree_range_count(r->tree, &box, &count);
     octree_radius(r->tree, at, 80, NULL, add_id, &r->answers);
     octree_collide(r->tree, at, 60, NULL, add_id, &r->answers);
-    octree_collide_swept(r->tree, at, to, 20, NULL, add_id, &r->answers);
+    octree_collide_swept(r->tree, at, to, 20, NULL, NULL, add_id, &r->answers);
     octree_nearest_k(r->tree, at, 8, NULL, nearest, &count);
     r->answers += nearest[count - 1].point.id;
     octree_nearest_batch(r->tree, &to, 1, NULL, nearest, found);

@@ -109,7 +109,7 @@ static void values_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--region 1,2,3", "six numbers"},
         {"--region 0,0,0,1,-1,1", "below"},
         {"--region 2000,0,0,3000,1,1", "on x it reaches from 2000 to 3000"},
-        {"--layers nodes,walls", "there is no layer \"walls\"; there are world, nodes, points, "},
+        {"--layers nodes,walls", "there is no layer \"walls\"; there are world, nodes, visit-heat, "},
         {"--layers nodes,,text", "layer"},
         {"--layers=", "layer"},
         {"--layers --", "layer"},

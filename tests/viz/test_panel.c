@@ -1,6 +1,7 @@
 /* test_panel.c - the words and swatches beside a picture: what they tell, and that they fit their place. */
 #include "scenes.h"
 #include "brute.h"
+#include "draw_list.h"
 #include "layout.h"
 
 #include <stdio.h>
@@ -88,24 +89,103 @@ static bool has_swatch(const scene *s, unsigned role)
     return false;
 }
 
-static void the_legend_has_the_colours_of_the_layers_that_are_shown(void **state)
+/* The layers that have a line in the legend, what colour its swatch has and what its words say. */
+static const struct legend_row {
+    view_layer layer;
+    unsigned role;
+    bool shared; /* other layers have this colour too */
+    const char *text;
+} legend_rows[] = {
+    {LAYER_NODES, ROLE_NODE, true, "shallow to deep"},
+    {LAYER_VISITED, ROLE_NODE + 2, true, " visited"},
+    {LAYER_PRUNED, ROLE_NODE + 2, true, " pruned"},
+    {LAYER_HIT, ROLE_POINT, true, " hit"},
+    {LAYER_SPLITS, ROLE_POINT, true, " split"},
+    {LAYER_MERGES, ROLE_POINT, true, " merged"},
+    {LAYER_VISIT_HEAT, ROLE_NODE + 9, true, "+ visits"},
+    {LAYER_POINT_HEAT, ROLE_NODE + 9, true, "+ points"},
+    {LAYER_POINTS, ROLE_POINT, true, "point"},
+    {LAYER_RANGE, ROLE_RANGE, false, "range query"},
+    {LAYER_RADIUS, ROLE_RADIUS, false, "radius query"},
+    {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"},
+    {LAYER_NEAREST, ROLE_NEAREST, false, "nearest point"},
+    {LAYER_PLAYER, ROLE_PLAYER, false, "player and its box"},
+    {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
+};
+
+#define LEGEND_ROWS (sizeof legend_rows / sizeof legend_rows[0])
+
+/* Whether the row is in the legend, whose words begin right of a swatch. Of points the whole text is compared: other
+ * rows have the word too. */
+static bool is_explained(const scene *s, const struct legend_row *row)
+{
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label *label = &s->labels.items[i];
+        if (label->look.layer != LAYER_TEXT || label->at[0] != 34 * s->unit)
+            continue;
+        if (row->layer == LAYER_POINTS ? strcmp(label->text, row->text) == 0 : strstr(label->text, row->text) != NULL)
+            return true;
+    }
+    return false;
+}
+
+/* Each layer alone has its line and no other; without it, all others have theirs. There is room for all. */
+static void the_legend_has_the_layers_that_are_shown(void **state)
 {
     (void)state;
-    static const struct {
-        view_layer layer;
-        theme_role role;
-    } rows[] = {{LAYER_NODES, ROLE_NODE},    {LAYER_POINTS, ROLE_POINT},      {LAYER_RANGE, ROLE_RANGE},
-                {LAYER_RADIUS, ROLE_RADIUS}, {LAYER_KNEAREST, ROLE_KNEAREST}, {LAYER_NEAREST, ROLE_NEAREST},
-                {LAYER_PLAYER, ROLE_PLAYER}, {LAYER_BOX, ROLE_COLLISION}};
     const octree_session session = asking_session();
     octree_game *game = start_game(&session);
     scene s = {0};
-    for (unsigned layers = 0; layers <= VIEW_ALL_LAYERS; layers++) {
-        const view v = view_of(1280, 720, CAMERA_ISO, layers);
-        build_tick(&s, &v, game);
-        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-            assert_int_equal(has_swatch(&s, rows[i].role), view_shows(&v, rows[i].layer) && view_shows(&v, LAYER_TEXT));
+    for (size_t i = 0; i < LEGEND_ROWS; i++) {
+        for (unsigned text = 0; text < 2; text++) {
+            const unsigned words = text << LAYER_TEXT, own = 1u << legend_rows[i].layer;
+            view v = view_of(1280, 1440, CAMERA_ISO, own | words);
+            build_tick(&s, &v, game);
+            for (size_t j = 0; j < LEGEND_ROWS; j++)
+                assert_int_equal(is_explained(&s, &legend_rows[j]), text && i == j);
+            assert_int_equal(has_swatch(&s, legend_rows[i].role), text);
+            v.layers = VIEW_ALL_LAYERS & ~own & ~(text ? 0 : 1u << LAYER_TEXT);
+            build_tick(&s, &v, game);
+            for (size_t j = 0; j < LEGEND_ROWS; j++)
+                assert_int_equal(is_explained(&s, &legend_rows[j]), text && i != j);
+            assert_true(legend_rows[i].shared || !has_swatch(&s, legend_rows[i].role));
+        }
     }
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+/* What has nothing in the frame goes first, then what explains itself; all others stay, or there is no legend. */
+static void the_legend_leaves_out_what_is_needed_least(void **state)
+{
+    (void)state;
+    const octree_session session = asking_session();
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    size_t whole = 0, partial = 0, none = 0;
+    for (int height = 200; height <= 1440; height += 10) {
+        const view v = view_of(1280, height, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+        size_t explained = 0, empty_left = 0, plain_left = 0, needed = 0, needed_left = 0;
+        build_tick(&s, &v, game);
+        check_place(&s);
+        for (size_t i = 0; i < LEGEND_ROWS; i++) {
+            const struct legend_row *row = &legend_rows[i];
+            const layer_counts found = count_layer(&s, row->layer);
+            const bool there = is_explained(&s, row), plain = row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER;
+            const bool empty = found.boxes + found.segments + found.markers == 0;
+            explained += there;
+            empty_left += there && empty;
+            plain_left += there && !empty && plain;
+            needed += !empty && !plain;
+            needed_left += there && !empty && !plain;
+        }
+        assert_true(explained == 0 || needed_left == needed);
+        assert_true(plain_left == 2 || empty_left == 0);
+        whole += explained == LEGEND_ROWS - 2;
+        partial += explained > 0 && explained < LEGEND_ROWS - 2;
+        none += explained == 0;
+    }
+    assert_true(whole > 0 && partial > 0 && none > 0);
     octree_game_destroy(game);
     scene_release(&s);
 }
@@ -266,7 +346,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_tick_tells_its_number_and_its_events),
-        cmocka_unit_test(the_legend_has_the_colours_of_the_layers_that_are_shown),
+        cmocka_unit_test(the_legend_has_the_layers_that_are_shown),
+        cmocka_unit_test(the_legend_leaves_out_what_is_needed_least),
         cmocka_unit_test(the_legend_leaves_out_queries_that_the_session_never_asks),
         cmocka_unit_test(a_sweep_is_told),
         cmocka_unit_test(answers_are_told_in_words),

@@ -188,13 +188,14 @@ static uint64_t layer_digest(const scene *s, unsigned layer)
     return digest;
 }
 
-/* The text tells what the other layers show: it alone may change with them. The numbers of the world's axes are text too.
+/* The text tells what the other layers show: it alone may change with them. The numbers of the world's axes are text
+ * too.
  */
-static void check_without_layer(const scene *all, const octree_game *game, unsigned off)
+static void check_without_layer(const scene *all, const octree_game *game, const heat *h, unsigned off)
 {
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS & ~(1u << off));
     scene s = {0};
-    build_tick(&s, &v, game);
+    build_hot_tick(&s, &v, game, h);
     assert_int_equal(elements(count_layer(&s, off)), 0);
     for (unsigned layer = 0; layer < LAYER_TEXT; layer++)
         if (layer != off && !(off == LAYER_TEXT && layer == LAYER_WORLD))
@@ -209,17 +210,20 @@ static void a_layer_that_is_off_is_absent_and_the_others_stay_as_they_are(void *
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS);
     octree_game *game = start_game(&session);
     scene all = {0};
-    bool shown[LAYER_COUNT] = {false};
+    heat h = {0};
+    bool shown[LAYER_COUNT] = {[LAYER_BROKEN] = true}; /* test_change_layers.c has a tree that is */
     while (!octree_game_over(game)) {
         play_tick(game);
-        build_tick(&all, &v, game);
+        assert_true(heat_add_tick(&h, game));
+        build_hot_tick(&all, &v, game, &h);
         for (unsigned layer = 0; layer < LAYER_COUNT; layer++)
             shown[layer] |= elements(count_layer(&all, layer)) != 0;
         for (unsigned layer = 0; octree_game_tick(game)->number % 5 == 0 && layer < LAYER_COUNT; layer++)
-            check_without_layer(&all, game, layer);
+            check_without_layer(&all, game, &h, layer);
     }
     for (unsigned layer = 0; layer < LAYER_COUNT; layer++)
         assert_true(shown[layer]);
+    heat_release(&h);
     scene_release(&all);
     octree_game_destroy(game);
 }

@@ -65,22 +65,29 @@ static void line_is_exactly_this(void **state)
 {
     static const char expected[] =
         "{\"tick\": 3, \"key\": \"w\", \"player\": [0.1, -0, 1e+300], \"events\": [\"moved\", \"split\"], "
-        "\"attempt\": [0.1, 50, 1e+300], \"hits\": [4, 9007199254740991], \"answers\": [{\"nearest\": {\"target\": "
-        "[1, 2, 3], \"id\": null}}, {\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4]}}, "
-        "{\"knearest\": "
-        "{\"target\": [4, 5, 6], \"k\": 8, \"neighbors\": [{\"id\": 9, \"position\": [4, 5, 7], \"distance\": 1}]}}, "
-        "{\"radius\": {\"center\": [7, 8, 9], \"radius\": 0.5, \"ids\": []}}], "
-        "\"refusals\": [{\"id\": 7, \"why\": \"outside\", \"position\": [4.94065645841247e-324, 0, 0]}], \"splits\": "
-        "[\"root\", \"0/7\"], \"merges\": [], \"tree\": {\"points\": 2, \"nodes\": 5, \"leaves\": 4, \"depth\": 1, "
-        "\"digest\": "
-        "\"00000000000000ff\"}, \"frame\": \"frame_000003.png\", \"scene\": \"ffffffffffffffff\"}\n";
+        "\"attempt\": [0.1, 50, 1e+300], \"hits\": [4, 9007199254740991], "
+        "\"hit_cost\": {\"nodes\": 1, \"leaves\": 2, \"points\": 3, \"pruned\": 4}, "
+        "\"answers\": [{\"nearest\": {\"target\": [1, 2, 3], \"id\": null, "
+        "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 1}}}, "
+        "{\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4], "
+        "\"cost\": {\"nodes\": 5, \"leaves\": 6, \"points\": 7, \"pruned\": 8}}}, "
+        "{\"knearest\": {\"target\": [4, 5, 6], \"k\": 8, "
+        "\"neighbors\": [{\"id\": 9, \"position\": [4, 5, 7], \"distance\": 1}], "
+        "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 0}}}, "
+        "{\"radius\": {\"center\": [7, 8, 9], \"radius\": 0.5, \"ids\": [], "
+        "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 18446744073709551615}}}], "
+        "\"visits\": {\"visited\": 10, \"taken\": 12, \"pruned\": 11, \"hit\": 13}, "
+        "\"refusals\": [{\"id\": 7, \"why\": \"outside\", \"position\": [4.94065645841247e-324, 0, 0]}], "
+        "\"splits\": [\"root\", \"0/7\"], \"merges\": [], "
+        "\"tree\": {\"points\": 2, \"nodes\": 5, \"leaves\": 4, \"depth\": 1, \"digest\": \"00000000000000ff\"}, "
+        "\"frame\": \"frame_000003.png\", \"scene\": \"ffffffffffffffff\"}\n";
     const octree_point hits[] = {{.id = 4}, {.id = 9007199254740991}};
     const octree_neighbor near = {.point = {.position = {4, 5, 7}, .id = 9}, .distance = 1};
     const octree_answer answers[] = {
-        {.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}},
-        {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1},
+        {.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}, .cost = {.pruned = 1}},
+        {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1, .cost = {5, 6, 7, 8}},
         {.kind = OCTREE_QUERY_KNEAREST, .target = {4, 5, 6}, .k = 8, .neighbors = &near, .count = 1},
-        {.kind = OCTREE_QUERY_RADIUS, .target = {7, 8, 9}, .radius = 0.5},
+        {.kind = OCTREE_QUERY_RADIUS, .target = {7, 8, 9}, .radius = 0.5, .cost = {.pruned = UINT64_MAX}},
     };
     const octree_refusal refused = {7, OCTREE_OUTSIDE, {5e-324, 0, 0}};
     const octree_address splits[] = {OCTREE_ROOT, 0107};
@@ -91,12 +98,15 @@ static void line_is_exactly_this(void **state)
                               .attempt = {0.1, 50, 1e300},
                               .hits = hits,
                               .hit_count = 2,
+                              .hit_cost = {1, 2, 3, 4},
                               .refusals = &refused,
                               .refusal_count = 1,
                               .splits = splits,
                               .split_count = 2,
                               .answers = answers,
-                              .answer_count = 4};
+                              .answer_count = 4,
+                              .touched = {10, 11, 12},
+                              .hit_leaf_count = 13};
     const tick_extras extras = {.tree_digest = 255,
                                 .stats = {.points = 2, .nodes = 5, .leaves = 4, .depth = 1},
                                 .frame = "frame_000003.png",

@@ -72,10 +72,13 @@ static void lists_of_layers_are_read_from_left_to_right(void **state)
         {"none", 0},
         {"nodes,points", 1u << LAYER_NODES | 1u << LAYER_POINTS},
         {"points,nodes,points", 1u << LAYER_NODES | 1u << LAYER_POINTS},
-        {"-text", VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT)},
-        {"-text,-nodes", VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT | 1u << LAYER_NODES)},
+        {"default", VIEW_DEFAULT_LAYERS},
+        {"default,visit-heat,point-heat", VIEW_ALL_LAYERS},
+        {"-text", VIEW_DEFAULT_LAYERS & ~(1u << LAYER_TEXT)},
+        {"-text,-nodes", VIEW_DEFAULT_LAYERS & ~(1u << LAYER_TEXT | 1u << LAYER_NODES)},
+        {"all,-visit-heat,-point-heat", VIEW_DEFAULT_LAYERS},
         {"all,-box", VIEW_ALL_LAYERS & ~(1u << LAYER_BOX)},
-        {"-box,box", VIEW_ALL_LAYERS},
+        {"-box,box", VIEW_DEFAULT_LAYERS},
         {"nodes,-nodes", 0},
         {"none,world", 1u << LAYER_WORLD},
     };
@@ -115,14 +118,14 @@ static void unknown_layers_are_pointed_at_and_change_nothing(void **state)
     }
 }
 
-static void the_default_view_shows_everything_in_even_sides(void **state)
+static void the_default_view_shows_everything_but_heat_in_even_sides(void **state)
 {
     (void)state;
     const view v = view_default();
     assert_true(v.width == 1280 && v.height == 720);
     assert_int_equal(v.camera, CAMERA_ISO);
     for (int i = 0; i < LAYER_COUNT; i++)
-        assert_true(view_shows(&v, (view_layer)i));
+        assert_int_equal(view_shows(&v, (view_layer)i), i != LAYER_VISIT_HEAT && i != LAYER_POINT_HEAT);
 }
 
 static void unit_is_a_whole_pixel_at_least_and_grows_with_the_picture(void **state)
@@ -150,7 +153,7 @@ int main(void)
         cmocka_unit_test(every_layer_is_found_by_its_name),
         cmocka_unit_test(lists_of_layers_are_read_from_left_to_right),
         cmocka_unit_test(unknown_layers_are_pointed_at_and_change_nothing),
-        cmocka_unit_test(the_default_view_shows_everything_in_even_sides),
+        cmocka_unit_test(the_default_view_shows_everything_but_heat_in_even_sides),
         cmocka_unit_test(unit_is_a_whole_pixel_at_least_and_grows_with_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

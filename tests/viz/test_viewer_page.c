@@ -175,14 +175,20 @@ static void assert_facts_said(char **at, const char *what, const json_t *value)
 
 static void assert_tick_said(const char *line, size_t number, void *context)
 {
-    static const char *const curves[] = {"nodes", "depth", "points"};
+    static const struct {
+        const char *name, *object, *member;
+    } curves[] = {{"nodes", "tree", "nodes"},
+                  {"depth", "tree", "depth"},
+                  {"points", "tree", "points"},
+                  {"visits", "visits", "visited"}};
     char what[64];
     json_t *tick = json_read(line);
     snprintf(what, sizeof what, "%zu ", number);
     assert_facts_said(context, what, tick);
     for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) {
-        snprintf(what, sizeof what, "%zu curve %s", number, curves[i]);
-        assert_shown(what, take_value(context, what), json_member(json_member(tick, "tree"), curves[i]));
+        snprintf(what, sizeof what, "%zu curve %s", number, curves[i].name);
+        assert_shown(what, take_value(context, what),
+                     json_member(json_member(tick, curves[i].object), curves[i].member));
     }
     json_decref(tick);
 }

@@ -301,7 +301,8 @@ static const struct {
     {"camera", "NAME", read_camera, "(default iso) one of", camera_at},
     {"fit", "WHAT", read_fit, "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
      NULL},
-    {"layers", "LIST", read_layers, "(default all; -text leaves one out) with commas between, of", layer_at},
+    {"layers", "LIST", read_layers, "(default all but heat; -text leaves one out, default,visit-heat adds one) of",
+     layer_at},
     {"color-by", "MODE", read_coloring, "what the colour of a node tells (default depth): one of", coloring_at},
     {"diagram", "WHERE", read_diagram, "draw the tree as a tree, its root at the top (default none): one of",
      diagram_at},
@@ -346,6 +347,18 @@ bool read_view(const view_options *given, view *v)
     return true;
 }
 
+/* In lines of their own, below what an option does. */
+static void list_names(FILE *out, name_at *name)
+{
+    int room = 0;
+    for (int i = 0; name(i); i++) {
+        const int length = (int)strlen(name(i)) + 2;
+        const bool fits = length <= room;
+        fprintf(out, "%s%s%s", i ? "," : "", fits ? " " : "\n                        ", name(i));
+        room = (fits ? room : 90) - length;
+    }
+}
+
 void print_view_options(FILE *out)
 {
     for (size_t i = 0; i < ROWS; i++) {
@@ -353,10 +366,8 @@ void print_view_options(FILE *out)
         snprintf(name, sizeof name, "--%s%s%s", rows[i].name, rows[i].value ? " " : "",
                  rows[i].value ? rows[i].value : "");
         fprintf(out, "      %-17s %s", name, rows[i].help);
-        if (rows[i].names) {
-            fputs("\n                        ", out);
-            print_names(out, rows[i].names);
-        }
+        if (rows[i].names)
+            list_names(out, rows[i].names);
         fputc('\n', out);
     }
 }

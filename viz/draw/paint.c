@@ -18,11 +18,10 @@ void painter_release(painter *p)
 
 static void stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_look look, unsigned depth)
 {
+    static void (*const strokes[])(quad_list *, const pencil *, const piece *, unsigned) = {
+        [STYLE_SOLID] = stroke_solid, [STYLE_DASHED] = stroke_dashed, [STYLE_CUT] = stroke_cut};
     const pencil with = pencil_make(s, look, depth);
-    if (look.style == STYLE_DASHED)
-        stroke_dashed(&p->quads, &with, pieces, count);
-    else
-        stroke_solid(&p->quads, &with, pieces, count);
+    strokes[look.style](&p->quads, &with, pieces, count);
 }
 
 static void paint_segment(painter *p, const scene *s, const double from[3], const double to[3], scene_look look,

@@ -8,17 +8,31 @@
 #define DASH 6
 #define GAP 4
 
+/* Pixels. A line that is to be bold is so in the smallest picture too. */
+static int line_width(const scene *s, unsigned wanted)
+{
+    const int width = (int)wanted * s->unit / 2, least = wanted > 1 ? 2 : 1;
+    return width > least ? width : least;
+}
+
 pencil pencil_make(const scene *s, scene_look look, unsigned depth)
 {
-    const int width = look.width * s->unit / 2, samples = view_samples(&s->view);
-    return (pencil){
-        .look = look, .width = (width > 1 ? width : 1) * samples, .unit = s->unit, .samples = samples, .depth = depth};
+    const int samples = view_samples(&s->view);
+    return (pencil){.look = look,
+                    .width = line_width(s, look.width) * samples,
+                    .unit = s->unit,
+                    .samples = samples,
+                    .depth = depth};
 }
 
 /* What the tick is about fades less than the tree around it: the last bands would drown it. */
 static unsigned shade_of(const pencil *with, unsigned band)
 {
-    return with->look.layer >= LAYER_RANGE ? band / 3 : band;
+    static const bool fades[LAYER_DIAGRAM + 1] = {
+        [LAYER_WORLD] = true, [LAYER_NODES] = true, [LAYER_PRUNED] = true, [LAYER_POINTS] = true};
+    if (with->look.role == ROLE_BACKGROUND)
+        return 0;
+    return fades[with->look.layer] ? band : band / 3;
 }
 
 static quad blank(const pencil *with, unsigned band)
@@ -107,6 +121,14 @@ void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, uns
         }
         phase = fmod(phase + length, period);
     }
+}
+
+void stroke_cut(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+{
+    pencil ground = *with;
+    ground.look.role = ROLE_BACKGROUND;
+    stroke_solid(list, &ground, pieces, count);
+    stroke_dashed(list, with, pieces, count);
 }
 
 static void add_frame(quad_list *list, quad q, int left, int top, int side, int line)

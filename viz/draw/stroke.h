@@ -19,6 +19,7 @@ pencil pencil_make(const scene *s, scene_look look, unsigned depth);
 /* The pieces of one segment. However short, it leaves a mark of at least one pixel. */
 void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
+void stroke_cut(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
 void stroke_panel(quad_list *list, const scene_panel *panel, int samples);

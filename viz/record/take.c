@@ -6,6 +6,13 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+/* Add the tick that was played last. */
+static bool grow_hot(take *t, record_error *error)
+{
+    return !(t->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&t->heat, t->game) ||
+           record_fail(error, "there is no memory for the heat of the nodes");
+}
+
 bool take_open(take *t, const octree_session *session, const film_options *options, take_frames frames,
                record_error *error)
 {
@@ -13,13 +20,14 @@ bool take_open(take *t, const octree_session *session, const film_options *optio
     const octree_status status = octree_game_create(session, &t->game);
     if (status != OCTREE_OK)
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
-    return picture_fit(&t->view, octree_game_tree(t->game), error) &&
+    return grow_hot(t, error) && picture_fit(&t->view, octree_game_tree(t->game), error) &&
            (frames == FRAMES_CHECK || picture_open(&t->picture, &t->view, &options->renderer, error));
 }
 
 void take_close(take *t)
 {
     octree_game_destroy(t->game);
+    heat_release(&t->heat);
     picture_close(&t->picture);
     scene_release(&t->scene);
     free(t->line);
@@ -37,7 +45,7 @@ static bool draw_frame(take *t, frame_origin *origin, record_error *error)
 static bool take_frame(take *t, film_step *step, record_error *error)
 {
     record_error unlike;
-    if (!tick_scene_build(&t->scene, &t->view, t->game))
+    if (!tick_scene_build(&t->scene, &t->view, t->game, &t->heat))
         return record_fail(error, "there is no memory for a scene");
     t->extras.scene_digest = scene_digest(&t->scene);
     frame_origin origin = {.tick = step->tick, .session = t->session_digest, .scene = t->extras.scene_digest};
@@ -89,6 +97,8 @@ bool take_tick(take *t, film_step *step, record_error *error)
 bool take_advance(take *t, record_error *error)
 {
     const octree_status status = octree_game_advance(t->game);
-    return status == OCTREE_OK || record_fail(error, "tick %" PRIu64 " cannot be played: %s",
-                                              octree_game_tick(t->game)->number, octree_status_text(status));
+    if (status != OCTREE_OK)
+        return record_fail(error, "tick %" PRIu64 " cannot be played: %s", octree_game_tick(t->game)->number,
+                           octree_status_text(status));
+    return grow_hot(t, error);
 }

@@ -3,6 +3,7 @@
 #define RECORD_TAKE_H
 
 #include "film.h"
+#include "heat.h"
 #include "picture.h"
 #include "ticks_write.h"
 
@@ -20,6 +21,7 @@ typedef struct take {
     take_frames frames;
     uint64_t session_digest; /* of session.json; to be set before the first tick is taken */
     octree_game *game;
+    heat heat; /* of all ticks that were played, whether they are taken or not; where the view shows it */
     picture picture;
     scene scene;
     uint64_t tree_version; /* of the tree that `extras` describes */

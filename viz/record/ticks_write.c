@@ -119,6 +119,23 @@ static void write_radius(json_writer *w, const octree_answer *answer)
     write_ids(w, "ids", answer->points, answer->count);
 }
 
+static void write_count(json_writer *w, const char *key, uint64_t count)
+{
+    json_write_key(w, key);
+    json_write_integer(w, count);
+}
+
+static void write_cost(json_writer *w, const char *key, const octree_cost *cost)
+{
+    json_write_key(w, key);
+    json_write_begin_object(w);
+    write_count(w, "nodes", cost->nodes);
+    write_count(w, "leaves", cost->leaves);
+    write_count(w, "points", cost->points);
+    write_count(w, "pruned", cost->pruned);
+    json_write_end_object(w);
+}
+
 static void write_answers(json_writer *w, const octree_tick *tick)
 {
     static void (*const writers[OCTREE_QUERY_KINDS])(json_writer *, const octree_answer *) = {
@@ -135,24 +152,33 @@ static void write_answers(json_writer *w, const octree_tick *tick)
         json_write_key(w, octree_query_name(answer->kind));
         json_write_begin_object(w);
         writers[answer->kind](w, answer);
+        write_cost(w, "cost", &answer->cost);
         json_write_end_object(w);
         json_write_end_object(w);
     }
     json_write_end_array(w);
 }
 
+/* How many nodes all questions of the tick met in each way, and how many leaves hold what was found. */
+static void write_visits(json_writer *w, const octree_tick *tick)
+{
+    json_write_key(w, "visits");
+    json_write_begin_object(w);
+    write_count(w, "visited", tick->touched[OCTREE_TOUCH_VISITED]);
+    write_count(w, "taken", tick->touched[OCTREE_TOUCH_TAKEN]);
+    write_count(w, "pruned", tick->touched[OCTREE_TOUCH_PRUNED]);
+    write_count(w, "hit", tick->hit_leaf_count);
+    json_write_end_object(w);
+}
+
 static void write_tree(json_writer *w, const tick_extras *extras)
 {
     json_write_key(w, "tree");
     json_write_begin_object(w);
-    json_write_key(w, "points");
-    json_write_integer(w, extras->stats.points);
-    json_write_key(w, "nodes");
-    json_write_integer(w, extras->stats.nodes);
-    json_write_key(w, "leaves");
-    json_write_integer(w, extras->stats.leaves);
-    json_write_key(w, "depth");
-    json_write_integer(w, extras->stats.depth);
+    write_count(w, "points", extras->stats.points);
+    write_count(w, "nodes", extras->stats.nodes);
+    write_count(w, "leaves", extras->stats.leaves);
+    write_count(w, "depth", extras->stats.depth);
     write_digest(w, "digest", extras->tree_digest);
     json_write_end_object(w);
 }
@@ -175,7 +201,9 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
         write_position(w, "from", tick->from);
     write_position(w, "attempt", tick->attempt);
     write_ids(w, "hits", tick->hits, tick->hit_count);
+    write_cost(w, "hit_cost", &tick->hit_cost);
     write_answers(w, tick);
+    write_visits(w, tick);
     write_refusals(w, tick);
     write_addresses(w, "splits", tick->splits, tick->split_count);
     write_addresses(w, "merges", tick->merges, tick->merge_count);

@@ -1,8 +1,8 @@
 /* panel.c - see panel.h. */
 #include "panel.h"
-#include "diagram_legend.h"
 #include "layout.h"
 #include "number_text.h"
+#include "panel_legend.h"
 #include "panel_pen.h"
 #include "panel_view.h"
 
@@ -83,14 +83,6 @@ static void write_ids(pen *p, const char *name, const octree_point *points, size
     write_row(p, name, "%s%s", text, count > MOST_IDS ? " .." : "");
 }
 
-static void write_addresses(pen *p, const char *name, const octree_address *addresses, size_t count)
-{
-    char text[OCTREE_ADDRESS_TEXT];
-    if (count == 0)
-        return;
-    write_row(p, name, "%s%s", octree_address_format(addresses[count - 1], text), count > 1 ? " .." : "");
-}
-
 static void write_nearest(pen *p, const octree_answer *answer)
 {
     char distance[32];
@@ -158,100 +150,33 @@ static void write_keys(pen *p, const octree_game *game)
     }
 }
 
-typedef struct legend_entry {
-    unsigned layer;
-    theme_role role;
-    int height; /* of the swatch: 1 is a line, more a square */
-    scene_style style;
-    const char *text;
-    bool swept; /* in sessions alone that are swept */
-} legend_entry;
-
-static const legend_entry legend[] = {
-    {LAYER_POINTS, ROLE_POINT, 2, STYLE_SOLID, "point", false},
-    {LAYER_PLAYER, ROLE_PLAYER, 5, STYLE_SOLID, "player and its box", false},
-    {LAYER_BOX, ROLE_COLLISION, 5, STYLE_SOLID, "collision, crossed", false},
-    {LAYER_BOX, ROLE_COLLISION, 1, STYLE_DASHED, "way to a hit, dashed", true},
-    {LAYER_RANGE, ROLE_RANGE, 1, STYLE_DASHED, "range query, dashed", false},
-    {LAYER_RADIUS, ROLE_RADIUS, 1, STYLE_SOLID, "radius query, round", false},
-    {LAYER_KNEAREST, ROLE_KNEAREST, 1, STYLE_SOLID, "k nearest, numbered", false},
-    {LAYER_NEAREST, ROLE_NEAREST, 1, STYLE_DASHED, "nearest point, dashed", false},
-};
-
-#define LEGEND_ENTRIES (sizeof legend / sizeof legend[0])
-
-/* The layer of each kind of query. */
-static const view_layer query_layers[OCTREE_QUERY_KINDS] = {
-    [OCTREE_QUERY_RANGE] = LAYER_RANGE,
-    [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
-    [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
-    [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
-};
-
-/* The layers that a session can show, as bits: those of queries that it never asks are left out. The nearest point is
- * asked for by a key too. */
-static unsigned layers_of(const octree_session *session)
+/* The sentence in lines that fit the column, broken at blanks. */
+static void write_wrapped(pen *p, theme_role role, const char *text)
 {
-    unsigned asked = 1u << LAYER_NEAREST, others = VIEW_ALL_LAYERS;
-    for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++)
-        others &= ~(1u << query_layers[i]);
-    for (size_t i = 0; i < session->query_count; i++)
-        asked |= 1u << query_layers[session->queries[i].kind];
-    return asked | others;
+    const size_t most = (COLUMN - MARGIN) / LETTER;
+    while (*text) {
+        char line[SCENE_TEXT];
+        size_t length = strlen(text);
+        for (size_t i = length > most ? most : 0; i > 0; i--)
+            if (text[i] == ' ') {
+                length = i;
+                break;
+            }
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        write_text(p, MARGIN, role, 1, line);
+        p->y += LINE;
+        text += length + (text[length] == ' ');
+    }
 }
 
-/* And those of a tree alone. */
-static unsigned layers_of_tree(const tree_look *about)
+static void write_finding(pen *p, const finding *found)
 {
-    unsigned layers = 1u << LAYER_NODES | 1u << LAYER_POINTS;
-    for (size_t i = 0; i < about->answer_count; i++)
-        layers |= 1u << query_layers[about->answers[i].kind];
-    return layers;
-}
-
-static void fill_line(pen *p, theme_role role, scene_style style)
-{
-    const int step = style == STYLE_DASHED ? 8 : SWATCH;
-    for (int x = 0; x < SWATCH; x += step)
-        fill(p, MARGIN + x, p->y + 4, style == STYLE_DASHED ? 5 : SWATCH, 1, role);
-}
-
-static void write_legend_entry(pen *p, const legend_entry *entry)
-{
-    const int height = entry->height;
-    if (height == 1)
-        fill_line(p, entry->role, entry->style);
-    else
-        fill(p, MARGIN + (SWATCH - height) / 2, p->y + 4 - height / 2, height, height, entry->role);
-    write_text(p, MARGIN + SWATCH + 6, ROLE_FAINT, 1, entry->text);
-    p->y += LINE;
-}
-
-static bool is_listed(const legend_entry *entry, unsigned layers, bool swept)
-{
-    return (layers >> entry->layer & 1) && (swept || !entry->swept);
-}
-
-/* The view's layers, of those that there can be. */
-static void write_legend(pen *p, size_t max_depth, unsigned layers, bool swept)
-{
-    const scene *s = p->scene;
-    layers &= s->view.layers;
-    if (view_shows(&s->view, LAYER_DIAGRAM))
-        layers |= 1u << LAYER_NODES;
-    int lines = (int)(layers >> LAYER_NODES & 1) + diagram_legend_lines(s);
-    for (size_t i = 0; i < LEGEND_ENTRIES; i++)
-        lines += is_listed(&legend[i], layers, swept);
-    const int top = s->view.height / s->unit - MARGIN - lines * LINE;
-    if (top < p->y + LINE / 2)
-        return; /* a low picture has no room for it */
-    p->y = top;
-    if (layers >> LAYER_NODES & 1)
-        write_node_legend(p, max_depth);
-    write_diagram_legend(p);
-    for (size_t i = 0; i < LEGEND_ENTRIES; i++)
-        if (is_listed(&legend[i], layers, swept))
-            write_legend_entry(p, &legend[i]);
+    char text[OCTREE_ADDRESS_TEXT];
+    if (!found->broken)
+        return;
+    p->y += LINE / 2;
+    write_row(p, "broken", "%s", octree_address_format(found->where, text));
+    write_wrapped(p, ROLE_WARNING, found->broken);
 }
 
 static void write_title(pen *p, const char *text)
@@ -268,10 +193,9 @@ static pen begin_panel(scene *s)
     return p;
 }
 
-void add_tick_panel(scene *s, const octree_game *game)
+void add_tick_panel(scene *s, const octree_game *game, const finding *found)
 {
     const octree_tick *tick = octree_game_tick(game);
-    const octree_session *session = octree_game_session(game);
     char title[SCENE_TEXT];
     snprintf(title, sizeof title, "tick %llu", (unsigned long long)tick->number);
     if (panel_width(&s->view) == 0) {
@@ -280,6 +204,7 @@ void add_tick_panel(scene *s, const octree_game *game)
         line.y += LINE;
         write_events(&line, tick);
         write_left_out(&line);
+        write_finding(&line, found);
         return;
     }
     pen p = begin_panel(s);
@@ -296,18 +221,20 @@ void add_tick_panel(scene *s, const octree_game *game)
     write_statistics(&p, octree_game_tree(game));
     write_left_out(&p);
     p.y += LINE / 2;
-    write_ids(&p, "hits", tick->hits, tick->hit_count);
+    if (tick->hit_count)
+        write_ids(&p, "hits", tick->hits, tick->hit_count);
     write_answers(&p, tick->answers, tick->answer_count);
     write_refusals(&p, tick);
-    write_addresses(&p, "split", tick->splits, tick->split_count);
-    write_addresses(&p, "merged", tick->merges, tick->merge_count);
-    write_legend(&p, session->tree.max_depth, layers_of(session), session->player.sweep);
+    write_finding(&p, found);
+    write_tick_legend(&p, game);
 }
 
-void add_tree_panel(scene *s, const octree *tree, const tree_look *about)
+void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const finding *found)
 {
     if (panel_width(&s->view) == 0) {
-        write_left_out(&(pen){.scene = s, .y = 4});
+        pen line = {.scene = s, .y = 4};
+        write_left_out(&line);
+        write_finding(&line, found);
         return;
     }
     pen p = begin_panel(s);
@@ -320,5 +247,6 @@ void add_tree_panel(scene *s, const octree *tree, const tree_look *about)
     if (about->answer_count)
         p.y += LINE / 2;
     write_answers(&p, about->answers, about->answer_count);
-    write_legend(&p, octree_definition(tree).max_depth, layers_of_tree(about), false);
+    write_finding(&p, found);
+    write_tree_legend(&p, tree, about);
 }

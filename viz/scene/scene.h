@@ -12,7 +12,11 @@
 #include "theme.h"
 #include "view.h"
 
-typedef enum scene_style { STYLE_SOLID, STYLE_DASHED } scene_style;
+typedef enum scene_style {
+    STYLE_SOLID,
+    STYLE_DASHED,
+    STYLE_CUT, /* dashed, and in its gaps nothing is seen of the lines beneath: what was solid there is dashed now */
+} scene_style;
 
 /* How an element looks. Width is in half units of the frame (view_unit): at 1280 x 720 a pixel. */
 typedef struct scene_look {

@@ -1,9 +1,13 @@
 /* tick_scene.c - a tick of a game as a scene: the tree, and on top of it what the tick asked and met. */
 #include "tick_scene.h"
 #include "answer_layers.h"
+#include "change_layers.h"
+#include "crossed_box.h"
 #include "diagram.h"
+#include "heat_layers.h"
 #include "panel.h"
 #include "tree_layers.h"
+#include "visit_layers.h"
 
 #include <string.h>
 
@@ -43,25 +47,8 @@ static void add_player(scene *s, const octree_tick *tick, const octree_session *
                      });
 }
 
-/* The ids of the lines of a collision, in this order. */
-enum { CROSS_LINES = 12, CORNERS = 8 };
-
-/* The diagonals of a box's six faces: what is crossed out is told apart without its colour. */
-static void add_crossed_faces(scene *s, const octree_box *box, scene_look look)
-{
-    for (unsigned face = 0; face < 6; face++) {
-        for (unsigned diagonal = 0; diagonal < 2; diagonal++) {
-            scene_segment line = {.id = face * 2 + diagonal, .look = look};
-            const unsigned fixed = face / 2, across = (fixed + 1) % 3, along = (fixed + 2) % 3;
-            for (unsigned end = 0; end < 2; end++) {
-                line.ends[end][fixed] = face % 2 ? box->max[fixed] : box->min[fixed];
-                line.ends[end][across] = end ? box->max[across] : box->min[across];
-                line.ends[end][along] = end != diagonal ? box->max[along] : box->min[along];
-            }
-            scene_add_segment(s, line);
-        }
-    }
-}
+/* The ids of the lines of a collision begin with those that cross its box out, then come these. */
+enum { CORNERS = 8 };
 
 static void add_way(scene *s, uint64_t id, const double from[3], const double to[3], scene_look look)
 {
@@ -122,18 +109,24 @@ static octree_address leaf_of(const octree *tree, const double position[3])
     return octree_locate(tree, position, &leaf) == OCTREE_OK ? leaf.address : 0;
 }
 
-bool tick_scene_build(scene *s, const view *v, const octree_game *game)
+bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h)
 {
     const octree_tick *tick = octree_game_tick(game);
     const octree_session *session = octree_game_session(game);
+    const octree *tree = octree_game_tree(game);
+    const finding found = find_broken(v, tree);
     begin_scene(s, v, &session->tree.world, tick->player, tick->number);
     add_world(s, &session->tree.world);
-    add_tree(s, octree_game_tree(game), session->body_count);
+    add_tree(s, tree, session->body_count);
+    add_heat(s, tree, h);
+    add_visits(s, game);
+    add_changes(s, game);
     add_answers(s, tick->answers, tick->answer_count);
     add_player(s, tick, session);
     add_collision(s, tick, session);
-    add_diagram(s, octree_game_tree(game), leaf_of(octree_game_tree(game), tick->player));
-    add_tick_panel(s, game);
+    add_broken(s, &session->tree.world, &found);
+    add_diagram(s, tree, leaf_of(tree, tick->player));
+    add_tick_panel(s, game, &found);
     return !s->out_of_memory;
 }
 
@@ -146,6 +139,7 @@ bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_lo
 {
     const octree_box world = octree_definition(tree).world;
     const octree_box *framed = v->fit == FIT_BOX ? &v->focus : &world;
+    const finding found = find_broken(v, tree);
     double center[3]; /* what a camera follows where nobody plays */
     for (int i = 0; i < 3; i++)
         center[i] = framed->min[i] / 2 + framed->max[i] / 2;
@@ -153,7 +147,8 @@ bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_lo
     add_world(s, &world);
     add_tree(s, tree, octree_count(tree));
     add_answers(s, about->answers, about->answer_count);
+    add_broken(s, &world, &found);
     add_diagram(s, tree, about->node);
-    add_tree_panel(s, tree, about);
+    add_tree_panel(s, tree, about, &found);
     return !s->out_of_memory;
 }

@@ -16,7 +16,7 @@ view view_default(void)
     return (view){.width = 1280,
                   .height = 720,
                   .camera = CAMERA_ISO,
-                  .layers = VIEW_ALL_LAYERS,
+                  .layers = VIEW_DEFAULT_LAYERS,
                   .aa = 1,
                   .lod = 2,          /* smaller boxes are specks: at 100,000 points no difference is seen up to 4 */
                   .budget = 250000}; /* some 300 MB and a few seconds a frame at worst */
@@ -82,23 +82,34 @@ bool view_diagram_parse(const char *name, view_diagram *diagram)
     return found >= 0;
 }
 
-/* The bits that a name of this length stands for; 0 when it is unknown, unless it is "none". */
+static bool is_word(const char *name, size_t length, const char *word)
+{
+    return strlen(word) == length && strncmp(name, word, length) == 0;
+}
+
+/* The bits that a name of this length stands for; false when it is unknown. */
 static bool find_layers(const char *name, size_t length, unsigned *bits)
 {
-    if (length == 3 && strncmp(name, "all", 3) == 0) {
-        *bits = VIEW_ALL_LAYERS;
-        return true;
+    static const struct {
+        const char *name;
+        unsigned bits;
+    } sets[] = {{"all", VIEW_ALL_LAYERS}, {"default", VIEW_DEFAULT_LAYERS}, {"none", 0}};
+    for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
+        *bits = sets[i].bits;
+        if (is_word(name, length, sets[i].name))
+            return true;
     }
-    *bits = 0;
-    for (int i = 0; i < LAYER_COUNT; i++)
-        if (strlen(layer_names[i]) == length && strncmp(name, layer_names[i], length) == 0)
-            *bits = 1u << i;
-    return *bits != 0 || (length == 4 && strncmp(name, "none", 4) == 0);
+    for (int i = 0; i < LAYER_COUNT; i++) {
+        *bits = 1u << i;
+        if (is_word(name, length, layer_names[i]))
+            return true;
+    }
+    return false;
 }
 
 bool view_layers_parse(const char *list, unsigned *layers, const char **bad)
 {
-    unsigned result = list[0] == '-' ? VIEW_ALL_LAYERS : 0;
+    unsigned result = list[0] == '-' ? VIEW_DEFAULT_LAYERS : 0;
     for (const char *at = list;; at++) {
         const bool without = *at == '-';
         *bad = at;

@@ -21,13 +21,21 @@
 #define VIEW_LAYER_MAP(X)                                                                                              \
     X(WORLD, "world")                                                                                                  \
     X(NODES, "nodes")                                                                                                  \
+    X(VISIT_HEAT, "visit-heat") /* in how many ticks leaves were visited */                                            \
+    X(POINT_HEAT, "point-heat") /* how many points were in them, in all ticks together */                              \
+    X(PRUNED, "pruned")         /* nodes that the tick's questions left out by their box */                            \
+    X(VISITED, "visited")       /* nodes that they looked into, or took whole */                                       \
+    X(HIT, "hit")               /* leaves that hold what they found */                                                 \
+    X(MERGES, "merges")         /* nodes that ceased to be inner ones at this tick */                                  \
+    X(SPLITS, "splits")         /* nodes that became inner ones */                                                     \
     X(POINTS, "points")                                                                                                \
     X(RANGE, "range")                                                                                                  \
     X(RADIUS, "radius")                                                                                                \
     X(KNEAREST, "knearest")                                                                                            \
     X(NEAREST, "nearest")                                                                                              \
     X(PLAYER, "player")                                                                                                \
-    X(BOX, "box") /* the player's collision box, and what is in it */                                                  \
+    X(BOX, "box")       /* the player's collision box, and what is in it */                                            \
+    X(BROKEN, "broken") /* the node at which the validator finds an invariant broken */                                \
     X(TEXT, "text")
 
 /* What the colour of a node tells, and the name of each choice. */
@@ -105,9 +113,13 @@ typedef struct view {
 } view;
 
 #define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
+#define VIEW_HEAT_LAYERS (1u << LAYER_VISIT_HEAT | 1u << LAYER_POINT_HEAT)
 
-/* 1280 x 720, iso, all layers, nodes coloured by depth; nothing left out but boxes below two pixels and what is beyond
- * a budget of 250,000. */
+/* What is shown unless somebody says otherwise: all about the tick; what went before it is left out. */
+#define VIEW_DEFAULT_LAYERS (VIEW_ALL_LAYERS & ~VIEW_HEAT_LAYERS)
+
+/* 1280 x 720, iso, the default layers, nodes coloured by depth; nothing left out but boxes below two pixels and what is
+ * beyond a budget of 250,000. */
 view view_default(void);
 
 /* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6
@@ -136,8 +148,8 @@ bool view_camera_parse(const char *name, view_camera *camera);
 bool view_coloring_parse(const char *name, view_coloring *coloring);
 bool view_diagram_parse(const char *name, view_diagram *diagram);
 
-/* Layers by a list of names with commas between, or "all" or "none"; "-text" leaves one out, and a list that begins so
- * starts from all. On failure *bad points at the name that is unknown. */
+/* Layers by a list of names with commas between, or "all", "default" or "none"; "-text" leaves one out, and a list that
+ * begins so starts from the default. On failure *bad points at the name that is unknown. */
 bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
 
 #endif

@@ -126,7 +126,16 @@ typedef struct octree_answer {
     const octree_point *points;       /* range, radius: the result, by id */
     const octree_neighbor *neighbors; /* nearest, k nearest: the result, by distance and then by id */
     size_t count;                     /* of points or neighbours; nearest: 0 or 1 */
+    octree_cost cost;
 } octree_answer;
+
+/* A node that a tick's questions met: its collision test and its queries. */
+typedef struct octree_visit {
+    octree_address node; /* of the tree as it was when it was asked: the collision test comes before the step, which may
+                            merge what the test has visited */
+    octree_touch touch;  /* where several met it, the strongest: visited, then taken whole, then pruned */
+    bool taken;          /* one of them took it whole, whatever the others did */
+} octree_visit;
 
 /* One tick. The arrays are owned by the game and valid until its next step. */
 typedef struct octree_tick {
@@ -140,6 +149,7 @@ typedef struct octree_tick {
     const octree_point *hits; /* what the collision test found, by id */
     size_t hit_count;
     const double (*hit_from)[3];    /* swept: where each hit was before the tick; else null */
+    octree_cost hit_cost;           /* of the collision test; swept, bodies that moved are points compared one by one */
     const octree_refusal *refusals; /* in the order they happened */
     size_t refusal_count;
     const octree_address *splits; /* inner now and not at the tick before; in pre-order, none at tick 0 */
@@ -148,6 +158,11 @@ typedef struct octree_tick {
     size_t merge_count;
     const octree_answer *answers; /* n first, then the session's queries in their order */
     size_t answer_count;
+    const octree_visit *visits; /* each node once, in pre-order */
+    size_t visit_count;
+    size_t touched[OCTREE_TOUCH_KINDS]; /* how many of them were met in each way */
+    const octree_address *hit_leaves;   /* the leaves that hold a hit or a point of an answer; in pre-order */
+    size_t hit_leaf_count;
 } octree_tick;
 
 typedef struct octree_game octree_game;
@@ -160,8 +175,8 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
 void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key, whatever the session's keys say. After an error the game must not be stepped again.
- * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries; all bodies, when
- * swept; nodes, when the tree changed). */
+ * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries + v log v for v visits; all bodies,
+ * when swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */

@@ -228,6 +228,7 @@ typedef enum octree_touch {
     OCTREE_TOUCH_VISITED, /* its children or its points were looked at one by one */
     OCTREE_TOUCH_PRUNED,  /* left out by its box, with all below it */
     OCTREE_TOUCH_TAKEN,   /* its box is inside the range: all below it was taken without looking */
+    OCTREE_TOUCH_KINDS
 } octree_touch;
 
 /* Called with each node that a query met. It must not change the tree. */
@@ -286,12 +287,21 @@ octree_status octree_range_collect_sorted(const octree *tree, const octree_box *
 octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
                              octree_point_visitor visit, void *context);
 
+/* The same with a choice of accuracy, a count of its cost and a trace: with epsilon > 0 nothing within box_size is
+ * missed, and nothing is visited that is farther than box_size + epsilon on any axis.
+ * Errors: those of octree_collide and of octree_range_search. */
+octree_status octree_collide_search(const octree *tree, const double center[3], double box_size,
+                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
+                                    void *context);
+
 /* Collision on the way: visit every point that the box position +- box_size touches somewhere between two places, both
  * included, decided by the real numbers. Nothing is missed, however long the step is; a test at both ends alone is sure
- * to miss nothing only where the step is at most 2 * box_size along one axis. `self` as in octree_collide.
- * Errors: as octree_collide. Cost: as octree_range of the box around the whole step. */
+ * to miss nothing only where the step is at most 2 * box_size along one axis. `self` as in octree_collide; the answer
+ * is exact whatever `how` says. Errors: as octree_collide_search. Cost: as octree_range of the box around the whole
+ * step. */
 octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,
-                                   const octree_point *self, octree_point_visitor visit, void *context);
+                                   const octree_point *self, const octree_search *how, octree_point_visitor visit,
+                                   void *context);
 
 /* The box that octree_collide asks for: the smallest and largest doubles within box_size of the centre. */
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);

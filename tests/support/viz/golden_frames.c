@@ -1,5 +1,6 @@
 /* golden_frames.c - see golden_frames.h. */
 #include "golden_frames.h"
+#include "broken_tree.h"
 #include "fit.h"
 #include "picture.h"
 #include "octree/sample.h"
@@ -18,8 +19,8 @@ const golden_frame golden_frames[] = {
     {"depth_5", "iso", "nodes,points", 0, NULL, 0, 0},
     {"merged", "iso", "nodes,points,player", 22, NULL, 0, 0},
     {"collision", "follow", SHAPES, 193, NULL, 0, 0},
-    {"refused_step", "iso", "all", 74, NULL, 0, 0},
-    {"full_leaf", "follow", "all", 214, NULL, 0, 0},
+    {"refused_step", "iso", "default", 74, NULL, 0, 0},
+    {"full_leaf", "follow", "default", 214, NULL, 0, 0},
     {"nearest", "front", SHAPES, 7, NULL, 0, 0},
     {"range", "side", SHAPES, 219, NULL, 0, 0},
     {"camera_top", "top", SHAPES, 12, NULL, 0, 0},
@@ -28,7 +29,7 @@ const golden_frame golden_frames[] = {
     {"knearest", "follow", SHAPES, 0, "knearest", 0, 0},
     {"radius", "follow", SHAPES, 0, "radius", 0, 0},
     {"swept", "front", SHAPES, 1, "swept", 0, 0},
-    {"readme", "follow", "all", 219, NULL, 960, 540}, /* the one that the README shows */
+    {"readme", "follow", "default", 219, NULL, 960, 540}, /* the one that the README shows */
     {"slice", "iso", TREE, 0, "clustered", 0, 0},
     {"region", "iso", TREE, 0, "clustered", 0, 0},
     {"fit", "iso", TREE, 0, "clustered", 0, 0},
@@ -39,6 +40,15 @@ const golden_frame golden_frames[] = {
     {"budget", "iso", TREE ",text", 0, "clustered", 320, 240},
     {"diagram", "iso", SHAPES, 225, NULL, 0, 0},
     {"diagram_folded", "iso", "text", 0, "clustered", 320, 180},
+    {"visited", "follow", "nodes,visited,points,range,player", 216, NULL, 0, 0},
+    {"pruned", "iso", "nodes,pruned,points,player", 216, NULL, 0, 0},
+    {"hit", "iso", "nodes,hit,points,range", 0, "clustered", 0, 0},
+    {"splits", "follow", "nodes,splits,points,player", 9, NULL, 0, 0},
+    {"merges", "follow", "nodes,merges,points,player", 22, NULL, 0, 0},
+    {"visit_heat", "iso", "nodes,visit-heat", 252, NULL, 0, 0},
+    {"point_heat", "iso", "world,point-heat", 30, "clustered", 0, 0},
+    {"broken", "iso", "default", 0, NULL, 640, 360},
+    {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
@@ -144,14 +154,21 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[M
     return session;
 }
 
-static bool draw_game(const octree_game *game, const view *v, image *drawn, char *renderer, size_t size,
+/* One point is written into another's cell. */
+static void break_game(const octree_game *game)
+{
+    const octree_body *first = octree_game_session(game)->bodies;
+    break_tree(octree_game_tree(game), first->position, octree_game_tick(game)->player);
+}
+
+static bool draw_game(const octree_game *game, const heat *h, const view *v, image *drawn, char *renderer, size_t size,
                       record_error *error)
 {
     picture p;
     scene s = {0};
     if (!picture_open(&p, v, &(renderer_choice){0}, error))
         return false;
-    const bool ok = tick_scene_build(&s, v, game) && picture_draw(&p, &s, error);
+    const bool ok = tick_scene_build(&s, v, game, h) && picture_draw(&p, &s, error);
     snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);
     if (ok) {
         *drawn = p.frame;
@@ -174,9 +191,16 @@ bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t
     if (octree_game_create(&session, &game) != OCTREE_OK)
         return record_fail(error, "%s: the session cannot be played", frame->name);
     fit_view(&v, octree_game_tree(game));
-    for (uint64_t tick = 0; tick < frame->tick; tick++)
+    heat h = {0};
+    bool ok = heat_add_tick(&h, game);
+    for (uint64_t tick = 0; tick < frame->tick; tick++) {
         octree_game_advance(game);
-    const bool ok = draw_game(game, &v, drawn, renderer, size, error);
+        ok = ok && heat_add_tick(&h, game);
+    }
+    if (strcmp(frame->name, "broken") == 0)
+        break_game(game);
+    ok = ok && draw_game(game, &h, &v, drawn, renderer, size, error);
+    heat_release(&h);
     octree_game_destroy(game);
     return ok;
 }

@@ -75,7 +75,12 @@ void play_tick(octree_game *game)
 
 void build_tick(scene *s, const view *v, const octree_game *game)
 {
-    assert_true(tick_scene_build(s, v, game));
+    build_hot_tick(s, v, game, NULL);
+}
+
+void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat *h)
+{
+    assert_true(tick_scene_build(s, v, game, h));
     assert_int_equal(s->refused, 0);
 }
 

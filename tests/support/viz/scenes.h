@@ -30,8 +30,9 @@ void scale_session(scaled_session *made, double scale, double offset);
 /* Play the session's next tick; the test fails when that fails. */
 void play_tick(octree_game *game);
 
-/* Fill a scene with a game's tick, or the test fails. */
+/* Fill a scene with a game's tick, or the test fails; without heat, and with it. */
 void build_tick(scene *s, const view *v, const octree_game *game);
+void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat *h);
 
 /* The default session's tick 30, with everything on. */
 scene busy_scene(int width, int height, view_camera camera);

@@ -105,9 +105,19 @@ static void assert_refusals(const json_t *list, const octree_tick *tick)
     }
 }
 
+static void assert_cost(const json_t *object, const char *name, const octree_cost *expected)
+{
+    const json_t *cost = json_member(object, name);
+    assert_members(cost, "nodes leaves points pruned");
+    assert_whole_number(json_member(cost, "nodes"), expected->nodes);
+    assert_whole_number(json_member(cost, "leaves"), expected->leaves);
+    assert_whole_number(json_member(cost, "points"), expected->points);
+    assert_whole_number(json_member(cost, "pruned"), expected->pruned);
+}
+
 static void assert_range(const json_t *range, const octree_answer *answer)
 {
-    assert_members(range, "min max ids");
+    assert_members(range, "min max ids cost");
     assert_position(range, "min", answer->box.min);
     assert_position(range, "max", answer->box.max);
     assert_ids(json_member(range, "ids"), answer->points, answer->count);
@@ -122,7 +132,7 @@ static void assert_neighbor(const json_t *object, const octree_neighbor *neighbo
 
 static void assert_nearest(const json_t *nearest, const octree_answer *answer)
 {
-    assert_members(nearest, answer->count ? "target id position distance" : "target id");
+    assert_members(nearest, answer->count ? "target id position distance cost" : "target id cost");
     assert_position(nearest, "target", answer->target);
     if (answer->count)
         assert_neighbor(nearest, &answer->neighbors[0]);
@@ -133,7 +143,7 @@ static void assert_nearest(const json_t *nearest, const octree_answer *answer)
 static void assert_knearest(const json_t *knearest, const octree_answer *answer)
 {
     const json_t *neighbors = json_member(knearest, "neighbors");
-    assert_members(knearest, "target k neighbors");
+    assert_members(knearest, "target k neighbors cost");
     assert_position(knearest, "target", answer->target);
     assert_whole_number(json_member(knearest, "k"), answer->k);
     assert_int_equal(json_array_size(neighbors), answer->count);
@@ -145,7 +155,7 @@ static void assert_knearest(const json_t *knearest, const octree_answer *answer)
 
 static void assert_radius(const json_t *radius, const octree_answer *answer)
 {
-    assert_members(radius, "center radius ids");
+    assert_members(radius, "center radius ids cost");
     assert_position(radius, "center", answer->target);
     assert_number(json_member(radius, "radius"), answer->radius);
     assert_ids(json_member(radius, "ids"), answer->points, answer->count);
@@ -168,7 +178,20 @@ static void assert_answers(const json_t *list, const octree_tick *tick)
         const octree_query_kind kind = tick->answers[i].kind;
         assert_members(answer, kinds[kind].name);
         kinds[kind].assert_told(json_member(answer, kinds[kind].name), &tick->answers[i]);
+        assert_cost(json_member(answer, kinds[kind].name), "cost", &tick->answers[i].cost);
     }
+}
+
+static void assert_visits(const json_t *object, const octree_tick *tick)
+{
+    size_t touched[OCTREE_TOUCH_KINDS] = {0};
+    for (size_t i = 0; i < tick->visit_count; i++)
+        touched[tick->visits[i].touch]++;
+    assert_members(object, "visited taken pruned hit");
+    assert_whole_number(json_member(object, "visited"), touched[OCTREE_TOUCH_VISITED]);
+    assert_whole_number(json_member(object, "taken"), touched[OCTREE_TOUCH_TAKEN]);
+    assert_whole_number(json_member(object, "pruned"), touched[OCTREE_TOUCH_PRUNED]);
+    assert_whole_number(json_member(object, "hit"), tick->hit_leaf_count);
 }
 
 /* What a walk counts. */
@@ -210,8 +233,9 @@ static void assert_key(const json_t *value, char key)
 
 void assert_line_tells(const json_t *line, const octree_tick *tick, const octree *tree)
 {
-    static const char always[] = "tick key player events attempt hits answers refusals splits merges tree";
-    char names[128];
+    static const char always[] =
+        "tick key player events attempt hits hit_cost answers visits refusals splits merges tree";
+    char names[160];
     snprintf(names, sizeof names, "%s%s%s", always, json_object_get(line, "frame") == NULL ? "" : " frame scene",
              tick->swept ? " from" : "");
     assert_members(line, names);
@@ -223,7 +247,9 @@ void assert_line_tells(const json_t *line, const octree_tick *tick, const octree
     assert_position(line, "attempt", tick->attempt);
     assert_events(json_member(line, "events"), tick->events);
     assert_ids(json_member(line, "hits"), tick->hits, tick->hit_count);
+    assert_cost(line, "hit_cost", &tick->hit_cost);
     assert_answers(json_member(line, "answers"), tick);
+    assert_visits(json_member(line, "visits"), tick);
     assert_refusals(json_member(line, "refusals"), tick);
     assert_addresses(json_member(line, "splits"), tick->splits, tick->split_count);
     assert_addresses(json_member(line, "merges"), tick->merges, tick->merge_count);

@@ -7,6 +7,7 @@ const CURVES = [
     ["tree.nodes", "nodes"],
     ["tree.depth", "depth"],
     ["tree.points", "points"],
+    ["visits.visited", "visits"],
 ];
 
 /* The events and their signs, in the order of octree_event. */

@@ -1,0 +1,16 @@
+/* broken_tree.c - see broken_tree.h. */
+#include "broken_tree.h"
+
+#include <string.h>
+
+#include "fixture.h"
+
+octree_address break_tree(const octree *tree, const double position[3], const double place[3])
+{
+    octree_node leaf;
+    assert_int_equal(octree_locate(tree, position, &leaf), OCTREE_OK);
+    assert_true(leaf.leaf && leaf.count > 0);
+    octree_point *stored = (octree_point *)leaf.points; /* in memory that the tree writes too */
+    memcpy(stored->position, place, sizeof stored->position);
+    return leaf.address;
+}

@@ -1,0 +1,322 @@
+/* recount.c - see recount.h. */
+#include "recount.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "brute.h"
+#include "fixture.h"
+
+void recount_free(recount *all)
+{
+    free(all->visits);
+    free(all->leaves);
+    *all = (recount){0};
+}
+
+static void add_visit(octree_address node, octree_touch touch, void *context)
+{
+    recount *all = context;
+    if (all->count == all->room) {
+        all->room = all->room ? 2 * all->room : 64;
+        all->visits = realloc(all->visits, all->room * sizeof *all->visits);
+        assert_non_null(all->visits);
+    }
+    all->visits[all->count++] = (octree_visit){node, touch, touch == OCTREE_TOUCH_TAKEN};
+}
+
+/* ---- Regions ------------------------------------------------------------------------------------------------ */
+
+typedef enum relation { APART, MEETS, INSIDE } relation;
+
+typedef struct region {
+    recount *all;
+    octree_box world;
+    const octree_box *box;
+    const double *center; /* of a ball, which has no box */
+    double radius;
+    bool taking; /* below a node that was taken whole */
+    unsigned taken_depth;
+    octree_cost cost;
+} region;
+
+/* A cell has its lower faces; its upper ones are its neighbour's, but for the world's. What begins on a plane is not
+ * known to hold all of the cell above it: it is looked at. */
+static relation to_box(const region *r, const octree_box *cell)
+{
+    relation found = INSIDE;
+    for (int i = 0; i < 3; i++) {
+        const bool last = cell->max[i] == r->world.max[i], first = cell->min[i] == r->world.min[i];
+        const double low = r->box->min[i], high = r->box->max[i];
+        if (high < cell->min[i] || low > cell->max[i] || (low == cell->max[i] && !last))
+            return APART;
+        if (high < cell->max[i] || low > cell->min[i] || (low == cell->min[i] && !first))
+            found = MEETS;
+    }
+    return found;
+}
+
+static relation to_ball(const region *r, const octree_box *cell)
+{
+    double near = 0, far = 0;
+    for (int i = 0; i < 3; i++) {
+        const double below = cell->min[i] - r->center[i], above = r->center[i] - cell->max[i];
+        const double gap = below > 0 ? below : above > 0 ? above : 0, reach = -below > -above ? -below : -above;
+        near += gap * gap;
+        far += reach * reach;
+    }
+    const double square = r->radius * r->radius;
+    return near > square ? APART : far < square ? INSIDE : MEETS;
+}
+
+static octree_walk_order look_at(const octree_node *node, void *context)
+{
+    region *r = context;
+    r->taking = r->taking && node->depth > r->taken_depth;
+    const relation is = r->taking ? INSIDE : r->box ? to_box(r, &node->box) : to_ball(r, &node->box);
+    if (is == APART) {
+        r->cost.pruned++;
+        add_visit(node->address, OCTREE_TOUCH_PRUNED, r->all);
+        return OCTREE_WALK_SKIP;
+    }
+    r->cost.nodes++;
+    r->cost.leaves += node->leaf;
+    if (is == MEETS) {
+        r->cost.points += node->leaf ? node->count : 0;
+        add_visit(node->address, OCTREE_TOUCH_VISITED, r->all);
+    } else if (!r->taking) {
+        r->taking = true;
+        r->taken_depth = node->depth;
+        add_visit(node->address, OCTREE_TOUCH_TAKEN, r->all);
+    }
+    return OCTREE_WALK_ON;
+}
+
+static octree_cost walk_region(region r, const octree *tree)
+{
+    r.world = octree_definition(tree).world;
+    assert_int_equal(octree_walk(tree, look_at, &r), OCTREE_OK);
+    return r.cost;
+}
+
+octree_cost recount_box(recount *all, const octree *tree, const octree_box *box)
+{
+    return walk_region((region){.all = all, .box = box}, tree);
+}
+
+octree_cost recount_ball(recount *all, const octree *tree, const double center[3], double radius)
+{
+    return walk_region((region){.all = all, .center = center, .radius = radius}, tree);
+}
+
+octree_cost recount_neighbors(recount *all, const octree *tree, const double target[3], size_t k,
+                              const octree_search *how)
+{
+    octree_cost cost = {0};
+    octree_search traced = *how;
+    size_t count;
+    k = k < octree_count(tree) ? k : octree_count(tree);
+    octree_neighbor *neighbors = malloc((k + 1) * sizeof *neighbors);
+    assert_non_null(neighbors);
+    traced.cost = &cost;
+    traced.trace = add_visit;
+    traced.trace_context = all;
+    assert_int_equal(octree_nearest_k(tree, target, k, &traced, neighbors, &count), OCTREE_OK);
+    free(neighbors);
+    return cost;
+}
+
+/* ---- A tick ------------------------------------------------------------------------------------------------- */
+
+static octree_walk_order collect_points(const octree_node *node, void *context)
+{
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        brute_collect(&node->points[i], context);
+    return OCTREE_WALK_ON;
+}
+
+/* The tree that the collision test asked: that of the tick's end, with the player still where it was. */
+static octree *tree_before_step(const octree_game *game, const double before[3])
+{
+    const octree *tree = octree_game_tree(game);
+    const octree_tick *tick = octree_game_tick(game);
+    const octree_def def = octree_definition(tree);
+    brute points = {0};
+    assert_int_equal(octree_walk(tree, collect_points, &points), OCTREE_OK);
+    if (tick->events & OCTREE_EVENT_MOVED) {
+        const uint64_t player = octree_game_session(game)->player.id;
+        assert_true(brute_remove(&points, tick->player, player));
+        brute_insert(&points, before, player);
+    }
+    octree *made = brute_tree(&points, def.world, def.leaf_capacity, def.max_depth);
+    brute_free(&points);
+    return made;
+}
+
+/* Swept, the box around the whole way. */
+static octree_box tested_box(const octree_tick *tick, double size)
+{
+    octree_box box, start;
+    assert_int_equal(octree_collision_box(tick->attempt, size, &box), OCTREE_OK);
+    assert_int_equal(octree_collision_box(tick->from, size, &start), OCTREE_OK);
+    for (int i = 0; tick->swept && i < 3; i++) {
+        box.min[i] = start.min[i] < box.min[i] ? start.min[i] : box.min[i];
+        box.max[i] = start.max[i] > box.max[i] ? start.max[i] : box.max[i];
+    }
+    return box;
+}
+
+static void assert_cost(const octree_cost *told, const octree_cost *counted)
+{
+    assert_int_equal(told->nodes, counted->nodes);
+    assert_int_equal(told->leaves, counted->leaves);
+    assert_int_equal(told->points, counted->points);
+    assert_int_equal(told->pruned, counted->pruned);
+}
+
+static void recount_collision(recount *all, const octree_game *game, const double before[3])
+{
+    const octree_tick *tick = octree_game_tick(game);
+    octree *tree = tree_before_step(game, before);
+    const octree_box box = tested_box(tick, octree_game_session(game)->player.box_size);
+    octree_cost cost = recount_box(all, tree, &box);
+    assert_true(tick->hit_cost.points >= cost.points);
+    if (tick->swept)
+        cost.points = tick->hit_cost.points; /* bodies that moved are compared too */
+    assert_cost(&tick->hit_cost, &cost);
+    octree_destroy(tree);
+}
+
+static octree_cost recount_answer(recount *all, const octree_game *game, const octree_answer *answer)
+{
+    const octree *tree = octree_game_tree(game);
+    octree_search how = {.skip_id = octree_game_session(game)->player.id};
+    if (answer->kind == OCTREE_QUERY_RANGE)
+        return recount_box(all, tree, &answer->box);
+    if (answer->kind == OCTREE_QUERY_RADIUS)
+        return recount_ball(all, tree, answer->target, answer->radius);
+    how.skip = same_position(answer->target, octree_game_tick(game)->player) ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
+    return recount_neighbors(all, tree, answer->target, answer->k, &how);
+}
+
+/* What a walk looks for: the leaf that stores a point. */
+typedef struct holder {
+    const octree_point *point;
+    octree_address leaf;
+} holder;
+
+static octree_walk_order find_holder(const octree_node *node, void *context)
+{
+    holder *h = context;
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        if (node->points[i].id == h->point->id && same_position(node->points[i].position, h->point->position))
+            h->leaf = node->address;
+    return h->leaf ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+static void add_leaf(recount *all, const octree *tree, const octree_point *point)
+{
+    holder h = {.point = point};
+    assert_int_equal(octree_walk(tree, find_holder, &h), OCTREE_OK);
+    assert_true(h.leaf != 0);
+    if (all->leaf_count == all->leaf_room) {
+        all->leaf_room = all->leaf_room ? 2 * all->leaf_room : 64;
+        all->leaves = realloc(all->leaves, all->leaf_room * sizeof *all->leaves);
+        assert_non_null(all->leaves);
+    }
+    all->leaves[all->leaf_count++] = h.leaf;
+}
+
+static void add_leaves(recount *all, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const octree *tree = octree_game_tree(game);
+    for (size_t i = 0; i < tick->hit_count; i++)
+        add_leaf(all, tree, &tick->hits[i]);
+    for (size_t a = 0; a < tick->answer_count; a++) {
+        const octree_answer *answer = &tick->answers[a];
+        const bool points = answer->kind == OCTREE_QUERY_RANGE || answer->kind == OCTREE_QUERY_RADIUS;
+        for (size_t i = 0; i < answer->count; i++)
+            add_leaf(all, tree, points ? &answer->points[i] : &answer->neighbors[i].point);
+    }
+}
+
+/* Pre-order is the order of the texts "root" and "0/3/7", but that the root is first. */
+static int compare_texts(octree_address a, octree_address b)
+{
+    char texts[2][OCTREE_ADDRESS_TEXT];
+    if (a == OCTREE_ROOT || b == OCTREE_ROOT)
+        return (a != OCTREE_ROOT) - (b != OCTREE_ROOT);
+    return strcmp(octree_address_format(a, texts[0]), octree_address_format(b, texts[1]));
+}
+
+static int compare_visits(const void *a, const void *b)
+{
+    return compare_texts(((const octree_visit *)a)->node, ((const octree_visit *)b)->node);
+}
+
+static int compare_leaves(const void *a, const void *b)
+{
+    return compare_texts(*(const octree_address *)a, *(const octree_address *)b);
+}
+
+static octree_touch stronger(octree_touch a, octree_touch b)
+{
+    if (a == OCTREE_TOUCH_VISITED || b == OCTREE_TOUCH_VISITED)
+        return OCTREE_TOUCH_VISITED;
+    return a == OCTREE_TOUCH_TAKEN || b == OCTREE_TOUCH_TAKEN ? OCTREE_TOUCH_TAKEN : OCTREE_TOUCH_PRUNED;
+}
+
+static void merge(recount *all)
+{
+    size_t kept = 0;
+    qsort(all->visits, all->count, sizeof *all->visits, compare_visits);
+    for (size_t i = 0; i < all->count; i++) {
+        octree_visit *last = kept ? &all->visits[kept - 1] : NULL;
+        if (last && last->node == all->visits[i].node) {
+            last->touch = stronger(last->touch, all->visits[i].touch);
+            last->taken = last->taken || all->visits[i].taken;
+        } else {
+            all->visits[kept++] = all->visits[i];
+        }
+    }
+    all->count = kept;
+    for (size_t i = 0; i < kept; i++)
+        all->touched[all->visits[i].touch]++;
+    kept = 0;
+    if (all->leaf_count)
+        qsort(all->leaves, all->leaf_count, sizeof *all->leaves, compare_leaves);
+    for (size_t i = 0; i < all->leaf_count; i++)
+        if (kept == 0 || all->leaves[kept - 1] != all->leaves[i])
+            all->leaves[kept++] = all->leaves[i];
+    all->leaf_count = kept;
+}
+
+void recount_tick(recount *all, const octree_game *game, const double before[3])
+{
+    const octree_tick *tick = octree_game_tick(game);
+    all->count = all->leaf_count = 0;
+    memset(all->touched, 0, sizeof all->touched);
+    recount_collision(all, game, before);
+    for (size_t i = 0; i < tick->answer_count; i++) {
+        const octree_cost cost = recount_answer(all, game, &tick->answers[i]);
+        assert_cost(&tick->answers[i].cost, &cost);
+    }
+    add_leaves(all, game);
+    merge(all);
+}
+
+void assert_recount(const recount *all, const octree_tick *tick)
+{
+    assert_int_equal(tick->visit_count, all->count);
+    for (size_t i = 0; i < all->count; i++) {
+        assert_int_equal(tick->visits[i].node, all->visits[i].node);
+        assert_int_equal(tick->visits[i].touch, all->visits[i].touch);
+        assert_int_equal(tick->visits[i].taken, all->visits[i].taken);
+    }
+    for (int touch = 0; touch < OCTREE_TOUCH_KINDS; touch++)
+        assert_int_equal(tick->touched[touch], all->touched[touch]);
+    assert_int_equal(tick->hit_leaf_count, all->leaf_count);
+    for (size_t i = 0; i < all->leaf_count; i++)
+        assert_int_equal(tick->hit_leaves[i], all->leaves[i]);
+}

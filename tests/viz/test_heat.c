@@ -1,0 +1,312 @@
+/* test_heat.c - what nodes have seen since tick 0: counted anew from the ticks, drawn on a fixed scale, the same
+ * however many of the ticks are filmed.
+ */
+#include "scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw_list.h"
+#include "files.h"
+#include "heat_layers.h"
+#include "random_session.h"
+#include "recordings.h"
+#include "recount.h"
+#include "take.h"
+#include "tick_lines.h"
+
+/* Counts by address, in a plain list. */
+typedef struct count {
+    octree_address node;
+    uint64_t visits, points;
+} count;
+
+typedef struct counts {
+    count items[8192];
+    size_t size;
+} counts;
+
+static count *count_of(counts *all, octree_address node)
+{
+    size_t i = 0;
+    while (i < all->size && all->items[i].node != node)
+        i++;
+    assert_true(i < sizeof all->items / sizeof all->items[0]);
+    if (i == all->size)
+        all->items[all->size++] = (count){.node = node};
+    return &all->items[i];
+}
+
+/* How a tick met a node: by itself, or taken whole with one above it. */
+static bool was_visited(const recount *met, octree_address node)
+{
+    for (octree_address at = node; at; at >>= 3)
+        for (size_t i = 0; i < met->count; i++)
+            if (met->visits[i].node == at &&
+                (met->visits[i].taken || (at == node && met->visits[i].touch == OCTREE_TOUCH_VISITED)))
+                return true;
+    return false;
+}
+
+typedef struct tick_walk {
+    counts *all;
+    const recount *met;
+} tick_walk;
+
+static octree_walk_order add_node(const octree_node *node, void *context)
+{
+    const tick_walk *w = context;
+    count *c = count_of(w->all, node->address);
+    c->points += node->count;
+    c->visits += was_visited(w->met, node->address);
+    return OCTREE_WALK_ON;
+}
+
+static octree_walk_order check_node(const octree_node *node, void *context)
+{
+    const heat *h = ((void **)context)[0];
+    const count *expected = count_of(((void **)context)[1], node->address);
+    const heat_cell seen = heat_at(h, node->address);
+    assert_int_equal(seen.points, expected->points);
+    assert_int_equal(seen.visits, expected->visits);
+    return OCTREE_WALK_ON;
+}
+
+/* A session whose nodes are counted anew at every tick. */
+static void check_session(const octree_session *session)
+{
+    static counts all;
+    octree_game *game = start_game(session);
+    recount met = {0};
+    heat h = {0};
+    double before[3];
+    all.size = 0;
+    memcpy(before, session->player.position, sizeof before);
+    for (;; play_tick(game)) {
+        const octree *tree = octree_game_tree(game);
+        recount_tick(&met, game, before);
+        octree_walk(tree, add_node, &(tick_walk){&all, &met});
+        assert_true(heat_add_tick(&h, game));
+        octree_walk(tree, check_node, (void *[]){&h, &all});
+        assert_int_equal(h.count, all.size);
+        memcpy(before, octree_game_tick(game)->player, sizeof before);
+        if (octree_game_over(game))
+            break;
+    }
+    for (size_t i = 0; i < all.size; i++) /* those of nodes that are gone are kept */
+        assert_int_equal(heat_at(&h, all.items[i].node).points, all.items[i].points);
+    assert_int_equal(heat_at(&h, UINT64_MAX).points, 0);
+    heat_release(&h);
+    recount_free(&met);
+    octree_game_destroy(game);
+}
+
+static void heat_is_what_the_ticks_add_up_to(void **state)
+{
+    (void)state;
+    const octree_session session = octree_session_default();
+    check_session(&session);
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        random_session made;
+        random_session_full(&made, seed);
+        check_session(&made.session);
+    }
+}
+
+/* One box takes the octant whole in which the other one looks for neighbours: a tick is one visit, for what the second
+ * one prunes there too. */
+static void a_tick_counts_once_however_many_questions_meet(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {
+        {.id = 1, .position = {-6, -6, -6}}, {.id = 2, .position = {-2, -2, -2}}, {.id = 3, .position = {6, 6, 6}}};
+    static const octree_query queries[] = {
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-9, -9, -9}, {1, 1, 1}}},
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-7, -7, -7}, {-5, -5, -5}}},
+    };
+    octree_session session = small_session(bodies, 3);
+    session.tree = define(cube(-8, 8), 1, OCTREE_MAX_DEPTH, OCTREE_REFUSE);
+    session.player = (octree_player){.id = 100, .position = {-6, 6, 6}, .step = 1, .box_size = 0.5};
+    session.queries = queries;
+    session.query_count = 2;
+    session.ticks = 5;
+    octree_game *game = start_game(&session);
+    heat h = {0};
+    for (uint64_t tick = 0; tick < 5; tick++) {
+        assert_true(heat_add_tick(&h, game));
+        static const octree_address met[] = {OCTREE_ROOT, 010, 0100, 0107};
+        for (size_t i = 0; i < 4; i++)
+            assert_int_equal(heat_at(&h, met[i]).visits, tick + 1);
+        assert_int_equal(heat_at(&h, 0107).points, tick + 1);
+        play_tick(game);
+    }
+    heat_release(&h);
+    octree_game_destroy(game);
+}
+
+static void the_scale_is_one_of_powers_of_two_and_never_ends(void **state)
+{
+    (void)state;
+    for (unsigned shift = 1; shift <= 2; shift++) {
+        unsigned step = 0;
+        for (uint64_t amount = 1; amount < 1 << 20; amount++) {
+            if (step + 1 < HEAT_STEPS && amount == UINT64_C(1) << shift * (step + 1))
+                step++;
+            assert_int_equal(heat_step(amount, shift), step);
+        }
+        assert_int_equal(step, HEAT_STEPS - 1);
+        assert_int_equal(heat_step(UINT64_MAX, shift), HEAT_STEPS - 1);
+    }
+}
+
+/* What a walk over the leaves holds the marks against. */
+typedef struct mark_check {
+    const scene *scene;
+    const heat *heat;
+    size_t marks[2];
+} mark_check;
+
+static bool has_mark(const scene *s, view_layer layer, scene_shape shape, const octree_node *leaf, unsigned step)
+{
+    double middle[3];
+    for (int axis = 0; axis < 3; axis++)
+        middle[axis] = leaf->box.min[axis] / 2 + leaf->box.max[axis] / 2;
+    for (size_t i = 0; i < s->markers.count; i++) {
+        const scene_marker *mark = &s->markers.items[i];
+        if (mark->look.layer != layer || mark->id != leaf->address)
+            continue;
+        const double room = camera_box_pixels(&s->camera, &leaf->box);
+        assert_true(same_position(mark->at, middle) && mark->shape == shape);
+        assert_int_equal(mark->look.role, theme_node_role(step));
+        assert_true(mark->look.width == step + 1 ||
+                    (mark->look.width < step + 1 && (mark->look.width + 1) * 2 * s->unit > room));
+        return true;
+    }
+    return false;
+}
+
+static octree_walk_order check_leaf(const octree_node *node, void *context)
+{
+    mark_check *c = context;
+    const heat_cell seen = heat_at(c->heat, node->address);
+    if (!node->leaf)
+        return OCTREE_WALK_ON;
+    assert_int_equal(has_mark(c->scene, LAYER_VISIT_HEAT, SHAPE_SQUARE, node, heat_step(seen.visits, 1)),
+                     seen.visits > 0);
+    assert_int_equal(has_mark(c->scene, LAYER_POINT_HEAT, SHAPE_DIAMOND, node, heat_step(seen.points, 2)),
+                     seen.points > 0);
+    c->marks[0] += seen.visits > 0;
+    c->marks[1] += seen.points > 0;
+    return OCTREE_WALK_ON;
+}
+
+static void check_marks(const scene *s, const octree_game *game, const heat *h)
+{
+    mark_check c = {.scene = s, .heat = h};
+    octree_walk(octree_game_tree(game), check_leaf, &c);
+    for (unsigned i = 0; i < 2; i++) {
+        const layer_counts found = count_layer(s, LAYER_VISIT_HEAT + i);
+        assert_int_equal(found.markers, c.marks[i]);
+        assert_int_equal(found.boxes + found.segments + found.labels + found.panels, 0);
+    }
+}
+
+static void every_leaf_that_has_seen_something_has_its_mark(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 8; seed++) {
+        random_session made;
+        random_session_full(&made, seed);
+        const octree_session session = seed ? made.session : octree_session_default();
+        const view v = view_of(640, 360, (view_camera)(seed % CAMERA_COUNT), VIEW_ALL_LAYERS);
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        heat h = {0};
+        build_tick(&s, &v, game);
+        assert_int_equal(count_layer(&s, LAYER_VISIT_HEAT).markers + count_layer(&s, LAYER_POINT_HEAT).markers, 0);
+        for (;; play_tick(game)) {
+            assert_true(heat_add_tick(&h, game));
+            build_hot_tick(&s, &v, game, &h);
+            check_marks(&s, game, &h);
+            if (octree_game_over(game))
+                break;
+        }
+        heat_release(&h);
+        scene_release(&s);
+        octree_game_destroy(game);
+    }
+}
+
+static void keep_scene(const char *line, size_t number, void *context)
+{
+    char(*scenes)[17] = context;
+    json_t *tick = json_read(line);
+    const json_t *scene = json_object_get(tick, "scene");
+    snprintf(scenes[number], 17, "%s", scene ? json_string_value(scene) : "");
+    json_decref(tick);
+}
+
+static void a_frame_has_the_heat_of_all_ticks_up_to_it_filmed_or_not(void **state)
+{
+    enum { TICKS = 253, EVERY = 21 };
+    static char all[TICKS][17], some[TICKS][17];
+    const place first = place_in(*state, "all"), second = place_in(*state, "some");
+    const octree_session session = octree_session_default();
+    film_options options = small_film(first.path);
+    options.view.layers = VIEW_HEAT_LAYERS;
+    assert_filmed(&session, &options);
+    options = small_film(second.path);
+    options.view.layers = VIEW_HEAT_LAYERS;
+    options.every = EVERY;
+    assert_filmed(&session, &options);
+    assert_int_equal(for_each_line(first.path, keep_scene, all), TICKS);
+    assert_int_equal(for_each_line(second.path, keep_scene, some), TICKS);
+    for (size_t tick = 0; tick < TICKS; tick += EVERY) {
+        assert_int_equal(strlen(some[tick]), 16);
+        assert_string_equal(all[tick], some[tick]);
+        assert_true(tick == 0 || strcmp(all[tick], all[tick - EVERY]) != 0);
+    }
+}
+
+static bool keep_digest(void *context, const film_step *step, record_error *error)
+{
+    (void)error;
+    json_t *line = json_read(step->line);
+    snprintf(context, 17, "%s", json_string_value(json_member(line, "scene")));
+    json_decref(line);
+    return true;
+}
+
+/* Whoever films a part of a session plays what comes before it. */
+static void a_part_of_a_film_begins_with_the_heat_of_what_came_before(void **state)
+{
+    const octree_session session = octree_session_default();
+    film_options options = small_film(place_in(*state, "film").path);
+    options.view.layers = VIEW_HEAT_LAYERS;
+    char whole[17], part[17];
+    for (int parted = 0; parted < 2; parted++) {
+        const film_share share = {.first = parted ? 200 : 0, .last = 201};
+        record_error error;
+        take t;
+        assert_true(take_open(&t, &session, &options, FRAMES_SHOW, &error));
+        assert_true(film_ticks(&t, &share, keep_digest, parted ? part : whole, &error));
+        take_close(&t);
+    }
+    assert_string_equal(whole, part);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(heat_is_what_the_ticks_add_up_to),
+        cmocka_unit_test(a_tick_counts_once_however_many_questions_meet),
+        cmocka_unit_test(the_scale_is_one_of_powers_of_two_and_never_ends),
+        cmocka_unit_test(every_leaf_that_has_seen_something_has_its_mark),
+        cmocka_unit_test_setup_teardown(a_part_of_a_film_begins_with_the_heat_of_what_came_before, temp_folder_make,
+                                        nested_folder_remove),
+        cmocka_unit_test_setup_teardown(a_frame_has_the_heat_of_all_ticks_up_to_it_filmed_or_not, temp_folder_make,
+                                        nested_folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,78 @@
+/* test_line_styles.c - lines that are bold, and lines that are cut out of what lies beneath: what pixels they light. */
+#include "frames.h"
+
+#include <stdlib.h>
+
+#define WIDTH 320
+#define HEIGHT 240
+
+static scene blank_scene(view_camera camera)
+{
+    const octree_box world = {{-160, -160, -120}, {160, 160, 120}};
+    const view v = view_of(WIDTH, HEIGHT, camera, VIEW_ALL_LAYERS);
+    return empty_scene(&v, &world);
+}
+
+static scene_segment line_of(double x0, double y0, double z0, double x1, double y1, double z1)
+{
+    return (scene_segment){.ends = {{x0, y0, z0}, {x1, y1, z1}}, .look = {.role = ROLE_RANGE, .width = 1}};
+}
+
+/* Where a cut line lies on another, its dashes are seen and between them the ground, and nothing of the other. */
+static void a_cut_line_leaves_nothing_of_the_one_beneath(void **state)
+{
+    (void)state;
+    renderer *r = open_renderer(WIDTH, HEIGHT);
+    for (int i = 0; i < 40; i++) {
+        scene s = blank_scene(CAMERA_ISO);
+        scene_segment line = line_of(-100, 2 * i, -90, 120, 10 - i, i);
+        line.look.layer = LAYER_NODES;
+        scene_add_segment(&s, line);
+        uint8_t *alone = draw(r, &s);
+        line.look = (scene_look){.layer = LAYER_RANGE, .role = ROLE_NEAREST, .style = STYLE_CUT, .width = 1};
+        scene_add_segment(&s, line);
+        uint8_t *cut = draw(r, &s);
+        size_t dashes = 0, gaps = 0;
+        for (size_t at = 0; at < WIDTH * HEIGHT; at++) {
+            dashes += cut[at] / THEME_SHADES == ROLE_NEAREST;
+            gaps += alone[at] != 0 && cut[at] == 0;
+            assert_true(cut[at] / THEME_SHADES == ROLE_NEAREST || cut[at] == 0);
+        }
+        assert_true(gaps > dashes / 3 && gaps < dashes);
+        free(alone);
+        free(cut);
+        scene_release(&s);
+    }
+    renderer_close(r);
+}
+
+static void a_bold_line_is_two_pixels_wide_in_a_small_picture(void **state)
+{
+    (void)state;
+    scene s = blank_scene(CAMERA_TOP);
+    assert_int_equal(s.unit, 1);
+    scene_segment line = line_of(0, -100, 0, 0, 100, 0);
+    double ends[2][2];
+    line.look.width = 2;
+    pixel_of(&s, line.ends[0], ends[0]);
+    pixel_of(&s, line.ends[1], ends[1]);
+    scene_add_segment(&s, line);
+    uint8_t *frame = draw_once(&s);
+    for (int y = (int)ends[1][1] + 2; y < (int)ends[0][1] - 2; y++) {
+        size_t lit = 0;
+        for (int x = 0; x < WIDTH; x++)
+            lit += frame[y * WIDTH + x] != 0;
+        assert_int_equal(lit, 2);
+    }
+    free(frame);
+    scene_release(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cut_line_leaves_nothing_of_the_one_beneath),
+        cmocka_unit_test(a_bold_line_is_two_pixels_wide_in_a_small_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

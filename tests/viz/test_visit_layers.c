@@ -1,0 +1,242 @@
+/* test_visit_layers.c - what a tick's questions met, in its draw list and in words, held against a recount. */
+#include "scenes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw_list.h"
+#include "filter.h"
+#include "octree/sample.h"
+#include "random_session.h"
+#include "recount.h"
+#include "tick_lines.h"
+#include "ticks_write.h"
+
+#define VISIT_LAYERS (1u << LAYER_VISITED | 1u << LAYER_PRUNED | 1u << LAYER_HIT)
+
+/* The node at an address or, where a step has merged it away, its cell. */
+static octree_node node_or_cell(const octree *tree, octree_address address)
+{
+    octree_node node;
+    const octree_box world = octree_definition(tree).world;
+    if (octree_node_at(tree, address, &node) != OCTREE_OK)
+        node = (octree_node){.address = address,
+                             .depth = octree_address_depth(address),
+                             .leaf = true,
+                             .box = octree_cell_box(&world, address)};
+    return node;
+}
+
+/* Whether a view shows a node that a tick names: its filter does, and it is not too small beside those above it. */
+static bool is_shown(const scene *s, const octree *tree, const octree_node *node)
+{
+    const view *v = &s->view;
+    const octree_box world = octree_definition(tree).world;
+    const unsigned first = v->filter.by_depth ? v->filter.min_depth : 0;
+    const bool below_another = node->depth > first && !v->filter.leaves;
+    return filter_shows_node(&v->filter, &world, node) &&
+           !(below_another && camera_box_pixels(&s->camera, &node->box) < v->lod);
+}
+
+static void check_box(const scene *s, const octree *tree, octree_address address, scene_look look, size_t *due)
+{
+    const octree_node node = node_or_cell(tree, address);
+    if (!is_shown(s, tree, &node))
+        return;
+    const scene_box *box = only_box(s, look.layer, address);
+    assert_true(same_box(&box->box, &node.box));
+    assert_int_equal(box->depth, node.depth);
+    assert_int_equal(box->look.role, look.role ? look.role : theme_node_role(node.depth));
+    assert_int_equal(box->look.style, look.style);
+    assert_int_equal(box->look.width, look.width);
+    *due += 1;
+}
+
+/* Each node that was met is in the layer of its touch, each leaf of what was found in another, and nothing else is. */
+static void check_visits(const scene *s, const recount *met, const octree *tree)
+{
+    static const scene_look looks[OCTREE_TOUCH_KINDS] = {
+        [OCTREE_TOUCH_VISITED] = {LAYER_VISITED, 0, STYLE_SOLID, 2},
+        [OCTREE_TOUCH_TAKEN] = {LAYER_VISITED, 0, STYLE_SOLID, 2},
+        [OCTREE_TOUCH_PRUNED] = {LAYER_PRUNED, 0, STYLE_CUT, 1},
+    };
+    static const scene_look hit = {LAYER_HIT, ROLE_POINT, STYLE_SOLID, 2};
+    size_t due[LAYER_COUNT] = {0};
+    for (size_t i = 0; i < met->count; i++)
+        check_box(s, tree, met->visits[i].node, looks[met->visits[i].touch], &due[looks[met->visits[i].touch].layer]);
+    for (size_t i = 0; i < met->leaf_count; i++)
+        check_box(s, tree, met->leaves[i], hit, &due[LAYER_HIT]);
+    for (unsigned layer = 0; layer < LAYER_COUNT; layer++) {
+        const layer_counts found = count_layer(s, layer);
+        if (!(VISIT_LAYERS >> layer & 1))
+            continue;
+        assert_int_equal(found.boxes, due[layer]);
+        assert_int_equal(found.segments + found.markers + found.labels + found.panels, 0);
+    }
+}
+
+static bool says(const scene *s, const char *text)
+{
+    for (size_t i = 0; i < s->labels.count; i++)
+        if (strcmp(s->labels.items[i].text, text) == 0)
+            return true;
+    return false;
+}
+
+/* The words of the legend, as a recount has them. */
+static void check_words(const scene *s, const recount *met)
+{
+    char text[SCENE_TEXT];
+    const size_t taken = met->touched[OCTREE_TOUCH_TAKEN];
+    snprintf(text, sizeof text, taken ? "%zu visited, %zu taken" : "%zu visited", met->touched[OCTREE_TOUCH_VISITED],
+             taken);
+    assert_true(says(s, text));
+    snprintf(text, sizeof text, "%zu pruned", met->touched[OCTREE_TOUCH_PRUNED]);
+    assert_true(says(s, text));
+    snprintf(text, sizeof text, met->leaf_count == 1 ? "%zu leaf hit" : "%zu leaves hit", met->leaf_count);
+    assert_true(says(s, text));
+}
+
+/* The line of ticks.jsonl says the same. */
+static void check_line(const octree_game *game, const recount *met)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    tick_write(out, octree_game_tick(game), &(tick_extras){.tree_digest = 0});
+    assert_int_equal(fclose(out), 0);
+    json_t *line = json_read(text);
+    const json_t *visits = json_member(line, "visits");
+    assert_whole_number(json_member(visits, "visited"), met->touched[OCTREE_TOUCH_VISITED]);
+    assert_whole_number(json_member(visits, "taken"), met->touched[OCTREE_TOUCH_TAKEN]);
+    assert_whole_number(json_member(visits, "pruned"), met->touched[OCTREE_TOUCH_PRUNED]);
+    assert_whole_number(json_member(visits, "hit"), met->leaf_count);
+    json_decref(line);
+    free(text);
+}
+
+/* Every tick as the view shows it. A column that is high enough has room for all of the legend. */
+static void check_session(const octree_session *session, const view *v, bool words)
+{
+    octree_game *game = start_game(session);
+    recount met = {0};
+    scene s = {0};
+    double before[3];
+    memcpy(before, session->player.position, sizeof before);
+    for (;; play_tick(game)) {
+        recount_tick(&met, game, before);
+        build_tick(&s, v, game);
+        check_visits(&s, &met, octree_game_tree(game));
+        check_line(game, &met);
+        if (words)
+            check_words(&s, &met);
+        memcpy(before, octree_game_tick(game)->player, sizeof before);
+        if (octree_game_over(game))
+            break;
+    }
+    recount_free(&met);
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
+static void the_default_session_shows_what_a_recount_finds(void **state)
+{
+    (void)state;
+    const octree_session session = asking_session();
+    const view v = view_of(1280, 1440, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+    check_session(&session, &v, true);
+}
+
+static void random_sessions_show_what_a_recount_finds(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 12; seed++) {
+        random_session made;
+        random_session_full(&made, seed);
+        const view v = view_of(1280, 1440, (view_camera)(seed % CAMERA_COUNT), VIEW_DEFAULT_LAYERS);
+        check_session(&made.session, &v, true);
+    }
+}
+
+enum { BODIES = 600 };
+
+/* 600 clustered points, a box, a ball and neighbours. */
+static octree_session clustered_session(octree_body bodies[BODIES])
+{
+    static const octree_query queries[] = {
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-7.3, -6.1, -8.2}, {5.5, 7.7, 3.1}}},
+        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_KNEAREST, .target = {2.5, 1.5, 0.3}, .k = 9},
+    };
+    double positions[BODIES][3];
+    octree_session session = small_session(bodies, BODIES);
+    session.tree = define(cube(-10, 10), 2, OCTREE_MAX_DEPTH, OCTREE_GROW);
+    session.queries = queries;
+    session.query_count = 2;
+    session.keys = "wd";
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, 4, &session.tree.world, BODIES, positions), OCTREE_OK);
+    for (size_t i = 0; i < BODIES; i++) {
+        bodies[i] = (octree_body){.id = i + 1000};
+        memcpy(bodies[i].position, positions[i], sizeof positions[i]);
+    }
+    return session;
+}
+
+static void what_the_view_leaves_out_is_left_out_of_what_was_met(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    static const view_filter filters[] = {
+        {.leaves = true},
+        {.by_depth = true, .min_depth = 2, .max_depth = 4},
+        {.slice = 'z', .slice_at = 1.25},
+        {.by_region = true, .region = {{-1, -1, -1}, {6, 6, 6}}},
+    };
+    const octree_session session = clustered_session(bodies);
+    for (size_t i = 0; i < sizeof filters / sizeof filters[0]; i++) {
+        for (int lod = 0; lod <= 30; lod += 15) {
+            view v = view_of(640, 360, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+            v.filter = filters[i];
+            v.lod = lod;
+            check_session(&session, &v, false);
+        }
+    }
+}
+
+/* Shallower boxes give shared edges their colour, so that nodes look as they do in their own layer. */
+static void nodes_that_were_met_keep_their_colour(void **state)
+{
+    (void)state;
+    static octree_body bodies[BODIES];
+    const octree_session session = clustered_session(bodies);
+    octree_game *game = start_game(&session);
+    for (int coloring = 0; coloring < COLORING_COUNT; coloring++) {
+        view v = view_of(640, 360, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+        scene s = {0};
+        size_t met = 0;
+        v.coloring = (view_coloring)coloring;
+        build_tick(&s, &v, game);
+        for (size_t i = 0; i < s.boxes.count; i++) {
+            const scene_box *box = &s.boxes.items[i];
+            if (box->look.layer != LAYER_VISITED && box->look.layer != LAYER_PRUNED)
+                continue;
+            assert_int_equal(box->look.role, only_box(&s, LAYER_NODES, box->id)->look.role);
+            met++;
+        }
+        assert_true(met > 20);
+        scene_release(&s);
+    }
+    octree_game_destroy(game);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_default_session_shows_what_a_recount_finds),
+        cmocka_unit_test(random_sessions_show_what_a_recount_finds),
+        cmocka_unit_test(what_the_view_leaves_out_is_left_out_of_what_was_met),
+        cmocka_unit_test(nodes_that_were_met_keep_their_colour),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

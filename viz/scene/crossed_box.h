@@ -1,0 +1,12 @@
+/* crossed_box.h - a box that is crossed out: told from others without its colour. Private. */
+#ifndef SCENE_CROSSED_BOX_H
+#define SCENE_CROSSED_BOX_H
+
+#include "scene.h"
+
+#define CROSS_LINES 12
+
+/* The diagonals of a box's six faces, with ids from 0 on. */
+void add_crossed_faces(scene *s, const octree_box *box, scene_look look);
+
+#endif

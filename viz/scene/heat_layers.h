@@ -1,0 +1,21 @@
+/* heat_layers.h - the layers of what the leaves have seen since tick 0. Private. */
+#ifndef SCENE_HEAT_LAYERS_H
+#define SCENE_HEAT_LAYERS_H
+
+#include "heat.h"
+#include "scene.h"
+
+/* The steps of both scales, the same in every session: each is twice as much as the one before in visits, and four
+ * times as much in points. Step 0 begins at 1. */
+#define HEAT_STEPS THEME_NODE_DEPTHS
+#define HEAT_VISITS_SHIFT 1
+#define HEAT_POINTS_SHIFT 2
+
+/* The step of an amount that is not 0. */
+unsigned heat_step(uint64_t amount, unsigned shift);
+
+/* A mark in the middle of each leaf that has seen something, with its address as id: the larger and lighter the more.
+ * Null is no heat. */
+void add_heat(scene *s, const octree *tree, const heat *h);
+
+#endif
