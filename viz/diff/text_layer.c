@@ -79,7 +79,7 @@ static bool ignore_in(playing *p, diff_pair *pair, const diff_frame *frame, reco
     rectangles to = {.pair = pair};
     if (!play_to(p, tick_of(frame)))
         return record_fail(error, "%s/%s: the recording's session has no such tick", p->side->path, frame->name);
-    if (!tick_scene_build(&p->scene, &p->view, p->game))
+    if (!tick_scene_build(&p->scene, &p->view, p->game, NULL)) /* heat writes nothing */
         return record_fail(error, "there is no memory for a scene");
     draw_text_boxes(&p->scene, add_rectangle, &to);
     return !to.out_of_memory || record_fail(error, "there is no memory for what is ignored");
