@@ -14,6 +14,7 @@ typedef struct playing {
     session_file session;
     view view;
     octree_game *game;
+    heat heat; /* where the view shows it: the legend tells whether there is any */
     scene scene;
 } playing;
 
@@ -22,6 +23,12 @@ typedef struct rectangles {
     diff_pair *pair;
     bool out_of_memory;
 } rectangles;
+
+static bool add_heat(playing *p, record_error *error)
+{
+    return !(p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) ||
+           record_fail(error, "there is no memory for the heat of the nodes");
+}
 
 static bool open_session(playing *p, record_error *error)
 {
@@ -33,23 +40,28 @@ static bool open_session(playing *p, record_error *error)
     if (!ok)
         return false;
     const octree_status status = octree_game_create(&p->session.session, &p->game);
-    return status == OCTREE_OK || record_fail(error, "%s/session.json: the session cannot be played: %s", p->side->path,
-                                              octree_status_text(status));
+    if (status != OCTREE_OK)
+        return record_fail(error, "%s/session.json: the session cannot be played: %s", p->side->path,
+                           octree_status_text(status));
+    return add_heat(p, error);
 }
 
 static void close_session(playing *p)
 {
     octree_game_destroy(p->game);
+    heat_release(&p->heat);
     session_release(&p->session);
     scene_release(&p->scene);
 }
 
-/* False when the session ends before. */
-static bool play_to(playing *p, uint64_t tick)
+static bool play_to(playing *p, const diff_frame *frame, uint64_t tick, record_error *error)
 {
-    while (octree_game_tick(p->game)->number < tick)
+    while (octree_game_tick(p->game)->number < tick) {
         if (octree_game_over(p->game) || octree_game_advance(p->game) != OCTREE_OK)
+            return record_fail(error, "%s/%s: the recording's session has no such tick", p->side->path, frame->name);
+        if (!add_heat(p, error))
             return false;
+    }
     return true;
 }
 
@@ -77,9 +89,9 @@ static uint64_t tick_of(const diff_frame *frame)
 static bool ignore_in(playing *p, diff_pair *pair, const diff_frame *frame, record_error *error)
 {
     rectangles to = {.pair = pair};
-    if (!play_to(p, tick_of(frame)))
-        return record_fail(error, "%s/%s: the recording's session has no such tick", p->side->path, frame->name);
-    if (!tick_scene_build(&p->scene, &p->view, p->game, NULL)) /* heat writes nothing */
+    if (!play_to(p, frame, tick_of(frame), error))
+        return false;
+    if (!tick_scene_build(&p->scene, &p->view, p->game, &p->heat))
         return record_fail(error, "there is no memory for a scene");
     draw_text_boxes(&p->scene, add_rectangle, &to);
     return !to.out_of_memory || record_fail(error, "there is no memory for what is ignored");
