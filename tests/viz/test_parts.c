@@ -380,10 +380,10 @@ static void four_parts_in_four_processes_are_the_bytes_of_one_film(void **state)
     command_result result = run_octreel(NULL, "record --size 160x90 --camera orbit -o %s", whole.path);
     assert_done(&result);
     command_release(&result);
-    result =
-        run_script("for t in :64 64:128 128:192 192:256; do %s record --size 160x90 --camera orbit --ticks $t -o %s & "
-                   "pids=\"$pids $!\"; done; for p in $pids; do wait $p || exit; done",
-                   octreel_program(), parts.path);
+    result = run_script(
+        "for t in :64 64:128 128:192 192:256; do '%s' record --size 160x90 --camera orbit --ticks $t -o %s & "
+        "pids=\"$pids $!\"; done; for p in $pids; do wait $p || exit; done",
+        octreel_program(), parts.path);
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "join %s --json", parts.path);
@@ -402,7 +402,7 @@ static void gnu_parallel_films_the_parts(void **state)
     assert_done(&result);
     command_release(&result);
     result = run_script(
-        "parallel %s record --size 160x90 --jobs 1 -o %s --ticks {}:'{= $_ += 64 =}' ::: $(seq 0 64 252) && %s "
+        "parallel \"'%s'\" record --size 160x90 --jobs 1 -o %s --ticks {}:'{= $_ += 64 =}' ::: $(seq 0 64 252) && '%s' "
         "join %s",
         octreel_program(), parts.path, octreel_program(), parts.path);
     assert_int_equal(result.status, 0); /* parallel may ask to be cited */

@@ -35,7 +35,7 @@ background start_octreel(const char *format, ...)
     char line[LINE];
     int ends[2];
     va_list values;
-    const int used = snprintf(line, sizeof line, "exec %s ", octreel_program());
+    const int used = snprintf(line, sizeof line, "exec '%s' ", octreel_program());
     va_start(values, format);
     const int length = vsnprintf(line + used, sizeof line - (size_t)used, format, values);
     va_end(values);
