@@ -121,6 +121,32 @@ static void a_box_as_large_as_doubles_allow_is_decided_alike(void **state)
     }
 }
 
+/* Mirror images of one place about the target, some of them a double beside it, some twice: ties and near ties. */
+static void the_nearest_are_picked_alike(void **state)
+{
+    (void)state;
+    enum { POINTS = 60 };
+    uint64_t random = 5;
+    for (int i = 0; i < 300; i++) {
+        const double target[3] = {0, 0, 0};
+        const double place[3] = {random_magnitude(&random), random_magnitude(&random), random_magnitude(&random)};
+        octree_point points[POINTS], sorted[POINTS];
+        for (size_t j = 0; j < POINTS; j++) {
+            points[j].id = octree_random(&random);
+            for (int axis = 0; axis < 3; axis++) {
+                const double turned = random_below(&random, 2) == 0 ? place[axis] : -place[axis];
+                points[j].position[axis] = random_below(&random, 4) == 0 ? nudged(turned, &random) : turned;
+            }
+        }
+        const octree_point *nearest[QUICK_NEAREST_MOST];
+        const size_t k = 1 + random_below(&random, QUICK_NEAREST_MOST), count = 1 + random_below(&random, POINTS);
+        assert_int_equal(exact_nearest_sorted(points, count, target, OCTREE_SKIP_NONE, 0, sorted), count);
+        quick_nearest_k(points, count, target, k, nearest);
+        for (size_t j = 0; j < k && j < count; j++)
+            assert_int_equal(nearest[j]->id, sorted[j].id);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -128,6 +154,7 @@ int main(void)
         cmocka_unit_test(radii_and_distances_are_decided_alike),
         cmocka_unit_test(boxes_are_decided_alike),
         cmocka_unit_test(a_box_as_large_as_doubles_allow_is_decided_alike),
+        cmocka_unit_test(the_nearest_are_picked_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,3 +118,34 @@ bool quick_touches(const double from[3], const double to[3], double size, const 
         return true;
     return exact_touches(from, to, size, p, p);
 }
+
+/* A point, and its squared distance with the error above. */
+typedef struct ranked {
+    long double square;
+    const octree_point *point;
+} ranked;
+
+static bool is_nearer(const double target[3], const ranked *a, const ranked *b)
+{
+    if (are_apart(a->square, b->square))
+        return a->square < b->square;
+    const int order = exact_compare(target, a->point->position, b->point->position);
+    return order < 0 || (order == 0 && a->point->id < b->point->id);
+}
+
+void quick_nearest_k(const octree_point *points, size_t count, const double target[3], size_t k,
+                     const octree_point **nearest)
+{
+    ranked best[QUICK_NEAREST_MOST + 1];
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        const ranked next = {squared_distance(target, points[i].position), &points[i]};
+        size_t at = found;
+        for (; at > 0 && is_nearer(target, &next, &best[at - 1]); at--)
+            best[at] = best[at - 1];
+        best[at] = next;
+        found += found < k;
+    }
+    for (size_t i = 0; i < found; i++)
+        nearest[i] = best[i].point;
+}

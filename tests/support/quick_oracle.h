@@ -27,4 +27,11 @@ bool quick_within(double center, double size, double p);
 /* Whether the box position +- size, on its way between two places, touches p. */
 bool quick_touches(const double from[3], const double to[3], double size, const double p[3]);
 
+/* The most neighbours that quick_nearest_k looks for. */
+#define QUICK_NEAREST_MOST 16
+
+/* The k nearest points by the real distance, ties to the lowest id, into nearest[0 .. min(k, count) - 1]; ids differ. */
+void quick_nearest_k(const octree_point *points, size_t count, const double target[3], size_t k,
+                     const octree_point **nearest);
+
 #endif
