@@ -140,6 +140,8 @@ void quick_nearest_k(const octree_point *points, size_t count, const double targ
     size_t found = 0;
     for (size_t i = 0; i < count; i++) {
         const ranked next = {squared_distance(target, points[i].position), &points[i]};
+        if (LONG_DOUBLES_ARE_WIDE && found == k && next.square > best[k - 1].square * (1 + 4 * margin))
+            continue; /* surely no nearer than k others: most are */
         size_t at = found;
         for (; at > 0 && is_nearer(target, &next, &best[at - 1]); at--)
             best[at] = best[at - 1];

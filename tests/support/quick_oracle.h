@@ -30,7 +30,8 @@ bool quick_touches(const double from[3], const double to[3], double size, const 
 /* The most neighbours that quick_nearest_k looks for. */
 #define QUICK_NEAREST_MOST 16
 
-/* The k nearest points by the real distance, ties to the lowest id, into nearest[0 .. min(k, count) - 1]; ids differ. */
+/* The k nearest points by the real distance, ties to the lowest id, into nearest[0 .. min(k, count) - 1]; ids differ.
+ */
 void quick_nearest_k(const octree_point *points, size_t count, const double target[3], size_t k,
                      const octree_point **nearest);
 

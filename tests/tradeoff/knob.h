@@ -1,0 +1,32 @@
+/* knob.h - what trades speed for accuracy: one table of knobs, one file each. */
+#ifndef TRADEOFF_KNOB_H
+#define TRADEOFF_KNOB_H
+
+#include "table.h"
+#include "workload.h"
+
+/* How much is measured. */
+typedef struct run {
+    bool quick;
+    int rounds;         /* of each timing */
+    const char *folder; /* where files go */
+    workloads *loads;
+} run;
+
+typedef struct knob {
+    const char *name; /* of its files, and for --knob */
+    const char *title;
+    const char *trades; /* what for what */
+    const char *preset; /* the default */
+    const char *proven; /* the bound, and where it is from */
+    const char *truth;  /* what is compared with */
+    const column *columns;
+    size_t column_count;
+    void (*measure)(const run *r, table *t);
+    void (*tell)(const table *t, FILE *out); /* the headline: one sentence, computed from the data */
+} knob;
+
+extern const knob knob_mode, knob_nearest_epsilon, knob_range_epsilon, knob_leaf, knob_float, knob_sweep, knob_tick,
+    knob_picture, knob_png;
+
+#endif

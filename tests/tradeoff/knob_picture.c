@@ -1,0 +1,243 @@
+/* knob_picture.c - samples a pixel, and boxes too small to show: time for nearness to the picture that has all. */
+#include <math.h>
+#include <string.h>
+
+#include "frames.h"
+#include "knob.h"
+#include "paint.h"
+#include "picture.h"
+#include "timing.h"
+#include "trouble.h"
+
+static const column columns[] = {
+    {"setting", "--lod: boxes that appear smaller, in pixels, are left out under a drawn one", NULL},
+    {"psnr", "decibels, against 16 x 16 samples a pixel with nothing left out", NULL},
+    {"psnr_lod", "decibels, against the same samples with nothing left out; inf: the same picture", NULL},
+    {"largest_left_out", "the largest box left out, or one without a drawn ancestor, in pixels", "bound_left_out"},
+    {"bound_left_out", "proven: lod", NULL},
+    {"left_out", "boxes left out", NULL},
+    {"ms", "processor milliseconds a frame: scene, quads, pixels, mean of samples", NULL},
+    {"quads", "primitives drawn", NULL},
+    {"samples", "of a frame", NULL},
+};
+
+static const double lods[] = {0, 1, 2, 4, 8};
+static const int samples[] = {1, 2, 4};
+static const char *const names[] = {"aa1", "aa2", "aa4"};
+enum { LODS = sizeof lods / sizeof lods[0], SAMPLES = sizeof samples / sizeof samples[0] };
+
+/* Text is left out: it says how much is left out. */
+static view view_with(int aa, double lod)
+{
+    view v = view_default();
+    v.width = 640;
+    v.height = 360;
+    v.layers &= ~(1u << LAYER_TEXT);
+    v.budget = 0;
+    v.aa = aa;
+    v.lod = lod;
+    return v;
+}
+
+/* ---- What is left out, by another way than the scene's ------------------------------------------------------- */
+
+typedef struct leaving_out {
+    const scene *picture;
+    octree_address *shown; /* sorted */
+    size_t count, out;
+    double largest;
+} leaving_out;
+
+static int by_address(const void *a, const void *b)
+{
+    const octree_address p = *(const octree_address *)a, q = *(const octree_address *)b;
+    return (p > q) - (p < q);
+}
+
+static bool is_shown(const leaving_out *l, octree_address address)
+{
+    return bsearch(&address, l->shown, l->count, sizeof address, by_address) != NULL;
+}
+
+/* The longer side of the rectangle around a box's corners. */
+static double pixels_of(const camera *c, const octree_box *box)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (unsigned corner = 0; corner < 8; corner++) {
+        double at[3], seen[3], pixel[2];
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = corner >> axis & 1 ? box->max[axis] : box->min[axis];
+        camera_transform(c, at, seen);
+        camera_project(c, seen, pixel);
+        for (int i = 0; i < 2; i++) {
+            low[i] = fmin(low[i], pixel[i]);
+            high[i] = fmax(high[i], pixel[i]);
+        }
+    }
+    return fmax(high[0] - low[0], high[1] - low[1]);
+}
+
+static octree_walk_order look_at(const octree_node *node, void *context)
+{
+    leaving_out *l = context;
+    if (is_shown(l, node->address))
+        return OCTREE_WALK_ON;
+    bool under_shown = false;
+    for (octree_address up = node->address >> 3; up >= OCTREE_ROOT; up >>= 3)
+        under_shown = under_shown || is_shown(l, up);
+    l->out++;
+    l->largest = fmax(l->largest, under_shown ? pixels_of(&l->picture->camera, &node->box) : INFINITY);
+    return OCTREE_WALK_ON;
+}
+
+static leaving_out find_left_out(const scene *picture, const octree *tree)
+{
+    leaving_out l = {.picture = picture, .shown = memory(NULL, picture->boxes.count * sizeof *l.shown)};
+    for (size_t i = 0; i < picture->boxes.count; i++)
+        if (picture->boxes.items[i].look.layer == LAYER_NODES)
+            l.shown[l.count++] = picture->boxes.items[i].id;
+    qsort(l.shown, l.count, sizeof *l.shown, by_address);
+    must(octree_walk(tree, look_at, &l));
+    free(l.shown);
+    return l;
+}
+
+/* ---- Measuring ---------------------------------------------------------------------------------------------- */
+
+typedef struct drawing {
+    const subject *subject;
+    view view;
+    picture picture;
+    scene scene;
+} drawing;
+
+static void draw(void *contestant)
+{
+    drawing *d = contestant;
+    record_error why;
+    subject_show(d->subject, &d->view, &d->scene);
+    if (!picture_draw(&d->picture, &d->scene, &why))
+        stop("%s", why.text);
+}
+
+static size_t count_quads(const scene *picture)
+{
+    painter p = {0};
+    if (!paint(&p, picture))
+        stop("there is no memory for a frame");
+    const size_t count = p.quads.count;
+    painter_release(&p);
+    return count;
+}
+
+static void add_row(table *t, const char *scene, const char *variant, const drawing *d, const drawing *whole,
+                    const image *reference, double ns)
+{
+    const leaving_out l = find_left_out(&d->scene, subject_tree(d->subject));
+    const double bound = d->view.lod, edge = nextafter(bound, 0); /* what is exactly as large is not left out */
+    table_add(t, scene, variant,
+              (double[]){bound, peak_signal_to_noise(&d->picture.frame, reference),
+                         peak_signal_to_noise(&d->picture.frame, &whole->picture.frame), l.largest, edge, (double)l.out,
+                         ns / 1e6, (double)count_quads(&d->scene),
+                         (double)(d->view.width * d->view.height * d->view.aa * d->view.aa)});
+}
+
+static void measure_samples(const run *r, table *t, const char *name, const subject *s, const image *reference, int aa)
+{
+    drawing drawings[LODS];
+    double ns[LODS];
+    record_error why;
+    for (int i = 0; i < LODS; i++) {
+        drawings[i] = (drawing){.subject = s, .view = view_with(samples[aa], lods[i])};
+        if (!picture_open(&drawings[i].picture, &drawings[i].view, &(renderer_choice){0}, &why))
+            stop("%s", why.text);
+        draw(&drawings[i]); /* the first frame is slower */
+    }
+    time_in_turn(draw, drawings, sizeof drawings[0], LODS, r->rounds, ns);
+    for (int i = 0; i < LODS; i++)
+        add_row(t, name, names[aa], &drawings[i], &drawings[0], reference, ns[i]);
+    for (int i = 0; i < LODS; i++) {
+        picture_close(&drawings[i].picture);
+        scene_release(&drawings[i].scene);
+    }
+}
+
+static void measure(const run *r, table *t)
+{
+    static const frame_kind kinds[] = {{"session", 0}, {"clusters-2000", 2000}, {"clusters-50000", 50000}};
+    for (size_t i = 0; i < (r->quick ? 1 : sizeof kinds / sizeof kinds[0]); i++) {
+        subject *s = subject_make(&kinds[i]);
+        const view v = view_with(REFERENCE_SAMPLES, 0);
+        scene whole = {0};
+        subject_show(s, &v, &whole);
+        image reference = draw_reference(&whole);
+        for (int aa = 0; aa < SAMPLES; aa++)
+            measure_samples(r, t, kinds[i].name, s, &reference, aa);
+        image_release(&reference);
+        scene_release(&whole);
+        subject_free(s);
+    }
+}
+
+/* The picture that is least like the one with nothing left out, in decibels. */
+static double least_psnr_lod(const table *t, double lod)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < t->count; i++)
+        if (t->rows[i].values[0] == lod)
+            least = fmin(least, table_value(t, &t->rows[i], "psnr_lod"));
+    return least;
+}
+
+static void tell_lod(const table *t, double lod, FILE *out)
+{
+    const ratio faster =
+        table_ratios(t, (pick){.variant = "aa1", .setting = 0}, (pick){.variant = "aa1", .setting = lod}, "ms");
+    const double psnr = least_psnr_lod(t, lod);
+    fprintf(out, "%g saves up to %.0f %% of the time and ", lod, 100 * (1 - 1 / faster.most));
+    if (isinf(psnr))
+        fputs("no pixel differs", out);
+    else
+        fprintf(out, "the picture differs by %.0f dB at worst", psnr);
+    fprintf(out, " (largest box left out %.2f pixels, proven %g)",
+            table_most(t, (pick){.variant = "aa1", .setting = lod}, "largest_left_out"), lod);
+}
+
+static void tell(const table *t, FILE *out)
+{
+    const pick one = {.variant = "aa1", .setting = 2};
+    fputs("One sample a pixel is the default", out);
+    for (int aa = 0; aa < SAMPLES; aa++) {
+        const pick p = {.variant = names[aa], .setting = 2};
+        fprintf(out, "%s %.1f dB",
+                aa == 0   ? " and comes to"
+                : aa == 1 ? "; --aa 2 comes to"
+                          : ", --aa 4 to",
+                table_sum(t, p, "psnr") / (double)table_count(t, p));
+        if (aa > 0)
+            fprintf(out, " for %.1f x the time", table_ratio(t, p, one, "ms"));
+    }
+    fputs(". --lod 2 is the default: against 0, ", out);
+    tell_lod(t, 2, out);
+    fputs("; ", out);
+    tell_lod(t, 4, out);
+    fputs("; ", out);
+    tell_lod(t, 8, out);
+    fputc('.', out);
+}
+
+const knob knob_picture = {
+    .name = "picture",
+    .title = "Samples a pixel (--aa), and boxes too small to show (--lod)",
+    .trades = "Time of a frame for nearness to the picture with nothing left out and every edge smooth.",
+    .preset = "--aa 1, --lod 2",
+    .proven =
+        "No box of lod pixels or more is left out, and none without a drawn one around it. For samples nothing is "
+        "proven: the reference says what they are worth.",
+    .truth = "The same tick at 640 x 360 with 16 x 16 samples a pixel and lod 0, without text; the size of boxes from "
+             "their eight corners.",
+    .columns = columns,
+    .column_count = sizeof columns / sizeof columns[0],
+    .measure = measure,
+    .tell = tell,
+};

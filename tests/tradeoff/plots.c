@@ -1,0 +1,55 @@
+/* plots.c - see plots.h. */
+#include "plots.h"
+
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "trouble.h"
+
+/* The exit status; 127 when the program cannot be run. */
+static int run_program(char *const *arguments)
+{
+    int status;
+    const pid_t child = fork();
+    if (child == 0) {
+        execvp(arguments[0], arguments);
+        _exit(127);
+    }
+    if (child < 0 || waitpid(child, &status, 0) != child)
+        stop("%s cannot be started", arguments[0]);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+bool plots_can(void)
+{
+    return run_program((char *[]){"gnuplot", "-e", "exit", NULL}) == 0;
+}
+
+/* The scenes of a table, each once, with blanks between. */
+static void list_scenes(const table *t, char *list, size_t room)
+{
+    size_t used = 0;
+    list[0] = '\0';
+    for (size_t i = 0; i < t->count; i++) {
+        bool met = false;
+        for (size_t j = 0; j < i && !met; j++)
+            met = strcmp(t->rows[j].scene, t->rows[i].scene) == 0;
+        if (!met && used < room)
+            used += (size_t)snprintf(list + used, room - used, "%s%s", used ? " " : "", t->rows[i].scene);
+    }
+}
+
+void plot(const knob *k, const table *t, const char *folder)
+{
+    char values[10000], scenes[1024], script[4200];
+    list_scenes(t, scenes, sizeof scenes);
+    if (strchr(folder, '\''))
+        stop("gnuplot cannot write to a folder with an apostrophe in its name");
+    snprintf(values, sizeof values, "csv='%s/%s.csv'; png='%s/%s.png'; scenes='%s'", folder, k->name, folder, k->name,
+             scenes);
+    snprintf(script, sizeof script, "%s/%s.gp", OCTREEL_PLOTS, k->name);
+    char *const arguments[] = {"gnuplot", "-e", values, OCTREEL_PLOTS "/style.gp", script, NULL};
+    if (run_program(arguments) != 0)
+        stop("gnuplot fails on %s", script);
+}

@@ -1,0 +1,187 @@
+/* table.c - see table.h. */
+#include "table.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "trouble.h"
+
+void table_add(table *t, const char *scene, const char *variant, const double *values)
+{
+    if (t->count == t->room) {
+        t->room = t->room ? 2 * t->room : 64;
+        t->rows = memory(t->rows, t->room * sizeof *t->rows);
+    }
+    row *r = &t->rows[t->count++];
+    *r = (row){.variant = variant};
+    snprintf(r->scene, sizeof r->scene, "%s", scene);
+    memcpy(r->values, values, t->column_count * sizeof *values);
+}
+
+void table_free(table *t)
+{
+    free(t->rows);
+    *t = (table){0};
+}
+
+static size_t index_of(const table *t, const char *name)
+{
+    size_t i = 0;
+    while (i < t->column_count && strcmp(t->columns[i].name, name) != 0)
+        i++;
+    if (i == t->column_count)
+        stop("there is no column \"%s\"", name);
+    return i;
+}
+
+double table_value(const table *t, const row *r, const char *column)
+{
+    return r->values[index_of(t, column)];
+}
+
+static bool is_picked(const row *r, pick p)
+{
+    return (!p.scene || strcmp(p.scene, r->scene) == 0) && (!p.variant || strcmp(p.variant, r->variant) == 0) &&
+           (isnan(p.setting) || p.setting == r->values[0]);
+}
+
+size_t table_count(const table *t, pick p)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < t->count; i++)
+        count += is_picked(&t->rows[i], p);
+    return count;
+}
+
+double table_most(const table *t, pick p, const char *column)
+{
+    const size_t at = index_of(t, column);
+    double most = 0;
+    for (size_t i = 0; i < t->count; i++)
+        if (is_picked(&t->rows[i], p))
+            most = fmax(most, t->rows[i].values[at]);
+    return most;
+}
+
+double table_sum(const table *t, pick p, const char *column)
+{
+    const size_t at = index_of(t, column);
+    double sum = 0;
+    for (size_t i = 0; i < t->count; i++)
+        if (is_picked(&t->rows[i], p) && !isnan(t->rows[i].values[at]))
+            sum += t->rows[i].values[at];
+    return sum;
+}
+
+static const row *find_row(const table *t, pick p)
+{
+    for (size_t i = 0; i < t->count; i++)
+        if (is_picked(&t->rows[i], p))
+            return &t->rows[i];
+    return NULL;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+ratio table_ratios(const table *t, pick a, pick b, const char *column)
+{
+    const size_t at = index_of(t, column);
+    double *all = memory(NULL, t->count * sizeof *all);
+    size_t count = 0;
+    ratio found = {.median = NAN, .most = NAN};
+    for (size_t i = 0; i < t->count; i++) {
+        if (!is_picked(&t->rows[i], a))
+            continue;
+        pick same = b;
+        same.scene = t->rows[i].scene;
+        const row *other = find_row(t, same);
+        const double value = other ? t->rows[i].values[at] / other->values[at] : NAN;
+        if (!isfinite(value))
+            continue;
+        all[count++] = value;
+        if (!(value <= found.most)) {
+            found.most = value;
+            found.scene = t->rows[i].scene;
+        }
+    }
+    qsort(all, count, sizeof *all, by_value);
+    if (count > 0)
+        found.median = (all[(count - 1) / 2] + all[count / 2]) / 2;
+    free(all);
+    return found;
+}
+
+double table_ratio(const table *t, pick a, pick b, const char *column)
+{
+    return table_ratios(t, a, b, column).median;
+}
+
+static void write_number(double value, FILE *out)
+{
+    if (isnan(value))
+        fputs("nan", out);
+    else
+        fprintf(out, "%.10g", value);
+}
+
+void table_write_csv(const table *t, FILE *out)
+{
+    fputs("scene,variant", out);
+    for (size_t c = 0; c < t->column_count; c++)
+        fprintf(out, ",%s", t->columns[c].name);
+    fputc('\n', out);
+    for (size_t i = 0; i < t->count; i++) {
+        fprintf(out, "%s,%s", t->rows[i].scene, t->rows[i].variant);
+        for (size_t c = 0; c < t->column_count; c++) {
+            fputc(',', out);
+            write_number(t->rows[i].values[c], out);
+        }
+        fputc('\n', out);
+    }
+}
+
+void table_write_json(const table *t, const char *knob, FILE *out)
+{
+    for (size_t i = 0; i < t->count; i++) {
+        fprintf(out, "{\"knob\":\"%s\",\"scene\":\"%s\",\"variant\":\"%s\"", knob, t->rows[i].scene,
+                t->rows[i].variant);
+        for (size_t c = 0; c < t->column_count; c++) {
+            const double value = t->rows[i].values[c];
+            fprintf(out, ",\"%s\":", t->columns[c].name);
+            if (isfinite(value))
+                write_number(value, out);
+            else
+                fputs("null", out);
+        }
+        fputs("}\n", out);
+    }
+    fflush(out);
+}
+
+/* NaN when the column has no bound there. */
+static double bound_of(const table *t, const row *r, const column *c)
+{
+    if (!c->bound)
+        return NAN;
+    return strcmp(c->bound, "0") == 0 ? 0 : table_value(t, r, c->bound);
+}
+
+size_t table_judge(const table *t, const char *knob, double tighten, FILE *out)
+{
+    size_t beyond = 0;
+    for (size_t i = 0; i < t->count; i++)
+        for (size_t c = 0; c < t->column_count; c++) {
+            const row *r = &t->rows[i];
+            const double bound = bound_of(t, r, &t->columns[c]) * tighten;
+            if (!(r->values[c] > bound)) /* NaN is beyond nothing */
+                continue;
+            beyond++;
+            fprintf(out, "octree-tradeoff: %s, %s, %s at %.10g: %s is %.17g, and the proven bound %.17g\n", knob,
+                    r->scene, r->variant, r->values[0], t->columns[c].name, r->values[c], bound);
+        }
+    return beyond;
+}

@@ -1,0 +1,207 @@
+/* tradeoff.c - octree-tradeoff: its command line, and the knobs one after the other. */
+#include <errno.h>
+#include <getopt.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "page.h"
+#include "plots.h"
+#include "session_file.h"
+#include "trouble.h"
+
+enum { EXIT_DONE = 0, EXIT_FINDING = 1 };
+
+static const knob *const all_knobs[] = {&knob_mode, &knob_nearest_epsilon, &knob_range_epsilon,
+                                        &knob_leaf, &knob_float,           &knob_sweep,
+                                        &knob_tick, &knob_picture,         &knob_png};
+enum { KNOBS = sizeof all_knobs / sizeof all_knobs[0] };
+
+typedef struct options {
+    bool quick, json, chosen[KNOBS];
+    const char *folder, *cloud, *session;
+    double tighten;
+} options;
+
+static void print_help(void)
+{
+    fputs(
+        "octree-tradeoff - what speed costs in accuracy, and accuracy in speed: every knob of Octreel that trades the "
+        "two,\nmeasured against a truth that is exact, on scenes from ordinary to extreme\n\n"
+        "usage: octree-tradeoff [OPTION ...]\n\n"
+        "  -o, --output FOLDER   where tradeoff.html and, for each knob, its CSV file and its plot go (default\n"
+        "                        tradeoff); a folder that is missing is made, files in it are replaced\n"
+        "      --knob LIST       only some, with commas between, of",
+        stdout);
+    for (int i = 0; i < KNOBS; i++)
+        printf("%s %s", i % 5 == 0 ? "\n                       " : "", all_knobs[i]->name);
+    fputs("\n      --cloud FILE      one more scene: a point cloud (x y z text, PLY or PCD)\n"
+          "      --session FILE    a recorded session instead of the one that is made up\n"
+          "      --quick           few points, one round: the bounds are checked, the times mean little\n"
+          "      --json            print a line a row, for programs, instead of the headlines\n"
+          "      --tighten F       multiply every bound by F: to see that what is beyond one is found\n"
+          "  -h, --help\n\n"
+          "Plots are drawn by gnuplot; where it is missing, the page is without them and says so.\n"
+          "Exit status: 0 all is within its bound, 1 a worst case is beyond its bound, 2 trouble.\n",
+          stdout);
+}
+
+static void choose(options *o, char *list)
+{
+    for (char *name = strtok(list, ","); name; name = strtok(NULL, ",")) {
+        int i = 0;
+        while (i < KNOBS && strcmp(all_knobs[i]->name, name) != 0)
+            i++;
+        if (i == KNOBS)
+            stop("there is no knob \"%s\"; --help lists them", name);
+        o->chosen[i] = true;
+    }
+}
+
+static double read_factor(const char *text)
+{
+    char *end;
+    const double factor = strtod(text, &end);
+    if (end == text || *end || !(factor >= 0 && factor <= 1))
+        stop("--tighten takes a number from 0 to 1, not \"%s\"", text);
+    return factor;
+}
+
+static options read_options(int argc, char **argv)
+{
+    static const struct option names[] = {
+        {"output", required_argument, NULL, 'o'},
+        {"knob", required_argument, NULL, 'k'},
+        {"cloud", required_argument, NULL, 'c'},
+        {"session", required_argument, NULL, 's'},
+        {"quick", no_argument, NULL, 'q'},
+        {"json", no_argument, NULL, 'j'},
+        {"tighten", required_argument, NULL, 't'},
+        {"help", no_argument, NULL, 'h'},
+        {NULL, 0, NULL, 0},
+    };
+    options o = {.folder = "tradeoff", .tighten = 1};
+    bool any = false;
+    for (int letter; (letter = getopt_long(argc, argv, "o:h", names, NULL)) != -1;) {
+        switch (letter) {
+        case 'o':
+            o.folder = optarg;
+            break;
+        case 'k':
+            choose(&o, optarg);
+            any = true;
+            break;
+        case 'c':
+            o.cloud = optarg;
+            break;
+        case 's':
+            o.session = optarg;
+            break;
+        case 'q':
+            o.quick = true;
+            break;
+        case 'j':
+            o.json = true;
+            break;
+        case 't':
+            o.tighten = read_factor(optarg);
+            break;
+        case 'h':
+            print_help();
+            exit(EXIT_DONE);
+        default:
+            stop("try --help");
+        }
+    }
+    if (optind < argc)
+        stop("there is nothing to do with \"%s\"; try --help", argv[optind]);
+    for (int i = 0; !any && i < KNOBS; i++)
+        o.chosen[i] = true;
+    return o;
+}
+
+static void make_loads(const options *o, workloads *loads)
+{
+    cloud read = {0};
+    cloud_error cloud_why;
+    session_file session = {0};
+    session_error session_why;
+    if (o->cloud && !cloud_read(o->cloud, NULL, &read, &cloud_why))
+        stop("%s", cloud_why.text);
+    if (o->session && !session_read(o->session, &session, &session_why))
+        stop("%s", session_why.text);
+    workloads_make(loads, o->quick ? 2000 : 50000, o->quick ? 200 : 3000, o->session ? &session.session : NULL,
+                   o->cloud ? &read : NULL);
+    cloud_release(&read);
+    session_release(&session);
+}
+
+static FILE *open_in(const char *folder, const char *name, const char *ending)
+{
+    char path[4200];
+    snprintf(path, sizeof path, "%s/%s.%s", folder, name, ending);
+    FILE *file = fopen(path, "w");
+    if (!file)
+        stop("%s: %s", path, strerror(errno));
+    return file;
+}
+
+static char *headline_of(const knob *k, const table *t)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        stop("there is no memory");
+    k->tell(t, out);
+    fclose(out);
+    return text;
+}
+
+static chapter measure(const knob *k, const run *r, const options *o, bool plotted)
+{
+    chapter c = {.knob = k, .table = {.columns = k->columns, .column_count = k->column_count}};
+    k->measure(r, &c.table);
+    c.headline = headline_of(k, &c.table);
+    c.beyond = table_judge(&c.table, k->name, o->tighten, stderr);
+    FILE *csv = open_in(o->folder, k->name, "csv");
+    table_write_csv(&c.table, csv);
+    if (fclose(csv) != 0)
+        stop("%s/%s.csv cannot be written", o->folder, k->name);
+    if (plotted)
+        plot(k, &c.table, o->folder);
+    if (o->json)
+        table_write_json(&c.table, k->name, stdout);
+    else
+        printf("%s\n  %s\n", k->title, c.headline);
+    fflush(stdout);
+    return c;
+}
+
+int main(int argc, char **argv)
+{
+    const options o = read_options(argc, argv);
+    workloads loads;
+    chapter chapters[KNOBS];
+    size_t count = 0, beyond = 0;
+    if (mkdir(o.folder, 0777) != 0 && errno != EEXIST)
+        stop("%s: %s", o.folder, strerror(errno));
+    const bool plotted = plots_can();
+    if (!plotted)
+        fputs("octree-tradeoff: gnuplot is not found: the page is without plots\n", stderr);
+    make_loads(&o, &loads);
+    const run r = {.quick = o.quick, .rounds = o.quick ? 1 : 5, .folder = o.folder, .loads = &loads};
+    for (int i = 0; i < KNOBS; i++)
+        if (o.chosen[i])
+            chapters[count++] = measure(all_knobs[i], &r, &o, plotted);
+    page_write(chapters, count, &r, plotted);
+    for (size_t i = 0; i < count; i++) {
+        beyond += chapters[i].beyond;
+        free(chapters[i].headline);
+        table_free(&chapters[i].table);
+    }
+    workloads_free(&loads);
+    if (!o.json)
+        printf("%s/tradeoff.html has it all.\n", o.folder);
+    return beyond ? EXIT_FINDING : EXIT_DONE;
+}
