@@ -32,17 +32,6 @@ static octree_status check_edits(const octree_session *session)
     return OCTREE_OK;
 }
 
-static octree_status check_box(const octree_box *box)
-{
-    for (int i = 0; i < 3; i++) {
-        if (isnan(box->min[i]) || isnan(box->max[i]))
-            return OCTREE_NOT_FINITE;
-        if (box->min[i] > box->max[i])
-            return OCTREE_BAD_RANGE;
-    }
-    return OCTREE_OK;
-}
-
 /* What the tree would refuse is refused here: an error in the middle of a game would be its end. */
 static octree_status check_query(const octree_query *query)
 {

@@ -1,25 +1,9 @@
 /* range.c - Algorithm 4: the points in a closed box. */
 #include "exact.h"
-#include "float_mode.h"
 #include "region.h"
 #include "search.h"
 
 #include <math.h>
-
-static octree_status check_box(const octree_box *box)
-{
-    if (!box)
-        return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
-    for (int i = 0; i < 3; i++) {
-        if (isnan(box->min[i]) || isnan(box->max[i]))
-            return OCTREE_NOT_FINITE;
-        if (box->min[i] > box->max[i])
-            return OCTREE_BAD_RANGE;
-    }
-    return OCTREE_OK;
-}
 
 /* A box in keys: what it is compared with are integers from then on. Keys are monotone, so a point whose key lies
  * strictly between the ends' keys lies in the box, and one whose key lies outside them does not. Where the box reaches

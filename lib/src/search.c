@@ -27,6 +27,21 @@ octree_status check_finite(const double position[3])
     return finite ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
+octree_status check_box(const octree_box *box)
+{
+    if (!box)
+        return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
+    for (int i = 0; i < 3; i++) {
+        if (isnan(box->min[i]) || isnan(box->max[i]))
+            return OCTREE_NOT_FINITE;
+        if (box->min[i] > box->max[i])
+            return OCTREE_BAD_RANGE;
+    }
+    return OCTREE_OK;
+}
+
 bool visit_all_below(const node *n, meter *m, octree_point_visitor visit, void *context)
 {
     const node *pending[STACK_ROOM];

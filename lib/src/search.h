@@ -17,6 +17,9 @@ octree_status check_search(const octree_search *how);
 /* NOT_FINITE when one of three coordinates is. */
 octree_status check_finite(const double position[3]);
 
+/* NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE (a NaN) or BAD_RANGE. */
+octree_status check_box(const octree_box *box);
+
 /* True when a square is decided by as it is: in fast mode, but for squares that overflow, which say nothing. */
 static inline bool is_trusted(octree_mode mode, double square)
 {

@@ -136,15 +136,6 @@ static void near_misses_at_extreme_scales_are_told_from_hits(void **state)
     near_misses(0, 1e200, 1e-200, 1e200, 1e200, 10);
 }
 
-static const double extremes[] = {0,  5e-324,      1e-323, 0x1p-1022, 1e-200,      0x1p-53,     0.1,   1,
-                                  30, 1 + 0x1p-52, 1e15,   1e200,     DBL_MAX / 4, DBL_MAX / 2, 1e308, DBL_MAX};
-
-static double extreme(uint64_t *random)
-{
-    const double value = extremes[random_below(random, sizeof extremes / sizeof extremes[0])];
-    return random_below(random, 2) == 0 ? value : -value;
-}
-
 static void any_mixture_of_extremes_is_decided_rightly(void **state)
 {
     (void)state;
@@ -153,13 +144,13 @@ static void any_mixture_of_extremes_is_decided_rightly(void **state)
     for (int i = 0; i < 300; i++) {
         static crossing c;
         c.key = keys[random_below(&random, 4)];
-        c.step = fabs(extreme(&random));
-        c.size = fabs(extreme(&random));
+        c.step = fabs(random_extreme(&random));
+        c.size = fabs(random_extreme(&random));
         for (int axis = 0; axis < 3; axis++)
-            c.from[axis] = extreme(&random);
+            c.from[axis] = random_extreme(&random);
         for (size_t j = 0; j < BODIES; j++) {
-            const double p[3] = {extreme(&random), extreme(&random), extreme(&random)};
-            const double q[3] = {extreme(&random), extreme(&random), extreme(&random)};
+            const double p[3] = {random_extreme(&random), random_extreme(&random), random_extreme(&random)};
+            const double q[3] = {random_extreme(&random), random_extreme(&random), random_extreme(&random)};
             send(&c, j, p, random_below(&random, 8) == 0 ? p : q);
         }
         check(&c);

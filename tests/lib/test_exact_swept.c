@@ -174,15 +174,6 @@ static void moments_that_underflow_are_told_apart(void **state)
     }
 }
 
-static const double extremes[] = {0,  5e-324,      1e-323, 0x1p-1022, 1e-200,      0x1p-53,     0.1,   1,
-                                  30, 1 + 0x1p-52, 1e15,   1e200,     DBL_MAX / 4, DBL_MAX / 2, 1e308, DBL_MAX};
-
-static double extreme(uint64_t *random)
-{
-    const double value = extremes[random_below(random, sizeof extremes / sizeof extremes[0])];
-    return random_below(random, 2) == 0 ? value : -value;
-}
-
 static void any_mixture_of_extremes_is_decided_rightly(void **state)
 {
     (void)state;
@@ -190,16 +181,16 @@ static void any_mixture_of_extremes_is_decided_rightly(void **state)
     for (int i = 0; i < 150; i++) {
         brute all = {0};
         for (int j = 0; j < 24; j++) {
-            const double at[3] = {extreme(&random), extreme(&random), extreme(&random)};
+            const double at[3] = {random_extreme(&random), random_extreme(&random), random_extreme(&random)};
             if (!brute_contains(&all, at, 0))
                 brute_insert(&all, at, 0);
         }
         octree *tree = brute_tree(&all, cube(-DBL_MAX, DBL_MAX), 1, 21);
         for (int j = 0; j < 4; j++) {
-            sweep s = {.size = fabs(extreme(&random))};
+            sweep s = {.size = fabs(random_extreme(&random))};
             for (int axis = 0; axis < 3; axis++) {
-                s.from[axis] = extreme(&random);
-                s.to[axis] = extreme(&random);
+                s.from[axis] = random_extreme(&random);
+                s.to[axis] = random_extreme(&random);
             }
             assert_swept_in(tree, &all, &s);
         }

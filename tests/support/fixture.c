@@ -1,6 +1,7 @@
 /* fixture.c - see fixture.h. */
 #include "fixture.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "octree/sample.h"
@@ -85,4 +86,13 @@ bool box_holds(const octree_box *box, const double position[3])
         if (!(position[axis] >= box->min[axis] && position[axis] <= box->max[axis]))
             return false;
     return true;
+}
+
+static const double extremes[] = {0,  5e-324,      1e-323, 0x1p-1022, 1e-200,      0x1p-53,     0.1,   1,
+                                  30, 1 + 0x1p-52, 1e15,   1e200,     DBL_MAX / 4, DBL_MAX / 2, 1e308, DBL_MAX};
+
+double random_extreme(uint64_t *random)
+{
+    const double value = extremes[random_below(random, sizeof extremes / sizeof extremes[0])];
+    return random_below(random, 2) == 0 ? value : -value;
 }

@@ -39,6 +39,9 @@ double next_down(double value);
 uint64_t random_below(uint64_t *state, uint64_t limit);
 double random_between(uint64_t *state, double low, double high);
 
+/* One of the numbers at which arithmetic goes wrong, from 0 and the least subnormal to DBL_MAX, of either sign. */
+double random_extreme(uint64_t *state);
+
 /* Whether coordinates are equal as numbers (-0.0 is +0.0), and whether a closed box holds a position. */
 bool same_position(const double a[3], const double b[3]);
 bool box_holds(const octree_box *box, const double position[3]);

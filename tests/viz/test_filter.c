@@ -1,6 +1,7 @@
 /* test_filter.c - what a view shows of a tree: every node and point that passes its filter, and no other. */
 #include "scenes.h"
 #include "brute.h"
+#include "draw_list.h"
 #include "filter.h"
 
 #include <stdio.h>
@@ -100,22 +101,6 @@ static bool has_box(const scene *s, const octree_node *node)
     return false;
 }
 
-static size_t count_boxes(const scene *s)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->boxes.count; i++)
-        count += s->boxes.items[i].look.layer == LAYER_NODES;
-    return count;
-}
-
-static size_t count_points(const scene *s)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->markers.count; i++)
-        count += s->markers.items[i].look.layer == LAYER_POINTS;
-    return count;
-}
-
 static bool has_point(const scene *s, const octree_point *point)
 {
     for (size_t i = 0; i < s->markers.count; i++)
@@ -152,8 +137,8 @@ static size_t check_filter(const known_tree *t, const view_filter *f)
         assert_int_equal(has_point(&s, &t->points.points[i]), passes);
         points += passes;
     }
-    assert_int_equal(count_boxes(&s), nodes);
-    assert_int_equal(count_points(&s), points);
+    assert_int_equal(count_layer(&s, LAYER_NODES).boxes, nodes);
+    assert_int_equal(count_layer(&s, LAYER_POINTS).markers, points);
     assert_int_equal(has_text(&s, "%zu nodes", nodes) && has_text(&s, "%zu points", points), filter_is_on(f));
     scene_release(&s);
     return nodes;
@@ -239,11 +224,11 @@ static void an_empty_tree_has_its_root_under_any_filter_that_meets_it(void **sta
     scene s = {0};
     v.filter = (view_filter){.slice = 'x', .slice_at = 1, .leaves = true};
     assert_true(tree_scene_build(&s, &v, tree, "empty"));
-    assert_int_equal(count_boxes(&s), 1);
+    assert_int_equal(count_layer(&s, LAYER_NODES).boxes, 1);
     v.filter.by_depth = true;
     v.filter.min_depth = v.filter.max_depth = 1;
     assert_true(tree_scene_build(&s, &v, tree, "empty"));
-    assert_int_equal(count_boxes(&s), 0);
+    assert_int_equal(count_layer(&s, LAYER_NODES).boxes, 0);
     scene_release(&s);
     octree_destroy(tree);
 }

@@ -2,6 +2,7 @@
  * says so. */
 #include "scenes.h"
 #include "brute.h"
+#include "draw_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,22 +32,6 @@ static scene scene_of(const octree *tree, const view *v)
     scene s = {0};
     assert_true(tree_scene_build(&s, v, tree, "lod"));
     return s;
-}
-
-static size_t count_boxes(const scene *s)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->boxes.count; i++)
-        count += s->boxes.items[i].look.layer == LAYER_NODES;
-    return count;
-}
-
-static size_t count_points(const scene *s)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->markers.count; i++)
-        count += s->markers.items[i].look.layer == LAYER_POINTS;
-    return count;
 }
 
 static bool has_box(const scene *s, octree_address address)
@@ -133,8 +118,8 @@ static void assert_lod(const octree *tree, const view *v)
     lod_check check = {.scene = &s};
     char text[SCENE_TEXT];
     octree_walk(tree, check_lod, &check);
-    assert_int_equal(count_boxes(&s), check.drawn);
-    assert_true(v->filter.by_depth || count_points(&s) == octree_count(tree));
+    assert_int_equal(count_layer(&s, LAYER_NODES).boxes, check.drawn);
+    assert_true(v->filter.by_depth || count_layer(&s, LAYER_POINTS).markers == octree_count(tree));
     assert_true(s.tally.nodes == check.drawn && s.tally.small == check.left_out);
     snprintf(text, sizeof text, "%zu below %g px", check.left_out, v->lod);
     assert_int_equal(has_text(&s, text), check.left_out > 0);
@@ -213,7 +198,7 @@ static void nodes_beyond_the_budget_are_left_out_by_whole_levels(void **state)
             within += stats.nodes_at_depth[levels++];
         v.budget = budget;
         scene s = scene_of(tree, &v);
-        assert_int_equal(count_boxes(&s), within);
+        assert_int_equal(count_layer(&s, LAYER_NODES).boxes, within);
         for (size_t i = 0; i < s.boxes.count; i++)
             assert_true(s.boxes.items[i].look.layer != LAYER_NODES || s.boxes.items[i].depth < levels);
         assert_int_equal(s.tally.beyond, stats.nodes - within);
@@ -232,7 +217,7 @@ static void a_level_that_is_too_large_by_itself_is_said_to_be_left_out(void **st
     v.budget = 5;
     v.filter = (view_filter){.by_depth = true, .min_depth = 4, .max_depth = 4};
     scene s = scene_of(tree, &v);
-    assert_int_equal(count_boxes(&s), 0);
+    assert_int_equal(count_layer(&s, LAYER_NODES).boxes, 0);
     assert_true(has_text(&s, "no nodes") || has_text(&s, "nodes to depth 3"));
     scene_release(&s);
     octree_destroy(tree);
@@ -255,10 +240,10 @@ static void points_beyond_the_budget_are_left_out_by_their_ids(void **state)
         v.layers &= ~(1u << LAYER_NODES);
         v.budget = budget;
         scene s = scene_of(tree, &v), t = scene_of(other, &v);
-        const size_t count = count_points(&s);
+        const size_t count = count_layer(&s, LAYER_POINTS).markers;
         assert_true(count <= budget && (budget < 40 || count >= (budget < 3000 ? budget : 3000) * 2 / 5));
         assert_true(s.tally.points == count && s.tally.points + s.tally.thinned == 3000);
-        assert_int_equal(count_points(&t), count);
+        assert_int_equal(count_layer(&t, LAYER_POINTS).markers, count);
         for (size_t i = 0; i < points.count; i++) {
             assert_int_equal(has_point(&s, points.points[i].id), has_point(&t, points.points[i].id));
             assert_true(last.view.width == 0 || !has_point(&s, points.points[i].id) ||

@@ -4,18 +4,6 @@
 
 #include <inttypes.h>
 
-static void write_text(json_writer *w, const char *key, const char *text)
-{
-    json_write_key(w, key);
-    json_write_string(w, text);
-}
-
-static void write_count(json_writer *w, const char *key, uint64_t count)
-{
-    json_write_key(w, key);
-    json_write_integer(w, count);
-}
-
 static void write_bool(json_writer *w, const char *key, bool value)
 {
     json_write_key(w, key);
@@ -35,9 +23,9 @@ static void write_side(json_writer *w, const char *key, const diff_side *side)
 {
     json_write_key(w, key);
     json_write_begin_object(w);
-    write_text(w, "path", side->path);
-    write_text(w, "kind", diff_kind_name(side->kind));
-    write_count(w, "frames", side->count);
+    json_member_text(w, "path", side->path);
+    json_member_text(w, "kind", diff_kind_name(side->kind));
+    json_member_integer(w, "frames", side->count);
     json_write_end_object(w);
 }
 
@@ -48,10 +36,10 @@ static void write_tolerance(json_writer *w, const diff_options *options)
     char color[8];
     json_write_key(w, "tolerance");
     json_write_begin_object(w);
-    write_count(w, "max_pixels", t->max_pixels);
+    json_member_integer(w, "max_pixels", t->max_pixels);
     json_write_key(w, "max_delta");
     json_write_number(w, t->max_delta);
-    write_text(w, "delta_unit", IMAGE_DELTA_UNIT);
+    json_member_text(w, "delta_unit", IMAGE_DELTA_UNIT);
     write_bool(w, "antialias", t->antialias);
     json_write_key(w, "ignore");
     json_write_begin_array(w);
@@ -67,19 +55,19 @@ static void write_tolerance(json_writer *w, const diff_options *options)
     json_write_end_array(w);
     json_write_end_object(w);
     snprintf(color, sizeof color, "#%02x%02x%02x", ground.r, ground.g, ground.b);
-    write_text(w, "background", color);
+    json_member_text(w, "background", color);
 }
 
 static void write_tally(json_writer *w, const char *key, const image_tally *t)
 {
     json_write_key(w, key);
     json_write_begin_object(w);
-    write_count(w, "pixels", t->pixels);
+    json_member_integer(w, "pixels", t->pixels);
     if (t->pixels > 0) {
         json_write_key(w, "worst_delta");
         json_write_number(w, t->worst_delta);
         write_whole_numbers(w, "worst_at", (int[]){t->worst_x, t->worst_y}, 2);
-        write_count(w, "largest_channel", (uint64_t)t->largest_channel);
+        json_member_integer(w, "largest_channel", (uint64_t)t->largest_channel);
         write_whole_numbers(w, "min", (int[]){t->min_x, t->min_y}, 2);
         write_whole_numbers(w, "max", (int[]){t->max_x, t->max_y}, 2);
     }
@@ -88,26 +76,26 @@ static void write_tally(json_writer *w, const char *key, const image_tally *t)
 
 static void write_difference(json_writer *w, const image_difference *d)
 {
-    write_count(w, "channel_range", (uint64_t)d->channel_range);
+    json_member_integer(w, "channel_range", (uint64_t)d->channel_range);
     write_tally(w, "unlike", &d->unlike);
     write_tally(w, "counted", &d->counted);
-    write_count(w, "close", d->close);
-    write_count(w, "antialiased", d->antialiased);
-    write_count(w, "ignored", d->ignored);
+    json_member_integer(w, "close", d->close);
+    json_member_integer(w, "antialiased", d->antialiased);
+    json_member_integer(w, "ignored", d->ignored);
 }
 
 static void write_digest(json_writer *w, const char *key, const frame_digest *digest)
 {
     char text[20];
     snprintf(text, sizeof text, "%016" PRIx64, digest->pixels);
-    write_text(w, key, text);
+    json_member_text(w, key, text);
 }
 
 static void write_finding(json_writer *w, const diff_pair *pair)
 {
     json_write_begin_object(w);
-    write_text(w, "frame", diff_pair_name(pair));
-    write_text(w, "finding", diff_finding_name(pair->finding));
+    json_member_text(w, "frame", diff_pair_name(pair));
+    json_member_text(w, "finding", diff_finding_name(pair->finding));
     if (pair->about[0].width)
         write_whole_numbers(w, "reference_size", (int[]){pair->about[0].width, pair->about[0].height}, 2);
     if (pair->about[1].width)
@@ -119,17 +107,17 @@ static void write_finding(json_writer *w, const diff_pair *pair)
         write_digest(w, "frame_digest", &pair->about[1]);
     }
     if (pair->trouble)
-        write_text(w, "trouble", pair->trouble);
+        json_member_text(w, "trouble", pair->trouble);
     json_write_end_object(w);
 }
 
 static void write_counts(json_writer *w, const diff_result *result)
 {
-    write_count(w, "frames", result->count);
+    json_member_integer(w, "frames", result->count);
     json_write_key(w, "found");
     json_write_begin_object(w);
     for (int i = 0; i < DIFF_FINDINGS; i++)
-        write_count(w, diff_finding_name((diff_finding)i), result->found[i]);
+        json_member_integer(w, diff_finding_name((diff_finding)i), result->found[i]);
     json_write_end_object(w);
 }
 
@@ -138,7 +126,7 @@ void diff_report_json(FILE *out, const diff_report *report)
     const diff_result *result = report->result;
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
-    write_text(w, "verdict", diff_verdict_name(result->verdict));
+    json_member_text(w, "verdict", diff_verdict_name(result->verdict));
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
     write_tolerance(w, report->options);

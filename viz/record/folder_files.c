@@ -77,15 +77,13 @@ bool read_session_file(const char *folder, session_file *file, uint64_t *digest,
 static void write_text(json_writer *w, const char *key, const char *text)
 {
     json_write_newline(w);
-    json_write_key(w, key);
-    json_write_string(w, text);
+    json_member_text(w, key, text);
 }
 
 static void write_count(json_writer *w, const char *key, uint64_t value)
 {
     json_write_newline(w);
-    json_write_key(w, key);
-    json_write_integer(w, value);
+    json_member_integer(w, key, value);
 }
 
 static void end_object(json_writer *w)

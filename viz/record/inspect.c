@@ -33,7 +33,8 @@ static octree_box bounds_of(const cloud *c)
     return box;
 }
 
-/* Half the side of the cube. Halves of extents, since extents can overflow; whole ones where halves would be rounded. */
+/* Half the side of the cube. Halves of extents, since extents can overflow; whole ones where halves would be rounded.
+ */
 static double half_extent(const octree_box *bounds, int axis)
 {
     const double extent = bounds->max[axis] - bounds->min[axis];

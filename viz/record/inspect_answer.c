@@ -127,44 +127,32 @@ static void print_answer(const told *t, FILE *out)
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
 
-static void write_numbers(json_writer *w, const char *key, const double *values)
-{
-    json_write_key(w, key);
-    json_write_numbers(w, values, 3);
-}
-
-static void write_count(json_writer *w, const char *key, uint64_t value)
-{
-    json_write_key(w, key);
-    json_write_integer(w, value);
-}
-
 static void write_question(json_writer *w, const octree_answer *answer)
 {
     json_write_key(w, "query");
     json_write_string(w, octree_query_name(answer->kind));
     if (answer->kind == OCTREE_QUERY_RANGE) {
-        write_numbers(w, "min", answer->box.min);
-        write_numbers(w, "max", answer->box.max);
+        json_member_vector(w, "min", answer->box.min);
+        json_member_vector(w, "max", answer->box.max);
     } else if (answer->kind == OCTREE_QUERY_RADIUS) {
-        write_numbers(w, "center", answer->target);
+        json_member_vector(w, "center", answer->target);
         json_write_key(w, "radius");
         json_write_number(w, answer->radius);
     } else {
-        write_numbers(w, "target", answer->target);
-        write_count(w, "k", answer->k);
+        json_member_vector(w, "target", answer->target);
+        json_member_integer(w, "k", answer->k);
     }
 }
 
 static void write_points(json_writer *w, const told *t)
 {
-    write_count(w, "found", t->answer->count);
+    json_member_integer(w, "found", t->answer->count);
     json_write_key(w, "points");
     json_write_begin_array(w);
     for (size_t i = 0; i < t->answer->count; i++) {
         json_write_begin_object(w);
-        write_count(w, "id", point_at(t, i)->id);
-        write_numbers(w, "position", point_at(t, i)->position);
+        json_member_integer(w, "id", point_at(t, i)->id);
+        json_member_vector(w, "position", point_at(t, i)->position);
         if (t->distances) {
             json_write_key(w, "distance");
             json_write_number(w, t->distances[i].distance);
@@ -186,10 +174,10 @@ static void write_answer(json_writer *w, const told *t)
     }
     json_write_key(w, "cost");
     json_write_begin_object(w);
-    write_count(w, "nodes", t->cost->nodes);
-    write_count(w, "leaves", t->cost->leaves);
-    write_count(w, "points", t->cost->points);
-    write_count(w, "pruned", t->cost->pruned);
+    json_member_integer(w, "nodes", t->cost->nodes);
+    json_member_integer(w, "leaves", t->cost->leaves);
+    json_member_integer(w, "points", t->cost->points);
+    json_member_integer(w, "pruned", t->cost->pruned);
     json_write_end_object(w);
     json_write_end_object(w);
 }

@@ -116,23 +116,6 @@ void inspect_print(const inspection *i, const char *name, FILE *out)
     print_occupancy(i->tree, out);
 }
 
-static void write_count(json_writer *w, const char *key, size_t value)
-{
-    json_write_key(w, key);
-    json_write_integer(w, value);
-}
-
-static void write_box(json_writer *w, const char *key, const octree_box *box)
-{
-    json_write_key(w, key);
-    json_write_begin_object(w);
-    json_write_key(w, "min");
-    json_write_numbers(w, box->min, 3);
-    json_write_key(w, "max");
-    json_write_numbers(w, box->max, 3);
-    json_write_end_object(w);
-}
-
 static void write_occupancy(json_writer *w, const octree *tree)
 {
     const occupancy o = occupancy_of(tree);
@@ -142,9 +125,9 @@ static void write_occupancy(json_writer *w, const octree *tree)
         if (!o.leaves[i])
             continue;
         json_write_begin_object(w);
-        write_count(w, "from", bucket_low(i));
-        write_count(w, "to", bucket_high(i));
-        write_count(w, "leaves", o.leaves[i]);
+        json_member_integer(w, "from", bucket_low(i));
+        json_member_integer(w, "to", bucket_high(i));
+        json_member_integer(w, "leaves", o.leaves[i]);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -168,19 +151,19 @@ void inspect_print_json(const inspection *i, const char *name, FILE *out)
     json_write_begin_object(w);
     json_write_key(w, "cloud");
     json_write_string(w, name);
-    write_count(w, "points", i->points);
-    write_count(w, "skipped", i->skipped);
-    write_count(w, "refused", i->refused);
-    write_count(w, "outside", i->outside);
-    write_count(w, "stored", stats.points);
-    write_box(w, "world", &def.world);
-    write_count(w, "capacity", def.leaf_capacity);
-    write_count(w, "max_depth", def.max_depth);
-    write_count(w, "nodes", stats.nodes);
-    write_count(w, "leaves", stats.leaves);
-    write_count(w, "depth", stats.depth);
-    write_count(w, "largest_leaf", stats.largest_leaf);
-    write_count(w, "memory", stats.memory);
+    json_member_integer(w, "points", i->points);
+    json_member_integer(w, "skipped", i->skipped);
+    json_member_integer(w, "refused", i->refused);
+    json_member_integer(w, "outside", i->outside);
+    json_member_integer(w, "stored", stats.points);
+    json_member_box(w, "world", &def.world);
+    json_member_integer(w, "capacity", def.leaf_capacity);
+    json_member_integer(w, "max_depth", def.max_depth);
+    json_member_integer(w, "nodes", stats.nodes);
+    json_member_integer(w, "leaves", stats.leaves);
+    json_member_integer(w, "depth", stats.depth);
+    json_member_integer(w, "largest_leaf", stats.largest_leaf);
+    json_member_integer(w, "memory", stats.memory);
     write_depths(w, "nodes_by_depth", stats.nodes_at_depth, stats.depth);
     write_depths(w, "leaves_by_depth", stats.leaves_at_depth, stats.depth);
     write_occupancy(w, i->tree);
@@ -211,11 +194,11 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     json_write_string(w, name);
     json_write_key(w, "node");
     json_write_string(w, octree_address_format(node->address, address));
-    write_count(w, "depth", node->depth);
+    json_member_integer(w, "depth", node->depth);
     json_write_key(w, "leaf");
     json_write_bool(w, node->leaf);
-    write_count(w, "count", node->count);
-    write_box(w, "box", &node->box);
+    json_member_integer(w, "count", node->count);
+    json_member_box(w, "box", &node->box);
     json_write_key(w, "points");
     json_write_begin_array(w);
     for (size_t i = 0; node->leaf && i < node->count; i++) {

@@ -177,6 +177,33 @@ void json_write_numbers(json_writer *writer, const double *values, size_t count)
 
 /* ---- Layout ------------------------------------------------------------------------------------------------- */
 
+void json_member_integer(json_writer *writer, const char *key, uint64_t value)
+{
+    json_write_key(writer, key);
+    json_write_integer(writer, value);
+}
+
+void json_member_text(json_writer *writer, const char *key, const char *text)
+{
+    json_write_key(writer, key);
+    json_write_string(writer, text);
+}
+
+void json_member_vector(json_writer *writer, const char *key, const double vector[3])
+{
+    json_write_key(writer, key);
+    json_write_numbers(writer, vector, 3);
+}
+
+void json_member_box(json_writer *writer, const char *key, const octree_box *box)
+{
+    json_write_key(writer, key);
+    json_write_begin_object(writer);
+    json_member_vector(writer, "min", box->min);
+    json_member_vector(writer, "max", box->max);
+    json_write_end_object(writer);
+}
+
 void json_write_newline(json_writer *writer)
 {
     writer->newline = true;

@@ -7,6 +7,8 @@
 #ifndef OCTREEL_JSON_WRITE_H
 #define OCTREEL_JSON_WRITE_H
 
+#include "octree/octree.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -38,6 +40,12 @@ void json_write_null(json_writer *writer);
 
 /* An array of numbers. */
 void json_write_numbers(json_writer *writer, const double *values, size_t count);
+
+/* A member of an object: its key and its value. A vector is three numbers, a box an object of its corners. */
+void json_member_integer(json_writer *writer, const char *key, uint64_t value);
+void json_member_text(json_writer *writer, const char *key, const char *text);
+void json_member_vector(json_writer *writer, const char *key, const double vector[3]);
+void json_member_box(json_writer *writer, const char *key, const octree_box *box);
 
 /* What comes next, the end of an array or object too, begins a new line. */
 void json_write_newline(json_writer *writer);

@@ -4,25 +4,10 @@
 
 #include <string.h>
 
-static void write_vector(json_writer *writer, const char *key, const double vector[3])
-{
-    json_write_key(writer, key);
-    json_write_numbers(writer, vector, 3);
-}
-
 static void write_whole(json_writer *writer, const char *key, uint64_t value)
 {
     json_write_key(writer, key);
     json_write_integer(writer, value);
-}
-
-static void write_box(json_writer *writer, const char *key, const octree_box *box)
-{
-    json_write_key(writer, key);
-    json_write_begin_object(writer);
-    write_vector(writer, "min", box->min);
-    write_vector(writer, "max", box->max);
-    json_write_end_object(writer);
 }
 
 /* ---- The parts of the header -------------------------------------------------------------------------------- */
@@ -44,7 +29,7 @@ static void write_player(json_writer *writer, const octree_player *player)
     json_write_key(writer, "player");
     json_write_begin_object(writer);
     write_whole(writer, "id", player->id);
-    write_vector(writer, "position", player->position);
+    json_member_vector(writer, "position", player->position);
     json_write_key(writer, "step");
     json_write_number(writer, player->step);
     json_write_key(writer, "box_size");
@@ -76,9 +61,9 @@ static void write_body(json_writer *writer, const octree_body *body)
 {
     json_write_begin_object(writer);
     write_whole(writer, "id", body->id);
-    write_vector(writer, "position", body->position);
+    json_member_vector(writer, "position", body->position);
     if (has_velocity(body))
-        write_vector(writer, "velocity", body->velocity);
+        json_member_vector(writer, "velocity", body->velocity);
     json_write_end_object(writer);
 }
 
@@ -116,7 +101,7 @@ static void write_edit(json_writer *writer, const octree_edit *edit)
         json_write_key(writer, "move");
         json_write_begin_object(writer);
         write_whole(writer, "id", edit->body.id);
-        write_vector(writer, "position", edit->body.position);
+        json_member_vector(writer, "position", edit->body.position);
         json_write_end_object(writer);
         break;
     }
@@ -126,7 +111,7 @@ static void write_edit(json_writer *writer, const octree_edit *edit)
 static void write_place(json_writer *writer, const char *key, const octree_query *query)
 {
     if (!query->at_player) {
-        write_vector(writer, key, query->target);
+        json_member_vector(writer, key, query->target);
         return;
     }
     json_write_key(writer, key);
@@ -139,7 +124,7 @@ static void write_query(json_writer *writer, const octree_query *query)
     json_write_begin_object(writer);
     switch (query->kind) {
     case OCTREE_QUERY_RANGE:
-        write_box(writer, name, &query->box);
+        json_member_box(writer, name, &query->box);
         if (query->at_player)
             write_place(writer, "at", query);
         break;
@@ -197,7 +182,7 @@ static void write_header(json_writer *writer, const octree_session *session, siz
     json_write_string(writer, "session");
     write_whole(writer, "version", 1);
     json_write_newline(writer);
-    write_box(writer, "world", &session->tree.world);
+    json_member_box(writer, "world", &session->tree.world);
     json_write_newline(writer);
     write_tree(writer, &session->tree);
     json_write_newline(writer);

@@ -27,12 +27,6 @@ static void write_events(json_writer *w, unsigned events)
     json_write_end_array(w);
 }
 
-static void write_position(json_writer *w, const char *key, const double position[3])
-{
-    json_write_key(w, key);
-    json_write_numbers(w, position, 3);
-}
-
 static void write_ids(json_writer *w, const char *key, const octree_point *points, size_t count)
 {
     json_write_key(w, key);
@@ -62,7 +56,7 @@ static void write_refusals(json_writer *w, const octree_tick *tick)
         json_write_integer(w, tick->refusals[i].id);
         json_write_key(w, "why");
         json_write_string(w, octree_status_name(tick->refusals[i].why));
-        write_position(w, "position", tick->refusals[i].position);
+        json_member_vector(w, "position", tick->refusals[i].position);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -73,14 +67,14 @@ static void write_neighbor(json_writer *w, const octree_neighbor *neighbor)
 {
     json_write_key(w, "id");
     json_write_integer(w, neighbor->point.id);
-    write_position(w, "position", neighbor->point.position);
+    json_member_vector(w, "position", neighbor->point.position);
     json_write_key(w, "distance");
     json_write_number(w, neighbor->distance);
 }
 
 static void write_nearest(json_writer *w, const octree_answer *answer)
 {
-    write_position(w, "target", answer->target);
+    json_member_vector(w, "target", answer->target);
     if (answer->count) {
         write_neighbor(w, answer->neighbors);
     } else {
@@ -91,7 +85,7 @@ static void write_nearest(json_writer *w, const octree_answer *answer)
 
 static void write_knearest(json_writer *w, const octree_answer *answer)
 {
-    write_position(w, "target", answer->target);
+    json_member_vector(w, "target", answer->target);
     json_write_key(w, "k");
     json_write_integer(w, answer->k);
     json_write_key(w, "neighbors");
@@ -106,33 +100,27 @@ static void write_knearest(json_writer *w, const octree_answer *answer)
 
 static void write_range(json_writer *w, const octree_answer *answer)
 {
-    write_position(w, "min", answer->box.min);
-    write_position(w, "max", answer->box.max);
+    json_member_vector(w, "min", answer->box.min);
+    json_member_vector(w, "max", answer->box.max);
     write_ids(w, "ids", answer->points, answer->count);
 }
 
 static void write_radius(json_writer *w, const octree_answer *answer)
 {
-    write_position(w, "center", answer->target);
+    json_member_vector(w, "center", answer->target);
     json_write_key(w, "radius");
     json_write_number(w, answer->radius);
     write_ids(w, "ids", answer->points, answer->count);
-}
-
-static void write_count(json_writer *w, const char *key, uint64_t count)
-{
-    json_write_key(w, key);
-    json_write_integer(w, count);
 }
 
 static void write_cost(json_writer *w, const char *key, const octree_cost *cost)
 {
     json_write_key(w, key);
     json_write_begin_object(w);
-    write_count(w, "nodes", cost->nodes);
-    write_count(w, "leaves", cost->leaves);
-    write_count(w, "points", cost->points);
-    write_count(w, "pruned", cost->pruned);
+    json_member_integer(w, "nodes", cost->nodes);
+    json_member_integer(w, "leaves", cost->leaves);
+    json_member_integer(w, "points", cost->points);
+    json_member_integer(w, "pruned", cost->pruned);
     json_write_end_object(w);
 }
 
@@ -164,10 +152,10 @@ static void write_visits(json_writer *w, const octree_tick *tick)
 {
     json_write_key(w, "visits");
     json_write_begin_object(w);
-    write_count(w, "visited", tick->touched[OCTREE_TOUCH_VISITED]);
-    write_count(w, "taken", tick->touched[OCTREE_TOUCH_TAKEN]);
-    write_count(w, "pruned", tick->touched[OCTREE_TOUCH_PRUNED]);
-    write_count(w, "hit", tick->hit_leaf_count);
+    json_member_integer(w, "visited", tick->touched[OCTREE_TOUCH_VISITED]);
+    json_member_integer(w, "taken", tick->touched[OCTREE_TOUCH_TAKEN]);
+    json_member_integer(w, "pruned", tick->touched[OCTREE_TOUCH_PRUNED]);
+    json_member_integer(w, "hit", tick->hit_leaf_count);
     json_write_end_object(w);
 }
 
@@ -175,10 +163,10 @@ static void write_tree(json_writer *w, const tick_extras *extras)
 {
     json_write_key(w, "tree");
     json_write_begin_object(w);
-    write_count(w, "points", extras->stats.points);
-    write_count(w, "nodes", extras->stats.nodes);
-    write_count(w, "leaves", extras->stats.leaves);
-    write_count(w, "depth", extras->stats.depth);
+    json_member_integer(w, "points", extras->stats.points);
+    json_member_integer(w, "nodes", extras->stats.nodes);
+    json_member_integer(w, "leaves", extras->stats.leaves);
+    json_member_integer(w, "depth", extras->stats.depth);
     write_digest(w, "digest", extras->tree_digest);
     json_write_end_object(w);
 }
@@ -195,11 +183,11 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
         json_write_string(w, key);
     else
         json_write_null(w);
-    write_position(w, "player", tick->player);
+    json_member_vector(w, "player", tick->player);
     write_events(w, tick->events);
     if (tick->swept)
-        write_position(w, "from", tick->from);
-    write_position(w, "attempt", tick->attempt);
+        json_member_vector(w, "from", tick->from);
+    json_member_vector(w, "attempt", tick->attempt);
     write_ids(w, "hits", tick->hits, tick->hit_count);
     write_cost(w, "hit_cost", &tick->hit_cost);
     write_answers(w, tick);

@@ -41,22 +41,16 @@ static void write_string(json_writer *w, const char *key, const char *text)
         json_write_null(w);
 }
 
-static void write_count(json_writer *w, const char *key, uint64_t count)
-{
-    json_write_key(w, key);
-    json_write_integer(w, count);
-}
-
 static void write_finding(json_writer *w, const verify_report *report, const verify_finding *finding)
 {
     json_write_begin_object(w);
     write_string(w, "in", words[finding->kind]);
     if (finding->has_tick)
-        write_count(w, "tick", finding->tick);
+        json_member_integer(w, "tick", finding->tick);
     if (*finding->fact)
         write_string(w, "fact", finding->fact);
     if (finding->kind == VERIFY_PIXELS)
-        write_count(w, "pixels", report->pixels);
+        json_member_integer(w, "pixels", report->pixels);
     write_string(w, "text", finding->text);
     json_write_end_object(w);
 }
@@ -68,8 +62,8 @@ static void print_json(FILE *out, const char *folder, const verify_report *repor
     write_string(w, "folder", folder);
     json_write_key(w, "identical");
     json_write_bool(w, report->count == 0);
-    write_count(w, "ticks", report->ticks);
-    write_count(w, "frames", report->frames);
+    json_member_integer(w, "ticks", report->ticks);
+    json_member_integer(w, "frames", report->frames);
     json_write_key(w, "findings");
     json_write_begin_array(w);
     for (size_t i = 0; i < report->count; i++)

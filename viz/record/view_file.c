@@ -17,14 +17,14 @@ static void write_key(json_writer *w, const char *key)
 
 static void write_whole(json_writer *w, const char *key, uint64_t value)
 {
-    write_key(w, key);
-    json_write_integer(w, value);
+    json_write_newline(w);
+    json_member_integer(w, key, value);
 }
 
 static void write_name(json_writer *w, const char *key, const char *name)
 {
-    write_key(w, key);
-    json_write_string(w, name);
+    json_write_newline(w);
+    json_member_text(w, key, name);
 }
 
 static void write_layers(json_writer *w, const view *v)
@@ -39,13 +39,8 @@ static void write_layers(json_writer *w, const view *v)
 
 static void write_box(json_writer *w, const char *key, const octree_box *box)
 {
-    write_key(w, key);
-    json_write_begin_object(w);
-    json_write_key(w, "min");
-    json_write_numbers(w, box->min, 3);
-    json_write_key(w, "max");
-    json_write_numbers(w, box->max, 3);
-    json_write_end_object(w);
+    json_write_newline(w);
+    json_member_box(w, key, box);
 }
 
 static void write_slice(json_writer *w, const view_filter *f)
