@@ -61,4 +61,53 @@ void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *co
 /* Elements of the last scene that are not in its frame: NaN or infinite, or too far off for doubles. */
 size_t renderer_left_out(const renderer *r);
 
+/* ---- What is drawn where ------------------------------------------------------------------------------------ */
+
+/* The arrays of a scene, in the order in which their elements are numbered. */
+typedef enum draw_kind { DRAW_BOX, DRAW_SEGMENT, DRAW_MARKER, DRAW_PANEL, DRAW_LABEL, DRAW_KINDS } draw_kind;
+
+/* One element of a scene: that of this index in the array of its kind. */
+typedef struct draw_element {
+    draw_kind kind;
+    size_t index;
+} draw_element;
+
+/* "box", "segment", "marker", "panel", "label". */
+const char *draw_kind_name(draw_kind kind);
+
+/* A scene's elements are numbered from 1 on: its boxes, then its segments, markers, panels and labels. What belongs to
+ * none, the background, is 0, which has no element. */
+draw_element draw_element_of(const scene *s, uint32_t number);
+uint32_t draw_number_of(const scene *s, draw_element element);
+
+/* What every element has. */
+scene_look draw_look_of(const scene *s, draw_element element);
+uint64_t draw_id_of(const scene *s, draw_element element);
+
+/* Draw a scene as renderer_draw() does, the same quads in the same order; but in place of its colour each sample gets
+ * the number of the element that was painted there last. Where boxes share an edge that is the shallowest of those
+ * which are there; where points share a quad, the one it was painted for: renderer_pixel() names them all. */
+bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, draw_error *error);
+
+/* What an element has to do with a pixel, which is view_samples() squared samples. */
+typedef struct draw_touch {
+    uint32_t number;
+    int shown;     /* samples at which it is seen: nothing was painted over it */
+    int painted;   /* samples that were painted for it; 0: it is there by the quad of the one before it in the list, a
+                      box that has the same edge there, or a point of the same pixel */
+    uint16_t at;   /* which samples were painted: a bit for each, row by row */
+    uint8_t color; /* index of the theme's table that was painted last; 0 also in the gaps of what is cut */
+} draw_touch;
+
+typedef struct draw_touches {
+    draw_touch *items;
+    size_t count, room;
+} draw_touches;
+
+void draw_touches_release(draw_touches *list);
+
+/* Fill a list with all elements of a pixel of the picture, from the one on top to the one beneath all others: also
+ * those that others cover. A zeroed list is an empty one. */
+bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, draw_error *error);
+
 #endif

@@ -41,12 +41,28 @@ static void paint_flat(painter *p, const scene *s, const scene_segment *segment)
         stroke(p, s, &flat, 1, segment->look, 0);
 }
 
+/* Those of the world, or those of the picture. */
+static void paint_segments(painter *p, const scene *s, bool in_picture)
+{
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *segment = &s->segments.items[i];
+        if (segment->in_picture != in_picture)
+            continue;
+        quads_begin(&p->quads, DRAW_SEGMENT, i);
+        if (in_picture)
+            paint_flat(p, s, segment);
+        else
+            paint_segment(p, s, segment->ends[0], segment->ends[1], segment->look, 0);
+    }
+}
+
 static bool paint_boxes(painter *p, const scene *s)
 {
     if (!edges_merge(&p->edges, s))
         return false;
     for (size_t i = 0; i < p->edges.count; i++) {
         const edge *e = &p->edges.items[i];
+        quads_begin(&p->quads, DRAW_BOX, i);
         paint_segment(p, s, e->ends[0], e->ends[1], e->look, e->depth);
     }
     return true;
@@ -62,21 +78,21 @@ static void paint_marker(painter *p, const scene *s, const scene_marker *marker)
     stroke_marker(&p->quads, &with, (scene_shape)marker->shape, pixel, band);
 }
 
-/* The byte of the pixel that a point lies on, or null when it is outside the picture. */
-static uint8_t *pixel_of(painter *p, const scene *s, const scene_marker *marker, unsigned *band)
-{
-    double pixel[2];
-    if (!project_point(s, marker->at, pixel, band))
-        return NULL;
-    const double x = floor(pixel[0]), y = floor(pixel[1]);
-    if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
-        return NULL;
-    return &p->nearest[(size_t)y * (size_t)s->view.width + (size_t)x];
-}
-
 static bool is_point(const scene_marker *marker)
 {
     return marker->look.layer == LAYER_POINTS;
+}
+
+bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place, unsigned *band)
+{
+    double pixel[2];
+    if (!is_point(marker) || !project_point(s, marker->at, pixel, band))
+        return false;
+    const double x = floor(pixel[0]), y = floor(pixel[1]);
+    if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
+        return false;
+    *place = (size_t)y * (size_t)s->view.width + (size_t)x;
+    return true;
 }
 
 /* Points on one pixel are one quad: the nearest band's, which would cover the others. */
@@ -92,24 +108,25 @@ static bool paint_points(painter *p, const scene *s)
         return false;
     memset(p->nearest, 0, pixels);
     unsigned band;
+    size_t place;
     for (size_t i = 0; i < s->markers.count; i++) {
-        uint8_t *at = is_point(&s->markers.items[i]) ? pixel_of(p, s, &s->markers.items[i], &band) : NULL;
-        if (at && (*at == 0 || *at > band + 1))
+        if (!paint_point_pixel(s, &s->markers.items[i], &place, &band))
+            continue;
+        uint8_t *at = &p->nearest[place];
+        if (*at == 0 || *at > band + 1)
             *at = (uint8_t)(band + 1);
     }
     for (size_t i = 0; i < s->markers.count; i++) {
-        uint8_t *at = is_point(&s->markers.items[i]) ? pixel_of(p, s, &s->markers.items[i], &band) : NULL;
-        if (!at || *at != band + 1)
+        if (!paint_point_pixel(s, &s->markers.items[i], &place, &band) || p->nearest[place] != band + 1)
             continue;
+        quads_begin(&p->quads, DRAW_MARKER, i);
         paint_marker(p, s, &s->markers.items[i]);
-        *at = UINT8_MAX; /* painted */
+        p->nearest[place] = UINT8_MAX; /* painted */
     }
     return true;
 }
 
-/* The scene as its samples see it: a picture that is larger, through a camera that enlarges. Its elements are shared.
- */
-static scene in_samples(const scene *s)
+scene paint_samples(const scene *s)
 {
     scene fine = *s;
     const int samples = view_samples(&s->view);
@@ -123,26 +140,26 @@ static scene in_samples(const scene *s)
 
 bool paint(painter *p, const scene *picture)
 {
-    const scene fine = in_samples(picture), *s = &fine;
+    const scene fine = paint_samples(picture), *s = &fine;
     p->quads.count = 0;
     p->quads.out_of_memory = false;
     p->overflowed = 0;
     if (!paint_boxes(p, s) || !paint_points(p, s))
         return false;
-    for (size_t i = 0; i < s->segments.count; i++) {
-        const scene_segment *segment = &s->segments.items[i];
-        if (!segment->in_picture)
-            paint_segment(p, s, segment->ends[0], segment->ends[1], segment->look, 0);
-    }
-    for (size_t i = 0; i < s->markers.count; i++)
+    paint_segments(p, s, false);
+    for (size_t i = 0; i < s->markers.count; i++) {
+        quads_begin(&p->quads, DRAW_MARKER, i);
         if (!is_point(&s->markers.items[i]))
             paint_marker(p, s, &s->markers.items[i]);
-    for (size_t i = 0; i < s->panels.count; i++)
+    }
+    for (size_t i = 0; i < s->panels.count; i++) {
+        quads_begin(&p->quads, DRAW_PANEL, i);
         stroke_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
-    for (size_t i = 0; i < s->segments.count; i++) /* on the panels of their layer */
-        if (s->segments.items[i].in_picture)
-            paint_flat(p, s, &s->segments.items[i]);
-    for (size_t i = 0; i < s->labels.count; i++)
+    }
+    paint_segments(p, s, true); /* on the panels of their layer */
+    for (size_t i = 0; i < s->labels.count; i++) {
+        quads_begin(&p->quads, DRAW_LABEL, i);
         letters_add(&p->quads, s, &s->labels.items[i]);
+    }
     return !p->quads.out_of_memory && quads_sort(&p->quads);
 }

@@ -19,4 +19,12 @@ void painter_release(painter *p);
 /* Fill p->quads with a scene. False when there is no memory. */
 bool paint(painter *p, const scene *picture);
 
+/* The scene as its samples see it, which is what is painted: a picture that is larger, through a camera that enlarges.
+ * Its elements are shared. */
+scene paint_samples(const scene *s);
+
+/* The place of the sample that a point lies on, and its band; points of one place are one quad. False for a marker that
+ * is no point, and for what is outside the picture. `s` is in samples. */
+bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place, unsigned *band);
+
 #endif

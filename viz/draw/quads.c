@@ -35,7 +35,10 @@ void quads_add(quad_list *list, const quad *q)
         list->items = items;
         list->room = room;
     }
-    list->items[list->count++] = *q;
+    quad *added = &list->items[list->count++];
+    *added = *q;
+    added->kind = list->kind;
+    added->index = list->index;
 }
 
 bool quads_sort(quad_list *list)

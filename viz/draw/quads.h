@@ -6,23 +6,35 @@
 #ifndef DRAW_QUADS_H
 #define DRAW_QUADS_H
 
-#include "scene.h"
+#include "draw.h"
 
 #define QUAD_SUBPIXELS 256
 
 typedef struct quad {
     int32_t x[4], y[4];
     uint8_t color;  /* an index of the theme's table */
+    uint8_t kind;   /* draw_kind of what it is a part of */
     uint16_t order; /* smaller is painted first */
+    uint32_t index; /* of that element; of a box, that of the edge in the painter's list */
 } quad;
 
 typedef struct quad_list {
     quad *items;
     size_t count, room;
     bool out_of_memory;
+    uint8_t kind; /* of the element whose quads are being added */
+    uint32_t index;
 } quad_list;
 
 void quads_release(quad_list *list);
+
+/* What is added from now on is a part of this element. */
+static inline void quads_begin(quad_list *list, draw_kind kind, size_t index)
+{
+    list->kind = (uint8_t)kind;
+    list->index = (uint32_t)index;
+}
+
 void quads_add(quad_list *list, const quad *q);
 
 /* Stable, by order. False when there is no memory. */

@@ -7,6 +7,7 @@
 #include "draw.h"
 #include "gl.h"
 #include "paint.h"
+#include "rasterise.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -166,29 +167,41 @@ static bool fail(draw_error *error, const char *sentence)
     return false;
 }
 
-bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error)
+bool renderer_fits(const renderer *r, const scene *s, draw_error *error)
 {
     const int samples = view_samples(&s->view);
-    if (s->view.width * samples != r->width || s->view.height * samples != r->height)
-        return fail(error, "the scene is not of the renderer's size");
-    if (!paint(&r->painter, s))
-        return fail(error, "there is no memory for a frame");
+    return (s->view.width * samples == r->width && s->view.height * samples == r->height) ||
+           fail(error, "the scene is not of the renderer's size");
+}
+
+bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw_box *part, uint8_t *bytes,
+                        draw_error *error)
+{
     if (!r->context->use(r->context))
         return fail(error, "the renderer's context cannot be made current");
-    r->left_out = s->refused + r->painter.overflowed;
     const gl *gl = &r->gl;
-    const quad_list *quads = &r->painter.quads;
     gl->Clear(GL_COLOR_BUFFER_BIT);
-    for (size_t start = 0; start < quads->count; start += BATCH) {
-        const size_t count = quads->count - start < BATCH ? quads->count - start : BATCH;
-        put_vertices(r, quads->items + start, count);
-        gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * count), GL_UNSIGNED_INT, r->indices);
+    for (size_t start = 0; start < count; start += BATCH) {
+        const size_t size = count - start < BATCH ? count - start : BATCH;
+        put_vertices(r, quads + start, size);
+        gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * size), GL_UNSIGNED_INT, r->indices);
     }
-    gl->ReadPixels(0, 0, r->width, r->height, GL_RED, GL_UNSIGNED_BYTE, indices);
+    gl->ReadPixels(part->x, part->y, part->width, part->height, GL_RED, GL_UNSIGNED_BYTE, bytes);
     const GLenum failure = gl->GetError();
     if (failure != GL_NO_ERROR)
         snprintf(error->text, sizeof error->text, "GL reports error 0x%04x", failure);
     return failure == GL_NO_ERROR;
+}
+
+bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error)
+{
+    if (!renderer_fits(r, s, error))
+        return false;
+    if (!paint(&r->painter, s))
+        return fail(error, "there is no memory for a frame");
+    r->left_out = s->refused + r->painter.overflowed;
+    const draw_box all = {0, 0, r->width, r->height};
+    return renderer_rasterise(r, r->painter.quads.items, r->painter.quads.count, &all, indices, error);
 }
 
 size_t renderer_left_out(const renderer *r)

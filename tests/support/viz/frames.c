@@ -18,20 +18,27 @@ renderer *open_renderer_of(draw_context kind, int width, int height)
     return r;
 }
 
-static size_t pixels_of(const scene *s)
+renderer *open_renderer_for(const scene *s)
 {
-    return (size_t)s->view.width * (size_t)s->view.height;
+    const int samples = view_samples(&s->view);
+    return open_renderer(s->view.width * samples, s->view.height * samples);
+}
+
+size_t frame_samples(const scene *s)
+{
+    const size_t samples = (size_t)view_samples(&s->view);
+    return (size_t)s->view.width * (size_t)s->view.height * samples * samples;
 }
 
 uint8_t *draw(renderer *r, const scene *s)
 {
     draw_error error = {""};
-    uint8_t *frame = malloc(pixels_of(s));
+    uint8_t *frame = malloc(frame_samples(s));
     assert_non_null(frame);
-    memset(frame, 255, pixels_of(s));
+    memset(frame, 255, frame_samples(s));
     if (!renderer_draw(r, s, frame, &error))
         fail_msg("%s", error.text);
-    for (size_t i = 0; i < pixels_of(s); i++)
+    for (size_t i = 0; i < frame_samples(s); i++)
         if (frame[i] >= THEME_COLORS)
             fail_msg("pixel %zu has the index %d of no role", i, frame[i]);
     return frame;
@@ -39,7 +46,7 @@ uint8_t *draw(renderer *r, const scene *s)
 
 uint8_t *draw_once(const scene *s)
 {
-    renderer *r = open_renderer(s->view.width, s->view.height);
+    renderer *r = open_renderer_for(s);
     uint8_t *frame = draw(r, s);
     renderer_close(r);
     return frame;
@@ -48,12 +55,12 @@ uint8_t *draw_once(const scene *s)
 size_t lit_pixels(const uint8_t *frame, const scene *s)
 {
     size_t count = 0;
-    for (size_t i = 0; i < pixels_of(s); i++)
+    for (size_t i = 0; i < frame_samples(s); i++)
         count += frame[i] != 0;
     return count;
 }
 
 void assert_same_frame(const uint8_t *a, const uint8_t *b, const scene *s)
 {
-    assert_memory_equal(a, b, pixels_of(s));
+    assert_memory_equal(a, b, frame_samples(s));
 }

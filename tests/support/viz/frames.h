@@ -10,13 +10,19 @@
 renderer *open_renderer(int width, int height);
 renderer *open_renderer_of(draw_context kind, int width, int height);
 
+/* One of a scene's size in samples. */
+renderer *open_renderer_for(const scene *s);
+
+/* The indices of a frame: one a sample. */
+size_t frame_samples(const scene *s);
+
 /* A frame of a scene, which the caller frees; the test fails when it is not drawn, or has an index of no role. */
 uint8_t *draw(renderer *r, const scene *s);
 
 /* A frame by a renderer of its own. */
 uint8_t *draw_once(const scene *s);
 
-/* Pixels that are not background. */
+/* Samples that are not background. */
 size_t lit_pixels(const uint8_t *frame, const scene *s);
 
 void assert_same_frame(const uint8_t *a, const uint8_t *b, const scene *s);

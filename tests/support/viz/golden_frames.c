@@ -161,31 +161,14 @@ static void break_game(const octree_game *game)
     break_tree(octree_game_tree(game), first->position, octree_game_tick(game)->player);
 }
 
-static bool draw_game(const octree_game *game, const heat *h, const view *v, image *drawn, char *renderer, size_t size,
-                      record_error *error)
-{
-    picture p;
-    scene s = {0};
-    if (!picture_open(&p, v, &(renderer_choice){0}, error))
-        return false;
-    const bool ok = tick_scene_build(&s, v, game, h) && picture_draw(&p, &s, error);
-    snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);
-    if (ok) {
-        *drawn = p.frame;
-        p.frame.pixels = NULL;
-    }
-    scene_release(&s);
-    picture_close(&p);
-    return ok;
-}
-
-bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error)
+bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
 {
     octree_body bodies[MOST_BODIES];
     const octree_session session = session_of(frame, bodies);
     view v = view_of_frame(frame);
     const char *bad;
     octree_game *game;
+    *s = (scene){0};
     if (!view_camera_parse(frame->camera, &v.camera) || !view_layers_parse(frame->layers, &v.layers, &bad))
         return record_fail(error, "%s: no such camera or layer", frame->name);
     if (octree_game_create(&session, &game) != OCTREE_OK)
@@ -199,8 +182,25 @@ bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t
     }
     if (strcmp(frame->name, "broken") == 0)
         break_game(game);
-    ok = ok && draw_game(game, &h, &v, drawn, renderer, size, error);
+    ok = (ok && tick_scene_build(s, &v, game, &h)) || record_fail(error, "%s: there is no memory", frame->name);
     heat_release(&h);
     octree_game_destroy(game);
+    return ok;
+}
+
+bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error)
+{
+    picture p = {0};
+    scene s;
+    bool ok = golden_scene(frame, &s, error) && picture_open(&p, &s.view, &(renderer_choice){0}, error);
+    if (ok)
+        snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);
+    ok = ok && picture_draw(&p, &s, error);
+    if (ok) {
+        *drawn = p.frame;
+        p.frame.pixels = NULL;
+    }
+    scene_release(&s);
+    picture_close(&p);
     return ok;
 }

@@ -4,6 +4,7 @@
 
 #include "folder.h"
 #include "image.h"
+#include "scene.h"
 
 typedef struct golden_frame {
     const char *name; /* golden/<name>.ref.png */
@@ -17,6 +18,9 @@ typedef struct golden_frame {
 
 extern const golden_frame golden_frames[];
 extern const size_t golden_frame_count;
+
+/* What one shows; *s is to be released, also where it fails. */
+bool golden_scene(const golden_frame *frame, scene *s, record_error *error);
 
 /* Draw one. `renderer` receives who drew it. */
 bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error);

@@ -1,0 +1,198 @@
+/* edge_boxes.c - see edge_boxes.h. A sample of a stroke is taken back to the place on the line that is seen there: the
+ * way from a line to its picture is a quotient of linear functions, and so is the way back. */
+#include "edge_boxes.h"
+#include "project.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* What boxes must have in common to share edges: layer, style, width and axis; and the line's place on other axes. */
+typedef struct line {
+    uint32_t kind;
+    double u, v;
+} line;
+
+struct box_edge {
+    line line;
+    double from, to;
+    uint32_t box;
+    uint8_t depth;
+};
+
+static uint32_t kind_of(scene_look look, int axis)
+{
+    return (uint32_t)look.layer << 24 | (uint32_t)look.style << 16 | (uint32_t)look.width << 8 | (uint32_t)axis;
+}
+
+static int compare_doubles(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+static int compare_lines(const line *a, const line *b)
+{
+    if (a->kind != b->kind)
+        return a->kind < b->kind ? -1 : 1;
+    const int u = compare_doubles(a->u, b->u);
+    return u ? u : compare_doubles(a->v, b->v);
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+    const box_edge *p = a, *q = b;
+    const int lines = compare_lines(&p->line, &q->line);
+    if (lines)
+        return lines;
+    const int from = compare_doubles(p->from, q->from);
+    return from ? from : (p->box > q->box) - (p->box < q->box);
+}
+
+static box_edge edge_of(const scene_box *box, size_t index, int axis, unsigned corner)
+{
+    const int second = (axis + 1) % 3, third = (axis + 2) % 3;
+    return (box_edge){
+        .line = {kind_of(box->look, axis), (corner & 1 ? box->box.max : box->box.min)[second],
+                 (corner & 2 ? box->box.max : box->box.min)[third]},
+        .from = box->box.min[axis],
+        .to = box->box.max[axis],
+        .box = (uint32_t)index,
+        .depth = box->depth,
+    };
+}
+
+bool edge_boxes_make(edge_boxes *all, const scene *s)
+{
+    *all = (edge_boxes){.scene = s};
+    const size_t size = 12 * sizeof *all->items;
+    if (s->boxes.count == 0)
+        return true;
+    all->items = s->boxes.count <= SIZE_MAX / size ? malloc(s->boxes.count * size) : NULL;
+    if (!all->items)
+        return false;
+    for (size_t i = 0; i < s->boxes.count; i++) {
+        const scene_box *box = &s->boxes.items[i];
+        const size_t before = all->count;
+        for (int axis = 0; axis < 3; axis++)
+            for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
+                all->items[all->count++] = edge_of(box, i, axis, corner);
+        if (all->count == before) /* a dot */
+            all->items[all->count++] = edge_of(box, i, 0, 0);
+    }
+    qsort(all->items, all->count, sizeof *all->items, compare_edges);
+    return true;
+}
+
+void edge_boxes_release(edge_boxes *all)
+{
+    free(all->items);
+    *all = (edge_boxes){0};
+}
+
+/* ---- Where on its line an edge is seen ----------------------------------------------------------------------- */
+
+/* A merged edge as it was painted. */
+typedef struct stroke {
+    const edge *edge;
+    line line;
+    double from, to;
+    double seen[2][3]; /* its ends in camera coordinates */
+    int across;        /* the picture's axis that the stroke is longer on */
+    bool speck;        /* it is one mark, which shows no place on the line */
+} stroke;
+
+static stroke stroke_of(const scene *s, const edge *e)
+{
+    int axis = 0;
+    while (axis < 2 && e->ends[0][axis] == e->ends[1][axis])
+        axis++;
+    if (e->ends[0][axis] == e->ends[1][axis])
+        axis = 0;
+    stroke k = {.edge = e,
+                .line = {kind_of(e->look, axis), e->ends[0][(axis + 1) % 3], e->ends[0][(axis + 2) % 3]},
+                .from = e->ends[0][axis],
+                .to = e->ends[1][axis]};
+    piece pieces[QUAD_BANDS];
+    bool overflowed;
+    const unsigned count = project_segment(s, e->ends[0], e->ends[1], pieces, &overflowed);
+    if (count == 0) {
+        k.speck = true;
+        return k;
+    }
+    const double dx = fabs(pieces[count - 1].to[0] - pieces[0].from[0]);
+    const double dy = fabs(pieces[count - 1].to[1] - pieces[0].from[1]);
+    k.speck = dx < 1 && dy < 1;
+    k.across = dy > dx;
+    for (int end = 0; end < 2; end++)
+        camera_transform(&s->camera, e->ends[end], k.seen[end]);
+    return k;
+}
+
+/* The place on the line that is seen at a coordinate of the picture, within the edge. */
+static double place_at(const scene *s, const stroke *k, double pixel)
+{
+    const camera *c = &s->camera;
+    const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
+    double off[2]; /* how far each end is from the plane that the eye sees at this coordinate */
+    for (int end = 0; end < 2; end++)
+        off[end] = k->seen[end][k->across] - slope * (c->perspective ? k->seen[end][2] : 1);
+    const double part = off[0] / (off[0] - off[1]);
+    if (!(part > 0))
+        return k->from;
+    return part < 1 ? k->from * (1 - part) + k->to * part : k->to;
+}
+
+/* ---- The boxes there ---------------------------------------------------------------------------------------- */
+
+/* The first edge of a box on a line, or where it would be. */
+static size_t first_on(const edge_boxes *all, const line *wanted)
+{
+    size_t low = 0, high = all->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (compare_lines(&all->items[middle].line, wanted) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static bool is_on(const edge_boxes *all, size_t i, const stroke *k)
+{
+    return i < all->count && compare_lines(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
+}
+
+static double distance(const box_edge *of, double at)
+{
+    return at < of->from ? of->from - at : at > of->to ? at - of->to : 0;
+}
+
+size_t edge_boxes_giver(const edge_boxes *all, const edge *e, int x, int y)
+{
+    const stroke k = stroke_of(all->scene, e);
+    const double at = k.speck ? k.from : place_at(all->scene, &k, (k.across ? y : x) + 0.5);
+    const box_edge *best = NULL;
+    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++) {
+        const box_edge *found = &all->items[i];
+        const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].look.role == e->look.role;
+        if (gives && found->to >= k.from && (!best || distance(found, at) < distance(best, at)))
+            best = found;
+    }
+    return best->box; /* an edge is made of the edges of boxes */
+}
+
+void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y, void (*visit)(size_t box, void *context),
+                      void *context)
+{
+    const stroke k = stroke_of(all->scene, e);
+    double low = k.from, high = k.to;
+    if (!k.speck) {
+        const int pixel = k.across ? y : x;
+        const double ends[2] = {place_at(all->scene, &k, pixel), place_at(all->scene, &k, pixel + 1)};
+        low = fmin(ends[0], ends[1]);
+        high = fmax(ends[0], ends[1]);
+    }
+    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++)
+        if (all->items[i].from <= high && all->items[i].to >= low)
+            visit(all->items[i].box, context);
+}

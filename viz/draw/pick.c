@@ -1,0 +1,87 @@
+/* pick.c - which element of a scene is seen at each sample.
+ *
+ * The framebuffer holds one byte a sample. The quads of the picture are drawn once for each byte of the largest number
+ * that is needed, as they are for the picture itself but for what their colour stands for: no sample can be decided
+ * otherwise than there.
+ */
+#include "edge_boxes.h"
+#include "paint.h"
+#include "rasterise.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What is painted has numbers too: the merged edges take the places of the boxes. */
+static uint64_t stroke_number(const scene *s, const painter *p, const quad *q)
+{
+    if (q->kind == DRAW_BOX)
+        return 1 + (uint64_t)q->index;
+    return (uint64_t)draw_number_of(s, (draw_element){(draw_kind)q->kind, q->index}) - s->boxes.count + p->edges.count;
+}
+
+static bool no_memory(draw_error *error)
+{
+    snprintf(error->text, sizeof error->text, "there is no memory to tell what is drawn where");
+    return false;
+}
+
+/* One byte of each sample's stroke. */
+static bool draw_byte(renderer *r, const scene *s, painter *p, unsigned shift, uint8_t *bytes, draw_error *error)
+{
+    const int samples = view_samples(&s->view);
+    const draw_box all = {0, 0, s->view.width * samples, s->view.height * samples};
+    for (size_t i = 0; i < p->quads.count; i++)
+        p->quads.items[i].color = (uint8_t)(stroke_number(s, p, &p->quads.items[i]) >> shift);
+    return renderer_rasterise(r, p->quads.items, p->quads.count, &all, bytes, error);
+}
+
+static bool draw_strokes(renderer *r, const scene *s, painter *p, size_t size, uint32_t *numbers, draw_error *error)
+{
+    const uint64_t largest = p->edges.count + s->segments.count + s->markers.count + s->panels.count + s->labels.count;
+    uint8_t *bytes = largest <= UINT32_MAX ? malloc(size) : NULL;
+    bool ok = bytes || no_memory(error);
+    if (!ok)
+        return false;
+    memset(numbers, 0, size * sizeof *numbers);
+    for (unsigned shift = 0; ok && largest >> shift; shift += 8) {
+        ok = draw_byte(r, s, p, shift, bytes, error);
+        for (size_t i = 0; ok && i < size; i++)
+            numbers[i] |= (uint32_t)bytes[i] << shift;
+    }
+    free(bytes);
+    return ok;
+}
+
+/* From strokes to elements. */
+static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, draw_error *error)
+{
+    const scene fine = paint_samples(s);
+    const size_t width = (size_t)fine.view.width, size = width * (size_t)fine.view.height;
+    const uint32_t edges = (uint32_t)p->edges.count;
+    edge_boxes boxes;
+    if (!edge_boxes_make(&boxes, &fine))
+        return no_memory(error);
+    for (size_t i = 0; i < size; i++) {
+        if (numbers[i] > edges)
+            numbers[i] = numbers[i] - edges + (uint32_t)s->boxes.count;
+        else if (numbers[i] > 0)
+            numbers[i] = 1 + (uint32_t)edge_boxes_giver(&boxes, &p->edges.items[numbers[i] - 1], (int)(i % width),
+                                                        (int)(i / width));
+    }
+    edge_boxes_release(&boxes);
+    return true;
+}
+
+bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, draw_error *error)
+{
+    if (!renderer_fits(r, s, error))
+        return false;
+    const size_t samples = (size_t)view_samples(&s->view);
+    const size_t size = (size_t)s->view.width * (size_t)s->view.height * samples * samples;
+    painter p = {0}; /* not the renderer's, which may keep what it has painted */
+    const bool ok = (paint(&p, s) || no_memory(error)) && draw_strokes(r, s, &p, size, numbers, error) &&
+                    name_boxes(s, &p, numbers, error);
+    painter_release(&p);
+    return ok;
+}
