@@ -42,11 +42,17 @@ static bool draw_frame(take *t, frame_origin *origin, record_error *error)
     return t->frames == FRAMES_SHOW || frame_write(t->options->folder, &t->picture, origin, error);
 }
 
+bool take_scene(take *t, record_error *error)
+{
+    return tick_scene_build(&t->scene, &t->view, t->game, &t->heat) ||
+           record_fail(error, "there is no memory for a scene");
+}
+
 static bool take_frame(take *t, film_step *step, record_error *error)
 {
     record_error unlike;
-    if (!tick_scene_build(&t->scene, &t->view, t->game, &t->heat))
-        return record_fail(error, "there is no memory for a scene");
+    if (!take_scene(t, error))
+        return false;
     t->extras.scene_digest = scene_digest(&t->scene);
     frame_origin origin = {.tick = step->tick, .session = t->session_digest, .scene = t->extras.scene_digest};
     bool done = (t->frames == FRAMES_KEEP || t->frames == FRAMES_CHECK) &&

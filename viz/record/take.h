@@ -1,4 +1,5 @@
-/* take.h - a session played, and what a recording has of each tick: its frame and its line. Private to this folder. */
+/* take.h - a session played, and what a recording has of each tick: its frame and its line. What plays a recording
+ * again, see replay.h, has one too. */
 #ifndef RECORD_TAKE_H
 #define RECORD_TAKE_H
 
@@ -47,7 +48,10 @@ bool take_open(take *t, const octree_session *session, const film_options *optio
                record_error *error);
 void take_close(take *t);
 
-/* Take the tick at which the game is. */
+/* Make take.scene of the tick at which the game is, as the view shows it. */
+bool take_scene(take *t, record_error *error);
+
+/* Take that tick: its scene and its frame, where it has one, and its line. */
 bool take_tick(take *t, film_step *step, record_error *error);
 
 /* Play the next tick. */

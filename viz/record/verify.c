@@ -1,14 +1,10 @@
 /* verify.c - see verify.h. */
 #include "verify.h"
 #include "frame_file.h"
-#include "octree/digest.h"
 #include "printable.h"
-#include "session_file.h"
-#include "take.h"
+#include "replay.h"
 #include "verify_line.h"
-#include "view_file.h"
 #include "who_drew.h"
-#include "whole_file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -28,12 +24,9 @@
 typedef struct verifying {
     const char *folder;
     const verify_options *options;
-    film_options film; /* as recording.json has it */
-    session_file session;
-    uint64_t ticks;
-    uint64_t session_digest, filmed_session; /* of session.json, and of the session that the frames are of */
+    replay replay;
+    uint64_t filmed_session; /* the digest of the session that the frames are of */
     line_reader lines;
-    take take;
     bool stopped; /* at the first tick that differs */
     verify_report *report;
 } verifying;
@@ -56,24 +49,6 @@ static void say(verify_finding *finding, const char *format, ...)
 
 /* ---- What is there before any tick -------------------------------------------------------------------------- */
 
-static bool read_session(verifying *v, record_error *error)
-{
-    char reason[WHOLE_FILE_REASON], *text, *path = folder_path(v->folder, "session.json");
-    char *inside = folder_path(v->folder, ""); /* where files of points would be */
-    session_error unread;
-    size_t size;
-    bool ok = (path && inside) || record_fail(error, "there is no memory");
-    ok = ok && (whole_file_read(path, &text, &size, reason) || record_fail(error, "%s: %s", path, reason));
-    if (ok) {
-        v->session_digest = octree_digest_bytes(OCTREE_DIGEST_START, text, size);
-        ok = session_parse(path, inside, text, size, &v->session, &unread) || record_fail(error, "%s", unread.text);
-        free(text);
-    }
-    free(path);
-    free(inside);
-    return ok;
-}
-
 static bool open_lines(verifying *v, record_error *error)
 {
     char *path = folder_path(v->folder, "ticks.jsonl");
@@ -84,19 +59,19 @@ static bool open_lines(verifying *v, record_error *error)
 
 static void check_session(verifying *v)
 {
-    if (!frame_session(v->folder, 0, &v->filmed_session) || v->filmed_session == v->session_digest)
+    if (!frame_session(v->folder, 0, &v->filmed_session) || v->filmed_session == v->replay.session_digest)
         return;
     verify_finding *finding = find(v, VERIFY_SESSION, 0);
     finding->has_tick = false;
     say(finding,
         "session.json is not the session that was filmed: its digest is %016" PRIx64
         ", and the first frame is of %016" PRIx64,
-        v->session_digest, v->filmed_session);
+        v->replay.session_digest, v->filmed_session);
 }
 
 static void check_size(verifying *v, const char *path)
 {
-    const view *wanted = &v->film.view;
+    const view *wanted = &v->replay.film.view;
     image_error ignored;
     image frame;
     if (!image_read_png(path, &frame, &ignored))
@@ -120,7 +95,7 @@ static bool is_file(const char *path)
 static bool check_first_frame(verifying *v, record_error *error)
 {
     char name[FRAME_NAME], *path = folder_path(v->folder, frame_name(0, name));
-    v->filmed_session = v->session_digest;
+    v->filmed_session = v->replay.session_digest;
     if (!path)
         return record_fail(error, "there is no memory");
     if (is_file(path)) {
@@ -142,8 +117,8 @@ static bool check_line(verifying *v, const film_step *step, record_error *error)
     if (state == LINE_WHOLE && line_same(&v->lines, step->line, step->size, step->tick, &finding))
         return true;
     if (state == LINE_NONE)
-        say(&finding, "ticks.jsonl ends before it: %" PRIu64 " of %" PRIu64 " lines are missing", v->ticks - step->tick,
-            v->ticks);
+        say(&finding, "ticks.jsonl ends before it: %" PRIu64 " of %" PRIu64 " lines are missing",
+            v->replay.ticks - step->tick, v->replay.ticks);
     else if (state == LINE_TORN)
         say(&finding, "its line in ticks.jsonl is torn: the file ends within it");
     else if (state == LINE_LONG)
@@ -159,7 +134,7 @@ static void tell_pixels(verifying *v, const char *path, verify_finding *finding)
     image_error ignored;
     image frame;
     if (image_read_png(path, &frame, &ignored)) {
-        unlike = image_compare(&frame, &v->take.picture.frame).unlike;
+        unlike = image_compare(&frame, &v->replay.take.picture.frame).unlike;
         image_release(&frame);
     }
     v->report->pixels = unlike.pixels;
@@ -180,7 +155,8 @@ static void tell_frame(verifying *v, const char *sentence, uint64_t tick)
 static bool check_frame(verifying *v, const film_step *step, record_error *error)
 {
     char name[FRAME_NAME], *path = folder_path(v->folder, frame_name(step->tick, name));
-    frame_origin origin = {.tick = step->tick, .session = v->filmed_session, .scene = v->take.extras.scene_digest};
+    frame_origin origin = {
+        .tick = step->tick, .session = v->filmed_session, .scene = v->replay.take.extras.scene_digest};
     record_error unlike;
     if (!path)
         return record_fail(error, "there is no memory");
@@ -191,7 +167,7 @@ static bool check_frame(verifying *v, const film_step *step, record_error *error
         say(find(v, VERIFY_FRAME, step->tick), "%s is not a regular file", name);
     else if (!frame_check(v->folder, &origin, &unlike))
         tell_frame(v, unlike.text, step->tick);
-    else if (origin.pixels != image_digest(&v->take.picture.frame))
+    else if (origin.pixels != image_digest(&v->replay.take.picture.frame))
         tell_pixels(v, path, find(v, VERIFY_PIXELS, step->tick));
     else
         v->stopped = false;
@@ -210,7 +186,7 @@ static bool check_tick(void *context, const film_step *step, record_error *error
     v->report->ticks++;
     v->report->frames += step->filmed;
     if (v->options->progress)
-        v->options->progress(step->tick + 1, v->ticks, v->options->context);
+        v->options->progress(step->tick + 1, v->replay.ticks, v->options->context);
     return true;
 }
 
@@ -220,8 +196,8 @@ static void check_end_of_lines(verifying *v)
 {
     if (lines_next(&v->lines, 0) == LINE_NONE)
         return;
-    say(find(v, VERIFY_LINES, v->ticks), "ticks.jsonl has lines beyond the session, which has %" PRIu64 " ticks",
-        v->ticks);
+    say(find(v, VERIFY_LINES, v->replay.ticks), "ticks.jsonl has lines beyond the session, which has %" PRIu64 " ticks",
+        v->replay.ticks);
 }
 
 /* What begins as a frame does, and is none of this recording. */
@@ -229,7 +205,7 @@ static bool is_too_many(const verifying *v, const char *name)
 {
     uint64_t tick;
     return strncmp(name, "frame_", 6) == 0 &&
-           !(frame_parse_name(name, &tick) && tick < v->ticks && tick % v->film.every == 0);
+           !(frame_parse_name(name, &tick) && tick < v->replay.ticks && tick % v->replay.film.every == 0);
 }
 
 /* The first of them by name, whatever the order of the folder. */
@@ -260,14 +236,14 @@ static bool check_names(verifying *v, record_error *error)
 
 /* ---- All of it ---------------------------------------------------------------------------------------------- */
 
-static bool replay(verifying *v, record_error *error)
+static bool play_again(verifying *v, record_error *error)
 {
-    const film_share all = {.last = v->ticks};
-    if (!take_open(&v->take, &v->session.session, &v->film, FRAMES_SHOW, error))
+    const film_share all = {.last = v->replay.ticks};
+    if (!take_open(&v->replay.take, &v->replay.session.session, &v->replay.film, FRAMES_SHOW, error))
         return false;
-    const renderer_info info = renderer_about(v->take.picture.renderer);
+    const renderer_info info = renderer_about(v->replay.take.picture.renderer);
     who_draws(&info, v->report->drawn_now, sizeof v->report->drawn_now);
-    if (!film_ticks(&v->take, &all, check_tick, v, error))
+    if (!film_ticks(&v->replay.take, &all, check_tick, v, error))
         return v->stopped;
     check_end_of_lines(v);
     return true;
@@ -275,23 +251,19 @@ static bool replay(verifying *v, record_error *error)
 
 static bool verify_all(verifying *v, record_error *error)
 {
-    if (!view_read_recording(v->folder, &v->film.view, &v->film.every, error) || !read_session(v, error) ||
-        !open_lines(v, error))
+    if (!replay_read(&v->replay, v->folder, error) || !open_lines(v, error))
         return false;
-    v->ticks = octree_session_length(&v->session.session) + 1;
+    v->replay.film.renderer = v->options->renderer;
     who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
-    return check_first_frame(v, error) && (v->stopped || replay(v, error)) && check_names(v, error);
+    return check_first_frame(v, error) && (v->stopped || play_again(v, error)) && check_names(v, error);
 }
 
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, record_error *error)
 {
     verifying v = {.folder = folder, .options = options, .report = report};
     *report = (verify_report){0};
-    v.film.folder = folder;
-    v.film.renderer = options->renderer;
     const bool ok = verify_all(&v, error);
-    take_close(&v.take);
+    replay_close(&v.replay);
     lines_close(&v.lines);
-    session_release(&v.session);
     return ok;
 }

@@ -1,0 +1,91 @@
+/* replay.c - see replay.h. */
+#include "replay.h"
+#include "octree/digest.h"
+#include "view_file.h"
+#include "whole_file.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+static bool read_session(replay *r, const char *folder, record_error *error)
+{
+    char reason[WHOLE_FILE_REASON], *text, *path = folder_path(folder, "session.json");
+    char *inside = folder_path(folder, ""); /* where files of points would be */
+    session_error unread;
+    size_t size;
+    bool ok = (path && inside) || record_fail(error, "there is no memory");
+    ok = ok && (whole_file_read(path, &text, &size, reason) || record_fail(error, "%s: %s", path, reason));
+    if (ok) {
+        r->session_digest = octree_digest_bytes(OCTREE_DIGEST_START, text, size);
+        ok = session_parse(path, inside, text, size, &r->session, &unread) || record_fail(error, "%s", unread.text);
+        free(text);
+    }
+    free(path);
+    free(inside);
+    return ok;
+}
+
+bool replay_read(replay *r, const char *folder, record_error *error)
+{
+    *r = (replay){.film.folder = folder};
+    if (!view_read_recording(folder, &r->film.view, &r->film.every, error) || !read_session(r, folder, error))
+        return false;
+    r->ticks = octree_session_length(&r->session.session) + 1;
+    return true;
+}
+
+/* Without a renderer: where no pixel is asked for none is needed. */
+static bool start(replay *r, record_error *error)
+{
+    return take_open(&r->take, &r->session.session, &r->film, FRAMES_CHECK, error);
+}
+
+bool replay_open(replay *r, const char *folder, record_error *error)
+{
+    return replay_read(r, folder, error) && start(r, error);
+}
+
+void replay_close(replay *r)
+{
+    take_close(&r->take);
+    session_release(&r->session);
+}
+
+static uint64_t tick_of(const replay *r)
+{
+    return octree_game_tick(r->take.game)->number;
+}
+
+static bool start_again(replay *r, record_error *error)
+{
+    picture drawing = r->take.picture; /* the view is the same, and so is what draws it */
+    r->take.picture = (picture){0};
+    take_close(&r->take);
+    const bool ok = start(r, error);
+    r->take.picture = drawing;
+    return ok;
+}
+
+bool replay_to(replay *r, uint64_t tick, record_error *error)
+{
+    if (tick >= r->ticks)
+        return record_fail(error, "%s: there is no tick %" PRIu64 ": the session's last tick is %" PRIu64,
+                           r->film.folder, tick, r->ticks - 1);
+    if (tick < tick_of(r) && !start_again(r, error))
+        return false;
+    while (tick_of(r) < tick)
+        if (!take_advance(&r->take, error))
+            return false;
+    return true;
+}
+
+bool replay_scene(replay *r, record_error *error)
+{
+    return take_scene(&r->take, error);
+}
+
+renderer *replay_renderer(replay *r, const renderer_choice *choice, record_error *error)
+{
+    picture *drawing = &r->take.picture;
+    return drawing->renderer || picture_open(drawing, &r->take.view, choice, error) ? drawing->renderer : NULL;
+}
