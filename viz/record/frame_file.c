@@ -79,7 +79,7 @@ static bool check_pixels(const char *path, frame_origin *origin, record_error *e
 }
 
 /* The pixels come first: what is damaged may say anything. */
-static bool check_file(const char *path, frame_origin *origin, record_error *error)
+bool frame_check_file(const char *path, frame_origin *origin, record_error *error)
 {
     char text[NUMBER_SIZE];
     if (!check_pixels(path, origin, error))
@@ -93,6 +93,28 @@ static bool check_file(const char *path, frame_origin *origin, record_error *err
         return record_fail(error, "%s: shows the tick in another view, or is by another version of octreel", path);
     origin->left_out = image_read_text(path, left_out_keyword, text, sizeof text) ? strtoull(text, NULL, 10) : 0;
     return true;
+}
+
+/* A number as frame_write() prints it. */
+static bool parse_tick(const char *text, uint64_t *tick)
+{
+    char again[NUMBER_SIZE];
+    *tick = strtoull(text, NULL, 10);
+    snprintf(again, sizeof again, "%" PRIu64, *tick);
+    return strcmp(text, again) == 0;
+}
+
+bool frame_read_tick(const char *path, uint64_t *tick, record_error *error)
+{
+    char text[NUMBER_SIZE];
+    if (image_read_text(path, tick_keyword, text, sizeof text))
+        return parse_tick(text, tick) ||
+               record_fail(error, "%s: its text %s is no number of a tick", path, tick_keyword);
+    if (image_read_text(path, scene_keyword, text, sizeof text))
+        return record_fail(
+            error, "%s: is the picture of one tree, as octreel inspect draws it: it has no session to be played again",
+            path);
+    return record_fail(error, "%s: is no frame of a recording: it has no text %s", path, tick_keyword);
 }
 
 bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
@@ -109,7 +131,7 @@ bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
 bool frame_check(const char *folder, frame_origin *origin, record_error *error)
 {
     char *path = frame_path(folder, origin->tick, error);
-    const bool ok = path && check_file(path, origin, error);
+    const bool ok = path && frame_check_file(path, origin, error);
     free(path);
     return ok;
 }

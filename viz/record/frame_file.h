@@ -24,11 +24,18 @@ typedef struct frame_origin {
 /* Write a picture as the frame of its tick. */
 bool frame_write(const char *folder, const picture *p, const frame_origin *origin, record_error *error);
 
+/* The tick that a file says it is the frame of. False, with a sentence, for the picture of a tree that octreel inspect
+ * drew, and for what is none of octreel's. */
+bool frame_read_tick(const char *path, uint64_t *tick, record_error *error);
+
 /* The session that the frame of a tick says it is of. False where it is not there or says nothing. */
 bool frame_session(const char *folder, uint64_t tick, uint64_t *session);
 
 /* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
  * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
 bool frame_check(const char *folder, frame_origin *origin, record_error *error);
+
+/* The same for a file of any name. */
+bool frame_check_file(const char *path, frame_origin *origin, record_error *error);
 
 #endif

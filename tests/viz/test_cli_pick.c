@@ -1,0 +1,324 @@
+/* test_cli_pick.c - octreel pick: what it says of pixels whose elements the camera tells, and how it ends. */
+#include "commands.h"
+#include "edits.h"
+#include "recordings.h"
+#include "replay.h"
+#include "scenes.h"
+#include "tick_lines.h"
+#include "verified.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A recording, one of its ticks, and that tick's scene. */
+typedef struct shown {
+    place folder, frame;
+    replay replay;
+    const scene *scene;
+} shown;
+
+static void show(shown *what, const temp_folder *own, const char *arguments, uint64_t tick)
+{
+    record_error error = {""};
+    what->folder = place_in(own, "film");
+    command_result result =
+        run_octreel(NULL, "record --keys wwdn --size 320x180 %s -o %s", arguments, what->folder.path);
+    assert_done(&result);
+    command_release(&result);
+    what->frame = frame_place(what->folder.path, tick);
+    if (!replay_open(&what->replay, what->folder.path, &error) || !replay_to(&what->replay, tick, &error) ||
+        !replay_scene(&what->replay, &error))
+        fail_msg("%s", error.text);
+    what->scene = &what->replay.take.scene;
+}
+
+static json_t *pick_json(const shown *what, int x, int y, int radius)
+{
+    command_result result = run_octreel(NULL, "pick %s %d %d --radius %d --json", what->frame.path, x, y, radius);
+    assert_done(&result);
+    assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
+    json_t *said = json_read(result.out);
+    command_release(&result);
+    return said;
+}
+
+/* The first element of a pixel whose member `object` has this whole number or text in its own member `name`. */
+static const json_t *element_with(const json_t *said, const char *object, const char *name, const json_t *value)
+{
+    size_t i;
+    json_t *element;
+    json_array_foreach(json_member(said, "elements"), i, element)
+    {
+        const json_t *inner = json_object_get(element, object);
+        if (inner && json_equal(json_object_get(inner, name), value))
+            return element;
+    }
+    return NULL;
+}
+
+/* ---- What is there ------------------------------------------------------------------------------------------ */
+
+static void every_point_is_named_at_its_pixel(void **state)
+{
+    shown what;
+    show(&what, *state, "--camera iso", 4);
+    size_t points = 0;
+    for (size_t i = 0; i < what.scene->markers.count; i++) {
+        const scene_marker *marker = &what.scene->markers.items[i];
+        double pixel[2];
+        if (marker->look.layer != LAYER_POINTS)
+            continue;
+        pixel_of(what.scene, marker->at, pixel);
+        json_t *said = pick_json(&what, (int)floor(pixel[0]), (int)floor(pixel[1]), 0);
+        json_t *id = json_real((double)marker->id); /* as numbers are read */
+        assert_non_null(element_with(said, "point", "id", id));
+        json_decref(id);
+        json_decref(said);
+        points++;
+    }
+    assert_true(points > 8);
+    replay_close(&what.replay);
+}
+
+/* Within a pixel of the middle of one of its edges. */
+static bool names_node(const shown *what, const scene_box *box)
+{
+    const double middle[3] = {box->box.min[0] / 2 + box->box.max[0] / 2, box->box.min[1], box->box.max[2]};
+    char path[OCTREE_ADDRESS_TEXT];
+    double pixel[2];
+    bool found = false;
+    json_t *name = json_string(octree_address_format(box->id, path));
+    pixel_of(what->scene, middle, pixel);
+    for (int i = 0; i < 9 && !found; i++) {
+        const int place = (i + 4) % 9; /* the middle first */
+        json_t *said = pick_json(what, (int)floor(pixel[0]) + place % 3 - 1, (int)floor(pixel[1]) + place / 3 - 1, 0);
+        found = element_with(said, "node", "path", name) != NULL;
+        json_decref(said);
+    }
+    json_decref(name);
+    return found;
+}
+
+/* Shared edges too: most of these are painted for another node. */
+static void nodes_are_named_at_their_edges(void **state)
+{
+    shown what;
+    show(&what, *state, "--camera iso --layers nodes", 4);
+    size_t nodes = 0;
+    for (size_t i = 0; i < what.scene->boxes.count; i += 2, nodes++)
+        if (!names_node(&what, &what.scene->boxes.items[i]))
+            fail_msg("box %zu is not named", i);
+    assert_true(nodes >= 5);
+    replay_close(&what.replay);
+}
+
+static void the_panel_is_beneath_its_text(void **state)
+{
+    shown what;
+    show(&what, *state, "", 4);
+    const scene_label *title = NULL;
+    for (size_t i = 0; i < what.scene->labels.count; i++)
+        if (strcmp(what.scene->labels.items[i].text, "tick 4") == 0)
+            title = &what.scene->labels.items[i];
+    assert_non_null(title);
+    bool text = false;
+    for (int i = 0; i < 64 && !text; i++) {
+        command_result result =
+            run_octreel(NULL, "pick %s %d %d", what.frame.path, (int)title->at[0] + i % 8, (int)title->at[1] + i / 8);
+        assert_done(&result);
+        text = strstr(result.out, "  text \"tick 4\"\n    over the panel that the text is on\n") != NULL;
+        command_release(&result);
+    }
+    assert_true(text);
+    replay_close(&what.replay);
+}
+
+static void samples_of_a_pixel_add_up(void **state)
+{
+    shown what;
+    show(&what, *state, "--aa 4 --camera orbit --layers world,nodes,points", 2);
+    double pixel[2];
+    pixel_of(what.scene, what.scene->markers.items[0].at, pixel);
+    json_t *said = pick_json(&what, (int)floor(pixel[0]), (int)floor(pixel[1]), 0), *element;
+    size_t i;
+    int shown = 0;
+    assert_whole_number(json_member(said, "samples"), 16);
+    json_array_foreach(json_member(said, "elements"), i, element) shown +=
+        (int)json_number_value(json_member(element, "shown"));
+    assert_true(shown > 1 && shown <= 16);
+    json_decref(said);
+    replay_close(&what.replay);
+}
+
+/* ---- Where nothing is --------------------------------------------------------------------------------------- */
+
+/* The square of the distance to the nearest pixel of another colour than a pixel's; without dashes that are cut. */
+static int nearest_other(const image *frame, int x, int y)
+{
+    int best = INT32_MAX;
+    for (int i = 0; i < frame->width * frame->height; i++) {
+        const int dx = i % frame->width - x, dy = i / frame->width - y;
+        if (frame->pixels[i] != 0 && dx * dx + dy * dy < best)
+            best = dx * dx + dy * dy;
+    }
+    return best;
+}
+
+static void the_nearest_is_told_where_nothing_is(void **state)
+{
+    shown what;
+    show(&what, *state, "--camera iso --layers nodes,points", 4);
+    image frame = assert_whole_frame(what.frame.path, 320, 180);
+    int told = 0, none = 0;
+    for (int at = 700; at < 320 * 180 && told + none < 12; at += 4801) {
+        const int x = at % 320, y = at / 320, nearest = nearest_other(&frame, x, y);
+        json_t *said = pick_json(&what, x, y, 20);
+        if (nearest > 20 * 20) {
+            assert_true(json_is_null(json_member(said, "pixel")));
+            assert_int_equal(json_array_size(json_member(said, "elements")), 0);
+            none++;
+        } else {
+            const json_t *pixel = json_member(said, "pixel");
+            const int dx = (int)json_number_value(json_array_get(pixel, 0)) - x;
+            const int dy = (int)json_number_value(json_array_get(pixel, 1)) - y;
+            assert_int_equal(dx * dx + dy * dy, nearest);
+            assert_true(json_array_size(json_member(said, "elements")) > 0);
+            told++;
+        }
+        json_decref(said);
+    }
+    assert_true(told > 2 && none > 2);
+    command_result result = run_octreel(NULL, "pick %s 0 0", what.frame.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "tick 4, pixel (0, 0): nothing is drawn there, nor within 8 pixels\n"));
+    command_release(&result);
+    image_release(&frame);
+    replay_close(&what.replay);
+}
+
+/* ---- Trouble ------------------------------------------------------------------------------------------------ */
+
+static void assert_refused(const char *path, const char *rest, const char *part)
+{
+    command_result result = run_octreel(NULL, "pick %s %s", path, rest);
+    assert_trouble(&result, part);
+}
+
+static void what_is_no_pixel_of_the_frame_is_refused(void **state)
+{
+    const place folder = film_short(*state), frame = frame_place(folder.path, 3);
+    assert_refused(frame.path, "160 10", "160 x 90 pixels");
+    assert_refused(frame.path, "10 90", "160 x 90 pixels");
+    assert_refused(frame.path, "x 10", "not \"x\"");
+    assert_refused(frame.path, "10 1.5", "not \"1.5\"");
+    assert_refused(frame.path, "-1 10", "from 0 on");
+    assert_refused(frame.path, "10", "two coordinates");
+    assert_refused(frame.path, "1 2 3", "two coordinates");
+    assert_refused(frame.path, "1 2 --radius -3", "--radius");
+}
+
+static void what_is_no_frame_is_refused(void **state)
+{
+    const place folder = film_short(*state), points = place_in(*state, "points.xyz"), tree = place_in(*state, "t.png");
+    const place text = place_in(*state, "text.png"), bare = place_in(*state, "bare.png");
+    image picture;
+    image_error unwritten;
+    assert_true(image_create(&picture, 8, 8, 3));
+    assert_true(image_write_png(&picture, bare.path, NULL, 0, &unwritten));
+    image_release(&picture);
+    file_write_text(points.path, "0 0 0\n1 1 1\n");
+    file_write_text(text.path, "no picture\n");
+    command_result result = run_octreel(NULL, "inspect %s -o %s --size 64x64", points.path, tree.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_refused(tree.path, "1 1", "octreel inspect");
+    assert_refused(text.path, "1 1", "text.png");
+    assert_refused(bare.path, "1 1", "octreel-tick");
+    assert_refused(place_in(*state, "nothing.png").path, "1 1", "nothing.png");
+    assert_refused(folder.path, "1 1", "film");
+}
+
+static void a_frame_without_its_recording_is_refused(void **state)
+{
+    const place folder = film_short(*state), alone = place_in(*state, "alone.png");
+    size_t size;
+    char *bytes = file_read(frame_place(folder.path, 3).path, &size);
+    file_write(alone.path, bytes, size);
+    assert_refused(alone.path, "1 1", "no recording beside it");
+    free(bytes);
+}
+
+static void a_frame_of_another_recording_is_refused(void **state)
+{
+    const place folder = film_short(*state), frame = frame_place(folder.path, 3);
+    edit_file(folder.path, "recording.json", "\"camera\": \"iso\"", "\"camera\": \"top\"");
+    assert_refused(frame.path, "1 1", "another view, or is by another version");
+    edit_file(folder.path, "recording.json", "\"camera\": \"top\"", "\"camera\": \"iso\"");
+    command_result result = run_octreel(NULL, "pick %s 1 1", frame.path);
+    assert_done(&result);
+    command_release(&result);
+    edit_file(folder.path, "session.json", "\"step\": 50", "\"step\": 40");
+    assert_refused(frame.path, "1 1", "another session");
+}
+
+/* The pixels of another frame under the texts of this one. */
+static void a_frame_that_was_edited_is_refused(void **state)
+{
+    const place folder = film_short(*state), frame = frame_place(folder.path, 3);
+    static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
+    char values[4][32];
+    image_text texts[4];
+    image_error ignored;
+    image picture;
+    for (size_t i = 0; i < 4; i++) {
+        assert_true(image_read_text(frame.path, keywords[i], values[i], sizeof values[i]));
+        texts[i] = (image_text){keywords[i], values[i]};
+    }
+    assert_true(image_read_png(frame.path, &picture, &ignored));
+    picture.pixels[100] ^= 16;
+    assert_true(image_write_png(&picture, frame.path, texts, 4, &ignored));
+    assert_refused(frame.path, "1 1", "not those that were drawn");
+    picture.pixels[100] ^= 16;
+    texts[0].text = "4x";
+    assert_true(image_write_png(&picture, frame.path, texts, 4, &ignored));
+    assert_refused(frame.path, "1 1", "no number of a tick");
+    texts[0].text = "400";
+    assert_true(image_write_png(&picture, frame.path, texts, 4, &ignored));
+    assert_refused(frame.path, "1 1", "ends with tick 13");
+    image_release(&picture);
+}
+
+static void help_teaches(void **state)
+{
+    (void)state;
+    command_result result = run_octreel(NULL, "pick --help");
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "usage: octreel pick FRAME X Y"));
+    assert_non_null(strstr(result.out, "octreel pick flight/frame_000219.png"));
+    command_release(&result);
+    result = run_octreel(NULL, "--help");
+    assert_non_null(strstr(result.out, "  pick"));
+    command_release(&result);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(every_point_is_named_at_its_pixel),
+        IN_FOLDER(nodes_are_named_at_their_edges),
+        IN_FOLDER(the_panel_is_beneath_its_text),
+        IN_FOLDER(samples_of_a_pixel_add_up),
+        IN_FOLDER(the_nearest_is_told_where_nothing_is),
+        IN_FOLDER(what_is_no_pixel_of_the_frame_is_refused),
+        IN_FOLDER(what_is_no_frame_is_refused),
+        IN_FOLDER(a_frame_without_its_recording_is_refused),
+        IN_FOLDER(a_frame_of_another_recording_is_refused),
+        IN_FOLDER(a_frame_that_was_edited_is_refused),
+        cmocka_unit_test(help_teaches),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

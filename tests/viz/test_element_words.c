@@ -1,0 +1,159 @@
+/* test_element_words.c - every element that a tick can show is told in words, of what it is about. */
+#include "element_words.h"
+#include "scenes.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What the words about an element of a layer and kind hold, whichever it is. */
+static const struct {
+    view_layer layer;
+    draw_kind kind;
+    const char *part;
+    bool about_node, about_point;
+} expected[] = {
+    {LAYER_WORLD, DRAW_BOX, "the world, box (-1000, -1000, -1000) to (1000, 1000, 1000)", false, false},
+    {LAYER_WORLD, DRAW_SEGMENT, "axis", false, false},
+    {LAYER_WORLD, DRAW_LABEL, "of an axis", false, false},
+    {LAYER_NODES, DRAW_BOX, "at depth ", true, false},
+    {LAYER_NODES, DRAW_PANEL, "the ground of the path on node ", true, false},
+    {LAYER_NODES, DRAW_LABEL, "on node ", true, false},
+    {LAYER_VISIT_HEAT, DRAW_MARKER, "visited in ", true, false},
+    {LAYER_POINT_HEAT, DRAW_MARKER, "in all ticks together, node ", true, false},
+    {LAYER_PRUNED, DRAW_BOX, "left it out", true, false},
+    {LAYER_VISITED, DRAW_BOX, "looked into it", true, false},
+    {LAYER_HIT, DRAW_BOX, "holds what", true, false},
+    {LAYER_MERGES, DRAW_SEGMENT, "that merged at this tick, node ", true, false},
+    {LAYER_SPLITS, DRAW_SEGMENT, "that split at this tick, node ", true, false},
+    {LAYER_POINTS, DRAW_MARKER, "point ", false, true},
+    {LAYER_RANGE, DRAW_BOX, "the box of the range query", false, false},
+    {LAYER_RANGE, DRAW_MARKER, "found by a range query", false, true},
+    {LAYER_RADIUS, DRAW_SEGMENT, "radius 450 about (", false, false},
+    {LAYER_RADIUS, DRAW_MARKER, "found by a radius query", false, true},
+    {LAYER_KNEAREST, DRAW_SEGMENT, "to neighbour ", false, true},
+    {LAYER_KNEAREST, DRAW_LABEL, "the rank of a neighbour", false, false},
+    {LAYER_NEAREST, DRAW_SEGMENT, "to neighbour 1: point ", false, true},
+    {LAYER_NEAREST, DRAW_MARKER, "found by a nearest query", false, true},
+    {LAYER_PLAYER, DRAW_SEGMENT, "down to the world's floor", false, false},
+    {LAYER_PLAYER, DRAW_MARKER, "the player, point 6 at ", false, true},
+    {LAYER_BOX, DRAW_BOX, "collision box", false, false},
+    {LAYER_BOX, DRAW_SEGMENT, "crosses the collision out", false, false},
+    {LAYER_BOX, DRAW_MARKER, "in the player's collision box", false, true},
+    {LAYER_TEXT, DRAW_PANEL, "the panel", false, false},
+    {LAYER_TEXT, DRAW_LABEL, "text \"", false, false},
+    {LAYER_DIAGRAM, DRAW_PANEL, "the diagram", false, false},
+    {LAYER_DIAGRAM, DRAW_SEGMENT, "the line from its parent to node ", true, false},
+    {LAYER_DIAGRAM, DRAW_LABEL, "of the diagram", false, false},
+};
+
+#define EXPECTED (sizeof expected / sizeof expected[0])
+
+static void check_node(const octree_game *game, const element_subject *subject, uint64_t id)
+{
+    char path[OCTREE_ADDRESS_TEXT], text[OCTREE_ADDRESS_TEXT + 8];
+    octree_node node;
+    assert_int_equal(subject->node.address, id);
+    snprintf(text, sizeof text, "node %s: ", octree_address_format(id, path));
+    assert_non_null(strstr(subject->text, text));
+    const bool there = octree_node_at(octree_game_tree(game), id, &node) == OCTREE_OK;
+    assert_int_equal(subject->gone, !there);
+    assert_non_null(strstr(subject->text, !there ? "no node any more" : node.leaf ? "leaf" : "inner node"));
+}
+
+static size_t expectation_of(scene_look look, draw_kind kind)
+{
+    size_t i = 0;
+    while (i < EXPECTED && (expected[i].layer != (view_layer)look.layer || expected[i].kind != kind))
+        i++;
+    if (i == EXPECTED)
+        fail_msg("nothing is expected of kind %d in layer %d", (int)kind, look.layer);
+    return i;
+}
+
+static void check_element(const octree_game *game, const heat *h, const scene *s, draw_element element,
+                          size_t seen[EXPECTED])
+{
+    const element_subject subject = element_words(game, h, s, element);
+    const size_t i = expectation_of(draw_look_of(s, element), element.kind);
+    if (!strstr(subject.text, expected[i].part) && !(element.kind == DRAW_PANEL && strstr(subject.text, "diagram")) &&
+        !(element.kind == DRAW_PANEL && strstr(subject.text, "a sign in the panel")))
+        fail_msg("\"%s\" says nothing of \"%s\"", subject.text, expected[i].part);
+    assert_true(strlen(subject.text) + 1 < ELEMENT_WORDS);
+    assert_true(expected[i].about_node <= subject.has_node);
+    assert_int_equal(expected[i].about_point, subject.has_point);
+    if (subject.has_node)
+        check_node(game, &subject,
+                   expected[i].layer == LAYER_SPLITS || expected[i].layer == LAYER_MERGES ? draw_id_of(s, element) >> 2
+                                                                                          : draw_id_of(s, element));
+    if (subject.has_point && element.kind == DRAW_MARKER)
+        assert_int_equal(subject.point.id, draw_id_of(s, element));
+    seen[i]++;
+}
+
+static void every_element_of_every_layer_is_told(void **state)
+{
+    size_t seen[EXPECTED] = {0};
+    octree_game *game;
+    heat h = {0};
+    scene s = {0};
+    const octree_session session = asking_session();
+    view v = view_of(960, 540, CAMERA_ISO, VIEW_ALL_LAYERS);
+    v.labels = true;
+    v.diagram = DIAGRAM_BESIDE;
+    (void)state;
+    assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
+    for (;;) {
+        assert_true(heat_add_tick(&h, game));
+        build_hot_tick(&s, &v, game, &h);
+        const size_t all = s.boxes.count + s.segments.count + s.markers.count + s.panels.count + s.labels.count;
+        for (uint32_t number = 1; number <= all; number++)
+            check_element(game, &h, &s, draw_element_of(&s, number), seen);
+        if (octree_game_over(game))
+            break;
+        play_tick(game);
+    }
+    for (size_t i = 0; i < EXPECTED; i++)
+        if (seen[i] == 0)
+            fail_msg("no element says \"%s\"", expected[i].part);
+    heat_release(&h);
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
+static void words_of_a_node_and_of_a_point_are_these(void **state)
+{
+    octree_game *game;
+    scene s = {0};
+    const octree_session session = octree_session_default();
+    const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
+    (void)state;
+    assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
+    build_tick(&s, &v, game);
+    bool found = false;
+    for (size_t i = 0; i < s.markers.count; i++) {
+        const element_subject subject = element_words(game, NULL, &s, (draw_element){DRAW_MARKER, i});
+        found |= strcmp(subject.text, "point 5 at (-1, 2, 3)") == 0;
+    }
+    assert_true(found);
+    for (size_t i = 0; i < s.boxes.count; i++) {
+        if (s.boxes.items[i].look.layer != LAYER_NODES || s.boxes.items[i].id != OCTREE_ROOT)
+            continue;
+        const element_subject subject = element_words(game, NULL, &s, (draw_element){DRAW_BOX, i});
+        assert_string_equal(subject.text,
+                            "node root: inner node at depth 0, 11 points, box (-1000, -1000, -1000) to (1000, 1000, "
+                            "1000)");
+        assert_string_equal(element_layer(&s, (draw_element){DRAW_BOX, i}), "nodes");
+    }
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_element_of_every_layer_is_told),
+        cmocka_unit_test(words_of_a_node_and_of_a_point_are_these),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
