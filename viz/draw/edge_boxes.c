@@ -7,13 +7,13 @@
 #include <stdlib.h>
 
 /* What boxes must have in common to share edges: layer, style, width and axis; and the line's place on other axes. */
-typedef struct line {
+typedef struct shared_line {
     uint32_t kind;
     double u, v;
-} line;
+} shared_line;
 
 struct box_edge {
-    line line;
+    shared_line line;
     double from, to;
     uint32_t box;
     uint8_t depth;
@@ -29,7 +29,7 @@ static int compare_doubles(double a, double b)
     return (a > b) - (a < b);
 }
 
-static int compare_lines(const line *a, const line *b)
+static int compare_lines(const shared_line *a, const shared_line *b)
 {
     if (a->kind != b->kind)
         return a->kind < b->kind ? -1 : 1;
@@ -93,7 +93,7 @@ void edge_boxes_release(edge_boxes *all)
 /* A merged edge as it was painted. */
 typedef struct stroke {
     const edge *edge;
-    line line;
+    shared_line line;
     double from, to;
     double seen[2][3]; /* its ends in camera coordinates */
     int across;        /* the picture's axis that the stroke is longer on */
@@ -144,7 +144,7 @@ static double place_at(const scene *s, const stroke *k, double pixel)
 /* ---- The boxes there ---------------------------------------------------------------------------------------- */
 
 /* The first edge of a box on a line, or where it would be. */
-static size_t first_on(const edge_boxes *all, const line *wanted)
+static size_t first_on(const edge_boxes *all, const shared_line *wanted)
 {
     size_t low = 0, high = all->count;
     while (low < high) {

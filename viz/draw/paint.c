@@ -68,6 +68,16 @@ static bool paint_boxes(painter *p, const scene *s)
     return true;
 }
 
+size_t paint_edge_count(const painter *p)
+{
+    return p->edges.count;
+}
+
+const edge *paint_edge_at(const painter *p, size_t index)
+{
+    return &p->edges.items[index];
+}
+
 static void paint_marker(painter *p, const scene *s, const scene_marker *marker)
 {
     double pixel[2];

@@ -23,6 +23,10 @@ bool paint(painter *p, const scene *picture);
  * Its elements are shared. */
 scene paint_samples(const scene *s);
 
+/* The merged edges that are painted: quads of boxes have their indices, from 0 to paint_edge_count() - 1. */
+size_t paint_edge_count(const painter *p);
+const edge *paint_edge_at(const painter *p, size_t index);
+
 /* The place of the sample that a point lies on, and its band; points of one place are one quad. False for a marker that
  * is no point, and for what is outside the picture. `s` is in samples. */
 bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place, unsigned *band);

@@ -17,7 +17,8 @@ static uint64_t stroke_number(const scene *s, const painter *p, const quad *q)
 {
     if (q->kind == DRAW_BOX)
         return 1 + (uint64_t)q->index;
-    return (uint64_t)draw_number_of(s, (draw_element){(draw_kind)q->kind, q->index}) - s->boxes.count + p->edges.count;
+    return (uint64_t)draw_number_of(s, (draw_element){(draw_kind)q->kind, q->index}) - s->boxes.count +
+           paint_edge_count(p);
 }
 
 static bool no_memory(draw_error *error)
@@ -38,7 +39,8 @@ static bool draw_byte(renderer *r, const scene *s, painter *p, unsigned shift, u
 
 static bool draw_strokes(renderer *r, const scene *s, painter *p, size_t size, uint32_t *numbers, draw_error *error)
 {
-    const uint64_t largest = p->edges.count + s->segments.count + s->markers.count + s->panels.count + s->labels.count;
+    const uint64_t largest =
+        paint_edge_count(p) + s->segments.count + s->markers.count + s->panels.count + s->labels.count;
     uint8_t *bytes = largest <= UINT32_MAX ? malloc(size) : NULL;
     bool ok = bytes || no_memory(error);
     if (!ok)
@@ -58,7 +60,7 @@ static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, draw
 {
     const scene fine = paint_samples(s);
     const size_t width = (size_t)fine.view.width, size = width * (size_t)fine.view.height;
-    const uint32_t edges = (uint32_t)p->edges.count;
+    const uint32_t edges = (uint32_t)paint_edge_count(p);
     edge_boxes boxes;
     if (!edge_boxes_make(&boxes, &fine))
         return no_memory(error);
@@ -66,7 +68,7 @@ static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, draw
         if (numbers[i] > edges)
             numbers[i] = numbers[i] - edges + (uint32_t)s->boxes.count;
         else if (numbers[i] > 0)
-            numbers[i] = 1 + (uint32_t)edge_boxes_giver(&boxes, &p->edges.items[numbers[i] - 1], (int)(i % width),
+            numbers[i] = 1 + (uint32_t)edge_boxes_giver(&boxes, paint_edge_at(p, numbers[i] - 1), (int)(i % width),
                                                         (int)(i / width));
     }
     edge_boxes_release(&boxes);

@@ -149,7 +149,7 @@ static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, dr
 /* Each sample of an edge may be another box's. Those that merely share it come behind. */
 static void add_edge(probe *p, const quad *q, unsigned bits)
 {
-    const edge *e = &p->painter.edges.items[q->index];
+    const edge *e = paint_edge_at(&p->painter, q->index);
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < p->part.width * p->part.height; i++) {
             const int x = p->part.x + i % p->part.width, y = p->part.y + i / p->part.width;
