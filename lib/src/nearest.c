@@ -191,7 +191,7 @@ unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, uint64_t c
     return count;
 }
 
-/* While the target's leaf is on its way from memory, ask for those beside it. */
+/* Ask for the leaves beside the target's, while that is on its way from memory. */
 static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3])
 {
     uint64_t codes[3];
@@ -204,7 +204,7 @@ static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[
         while (n && n->octants)
             n = child_at(n, morton_octant(codes[i], depth++));
         if (n)
-            prefetch(n->below);
+            leaf_prefetch(n);
     }
 }
 
@@ -241,6 +241,7 @@ static void run_search(search *s)
     if (way.nodes[depth]->octants) {
         depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
     } else {
+        leaf_prefetch(way.nodes[depth]);
         prefetch_beside(&way, code, keys);
         scan_leaf(s, way.nodes[depth]);
     }

@@ -44,8 +44,8 @@ static void walk_to_leaves(walker *walkers, size_t count)
         }
     }
     for (size_t i = 0; i < count; i++)
-        for (uint32_t j = 2; walkers[i].node->octants == 0 && j < walkers[i].node->count && j < POOL_MAX_UNITS; j += 2)
-            prefetch(&leaf_points(walkers[i].node)[j]);
+        if (walkers[i].node->octants == 0)
+            leaf_prefetch(walkers[i].node);
 }
 
 /* Ask for the memory that a few searches will begin with: the leaves that the targets lie in, then those beside them.
