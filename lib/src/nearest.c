@@ -174,16 +174,16 @@ static void search_beside(search *s, frame *f, unsigned depth)
         step(s);
 }
 
-unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, uint64_t codes[3])
+unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
-    const uint32_t size = cell_size(depth), quarter = size / 4;
+    const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
     unsigned count = 0;
     for (int i = 0; i < 3; i++) {
         const uint32_t within = keys[i] & (size - 1);
         uint32_t beside[3] = {keys[0], keys[1], keys[2]};
-        if (within < quarter)
+        if (within < close)
             beside[i] -= size;
-        else if (within >= size - quarter)
+        else if (within >= size - close)
             beside[i] += size;
         if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped */
             codes[count++] = morton_interleave(beside);
@@ -192,10 +192,10 @@ unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, uint64_t c
 }
 
 /* Ask for the leaves beside the target's, while that is on its way from memory. */
-static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3])
+static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
-    const unsigned count = nearest_codes_beside(keys, way->depth, codes);
+    const unsigned count = nearest_codes_beside(keys, way->depth, k, codes);
     for (unsigned i = 0; i < count; i++) {
         unsigned depth = way->depth;
         while ((codes[i] ^ code) >> 3 * (OCTREE_MAX_DEPTH - depth))
@@ -242,7 +242,7 @@ static void run_search(search *s)
         depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
     } else {
         leaf_prefetch(way.nodes[depth]);
-        prefetch_beside(&way, code, keys);
+        prefetch_beside(&way, code, keys, s->best.k);
         scan_leaf(s, way.nodes[depth]);
     }
     while (depth-- > 0)

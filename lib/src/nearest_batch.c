@@ -61,7 +61,7 @@ static void prefetch_group(const octree *tree, const double (*targets)[3], const
         uint32_t keys[3];
         nearest_keys(tree, targets[turns[i].place], keys);
         uint64_t codes[3];
-        const unsigned close = nearest_codes_beside(keys, walkers[i].depth, codes);
+        const unsigned close = nearest_codes_beside(keys, walkers[i].depth, 1, codes);
         for (unsigned j = 0; j < close; j++)
             beside[more++] = (walker){&tree->root, codes[j], 0};
     }
