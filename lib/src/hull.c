@@ -32,12 +32,12 @@ typedef struct outlook {
     double doubt; /* how far a plane may be off, at most */
 } outlook;
 
-static outlook look_along(const hull *h, const axis *a, double from, double to)
+static outlook look_along(const metric *m, const axis *a, double start, double end)
 {
-    const double start = from * h->scale;
-    outlook o = {.step = to * h->scale - start, .low = a->min * h->scale - start, .high = a->max * h->scale - start};
+    outlook o = {
+        .step = end - start, .low = metric_scaled(m, a->min) - start, .high = metric_scaled(m, a->max) - start};
     o.far = larger(fabs(o.low), fabs(o.high));
-    o.doubt = largest_on(a) * h->scale * 0x1p-50 + h->scale * 0x1p-1072;
+    o.doubt = metric_scaled(m, largest_on(a)) * 0x1p-50 + m->scale * 0x1p-1000 * 0x1p-72;
     return o;
 }
 
@@ -68,16 +68,16 @@ bool hull_make(hull *h, const octree *tree, const sweep *box)
     if (moves[0] + moves[1] + moves[2] < 2)
         return false;
     outlook view[3];
-    h->scale = scale_for(tree, box);
-    for (int i = 0; i < 3; i++) {
-        h->start[i] = box->from[i] * h->scale;
-        view[i] = look_along(h, &tree->axes[i], box->from[i], box->to[i]);
-    }
+    const double scale = scale_for(tree, box);
+    const metric end = metric_make(scale, is_subnormal_world(tree), box->to);
+    h->metric = metric_make(scale, is_subnormal_world(tree), box->from);
+    for (int i = 0; i < 3; i++)
+        view[i] = look_along(&h->metric, &tree->axes[i], h->metric.scaled[i], end.scaled[i]);
     h->face_count = 0;
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         if (moves[i] && moves[j])
-            h->faces[h->face_count++] = make_faces(view, box->size * h->scale, i, j);
+            h->faces[h->face_count++] = make_faces(view, box->size * scale, i, j);
     }
     return true;
 }

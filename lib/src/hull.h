@@ -21,6 +21,7 @@
 #ifndef OCTREE_HULL_H
 #define OCTREE_HULL_H
 
+#include "metric.h"
 #include "region.h"
 #include "sweep.h"
 
@@ -34,8 +35,7 @@ typedef struct hull_faces {
 } hull_faces;
 
 typedef struct hull {
-    double scale;
-    double start[3]; /* a */
+    metric metric; /* from a */
     hull_faces faces[3];
     unsigned face_count; /* 1 for a step in a plane of two axes, else 3 */
 } hull;
@@ -48,7 +48,9 @@ octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned depth);
 
 static inline double hull_side(const hull *h, const hull_faces *f, const double p[3])
 {
-    return f->step_i * (p[f->j] * h->scale - h->start[f->j]) - f->step_j * (p[f->i] * h->scale - h->start[f->i]);
+    const double x = metric_scaled(&h->metric, p[f->i]) - h->metric.scaled[f->i];
+    const double y = metric_scaled(&h->metric, p[f->j]) - h->metric.scaled[f->j];
+    return f->step_i * y - f->step_j * x;
 }
 
 #endif

@@ -65,7 +65,7 @@ static void measure(const search *s, frame *f)
 {
     f->near = 0;
     for (int i = 0; i < 3; i++) {
-        const double plane = plane_inside(&s->tree->axes[i], f->center[i]) * s->best.metric.scale;
+        const double plane = metric_scaled(&s->best.metric, plane_inside(&s->tree->axes[i], f->center[i]));
         const double beyond = s->best.metric.scaled[i] - plane;
         f->squares[i][1] = beyond * beyond;
         f->near |= beyond >= 0 ? 4 >> i : 0;
@@ -252,7 +252,7 @@ static void run_search(search *s)
 size_t nearest_search(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
                       octree_neighbor *neighbors)
 {
-    const metric m = metric_make(tree->scale, target);
+    const metric m = metric_make(tree->scale, is_subnormal_world(tree), target);
     search s;
     s.tree = tree;
     s.best = best_make(&m, how, radius, neighbors, k);
