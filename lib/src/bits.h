@@ -2,6 +2,7 @@
 #ifndef OCTREE_BITS_H
 #define OCTREE_BITS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 static inline unsigned bits_count8(unsigned mask)
@@ -46,6 +47,12 @@ static inline uint64_t bits_spread(uint64_t x)
     x = (x | x << 4) & UINT64_C(0x10c30c30c30c30c3);
     x = (x | x << 2) & UINT64_C(0x1249249249249249);
     return x;
+}
+
+/* The mask, or none of it; without a branch. */
+static inline unsigned bits_if(bool condition, unsigned mask)
+{
+    return condition ? mask : 0;
 }
 
 #endif

@@ -1,4 +1,5 @@
 /* collide.c - Algorithm 5: what is within box_size of a centre on every axis. */
+#include "collision.h"
 #include "exact.h"
 #include "float_mode.h"
 #include "tree.h"
@@ -22,18 +23,6 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
     return OCTREE_OK;
 }
 
-typedef struct collision {
-    const octree_point *self;
-    octree_point_visitor visit;
-    void *context;
-} collision;
-
-static bool visit_others(const octree_point *point, void *context)
-{
-    const collision *c = context;
-    return is_self(c->self, point) || c->visit(point, c->context);
-}
-
 octree_status octree_collide_search(const octree *tree, const double center[3], double box_size,
                                     const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                     void *context)
@@ -44,7 +33,7 @@ octree_status octree_collide_search(const octree *tree, const double center[3], 
     const octree_status status = octree_collision_box(center, box_size, &box);
     if (status != OCTREE_OK)
         return status;
-    return octree_range_search(tree, &box, how, visit_others, &(collision){self, visit, context});
+    return octree_range_search(tree, &box, how, collision_visit, &(collision){self, visit, context});
 }
 
 octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,

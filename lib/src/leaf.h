@@ -17,6 +17,14 @@ static inline octree_point *leaf_points(const node *leaf)
     return leaf->below;
 }
 
+/* Ask for the memory of all points of a leaf, of a crowd the first. The processor's own guess comes some lines late,
+ * which is a quarter of the time of a query whose leaves are not in its cache. */
+static inline void leaf_prefetch(const node *leaf)
+{
+    for (uint32_t i = 0; i < leaf->count && i < POOL_MAX_UNITS; i += 2)
+        prefetch(&leaf_points(leaf)[i]);
+}
+
 /* The index of the pair (position, id), or LEAF_NONE. */
 uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id);
 

@@ -18,12 +18,12 @@ double metric_scale(const octree_box *world)
     return ldexp(1.0, -exponent - 1);
 }
 
-metric metric_make(double scale, const double target[3])
+metric metric_make(double scale, bool subnormal, const double target[3])
 {
-    metric m = {.scale = scale};
+    metric m = {.scale = scale, .grain = subnormal ? scale * 0x1p-1000 * 0x1p-74 : 0};
     for (int i = 0; i < 3; i++) {
         m.target[i] = target[i];
-        m.scaled[i] = target[i] * scale;
+        m.scaled[i] = subnormal && is_subnormal(target[i]) ? metric_scaled(&m, target[i]) : target[i] * scale;
     }
     return m;
 }
@@ -59,24 +59,34 @@ int metric_compare_radius(const double target[3], const double p[3], double radi
     return exact_sign(&sum);
 }
 
+static double length_of(const double gap[3])
+{
+    return sqrt((gap[0] * gap[0] + gap[1] * gap[1]) + gap[2] * gap[2]);
+}
+
+static double subnormal_length(const double gap[3])
+{
+    const double counts[3] = {subnormal_count(gap[0]), subnormal_count(gap[1]), subnormal_count(gap[2])};
+    const double length = length_of(counts);
+    return length < 0x1p51 ? subnormal_of(length) : ldexp(length, -1074);
+}
+
 double metric_distance(const double a[3], const double b[3])
 {
-    /* Halves where a difference could overflow; they are exact there. */
-    const double unit =
-        fabs(a[0]) + fabs(a[1]) + fabs(a[2]) + fabs(b[0]) + fabs(b[1]) + fabs(b[2]) > 0x1p1000 ? 0.5 : 1;
     double gap[3], largest = 0;
     for (int i = 0; i < 3; i++) {
-        gap[i] = fabs(a[i] * unit - b[i] * unit);
+        gap[i] = fabs(a[i] - b[i]);
         largest = gap[i] > largest ? gap[i] : largest;
     }
     if (0x1p-480 < largest && largest < 0x1p480)
-        return sqrt((gap[0] * gap[0] + gap[1] * gap[1]) + gap[2] * gap[2]) / unit;
-    int exponent;
-    frexp(largest, &exponent);
-    double square = 0;
-    for (int i = 0; i < 3; i++) {
-        const double scaled = ldexp(gap[i], -exponent);
-        square += scaled * scaled;
-    }
-    return ldexp(sqrt(square), exponent) / unit;
+        return length_of(gap);
+    if (is_subnormal(largest))
+        return subnormal_length(gap);
+    const bool halve = isinf(largest);
+    int exponent = 1024;
+    if (!halve)
+        frexp(largest, &exponent);
+    for (int i = 0; i < 3; i++)
+        gap[i] = halve ? ldexp(fabs(a[i] / 2 - b[i] / 2), 1 - exponent) : ldexp(gap[i], -exponent);
+    return ldexp(length_of(gap), exponent);
 }

@@ -10,32 +10,40 @@
 
 #include "float_rules.h"
 #include "octree/octree.h"
+#include "subnormal.h"
 
 typedef struct metric {
     double target[3]; /* as given */
     double scaled[3]; /* times scale */
     double scale;
+    double grain; /* scale * 2^-1074 where all coordinates of the world are subnormal, else 0 */
 } metric;
 
 /* The power of two for a world; between 2^-1020 and 2^1000, so that it is an ordinary double. */
 double metric_scale(const octree_box *world);
 
-metric metric_make(double scale, const double target[3]);
+metric metric_make(double scale, bool subnormal, const double target[3]);
+
+/* A coordinate of the world times the scale. */
+static inline double metric_scaled(const metric *m, double x)
+{
+    return m->grain > 0 ? subnormal_count(x) * m->grain : x * m->scale;
+}
 
 /* The scaled squared distance of a point: (dx^2 + dy^2) + dz^2, in that order on every machine. */
 static inline double metric_point(const metric *m, const double p[3])
 {
-    const double x = p[0] * m->scale - m->scaled[0];
-    const double y = p[1] * m->scale - m->scaled[1];
-    const double z = p[2] * m->scale - m->scaled[2];
+    const double x = metric_scaled(m, p[0]) - m->scaled[0];
+    const double y = metric_scaled(m, p[1]) - m->scaled[1];
+    const double z = metric_scaled(m, p[2]) - m->scaled[2];
     return (x * x + y * y) + z * z;
 }
 
 /* The scaled distance along one axis to an interval. */
 static inline double metric_gap(const metric *m, int i, double min, double max)
 {
-    const double below = min * m->scale - m->scaled[i];
-    const double above = m->scaled[i] - max * m->scale;
+    const double below = metric_scaled(m, min) - m->scaled[i];
+    const double above = m->scaled[i] - metric_scaled(m, max);
     return below > 0 ? below : above > 0 ? above : 0;
 }
 

@@ -65,7 +65,7 @@ static void measure(const search *s, frame *f)
 {
     f->near = 0;
     for (int i = 0; i < 3; i++) {
-        const double plane = plane_inside(&s->tree->axes[i], f->center[i]) * s->best.metric.scale;
+        const double plane = metric_scaled(&s->best.metric, plane_inside(&s->tree->axes[i], f->center[i]));
         const double beyond = s->best.metric.scaled[i] - plane;
         f->squares[i][1] = beyond * beyond;
         f->near |= beyond >= 0 ? 4 >> i : 0;
@@ -174,16 +174,16 @@ static void search_beside(search *s, frame *f, unsigned depth)
         step(s);
 }
 
-unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, uint64_t codes[3])
+unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
-    const uint32_t size = cell_size(depth), quarter = size / 4;
+    const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
     unsigned count = 0;
     for (int i = 0; i < 3; i++) {
         const uint32_t within = keys[i] & (size - 1);
         uint32_t beside[3] = {keys[0], keys[1], keys[2]};
-        if (within < quarter)
+        if (within < close)
             beside[i] -= size;
-        else if (within >= size - quarter)
+        else if (within >= size - close)
             beside[i] += size;
         if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped */
             codes[count++] = morton_interleave(beside);
@@ -191,11 +191,11 @@ unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, uint64_t c
     return count;
 }
 
-/* While the target's leaf is on its way from memory, ask for those beside it. */
-static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3])
+/* Ask for the leaves beside the target's, while that is on its way from memory. */
+static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
-    const unsigned count = nearest_codes_beside(keys, way->depth, codes);
+    const unsigned count = nearest_codes_beside(keys, way->depth, k, codes);
     for (unsigned i = 0; i < count; i++) {
         unsigned depth = way->depth;
         while ((codes[i] ^ code) >> 3 * (OCTREE_MAX_DEPTH - depth))
@@ -204,7 +204,7 @@ static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[
         while (n && n->octants)
             n = child_at(n, morton_octant(codes[i], depth++));
         if (n)
-            prefetch(n->below);
+            leaf_prefetch(n);
     }
 }
 
@@ -241,7 +241,8 @@ static void run_search(search *s)
     if (way.nodes[depth]->octants) {
         depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
     } else {
-        prefetch_beside(&way, code, keys);
+        leaf_prefetch(way.nodes[depth]);
+        prefetch_beside(&way, code, keys, s->best.k);
         scan_leaf(s, way.nodes[depth]);
     }
     while (depth-- > 0)
@@ -251,7 +252,7 @@ static void run_search(search *s)
 size_t nearest_search(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
                       octree_neighbor *neighbors)
 {
-    const metric m = metric_make(tree->scale, target);
+    const metric m = metric_make(tree->scale, is_subnormal_world(tree), target);
     search s;
     s.tree = tree;
     s.best = best_make(&m, how, radius, neighbors, k);

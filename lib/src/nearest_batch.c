@@ -44,8 +44,8 @@ static void walk_to_leaves(walker *walkers, size_t count)
         }
     }
     for (size_t i = 0; i < count; i++)
-        for (uint32_t j = 2; walkers[i].node->octants == 0 && j < walkers[i].node->count && j < POOL_MAX_UNITS; j += 2)
-            prefetch(&leaf_points(walkers[i].node)[j]);
+        if (walkers[i].node->octants == 0)
+            leaf_prefetch(walkers[i].node);
 }
 
 /* Ask for the memory that a few searches will begin with: the leaves that the targets lie in, then those beside them.
@@ -61,7 +61,7 @@ static void prefetch_group(const octree *tree, const double (*targets)[3], const
         uint32_t keys[3];
         nearest_keys(tree, targets[turns[i].place], keys);
         uint64_t codes[3];
-        const unsigned close = nearest_codes_beside(keys, walkers[i].depth, codes);
+        const unsigned close = nearest_codes_beside(keys, walkers[i].depth, 1, codes);
         for (unsigned j = 0; j < close; j++)
             beside[more++] = (walker){&tree->root, codes[j], 0};
     }

@@ -25,8 +25,9 @@ static double first_bits(double value)
 axis axis_make(double min, double max)
 {
     axis a = {.min = min, .max = max, .unit = 1, .keys_per_unit = (double)PLANE_GRID / (max - min)};
+    a.subnormal = fabs(min) < SUBNORMAL_HALF && fabs(max) < SUBNORMAL_HALF;
     if (fabs(min) < 0x1p-900 && fabs(max) < 0x1p-900)
-        a.unit = 0x1p-100; /* so that halves are not subnormal */
+        a.unit = a.subnormal ? 0x1p-1074 : 0x1p-100; /* so that halves are not subnormal */
     const double low = min / a.unit / 2, high = max / a.unit / 2;
     double half[2];
     add_exactly(high, low, a.center);
@@ -35,6 +36,10 @@ axis axis_make(double min, double max)
     a.half[1] = half[0] - a.half[0];
     a.half[2] = half[1];
     a.doubt = 0x1p-29 + 2 * (fmax(fabs(min), fabs(max)) * 0x1p-52 + 0x1p-1074) * a.keys_per_unit;
+    if (a.subnormal) {
+        a.keys_per_unit = (double)PLANE_GRID / subnormal_count(max - min);
+        a.doubt = 0x1p-29 + 4 * a.keys_per_unit;
+    }
     a.plain = a.unit == 1 && a.center[1] == 0 && a.half[1] == 0 && a.half[2] == 0;
     return a;
 }
@@ -44,7 +49,7 @@ double plane_precise(const axis *a, double t)
     double sum[2];
     add_exactly(a->center[0], a->half[0] * t, sum);
     const double rest = sum[1] + (a->center[1] + (a->half[1] * t + a->half[2] * t));
-    return (sum[0] + rest) * a->unit;
+    return a->subnormal ? subnormal_of(sum[0] + rest) : (sum[0] + rest) * a->unit;
 }
 
 static bool key_fits(const axis *a, uint32_t key, double x)
@@ -66,7 +71,7 @@ static uint32_t key_search(const axis *a, double x)
  * that overflow) the search is the answer. */
 uint32_t plane_key_near(const axis *a, double x)
 {
-    const double guess = (x - a->min) * a->keys_per_unit;
+    const double guess = plane_guess(a, x);
     if (!(guess >= 0 && guess < (double)PLANE_GRID))
         return key_search(a, x);
     const uint32_t key = (uint32_t)guess;

@@ -10,6 +10,7 @@
 #include "float_rules.h"
 #include "bits.h"
 #include "octree/octree.h"
+#include "subnormal.h"
 
 #define PLANE_GRID (1u << OCTREE_MAX_DEPTH)
 
@@ -19,6 +20,7 @@ typedef struct axis {
     double center[2];     /* (min + max) / 2 as an unevaluated sum */
     double half[3];       /* (max - min) / 2 as another, whose first term has 31 bits */
     bool plain;           /* two terms and one rounding are enough */
+    bool subnormal;       /* all coordinates are, and their differences */
     double keys_per_unit; /* a guess only: may be 0 or infinite in extreme worlds */
     double doubt;         /* how far that guess can be off, in keys; may be infinite or NaN */
 } axis;
@@ -46,6 +48,13 @@ static inline double plane_at(const axis *a, uint32_t k)
     return k == 0 ? a->min : k == PLANE_GRID ? a->max : plane_inside(a, (double)k * 0x1p-20 - 1);
 }
 
+/* Where a coordinate lies, in keys, up to rounding. */
+static inline double plane_guess(const axis *a, double x)
+{
+    const double above = x - a->min;
+    return (a->subnormal ? subnormal_count(above) : above) * a->keys_per_unit;
+}
+
 /* The key of a coordinate that is near a plane, or that no guess can be trusted for. */
 uint32_t plane_key_near(const axis *a, double x);
 
@@ -54,7 +63,7 @@ uint32_t plane_key_near(const axis *a, double x);
  * most: a guess farther than that from a whole number is right. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
-    const double guess = (x - a->min) * a->keys_per_unit;
+    const double guess = plane_guess(a, x);
     if (guess >= 0 && guess < (double)PLANE_GRID) {
         const uint32_t key = (uint32_t)guess;
         const double beyond = guess - (double)key;

@@ -58,7 +58,7 @@ static octant_masks masks_of(const ball *b, const ball_cell *c)
 static void cut(const ball *b, const octree *tree, ball_cell *c)
 {
     for (int i = 0; i < 3; i++) {
-        const double plane = plane_inside(&tree->axes[i], c->center[i]) * b->metric.scale;
+        const double plane = metric_scaled(&b->metric, plane_inside(&tree->axes[i], c->center[i]));
         const double beyond = b->metric.scaled[i] - plane;
         c->middle[i] = beyond * beyond;
         c->above[i] = beyond >= 0;
@@ -109,8 +109,8 @@ static octant_masks measure_root(ball *b, const octree *tree)
     double near = 0, far = 0;
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
-        const double low = b->metric.scaled[i] - a->min * b->metric.scale;
-        const double high = a->max * b->metric.scale - b->metric.scaled[i];
+        const double low = b->metric.scaled[i] - metric_scaled(&b->metric, a->min);
+        const double high = metric_scaled(&b->metric, a->max) - b->metric.scaled[i];
         const double gap = metric_gap(&b->metric, i, a->min, a->max);
         c->center[i] = 0;
         c->near[i] = gap * gap;
@@ -131,7 +131,7 @@ static void run_query(const octree *tree, const double center[3], double radius,
                       octree_point_visitor visit, void *context)
 {
     ball b;
-    b.metric = metric_make(tree->scale, center);
+    b.metric = metric_make(tree->scale, is_subnormal_world(tree), center);
     b.mode = how->mode;
     b.radius = radius;
     b.square = square_of(radius * tree->scale);

@@ -56,8 +56,7 @@ static bool scan_next(descent *d)
 static bool let_wait(descent *d, const node *leaf)
 {
     const bool go_on = d->came - d->went < WAITING || scan_next(d);
-    for (uint32_t i = 0; i < leaf->count && i < 6; i += 2)
-        prefetch(&leaf_points(leaf)[i]); /* from there the processor sees where it goes */
+    leaf_prefetch(leaf);
     d->waiting[d->came++ % WAITING] = leaf;
     return go_on;
 }

@@ -15,6 +15,9 @@ typedef struct octant_masks {
     uint8_t inside; /* all that lies there is in it */
 } octant_masks;
 
+/* Of the two halves of a cell on an axis: the octants in the lower one, and in the upper. */
+static const uint8_t octants_beside[3][2] = {{0x0f, 0xf0}, {0x33, 0xcc}, {0x55, 0xaa}};
+
 typedef struct region region;
 
 struct region {

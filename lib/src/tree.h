@@ -41,6 +41,12 @@ static inline node *children_of(const node *n)
     return n->below;
 }
 
+/* Whether all coordinates are subnormal, and their differences. */
+static inline bool is_subnormal_world(const octree *tree)
+{
+    return tree->axes[0].subnormal && tree->axes[1].subnormal && tree->axes[2].subnormal;
+}
+
 /* Ask for memory that will be read soon. Only speed depends on it. */
 static inline void prefetch(const void *memory)
 {

@@ -22,7 +22,15 @@ enum { LEAST_CAPACITY = 4, MOST_CAPACITY = 256 };
 
 /* ---- A sample: whole cells, so that it is as dense as the tree ---------------------------------------------- */
 
-enum { CELLS = 8, CELL_POINTS = 4096, TARGETS = 128 };
+/* Cells have at least 16 points for each that a query asks for: a range about a point of a cell must not reach far
+ * beyond it. Of cells that large there are fewer. */
+enum { LEAST_CELL = 4096, MOST_CELL = 32768, TARGETS = 128 };
+
+static size_t cell_points(const octree_mix *mix)
+{
+    const size_t most = mix->k > mix->hits ? mix->k : mix->hits;
+    return most >= MOST_CELL / 16 ? MOST_CELL : most <= LEAST_CELL / 16 ? LEAST_CELL : 16 * most;
+}
 
 typedef struct sample {
     octree_point *points;
@@ -38,17 +46,18 @@ static bool add_point(const octree_point *point, void *context)
     return s->count < s->room;
 }
 
-/* Of a tree with more points than the room, about every (count / CELLS)-th point lies in a cell that is taken. */
+/* Of a tree with more points than the room, about every `step`-th point lies in a cell that is taken. */
 typedef struct picking {
     sample *sample;
     const octree *tree;
+    size_t cell; /* points that a cell has at most */
     size_t met, step;
 } picking;
 
 static octree_walk_order pick_cell(const octree_node *seen, void *context)
 {
     picking *p = context;
-    if (!seen->leaf && seen->count > CELL_POINTS)
+    if (!seen->leaf && seen->count > p->cell)
         return OCTREE_WALK_ON;
     const size_t first = p->met;
     p->met += seen->count;
@@ -57,14 +66,14 @@ static octree_walk_order pick_cell(const octree_node *seen, void *context)
     return OCTREE_WALK_SKIP;
 }
 
-static bool take_sample(sample *s, octree *tree)
+static bool take_sample(sample *s, octree *tree, const octree_mix *mix)
 {
-    const size_t count = octree_count(tree);
-    *s = (sample){.room = count < 2 * CELLS * CELL_POINTS ? count : 2 * CELLS * CELL_POINTS};
+    const size_t count = octree_count(tree), cell = cell_points(mix);
+    *s = (sample){.room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL};
     s->points = arena_take(&tree->memory, s->room * sizeof *s->points);
     if (!s->points)
         return false;
-    octree_walk(tree, pick_cell, &(picking){s, tree, 0, count <= s->room ? 1 : count / CELLS});
+    octree_walk(tree, pick_cell, &(picking){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
     qsort(s->points, s->count, sizeof *s->points, octree_compare_points); /* whatever order the tree holds them in */
     return true;
 }
@@ -194,10 +203,10 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
 {
     sample s;
     octree_status status = OCTREE_NO_MEMORY;
-    const octree_mix tried = clamp_mix(*mix, CELL_POINTS);
+    const octree_mix tried = clamp_mix(*mix, LEAST_CELL);
     const size_t size = ((tried.k > tried.hits ? tried.k : tried.hits) + 1) * sizeof(octree_neighbor);
     octree_neighbor *room = arena_take(&tree->memory, size);
-    if (take_sample(&s, tree) && room)
+    if (take_sample(&s, tree, &tried) && room)
         status = choose(&s, tree->def, &tried, room, capacity);
     arena_give(&tree->memory, room, size);
     arena_give(&tree->memory, s.points, s.room * sizeof *s.points);

@@ -184,6 +184,8 @@ static const scene_kind kinds[] = {
     {"tiny-1e-310", {{-1e-310, -1e-310, -1e-310}, {1e-310, 1e-310, 1e-310}}, place_uniform},
     {"tiny-5e-324", {{5e-324, 5e-324, 5e-324}, {1e-310, 1e-310, 1e-310}}, place_mirrored},
     {"tiny-few", {{0, 0, 0}, {40 * 5e-324, 40 * 5e-324, 40 * 5e-324}}, place_uniform},
+    {"tiny-edge", {{-0x1p-1023, 0, -0x1.fp-1024}, {0x1.8p-1024, 0x1p-1023, 0x1.fp-1024}}, place_mirrored},
+    {"tiny-whole", {{-0x1.fp-1024, -0x1.fp-1024, 0}, {0x1.fp-1024, 0x1.fp-1024, 0x1p-1060}}, place_on_planes},
     {"small-1e-200", {{-1e-200, -1e-200, -1e-200}, {1e-200, 1e-200, 1e-200}}, place_mirrored},
     {"large-1e200", {{-1e200, -1e200, -1e200}, {1e200, 1e200, 1e200}}, place_clustered},
     {"mirrored-1e200", {{-1e200, -1e200, -1e200}, {1e200, 1e200, 1e200}}, place_mirrored},

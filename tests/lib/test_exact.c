@@ -193,6 +193,24 @@ static void collisions_are_decided_by_whole_numbers(void **state)
     }
 }
 
+/* Large coordinates that are equal say nothing of the distance: it may be a few of the least doubles. */
+static void distances_beside_large_coordinates_are_not_rounded(void **state)
+{
+    (void)state;
+    static const double gaps[] = {5e-324, 3 * 5e-324, 7 * 5e-324, 0x1.8p-1022, 0x1p-1000, 1e-200, 1};
+    static const double large[] = {1, 0x1p1001, 1e308, DBL_MAX};
+    for (size_t i = 0; i < sizeof gaps / sizeof gaps[0]; i++)
+        for (size_t j = 0; j < sizeof large / sizeof large[0]; j++) {
+            octree *tree = make_tree(cube(-DBL_MAX, DBL_MAX), 4, 21, OCTREE_GROW);
+            brute all = {0};
+            add(tree, &all, (const double[3]){large[j], -large[j], gaps[i]});
+            assert_exact(tree, &all, (const double[3]){large[j], -large[j], 0}, OCTREE_SKIP_NONE, 0);
+            assert_exact(tree, &all, (const double[3]){large[j], -large[j], -gaps[i]}, OCTREE_SKIP_NONE, 0);
+            octree_destroy(tree);
+            brute_free(&all);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -203,6 +221,7 @@ int main(void)
         cmocka_unit_test(nearest_is_the_true_one_for_targets_far_outside),
         cmocka_unit_test(points_of_every_magnitude_in_one_tree_are_told_apart),
         cmocka_unit_test(collisions_are_decided_by_whole_numbers),
+        cmocka_unit_test(distances_beside_large_coordinates_are_not_rounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

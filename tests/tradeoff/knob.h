@@ -23,7 +23,8 @@ typedef struct knob {
     const column *columns;
     size_t column_count;
     void (*measure)(const run *r, table *t);
-    void (*tell)(const table *t, FILE *out); /* the headline: one sentence, computed from the data */
+    void (*tell)(const table *t, FILE *out);   /* the headline: one sentence, computed from the data */
+    void (*defend)(const table *t, FILE *out); /* why the default is kept: the like */
 } knob;
 
 extern const knob knob_mode, knob_nearest_epsilon, knob_range_epsilon, knob_leaf, knob_float, knob_sweep, knob_tick,

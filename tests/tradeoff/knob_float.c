@@ -196,6 +196,14 @@ static void tell(const table *t, FILE *out)
     fputc('.', out);
 }
 
+static void defend(const table *t, FILE *out)
+{
+    const pick utm = {.variant = "floats", .setting = 1e6 + 1000};
+    fprintf(out,
+            "Doubles are kept: 12 bytes a point less would make up to %.1f %% of the answers wrong at UTM coordinates.",
+            1e-4 * table_most(t, utm, "wrong_per_million"));
+}
+
 const knob knob_float = {
     .name = "float",
     .title = "Doubles, or coordinates rounded to float on the way in",
@@ -210,4 +218,5 @@ const knob knob_float = {
     .column_count = sizeof columns / sizeof columns[0],
     .measure = measure,
     .tell = tell,
+    .defend = defend,
 };

@@ -241,6 +241,24 @@ static void tell(const table *t, FILE *out)
             table_sum(t, (pick){.variant = "capacity", .setting = 1}, "bytes") / count);
 }
 
+static void defend(const table *t, FILE *out)
+{
+    const pick deepest = {.variant = "depth", .setting = OCTREE_MAX_DEPTH};
+    double least;
+    const size_t best = best_capacity(t, &least);
+    ratio shallow = {.median = INFINITY};
+    for (size_t i = 0; i < DEPTHS; i++) {
+        const ratio r = table_ratios(t, (pick){.variant = "depth", .setting = (double)depths[i]}, deepest, "mix_ns");
+        shallow.median = fmin(shallow.median, r.median);
+        shallow.most = fmax(shallow.most, r.most);
+    }
+    fprintf(out,
+            "64 is %s: %zu is the fastest fixed capacity over the mix. Depth 21 is kept: a lower limit saves at most "
+            "%.0f %% (median of the scenes; where no leaf is that deep, it is noise) and takes up to %.1f x the time.",
+            best == octree_def_default().leaf_capacity ? "kept" : "not the best", best, 100 * (1 - shallow.median),
+            shallow.most);
+}
+
 const knob knob_leaf = {
     .name = "leaf",
     .title = "Leaf capacity, greatest depth, AUTO",
@@ -252,4 +270,5 @@ const knob knob_leaf = {
     .column_count = sizeof columns / sizeof columns[0],
     .measure = measure,
     .tell = tell,
+    .defend = defend,
 };

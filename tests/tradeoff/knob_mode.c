@@ -117,6 +117,15 @@ static void tell(const table *t, FILE *out)
         table_most(t, fast, "bound_excess"));
 }
 
+static void defend(const table *t, FILE *out)
+{
+    const pick exact = {.variant = "exact", .setting = NAN}, fast = {.variant = "fast", .setting = NAN};
+    fprintf(
+        out,
+        "Exact is kept: FAST saves %.0f %% of the time (median of the scenes), and of near ties it gets %.0f %% wrong.",
+        100 * (1 - table_ratio(t, fast, exact, "ns")), 1e-4 * table_most(t, fast, "wrong_per_million"));
+}
+
 const knob knob_mode = {
     .name = "mode",
     .title = "Exact or FAST nearest neighbours",
@@ -131,4 +140,5 @@ const knob knob_mode = {
     .column_count = sizeof columns / sizeof columns[0],
     .measure = measure,
     .tell = tell,
+    .defend = defend,
 };

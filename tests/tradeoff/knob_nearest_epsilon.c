@@ -115,6 +115,16 @@ static void tell(const table *t, FILE *out)
     fputc('.', out);
 }
 
+static void defend(const table *t, FILE *out)
+{
+    const pick exact = {.variant = "k8", .setting = 0}, loose = {.variant = "k8", .setting = 0.1};
+    const double recall = table_sum(t, loose, "recall") / (double)table_count(t, loose);
+    fprintf(out,
+            "0 is kept: of the time for 8 neighbours, 0.1 saves %.0f %% (median of the scenes), and it misses %.2g %% "
+            "of them.",
+            100 * (1 - table_ratio(t, loose, exact, "ns")), 100 * (1 - recall));
+}
+
 const knob knob_nearest_epsilon = {
     .name = "nearest-epsilon",
     .title = "Epsilon of nearest neighbours",
@@ -127,4 +137,5 @@ const knob knob_nearest_epsilon = {
     .column_count = sizeof columns / sizeof columns[0],
     .measure = measure,
     .tell = tell,
+    .defend = defend,
 };

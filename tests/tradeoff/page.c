@@ -63,6 +63,7 @@ static void write_facts(const chapter *c, FILE *out)
         const char *name, *text;
     } facts[] = {{"Trades", c->knob->trades},
                  {"Default", c->knob->preset},
+                 {"Why", c->defence},
                  {"Proven", c->knob->proven},
                  {"Truth", c->knob->truth}};
     fputs("<dl>", out);

@@ -8,7 +8,7 @@
 typedef struct chapter {
     const knob *knob;
     table table;
-    char *headline;
+    char *headline, *defence;
     size_t beyond; /* values beyond their bound */
 } chapter;
 

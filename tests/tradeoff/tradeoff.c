@@ -146,14 +146,14 @@ static FILE *open_in(const char *folder, const char *name, const char *ending)
     return file;
 }
 
-static char *headline_of(const knob *k, const table *t)
+static char *text_of(void (*write)(const table *t, FILE *out), const table *t)
 {
     char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out)
         stop("there is no memory");
-    k->tell(t, out);
+    write(t, out);
     fclose(out);
     return text;
 }
@@ -162,7 +162,8 @@ static chapter measure(const knob *k, const run *r, const options *o, bool plott
 {
     chapter c = {.knob = k, .table = {.columns = k->columns, .column_count = k->column_count}};
     k->measure(r, &c.table);
-    c.headline = headline_of(k, &c.table);
+    c.headline = text_of(k->tell, &c.table);
+    c.defence = text_of(k->defend, &c.table);
     c.beyond = table_judge(&c.table, k->name, o->tighten, stderr);
     FILE *csv = open_in(o->folder, k->name, "csv");
     table_write_csv(&c.table, csv);
@@ -173,7 +174,7 @@ static chapter measure(const knob *k, const run *r, const options *o, bool plott
     if (o->json)
         table_write_json(&c.table, k->name, stdout);
     else
-        printf("%s\n  %s\n", k->title, c.headline);
+        printf("%s\n  %s\n  %s\n", k->title, c.headline, c.defence);
     fflush(stdout);
     return c;
 }
@@ -198,6 +199,7 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < count; i++) {
         beyond += chapters[i].beyond;
         free(chapters[i].headline);
+        free(chapters[i].defence);
         table_free(&chapters[i].table);
     }
     workloads_free(&loads);

@@ -297,8 +297,8 @@ octree_status octree_collide_search(const octree *tree, const double center[3], 
 /* Collision on the way: visit every point that the box position +- box_size touches somewhere between two places, both
  * included, decided by the real numbers. Nothing is missed, however long the step is; a test at both ends alone is sure
  * to miss nothing only where the step is at most 2 * box_size along one axis. `self` as in octree_collide; the answer
- * is exact whatever `how` says. Errors: as octree_collide_search. Cost: as octree_range of the box around the whole
- * step. */
+ * is exact whatever `how` says. Errors: as octree_collide_search. Cost: O(nodes that the box touches on its way +
+ * points in those leaves). */
 octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,
                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                    void *context);
