@@ -3,6 +3,8 @@ set multiplot layout 1,3
 set style data histogram
 set style fill solid 0.9 noborder
 set boxwidth 0.8
+set offsets 0.6, 0.6, 0, 0
+set rmargin 7
 set xtics rotate by -40 scale 0 noenhanced font ",9"
 unset key
 set key top left inside
