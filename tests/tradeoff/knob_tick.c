@@ -209,12 +209,13 @@ static void tell(const table *t, FILE *out)
 
 static void defend(const table *t, FILE *out)
 {
-    const pick fine = {.variant = "ends", .setting = 64}, swept = {.variant = "swept", .setting = 64};
+    const double ticks = LENGTH / (2 * half); /* a box each */
+    const pick ends = {.variant = "ends", .setting = ticks}, swept = {.variant = "swept", .setting = ticks};
     fprintf(out,
-            "The paper's step without sweep is kept: in steps that small (64 ticks here) the ends flew past %.0f "
-            "points, and "
-            "sweep takes %.2f x their time; with long steps, use sweep.",
-            table_sum(t, fine, "flown_past"), table_ratio(t, swept, fine, "ns"));
+            "The paper's step without sweep is kept: its points rest, and of what rests a step of up to a box along an "
+            "axis misses none. Among points that move, steps of a box flew past %.0f of %.0f: there use sweep, which "
+            "takes %.2f x the time.",
+            table_sum(t, ends, "flown_past"), table_most(t, ends, "flights"), table_ratio(t, swept, ends, "ns"));
 }
 
 const knob knob_tick = {
