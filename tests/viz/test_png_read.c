@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <png.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -319,7 +320,7 @@ static void wrong_crc_of_any_chunk_is_an_error(void **state)
     }
 }
 
-/* Every byte has a CRC; the stream's own Adler-32 is not asked as well. */
+/* Every byte has a CRC; the stream's own Adler-32 is not asked as well, where libpng can be told so. */
 static void stream_with_a_wrong_sum_of_its_own_is_read_as_it_is(void **state)
 {
     const char *path = temp_file(*state, "a.png");
@@ -333,9 +334,13 @@ static void stream_with_a_wrong_sum_of_its_own_is_read_as_it_is(void **state)
     png_put_chunk(&file, "IDAT", packed, size);
     png_put_chunk(&file, "IEND", NULL, 0);
     png_bytes_save(&file, file.size, path);
+#ifdef PNG_IGNORE_ADLER32
     image image = assert_read(path);
     assert_memory_equal(image.pixels, ((uint8_t[]){10, 20, 30, 40, 50, 60}), 6);
     image_release(&image);
+#else
+    assert_unreadable(path, "");
+#endif
 }
 
 static void any_flipped_bit_is_an_error(void **state)

@@ -41,12 +41,15 @@ static void ignore_warning(png_structp png, png_const_charp message)
 }
 
 /* Strict, because a damaged file that looks like a picture would be compared as one: a wrong CRC of any chunk and
- * broken streams are errors. The Adler-32 within the stream, a fifth of the time, is left alone: the CRCs are over the
- * same bytes. Chunks that change no pixel here (gamma, profiles, texts) are skipped, with all they might unpack to. */
+ * broken streams are errors. The Adler-32 within the stream, a fifth of the time, is left alone where libpng was built
+ * so that it can be (Debian 12's, not 13's): the CRCs are over the same bytes. Chunks that change no pixel here (gamma,
+ * profiles, texts) are skipped, with all they might unpack to. */
 static void set_rules(png_structp png)
 {
     png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+#ifdef PNG_IGNORE_ADLER32
     png_set_option(png, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
+#endif
     png_set_benign_errors(png, 0);
     png_set_chunk_malloc_max(png, LARGEST_CHUNK);
     png_set_chunk_cache_max(png, MOST_TEXTS);
