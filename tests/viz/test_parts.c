@@ -410,6 +410,24 @@ static void gnu_parallel_films_the_parts(void **state)
     assert_same_folders(whole.path, parts.path, NULL);
 }
 
+/* The script of the README's array job, each task with the number that Slurm gives it. */
+static void slurm_tasks_film_the_parts(void **state)
+{
+    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    command_result result = run_octreel(NULL, "record --size 160x90 -o %s", whole.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_script(
+        "task='a=$((SLURM_ARRAY_TASK_ID * 64)) && \"$program\" record --size 160x90 --jobs 1 \\\n"
+        "    -o %s --ticks $a:$((a + 64))'\n"
+        "export program='%s'; for i in 0 1 2 3; do SLURM_ARRAY_TASK_ID=$i sh -c \"$task\" & pids=\"$pids $!\"; done; "
+        "for p in $pids; do wait $p || exit; done; \"$program\" join %s",
+        parts.path, octreel_program(), parts.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_same_folders(whole.path, parts.path, NULL);
+}
+
 static void command_lines_of_parts_that_make_no_sense_are_refused(void **state)
 {
     static const char *const rows[][2] = {
@@ -464,6 +482,7 @@ int main(void)
         IN_FOLDER(whole_film_is_not_made_into_a_folder_with_parts),
         IN_FOLDER(four_parts_in_four_processes_are_the_bytes_of_one_film),
         IN_FOLDER(gnu_parallel_films_the_parts),
+        IN_FOLDER(slurm_tasks_film_the_parts),
         cmocka_unit_test(command_lines_of_parts_that_make_no_sense_are_refused),
         IN_FOLDER(join_says_in_one_sentence_what_is_missing),
     };
