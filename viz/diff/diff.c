@@ -51,8 +51,10 @@ void diff_release(diff_result *result)
     for (size_t i = 0; i < result->count; i++) {
         free(result->pairs[i].ignored);
         free(result->pairs[i].trouble);
+        free(result->pairs[i].cause);
     }
     free(result->pairs);
+    free(result->headline);
     *result = (diff_result){0};
 }
 

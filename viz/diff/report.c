@@ -137,6 +137,8 @@ static void print_pairs(FILE *out, const diff_result *result)
         fputs("  ", out);
         diff_print_pair(out, &result->pairs[i]);
         fputc('\n', out);
+        if (result->pairs[i].cause)
+            fprintf(out, "    %s\n", result->pairs[i].cause);
     }
     if (listed > DIFF_REPORT_LINES)
         fprintf(out, "  ... and %zu more; --json lists all\n", listed - DIFF_REPORT_LINES);
@@ -193,6 +195,8 @@ static void print_tolerance(FILE *out, const diff_report *report)
 void diff_report_text(FILE *out, const diff_report *report)
 {
     print_verdict(out, report->result);
+    if (report->result->headline)
+        fprintf(out, "%s\n", report->result->headline);
     print_pairs(out, report->result);
     print_tolerance(out, report);
 }

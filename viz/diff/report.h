@@ -16,7 +16,8 @@ typedef struct diff_report {
 /* "same", "different" or "trouble". */
 const char *diff_verdict_name(diff_verdict verdict);
 
-/* The verdict, a line for each frame that is not the same (at most DIFF_REPORT_LINES), and what was forgiven. */
+/* The verdict, the headline, a line for each frame that is not the same (at most DIFF_REPORT_LINES) and one for its
+ * cause, and what was forgiven. */
 #define DIFF_REPORT_LINES 40
 void diff_report_text(FILE *out, const diff_report *report);
 

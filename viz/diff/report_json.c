@@ -108,6 +108,8 @@ static void write_finding(json_writer *w, const diff_pair *pair)
     }
     if (pair->trouble)
         json_member_text(w, "trouble", pair->trouble);
+    if (pair->cause)
+        json_member_text(w, "cause", pair->cause);
     json_write_end_object(w);
 }
 
@@ -127,6 +129,8 @@ void diff_report_json(FILE *out, const diff_report *report)
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
     json_member_text(w, "verdict", diff_verdict_name(result->verdict));
+    if (result->headline)
+        json_member_text(w, "headline", result->headline);
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
     write_tolerance(w, report->options);
