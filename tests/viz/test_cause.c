@@ -9,6 +9,7 @@
 #include "fixture.h"
 #include "number.h"
 #include "random_session.h"
+#include "sentence.h"
 #include "ticks_write.h"
 
 #define SEEDS 60 /* in the quick run */
@@ -209,15 +210,18 @@ static bool any_unlike(const octree *a, const octree *b)
            c.points[1].count;
 }
 
-static void assert_trees_told(const octree *a, const octree *b, const cause_facts *facts)
+/* The player is told by the tick. */
+static void assert_trees_told(const octree_game *const games[2], const cause_facts *facts)
 {
+    const octree *a = octree_game_tree(games[0]), *b = octree_game_tree(games[1]);
+    const uint64_t points = facts->found[CAUSE_POINT_MOVED] + facts->found[CAUSE_PLAYER];
     const tree_counts c = count_unlike(a, b);
     assert_int_equal(facts->found[CAUSE_NODE_GONE], c.nodes[0].missing);
     assert_int_equal(facts->found[CAUSE_NODE_BORN], c.nodes[1].missing);
     assert_int_equal(facts->found[CAUSE_NODE_MERGED], c.nodes[0].inner);
     assert_int_equal(facts->found[CAUSE_NODE_SPLIT], c.nodes[1].inner);
-    assert_int_equal(facts->found[CAUSE_POINT_MOVED] + facts->found[CAUSE_POINT_LESS], c.points[0].count);
-    assert_int_equal(facts->found[CAUSE_POINT_MOVED] + facts->found[CAUSE_POINT_MORE], c.points[1].count);
+    assert_int_equal(points + facts->found[CAUSE_POINT_LESS], c.points[0].count);
+    assert_int_equal(points + facts->found[CAUSE_POINT_MORE], c.points[1].count);
 }
 
 /* A fact that is listed is so in both trees. */
@@ -240,7 +244,7 @@ static void assert_tick_told(const octree_game *const games[2], const cause_tick
     const octree_tick *x = octree_game_tick(games[0]), *y = octree_game_tick(games[1]);
     const octree *a = octree_game_tree(games[0]), *b = octree_game_tree(games[1]);
     assert_true(cause_any(&told->facts));
-    assert_trees_told(a, b, &told->facts);
+    assert_trees_told(games, &told->facts);
     for (size_t i = 0; i < told->facts.count; i++)
         assert_fact_holds(a, b, &told->facts.facts[i]);
     unsigned events = 0;
@@ -297,8 +301,11 @@ static void assert_named(const trial *t, uint64_t seed)
     cause c;
     if (!cause_find(&t->made.session, &t->changed, NULL, &all, NULL, NULL, &c, &error))
         fail_msg("%s", error.text);
-    char *headline = cause_headline(&c);
-    assert_non_null(headline);
+    char *headline;
+    sentence s;
+    assert_true(sentence_begin(&s));
+    cause_print_headline(s.stream, &c);
+    assert_true(sentence_end(&s, &headline));
     const cause_fact *fact = c.session.facts, *expected = &t->expected;
     if (c.session.count != 1 || c.session.found[expected->kind] != 1 || fact->kind != expected->kind ||
         fact->tick != expected->tick || strcmp(fact->name, expected->name) != 0 || fact->id != expected->id ||

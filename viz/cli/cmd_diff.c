@@ -1,5 +1,6 @@
 /* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
 #include "command.h"
+#include "explain.h"
 #include "report.h"
 
 #include <getopt.h>
@@ -19,6 +20,10 @@ static const char help[] =
     "      --antialias       pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)\n"
     "      --ignore X,Y,W,H  a rectangle of pixels; may be given again\n"
     "      --ignore-layer text  in recordings: the panel and all letters, wherever they are in each frame\n\n"
+    "Of two recordings it says why they differ: what is unlike in their sessions and views, and what follows from "
+    "that\n"
+    "in each tick; other frames say themselves whether their scenes are the same, and rendering alone differs.\n"
+    "      --causes N        explain the first N frames and ticks that differ (default 10), \"all\", or 0 for none\n\n"
     "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
     "      --json            print JSON\n"
     "  -h, --help\n\n"
@@ -30,6 +35,7 @@ static const char help[] =
 typedef struct arguments {
     diff_options options;
     image_rectangle *ignored; /* owned */
+    uint64_t causes;          /* how many are explained */
     bool json;
 } arguments;
 
@@ -39,6 +45,7 @@ static const struct option options[] = {
     {"antialias", no_argument, NULL, 'a'},
     {"ignore", required_argument, NULL, 'i'},
     {"ignore-layer", required_argument, NULL, 'l'},
+    {"causes", required_argument, NULL, 'c'},
     {"background", required_argument, NULL, 'b'},
     {"json", no_argument, NULL, 'j'},
     {"help", no_argument, NULL, 'h'},
@@ -79,6 +86,9 @@ static bool take_option(arguments *a, int option)
         return add_rectangle(a, optarg);
     case 'l':
         return read_layer(optarg, &a->options.ignore_text);
+    case 'c':
+        a->causes = UINT64_MAX;
+        return strcmp(optarg, "all") == 0 || read_count("--causes", optarg, 0, UINT32_MAX, &a->causes);
     case 'b':
         return read_color("--background", optarg, &a->options.background);
     case 'j':
@@ -90,10 +100,12 @@ static bool take_option(arguments *a, int option)
     }
 }
 
-/* The first sentence of what cannot be read, and how many more there are. */
+/* The first sentence of what cannot be read, and how many more there are; or why nobody can say why. */
 static int tell_trouble(const diff_result *result)
 {
     size_t i = 0;
+    if (result->found[FOUND_UNREADABLE] == 0)
+        return trouble("%s; --causes 0 does not ask why", result->trouble);
     while (result->pairs[i].finding != FOUND_UNREADABLE)
         i++;
     const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "there is no memory";
@@ -119,7 +131,8 @@ static int compare(const arguments *a, const char *paths[2])
     diff_result result = {0};
     record_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
-                    diff_run(&sides[0], &sides[1], &a->options, &result, &error);
+                    diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
+                    diff_explain(&sides[0], &sides[1], a->causes, &result, &error);
     const int status = ok ? report(a, &sides[0], &sides[1], &result) : trouble("%s", error.text);
     diff_release(&result);
     diff_side_release(&sides[0]);
@@ -129,7 +142,7 @@ static int compare(const arguments *a, const char *paths[2])
 
 int cmd_diff(int argc, char **argv)
 {
-    arguments a = {.options = diff_options_default()};
+    arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
     int status = EXIT_TROUBLE;
     bool ok = true, asked = false;
     optind = 1;

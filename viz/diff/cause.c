@@ -15,6 +15,8 @@ typedef struct playing {
     bool shows_heat;
     const cause_wanted *wanted;
     size_t next_wanted;
+    cause_watch *watch; /* may be null */
+    void *context;
     cause *found;
 } playing;
 
@@ -27,12 +29,12 @@ static bool open_game(playing *p, int side, const octree_session *session, recor
 
 /* ---- One tick ------------------------------------------------------------------------------------------------ */
 
-static bool compare_trees(const playing *p, const octree *a, const octree *b)
+static bool compare_trees(const playing *p)
 {
     cause_facts facts = {0};
     if (p->same_rules)
-        return octree_digest(a) != octree_digest(b);
-    cause_compare_trees(a, b, &facts);
+        return octree_digest(octree_game_tree(p->games[0])) != octree_digest(octree_game_tree(p->games[1]));
+    cause_compare_trees(p->games[0], p->games[1], &facts);
     const bool unlike = cause_any(&facts) || facts.out_of_memory;
     cause_facts_release(&facts);
     return unlike;
@@ -40,10 +42,10 @@ static bool compare_trees(const playing *p, const octree *a, const octree *b)
 
 static bool trees_differ(playing *p)
 {
-    const octree *const trees[2] = {octree_game_tree(p->games[0]), octree_game_tree(p->games[1])};
-    const uint64_t versions[2] = {octree_version(trees[0]), octree_version(trees[1])};
+    const uint64_t versions[2] = {octree_version(octree_game_tree(p->games[0])),
+                                  octree_version(octree_game_tree(p->games[1]))};
     if (!p->looked || versions[0] != p->versions[0] || versions[1] != p->versions[1])
-        p->unlike = compare_trees(p, trees[0], trees[1]);
+        p->unlike = compare_trees(p);
     p->looked = true;
     p->versions[0] = versions[0];
     p->versions[1] = versions[1];
@@ -84,7 +86,8 @@ static void note(cause *c, uint64_t tick)
 /* Trees are taken apart only where somebody wants to know. */
 static bool look_at(playing *p, record_error *error)
 {
-    const uint64_t tick = octree_game_tick(p->games[0])->number;
+    const octree_game *const games[2] = {p->games[0], p->games[1]};
+    const uint64_t tick = octree_game_tick(games[0])->number;
     cause_facts facts = {0};
     const bool trees = trees_differ(p);
     cause_compare_ticks(p->games[0], p->games[1], &facts);
@@ -95,7 +98,7 @@ static bool look_at(playing *p, record_error *error)
     if (is_wanted(p, tick, differs)) {
         cause_facts_release(&facts);
         if (trees)
-            cause_compare_trees(octree_game_tree(p->games[0]), octree_game_tree(p->games[1]), &facts);
+            cause_compare_trees(p->games[0], p->games[1], &facts);
         cause_compare_ticks(p->games[0], p->games[1], &facts);
         if (p->warm)
             cause_add(&facts, (cause_fact){.kind = CAUSE_HEAT, .tick = CAUSE_NO_TICK});
@@ -104,7 +107,9 @@ static bool look_at(playing *p, record_error *error)
     p->warm |= p->shows_heat && differs;
     cause_facts_release(&facts);
     p->found->compared++;
-    return ok || record_fail(error, "there is no memory for what differs in tick %" PRIu64, tick);
+    if (!ok)
+        return record_fail(error, "there is no memory for what differs in tick %" PRIu64, tick);
+    return !p->watch || p->watch(p->context, games, differs, error);
 }
 
 /* ---- All of them --------------------------------------------------------------------------------------------- */
@@ -131,7 +136,7 @@ static bool same_rules(const octree *a, const octree *b)
 bool cause_find(const octree_session *a, const octree_session *b, const cause_look look[2], const cause_wanted *wanted,
                 cause_watch *watch, void *context, cause *c, record_error *error)
 {
-    playing p = {.wanted = wanted, .found = c};
+    playing p = {.wanted = wanted, .watch = watch, .context = context, .found = c};
     *c = (cause){0};
     cause_compare_sessions(a, b, &c->session);
     if (look)
@@ -142,8 +147,7 @@ bool cause_find(const octree_session *a, const octree_session *b, const cause_lo
     ok = ok && open_game(&p, 0, a, error) && open_game(&p, 1, b, error);
     p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
     for (bool over = false; ok && !over;) {
-        const octree_game *const games[2] = {p.games[0], p.games[1]};
-        ok = look_at(&p, error) && (!watch || watch(context, games, error));
+        ok = look_at(&p, error);
         over = octree_game_over(p.games[0]) || octree_game_over(p.games[1]);
         ok = ok && (over || advance(&p, error));
     }

@@ -29,8 +29,9 @@ typedef struct cause {
     uint64_t first, last; /* of those that differ */
 } cause;
 
-/* Called at each tick that both have, with the games at it. False, with a sentence, ends the playing. */
-typedef bool cause_watch(void *context, const octree_game *const games[2], record_error *error);
+/* Called at each tick that both have, with the games at it, and whether what happened differs. False, with a sentence,
+ * ends the playing. */
+typedef bool cause_watch(void *context, const octree_game *const games[2], bool differs, record_error *error);
 
 /* Compare two sessions and play them side by side. `look` is what both are looked at with, or null: it adds what shows
  * in pictures alone. `watch` may be null. False with a sentence when one cannot be played; *c is to be released in any

@@ -18,9 +18,10 @@ typedef struct cause_look {
 
 void cause_compare_looks(const cause_look *a, const cause_look *b, cause_facts *facts);
 
-/* Nodes and points; of trees in unlike worlds the worlds, and points. Nodes that are there because one above them split
- * are not told one by one. Cost: a sort of the points. */
-void cause_compare_trees(const octree *a, const octree *b, cause_facts *facts);
+/* Nodes and points of the trees of two games, but the player, which the tick tells; of trees in unlike worlds the
+ * worlds, and points. Nodes that are there because one above them split are not told one by one. Cost: a sort of the
+ * points. */
+void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts *facts);
 
 /* All that the ticks say at which two games are. What their trees tell is not told twice. */
 void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts *facts);

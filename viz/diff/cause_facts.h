@@ -16,7 +16,8 @@
     X(START_LESS, "start_less")   /* id, place */                                                                      \
     X(START_MOVED, "start_moved") /* id, places */                                                                     \
     X(VELOCITY, "velocity")       /* of a point at the start: id, velocities */                                        \
-    X(KEY, "key")                 /* of a tick (of a session: tick), values */                                         \
+    X(START_ORDER, "start_order") /* the same points at the start in another order */                                  \
+    X(KEY, "key")                 /* of a tick: tick, values */                                                        \
     X(EDIT_MORE, "edit_more")     /* tick, name (insert, remove, move), id, place */                                   \
     X(EDIT_LESS, "edit_less")     /* the same */                                                                       \
     X(EDIT_OTHER, "edit_other")   /* leads elsewhere: tick, name, id, places */                                        \
@@ -37,6 +38,7 @@
     X(POINT_MORE, "point_more")     /* id, place */                                                                    \
     X(POINT_LESS, "point_less")     /* id, place */                                                                    \
     X(POINT_MOVED, "point_moved")   /* id, places */                                                                   \
+    X(PRESSED, "pressed")           /* the key: values */                                                              \
     X(PLAYER, "player")             /* where it is: places */                                                          \
     X(ATTEMPT, "attempt")           /* where it tried to go: places */                                                 \
     X(WAY, "way")                   /* it, or what it hit, came from elsewhere */                                      \

@@ -116,6 +116,18 @@ static void compare_bodies(const octree_session *a, const octree_session *b, cau
     free(bs);
 }
 
+/* A leaf that refuses takes those that come first. */
+static void compare_body_order(const octree_session *a, const octree_session *b, cause_facts *facts)
+{
+    const bool same =
+        a->body_count == b->body_count && !facts->found[CAUSE_START_MORE] && !facts->found[CAUSE_START_LESS];
+    for (size_t i = 0; same && i < a->body_count; i++)
+        if (a->bodies[i].id != b->bodies[i].id) {
+            cause_add(facts, (cause_fact){.kind = CAUSE_START_ORDER, .tick = CAUSE_NO_TICK});
+            return;
+        }
+}
+
 /* ---- Keys ---------------------------------------------------------------------------------------------------- */
 
 static void compare_keys(const octree_session *a, const octree_session *b, cause_facts *facts)
@@ -295,6 +307,7 @@ void cause_compare_sessions(const octree_session *a, const octree_session *b, ca
 {
     compare_options(a, b, facts);
     compare_bodies(a, b, facts);
+    compare_body_order(a, b, facts);
     compare_keys(a, b, facts);
     compare_edits(a, b, facts);
     compare_queries(a, b, facts);

@@ -19,9 +19,10 @@ static void compare_keys(const octree_tick *a, const octree_tick *b, cause_facts
 {
     const char keys[2][2] = {{a->key}, {b->key}};
     if (a->key != b->key)
-        cause_add(
-            facts,
-            (cause_fact){.kind = CAUSE_KEY, .tick = CAUSE_NO_TICK, .a = cause_word(keys[0]), .b = cause_word(keys[1])});
+        cause_add(facts, (cause_fact){.kind = CAUSE_PRESSED,
+                                      .tick = CAUSE_NO_TICK,
+                                      .a = cause_word(keys[0]),
+                                      .b = cause_word(keys[1])});
 }
 
 static void compare_events(const octree_tick *a, const octree_tick *b, cause_facts *facts)
@@ -142,30 +143,34 @@ static void compare_answer(const octree_answer *a, const octree_tick *tick, size
     cause_add(facts, fact);
 }
 
-/* Whether an answer that both have in one place is to the same kind of question. */
-static bool is_pair(const octree_answer *a, const octree_answer *b)
+/* Which of two answers is taken next: -1 the first alone, 1 the second alone, 0 both. What is asked by a key comes
+ * first, and may be asked in one tick alone; of unlike kinds the one goes of which more are left. */
+static int order_answers(const octree_answer *x, size_t x_left, const octree_answer *y, size_t y_left)
 {
-    return a->kind == b->kind && a->by_key == b->by_key;
+    if (x_left == 0 || y_left == 0)
+        return x_left ? -1 : 1;
+    if (x->by_key != y->by_key)
+        return x->by_key ? -1 : 1;
+    if (x->kind == y->kind || x_left == y_left)
+        return 0;
+    return x_left > y_left ? -1 : 1;
 }
 
-/* The n-th with the n-th. What is asked by a key comes first, and may be asked in one of them alone. */
+/* The n-th with the n-th. */
 static void compare_answers(const octree_tick *a, const octree_tick *b, cause_facts *facts)
 {
     for (size_t i = 0, j = 0; i < a->answer_count || j < b->answer_count;) {
-        const octree_answer *x = i < a->answer_count ? &a->answers[i] : NULL;
-        const octree_answer *y = j < b->answer_count ? &b->answers[j] : NULL;
-        const bool pair = x && y && is_pair(x, y);
-        const bool less = x && (pair || !(y && y->by_key)), more = y && (pair || !less || !x->by_key);
-        if (pair) {
+        const octree_answer *x = a->answers + i, *y = b->answers + j;
+        const int order = order_answers(x, a->answer_count - i, y, b->answer_count - j);
+        const bool pair = order == 0 && x->kind == y->kind;
+        if (pair)
             compare_answer(x, b, j, facts);
-        } else {
-            if (less)
-                cause_add(facts, about_answer(a, i, CAUSE_ANSWER_LESS));
-            if (more)
-                cause_add(facts, about_answer(b, j, CAUSE_ANSWER_MORE));
-        }
-        i += less;
-        j += more;
+        if (!pair && order <= 0)
+            cause_add(facts, about_answer(a, i, CAUSE_ANSWER_LESS));
+        if (!pair && order >= 0)
+            cause_add(facts, about_answer(b, j, CAUSE_ANSWER_MORE));
+        i += order <= 0;
+        j += order >= 0;
     }
 }
 
@@ -303,7 +308,8 @@ void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts
     const octree_tick *x = octree_game_tick(a), *y = octree_game_tick(b);
     compare_keys(x, y, facts);
     add_places(facts, CAUSE_PLAYER, x->player, y->player);
-    add_places(facts, CAUSE_ATTEMPT, x->attempt, y->attempt);
+    if (!same_numbers(x->attempt, x->player, 3) || !same_numbers(y->attempt, y->player, 3))
+        add_places(facts, CAUSE_ATTEMPT, x->attempt, y->attempt);
     compare_ways(x, y, facts);
     compare_events(x, y, facts);
     compare_hits(x, y, facts);

@@ -61,7 +61,7 @@ static void compare_point(const octree_point *a, const octree_point *b, cause_fa
 }
 
 /* In a game an id is unique. */
-static void compare_points(const octree *a, const octree *b, cause_facts *facts)
+static void compare_points(const octree *a, const octree *b, const uint64_t *player, cause_facts *facts)
 {
     octree_point *as = sort_points(a), *bs = sort_points(b);
     const size_t a_count = octree_count(a), b_count = octree_count(b);
@@ -79,7 +79,7 @@ static void compare_points(const octree *a, const octree *b, cause_facts *facts)
                                           .tick = CAUSE_NO_TICK,
                                           .id = bs[j].id,
                                           .b = cause_place(bs[j].position)});
-        else
+        else if (!player || as[i].id != *player)
             compare_point(&as[i], &bs[j], facts);
         i += !more;
         j += !less;
@@ -98,12 +98,14 @@ static bool same_world(const octree *a, const octree *b, cause_facts *facts)
     return facts->found[CAUSE_OPTION] == before;
 }
 
-void cause_compare_trees(const octree *a, const octree *b, cause_facts *facts)
+void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts *facts)
 {
-    walking over_b = {a, false, facts}, over_a = {b, true, facts};
-    if (same_world(a, b, facts)) {
-        octree_walk(b, look_at, &over_b);
-        octree_walk(a, look_at, &over_a);
+    const octree *const as = octree_game_tree(a), *const bs = octree_game_tree(b);
+    const uint64_t players[2] = {octree_game_session(a)->player.id, octree_game_session(b)->player.id};
+    walking over_b = {as, false, facts}, over_a = {bs, true, facts};
+    if (same_world(as, bs, facts)) {
+        octree_walk(bs, look_at, &over_b);
+        octree_walk(as, look_at, &over_a);
     }
-    compare_points(a, b, facts);
+    compare_points(as, bs, players[0] == players[1] ? players : NULL, facts);
 }

@@ -3,7 +3,6 @@
 #include "number.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- Values -------------------------------------------------------------------------------------------------- */
@@ -94,10 +93,7 @@ static void print_start(FILE *out, const cause_fact *fact)
 
 static void print_key(FILE *out, const cause_fact *fact)
 {
-    fputs("another key", out);
-    if (fact->tick != CAUSE_NO_TICK)
-        fprintf(out, " at tick %" PRIu64, fact->tick);
-    fputs(" (", out);
+    fprintf(out, "another key at tick %" PRIu64 " (", fact->tick);
     print_change(out, fact);
     fputc(')', out);
 }
@@ -135,6 +131,10 @@ static void print_other_edit(FILE *out, const cause_fact *fact)
 
 static void print_order(FILE *out, const cause_fact *fact)
 {
+    if (fact->kind == CAUSE_START_ORDER) {
+        fputs("another order of the points at the start", out);
+        return;
+    }
     fprintf(out, "another order of the edits of tick %" PRIu64, fact->tick);
 }
 
@@ -171,7 +171,9 @@ static void print_point(FILE *out, const cause_fact *fact)
 
 static void print_path(FILE *out, const cause_fact *fact)
 {
-    fputs(fact->kind == CAUSE_PLAYER ? "the player at " : "its attempt at ", out);
+    static const char *const words[CAUSE_KINDS] = {
+        [CAUSE_PRESSED] = "key ", [CAUSE_PLAYER] = "the player at ", [CAUSE_ATTEMPT] = "its attempt at "};
+    fputs(words[fact->kind], out);
     print_change(out, fact);
 }
 
@@ -265,11 +267,12 @@ static const phrase phrases[CAUSE_KINDS] = {
     [CAUSE_START_LESS] = {print_start, "points fewer at the start (", ")", false, false},
     [CAUSE_START_MOVED] = {print_start, "points start elsewhere (", ")", false, false},
     [CAUSE_VELOCITY] = {print_start, "points with another velocity (", ")", false, false},
+    [CAUSE_START_ORDER] = {print_order, NULL, NULL, false, false},
     [CAUSE_KEY] = {print_key, "other keys (ticks ", ")", false, false},
-    [CAUSE_EDIT_MORE] = {print_edit, "more edits (ticks ", ")", false, false},
-    [CAUSE_EDIT_LESS] = {print_edit, "edits fewer (ticks ", ")", false, false},
-    [CAUSE_EDIT_OTHER] = {print_other_edit, "other edits (ticks ", ")", false, false},
-    [CAUSE_EDIT_SPEED] = {print_other_edit, "edits with another velocity (ticks ", ")", false, false},
+    [CAUSE_EDIT_MORE] = {print_edit, "more edits (of points ", ")", false, false},
+    [CAUSE_EDIT_LESS] = {print_edit, "edits fewer (of points ", ")", false, false},
+    [CAUSE_EDIT_OTHER] = {print_other_edit, "other edits (of points ", ")", false, false},
+    [CAUSE_EDIT_SPEED] = {print_other_edit, "edits with another velocity (of points ", ")", false, false},
     [CAUSE_EDIT_ORDER] = {print_order, NULL, NULL, false, false},
     [CAUSE_QUERY_MORE] = {print_query, NULL, NULL, false, false},
     [CAUSE_QUERY_LESS] = {print_query, NULL, NULL, false, false},
@@ -284,6 +287,7 @@ static const phrase phrases[CAUSE_KINDS] = {
     [CAUSE_POINT_MORE] = {print_point, "point", " added", true, false},
     [CAUSE_POINT_LESS] = {print_point, "point", " removed", true, false},
     [CAUSE_POINT_MOVED] = {print_point, "point", " moved", true, false},
+    [CAUSE_PRESSED] = {print_path, NULL, NULL, false, true},
     [CAUSE_PLAYER] = {print_path, NULL, NULL, false, false},
     [CAUSE_ATTEMPT] = {print_path, NULL, NULL, false, true},
     [CAUSE_WAY] = {print_way, NULL, NULL, false, true},
@@ -306,14 +310,14 @@ static const phrase phrases[CAUSE_KINDS] = {
     [CAUSE_HEAT] = {print_heat, NULL, NULL, false, true},
 };
 
-/* What several facts of a kind are told by: the node, the point, or the tick. */
+/* What several facts of a kind are told by: the node, the tick of a key, or the point. */
 static void print_subject(FILE *out, const cause_fact *fact)
 {
     char text[OCTREE_ADDRESS_TEXT];
     if (fact->node)
         fputs(octree_address_format(fact->node, text), out);
     else
-        fprintf(out, "%" PRIu64, fact->tick != CAUSE_NO_TICK ? fact->tick : fact->id);
+        fprintf(out, "%" PRIu64, fact->kind == CAUSE_KEY ? fact->tick : fact->id);
 }
 
 /* Those of a kind that are listed; returns how many there are. */
@@ -328,12 +332,18 @@ static size_t pick(const cause_facts *facts, cause_kind kind, const cause_fact *
 
 #define BRIEF_SUBJECTS 3
 
+/* Of so many that are listed. "and 1 more" would be no shorter than naming it. */
+static size_t count_told(size_t count, bool brief)
+{
+    return brief && count > BRIEF_SUBJECTS + 1 ? BRIEF_SUBJECTS : count;
+}
+
 /* "nodes 0/3/7, 0/3/6 and 9 more split"; "12 more edits (ticks 3, 4, 5 and 9 more)". */
 static void print_many(FILE *out, const cause_fact *const *picked, size_t count, uint64_t found, bool brief)
 {
     const phrase *p = &phrases[picked[0]->kind];
     const bool noun = strchr(p->before, ' ') == NULL;
-    const size_t listed = brief && count > BRIEF_SUBJECTS ? BRIEF_SUBJECTS : count;
+    const size_t listed = count_told(count, brief);
     if (noun)
         fprintf(out, "%s%s ", p->before, found == 1 ? "" : "s");
     else
@@ -351,7 +361,7 @@ static void print_many(FILE *out, const cause_fact *const *picked, size_t count,
 static void print_each(FILE *out, const cause_fact *const *picked, size_t count, uint64_t found, bool brief)
 {
     const phrase *p = &phrases[picked[0]->kind];
-    const size_t listed = brief && count > BRIEF_SUBJECTS ? BRIEF_SUBJECTS : count;
+    const size_t listed = count_told(count, brief);
     for (size_t i = 0; i < listed; i++) {
         if (i)
             fputs(", ", out);
@@ -401,7 +411,7 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 static void print_extent(FILE *out, const cause *c)
 {
     if (c->differing == 0)
-        fputs("no tick differs", out);
+        fputs(c->session.found[CAUSE_LENGTH] ? "the ticks that both have are the same" : "no tick differs", out);
     else if (c->differing == c->compared - c->first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->first);
     else
@@ -435,19 +445,4 @@ void cause_print_headline(FILE *out, const cause *c)
         if (!cause_any(&c->session))
             fputs(": the same ticks, looked at in another way", out);
     }
-}
-
-char *cause_headline(const cause *c)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream)
-        return NULL;
-    cause_print_headline(stream, c);
-    const bool whole = !ferror(stream);
-    if (fclose(stream) == 0 && whole)
-        return text;
-    free(text);
-    return NULL;
 }

@@ -16,7 +16,4 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief);
  * both are the same. */
 void cause_print_headline(FILE *out, const cause *c);
 
-/* Text that one of these printed; the caller frees it; null where there is no memory. */
-char *cause_headline(const cause *c);
-
 #endif

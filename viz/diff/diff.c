@@ -1,6 +1,7 @@
 /* diff.c - see diff.h. */
 #include "diff.h"
 #include "compare_pair.h"
+#include "explain.h"
 #include "parallel.h"
 #include "text_layer.h"
 
@@ -55,6 +56,8 @@ void diff_release(diff_result *result)
     }
     free(result->pairs);
     free(result->headline);
+    free(result->trouble);
+    explanation_free(result->explanation);
     *result = (diff_result){0};
 }
 

@@ -1,5 +1,6 @@
 /* report.c - a comparison for people. See report.h. */
 #include "report.h"
+#include "explain.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -144,6 +145,16 @@ static void print_pairs(FILE *out, const diff_result *result)
         fprintf(out, "  ... and %zu more; --json lists all\n", listed - DIFF_REPORT_LINES);
 }
 
+/* Recordings are explained up to a number of frames. */
+static void print_unexplained(FILE *out, const diff_result *result)
+{
+    size_t more = 0;
+    for (size_t i = 0; result->explanation && i < result->count; i++)
+        more += explain_is_unlike(&result->pairs[i]) && !result->pairs[i].cause;
+    if (more)
+        fprintf(out, "  %zu of these %s left unexplained; --causes all tells more\n", more, more == 1 ? "is" : "are");
+}
+
 static bool any_transparent(const diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++)
@@ -198,5 +209,6 @@ void diff_report_text(FILE *out, const diff_report *report)
     if (report->result->headline)
         fprintf(out, "%s\n", report->result->headline);
     print_pairs(out, report->result);
+    print_unexplained(out, report->result);
     print_tolerance(out, report);
 }

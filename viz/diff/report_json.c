@@ -1,5 +1,6 @@
 /* report_json.c - a comparison for programs. See report.h. */
 #include "report.h"
+#include "cause_json.h"
 #include "json_write.h"
 
 #include <inttypes.h>
@@ -131,6 +132,8 @@ void diff_report_json(FILE *out, const diff_report *report)
     json_member_text(w, "verdict", diff_verdict_name(result->verdict));
     if (result->headline)
         json_member_text(w, "headline", result->headline);
+    if (result->trouble)
+        json_member_text(w, "trouble", result->trouble);
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
     write_tolerance(w, report->options);
@@ -141,6 +144,10 @@ void diff_report_json(FILE *out, const diff_report *report)
         if (result->pairs[i].finding != FOUND_SAME_BYTES && result->pairs[i].finding != FOUND_SAME_PIXELS)
             write_finding(w, &result->pairs[i]);
     json_write_end_array(w);
+    if (result->explanation) {
+        json_write_key(w, "cause");
+        cause_write_json(w, result->explanation);
+    }
     json_write_end_object(w);
     json_write_end_line(w);
 }
