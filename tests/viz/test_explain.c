@@ -121,8 +121,8 @@ static void another_view_is_no_difference_of_ticks(void **state)
     assert_string_equal(made.result.headline,
                         "another camera (orbit, was iso), one layer fewer (text): the same ticks, "
                         "looked at in another way");
-    assert_string_equal(cause_of(&made, "frame_000001.png"),
-                        "tick 1: another camera (orbit, was iso), one layer fewer (text)");
+    assert_holds(cause_of(&made, "frame_000001.png"),
+                 "tick 1: another camera (orbit, was iso), one layer fewer (text); ");
     assert_int_equal(made.result.explanation->cause.differing, 0);
     comparison_release(&made);
 }
@@ -139,7 +139,8 @@ static void heat_of_earlier_ticks_is_a_cause(void **state)
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_holds(made.result.headline, "one more range query at tick 2");
-    assert_string_equal(cause_of(&made, "frame_000004.png"), "tick 4: other heat of the ticks before");
+    assert_holds(cause_of(&made, "frame_000004.png"), "tick 4: other heat of the ticks before; ");
+    assert_holds(cause_of(&made, "frame_000004.png"), " of heat");
     comparison_release(&made);
 }
 
@@ -287,7 +288,7 @@ static void the_same_scene_drawn_otherwise_is_a_difference_of_rendering(void **s
     comparison_of made = assert_explained(&a, &b, 10);
     const char *cause = cause_of(&made, "frame_000003.png");
     assert_holds(made.result.headline, "rendering differs: the scene digests are equal; reference drawn by ");
-    assert_string_equal(made.result.headline, cause);
+    assert_memory_equal(made.result.headline, cause, strlen(made.result.headline));
     assert_holds(cause, ", frame by ");
     assert_holds(cause, "other ");
     assert_true(diff_find(&made.result, "frame_000003.png")->only_drawn);

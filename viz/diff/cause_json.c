@@ -1,6 +1,8 @@
 /* cause_json.c - see cause_json.h. */
 #include "cause_json.h"
+#include "sentence.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* What a fact of a kind names beside its values. */
@@ -92,14 +94,42 @@ static void write_facts(json_writer *w, const char *key, const char *more, const
     json_write_end_object(w);
 }
 
-static void write_ticks(json_writer *w, const cause *c)
+static void write_element(json_writer *w, const trace_part *part)
 {
+    char *what = NULL;
+    sentence s;
+    if (sentence_begin(&s))
+        trace_print_part(s.stream, part);
+    if (!sentence_end(&s, &what))
+        return;
+    json_write_begin_object(w);
+    json_member_text(w, "what", what);
+    json_member_integer(w, "pixels", part->pixels);
+    json_write_end_object(w);
+    free(what);
+}
+
+static void write_trace(json_writer *w, const trace *t)
+{
+    json_member_integer(w, "pixels", t->pixels);
+    json_write_key(w, "elements");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < t->count && i < CAUSE_ELEMENTS; i++)
+        write_element(w, &t->parts[i]);
+    json_write_end_array(w);
+}
+
+static void write_ticks(json_writer *w, const explanation *e)
+{
+    const cause *c = &e->cause;
     json_write_key(w, "ticks");
     json_write_begin_array(w);
     for (size_t i = 0; i < c->count; i++) {
         json_write_begin_object(w);
         json_member_integer(w, "tick", c->ticks[i].tick);
         write_facts(w, "facts", "more", &c->ticks[i].facts);
+        if (tracer_at(&e->tracer, c->ticks[i].tick))
+            write_trace(w, tracer_at(&e->tracer, c->ticks[i].tick));
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -132,7 +162,9 @@ void cause_write_json(json_writer *w, const explanation *e)
         json_member_integer(w, "first", c->first);
         json_member_integer(w, "last", c->last);
     }
-    write_ticks(w, c);
+    write_ticks(w, e);
     write_sides(w, e);
+    if (*e->tracer.untraced)
+        json_member_text(w, "untraced", e->tracer.untraced);
     json_write_end_object(w);
 }

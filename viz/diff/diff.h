@@ -49,7 +49,7 @@ typedef struct diff_pair {
     size_t ignored_count;
     char *trouble;   /* the sentence of what is unreadable; owned */
     char *cause;     /* one sentence: why they differ; null where none is known; owned */
-    bool only_drawn; /* both frames say that they show the same scene */
+    bool only_drawn; /* both frames show the same scene, as they were drawn */
 } diff_pair;
 
 typedef struct diff_result {

@@ -23,15 +23,29 @@ void explanation_free(explanation *e)
     recorded_close(&e->sides[0]);
     recorded_close(&e->sides[1]);
     cause_release(&e->cause);
+    tracer_close(&e->tracer);
     free(e);
 }
 
 /* ---- Playing both -------------------------------------------------------------------------------------------- */
 
+/* A pair that is explained, and the tick of its frames. */
+typedef struct wanted_pair {
+    uint64_t tick;
+    const diff_pair *pair;
+} wanted_pair;
+
+/* What is looked at while both are played. */
+typedef struct watching {
+    explanation *e;
+    wanted_pair *pairs; /* in ascending order of their ticks */
+    uint64_t *ticks;    /* the same, without the pairs */
+    size_t count, next;
+} watching;
+
 /* Lines that are the same, of ticks that are the same, are both right or both wrong. */
-static bool check_lines(void *context, const octree_game *const games[2], bool differs, record_error *error)
+static bool check_lines(explanation *e, const octree_game *const games[2], bool differs, record_error *error)
 {
-    explanation *e = context;
     recorded *const sides[2] = {&e->sides[0], &e->sides[1]};
     const uint64_t tick = octree_game_tick(games[0])->number;
     if (!recorded_read_line(sides[0], tick, error) || !recorded_read_line(sides[1], tick, error))
@@ -43,54 +57,69 @@ static bool check_lines(void *context, const octree_game *const games[2], bool d
     return recorded_check_line(sides[0], games[0], error) && recorded_check_line(sides[1], games[1], error);
 }
 
+static bool watch(void *context, const octree_game *const games[2], bool differs, record_error *error)
+{
+    watching *w = context;
+    const uint64_t tick = octree_game_tick(games[0])->number;
+    if (!check_lines(w->e, games, differs, error) || !tracer_add_tick(&w->e->tracer, w->e->sides, games, error))
+        return false;
+    if (w->next == w->count || w->pairs[w->next].tick != tick)
+        return true;
+    const diff_pair *pair = w->pairs[w->next++].pair;
+    return !pair->difference.unlike.pixels || tracer_add_pair(&w->e->tracer, w->e->sides, games, pair, error);
+}
+
 static int by_number(const void *a, const void *b)
 {
-    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    const uint64_t x = ((const wanted_pair *)a)->tick, y = ((const wanted_pair *)b)->tick;
     return (x > y) - (x < y);
 }
 
-/* The ticks of the first pairs that differ, in ascending order. */
-static uint64_t *list_ticks(const diff_result *result, uint64_t most, size_t *count)
+/* The first pairs that differ. */
+static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
 {
-    uint64_t *ticks = malloc((result->count + 1) * sizeof *ticks);
-    *count = 0;
-    for (size_t i = 0; ticks && i < result->count && *count < most; i++)
-        if (explain_is_unlike(&result->pairs[i]) && frame_parse_name(diff_pair_name(&result->pairs[i]), &ticks[*count]))
-            ++*count;
-    if (ticks)
-        qsort(ticks, *count, sizeof *ticks, by_number);
-    return ticks;
+    w->pairs = malloc((result->count + 1) * sizeof *w->pairs);
+    w->ticks = malloc((result->count + 1) * sizeof *w->ticks);
+    if (!w->pairs || !w->ticks)
+        return false;
+    for (size_t i = 0; i < result->count && w->count < most; i++) {
+        const diff_pair *pair = &result->pairs[i];
+        w->pairs[w->count].pair = pair;
+        if (explain_is_unlike(pair) && frame_parse_name(diff_pair_name(pair), &w->pairs[w->count].tick))
+            w->count++;
+    }
+    qsort(w->pairs, w->count, sizeof *w->pairs, by_number);
+    for (size_t i = 0; i < w->count; i++)
+        w->ticks[i] = w->pairs[i].tick;
+    return true;
 }
 
 static bool play_both(explanation *e, const diff_result *result, uint64_t most, record_error *error)
 {
-    cause_wanted wanted = {.first = most < SIZE_MAX ? (size_t)most : SIZE_MAX};
-    uint64_t *ticks = list_ticks(result, most, &wanted.count);
-    if (!ticks)
-        return record_fail(error, "there is no memory for %zu ticks", result->count);
-    wanted.ticks = ticks;
     const cause_look looks[2] = {e->sides[0].look, e->sides[1].look};
-    const bool ok = cause_find(&e->sides[0].session.session, &e->sides[1].session.session, looks, &wanted, check_lines,
-                               e, &e->cause, error);
-    free(ticks);
+    watching w = {.e = e};
+    bool ok = list_pairs(&w, result, most) || record_fail(error, "there is no memory for %zu ticks", result->count);
+    const cause_wanted wanted = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, w.ticks, w.count};
+    ok = ok && cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, looks, &wanted,
+                          watch, &w, &e->cause, error);
+    free(w.pairs);
+    free(w.ticks);
     return ok;
 }
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* All of the pairs that were explained, when each is the same picture drawn otherwise. */
-static const diff_pair *only_drawn(const diff_result *result)
+/* Whether all that were explained show the same scenes, drawn otherwise. */
+static bool only_drawn(const diff_result *result)
 {
-    const diff_pair *first = NULL;
+    bool any = false;
     for (size_t i = 0; i < result->count; i++) {
         const diff_pair *pair = &result->pairs[i];
-        if (!explain_is_unlike(pair))
-            continue;
-        if (!pair->only_drawn)
-            return NULL;
-        first = first ? first : pair;
+        if (pair->cause && !pair->only_drawn)
+            return false;
+        any = any || pair->cause;
     }
-    return first;
+    return any;
 }
 
 /* The first pair that has a cause, where nothing can be said of all. */
@@ -122,14 +151,14 @@ static void print_headline(FILE *out, const diff_result *result)
 {
     const explanation *e = result->explanation;
     const bool known = e && (cause_any(&e->cause.session) || cause_any(&e->cause.look));
-    const diff_pair *drawn = only_drawn(result), *first = first_explained(result);
+    const diff_pair *first = first_explained(result);
     print_doubts(out, e);
     if (any_doubt(e) && (known || first))
         fputs("; ", out);
     if (known)
         cause_print_headline(out, &e->cause);
-    else if (drawn)
-        fputs(drawn->cause, out);
+    else if (only_drawn(result))
+        explain_print_rendering(out, e);
     else if (first && e)
         fprintf(out, "%s: %s", diff_pair_name(first), first->cause);
 }

@@ -8,12 +8,13 @@
 
 #include "cause.h"
 #include "diff.h"
-#include "recorded.h"
+#include "trace.h"
 
 /* What is known of two recordings. */
 typedef struct explanation {
     recorded sides[2];
     cause cause;
+    tracer tracer;
 } explanation;
 
 #define EXPLAIN_DEFAULT 10

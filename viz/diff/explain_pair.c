@@ -33,8 +33,8 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     return as_drawn;
 }
 
-/* The same scene: then it is who drew it, or somebody who changed it afterwards. */
-static void print_drawing(FILE *out, const explanation *e, const diff_pair *pair, const origins *o)
+/* Name the frames that somebody changed. */
+static bool print_changed(FILE *out, const diff_pair *pair, const origins *o)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
     bool changed = false;
@@ -44,8 +44,11 @@ static void print_drawing(FILE *out, const explanation *e, const diff_pair *pair
                     changed ? "; " : "", frames[i]->path);
             changed = true;
         }
-    if (changed)
-        return;
+    return changed;
+}
+
+void explain_print_rendering(FILE *out, const explanation *e)
+{
     fputs("rendering differs: the scene digests are equal", out);
     if (e && strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0)
         fprintf(out, "; both drawn by %s", e->sides[0].drawn_by);
@@ -56,7 +59,7 @@ static void print_drawing(FILE *out, const explanation *e, const diff_pair *pair
 /* Why a recording has no frame of a tick. */
 static void print_missing(FILE *out, const recorded *r, uint64_t tick)
 {
-    const uint64_t last = octree_session_length(&r->session.session);
+    const uint64_t last = octree_session_length(&r->replay.session.session);
     if (tick > last)
         fprintf(out, "the session of %s ends at tick %" PRIu64, r->side->path, last);
     else if (tick % r->look.every)
@@ -102,21 +105,41 @@ static void print_origins(FILE *out, const origins *o)
                 a->tick);
 }
 
-bool explain_pair(const explanation *e, diff_pair *pair, record_error *error)
+/* What is drawn where they differ. */
+static void print_trace(FILE *out, const explanation *e, uint64_t tick)
+{
+    const trace *t = tracer_at(&e->tracer, tick);
+    if (t && t->count) {
+        fputs("; ", out);
+        trace_print(out, t);
+    }
+}
+
+static void print_cause(FILE *out, const explanation *e, diff_pair *pair)
 {
     const origins o = read_origins(pair);
+    const bool same_scene = o.told && o.of[0].scene == o.of[1].scene, both = pair->a && pair->b;
+    const bool changed = same_scene && print_changed(out, pair, &o);
     uint64_t tick = 0;
+    frame_parse_name(diff_pair_name(pair), &tick);
+    pair->only_drawn = same_scene && !changed;
+    if (pair->only_drawn)
+        explain_print_rendering(out, e);
+    else if (e && both && !changed)
+        print_tick(out, e, tick);
+    else if (e && !both)
+        print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
+    else if (o.told && !changed)
+        print_origins(out, &o);
+    if (e)
+        print_trace(out, e, tick);
+}
+
+bool explain_pair(const explanation *e, diff_pair *pair, record_error *error)
+{
     sentence s;
-    bool ok = sentence_begin(&s);
-    pair->only_drawn = o.told && o.of[0].scene == o.of[1].scene;
-    if (ok && pair->only_drawn)
-        print_drawing(s.stream, e, pair, &o);
-    else if (ok && e && frame_parse_name(diff_pair_name(pair), &tick) && pair->a && pair->b)
-        print_tick(s.stream, e, tick);
-    else if (ok && e)
-        print_missing(s.stream, &e->sides[pair->a ? 1 : 0], tick);
-    else if (ok && o.told)
-        print_origins(s.stream, &o);
-    ok = sentence_end(&s, &pair->cause) && ok;
-    return ok || record_fail(error, "there is no memory for a cause");
+    const bool begun = sentence_begin(&s);
+    if (begun)
+        print_cause(s.stream, e, pair);
+    return (sentence_end(&s, &pair->cause) && begun) || record_fail(error, "there is no memory for a cause");
 }

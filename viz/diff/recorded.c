@@ -1,9 +1,7 @@
 /* recorded.c - see recorded.h. */
 #include "recorded.h"
-#include "folder_files.h"
 #include "frame_file.h"
 #include "ticks_write.h"
-#include "view_file.h"
 #include "who_drew.h"
 
 #include <inttypes.h>
@@ -33,11 +31,11 @@ static bool doubt(recorded *r, record_error *error, const char *format, ...)
 
 /* ---- Opening ------------------------------------------------------------------------------------------------- */
 
-static bool check_session(recorded *r, uint64_t digest, record_error *error)
+static bool check_session(recorded *r, record_error *error)
 {
     uint64_t tick, filmed;
     if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
-        !frame_session(r->side->path, tick, &filmed) || filmed == digest)
+        !frame_session(r->side->path, tick, &filmed) || filmed == r->replay.session_digest)
         return true;
     return doubt(r, error, "%s/session.json is not the session that was filmed", r->side->path);
 }
@@ -52,12 +50,12 @@ static bool open_lines(recorded *r, record_error *error)
 
 bool recorded_open(recorded *r, const diff_side *side, record_error *error)
 {
-    uint64_t digest;
     *r = (recorded){.side = side};
     who_drew(side->path, r->drawn_by, sizeof r->drawn_by);
-    return view_read_recording(side->path, &r->look.view, &r->look.every, error) &&
-           read_session_file(side->path, &r->session, &digest, error) && check_session(r, digest, error) &&
-           open_lines(r, error);
+    if (!replay_read(&r->replay, side->path, error))
+        return false;
+    r->look = (cause_look){r->replay.film.view, r->replay.film.every};
+    return check_session(r, error) && open_lines(r, error);
 }
 
 void recorded_close(recorded *r)
@@ -65,7 +63,7 @@ void recorded_close(recorded *r)
     for (size_t i = 0; i < r->doubt_count; i++)
         free(r->doubts[i]);
     lines_close(&r->lines);
-    session_release(&r->session);
+    replay_close(&r->replay);
     *r = (recorded){0};
 }
 

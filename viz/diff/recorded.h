@@ -3,7 +3,7 @@
 #define DIFF_RECORDED_H
 
 #include "cause_compare.h"
-#include "session_file.h"
+#include "replay.h"
 #include "side.h"
 #include "verify_line.h"
 
@@ -12,7 +12,7 @@
 
 typedef struct recorded {
     const diff_side *side;
-    session_file session;
+    replay replay; /* read, and not played */
     cause_look look;
     line_reader lines;
     bool reading;                  /* nothing is wrong with the lines so far */

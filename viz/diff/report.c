@@ -153,6 +153,8 @@ static void print_unexplained(FILE *out, const diff_result *result)
         more += explain_is_unlike(&result->pairs[i]) && !result->pairs[i].cause;
     if (more)
         fprintf(out, "  %zu of these %s left unexplained; --causes all tells more\n", more, more == 1 ? "is" : "are");
+    if (result->explanation && *result->explanation->tracer.untraced)
+        fprintf(out, "  nothing is traced to what is drawn: %s\n", result->explanation->tracer.untraced);
 }
 
 static bool any_transparent(const diff_result *result)
