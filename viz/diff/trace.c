@@ -7,8 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Samples of a picture that is traced: 4 bytes each. */
-#define MOST_SAMPLES ((size_t)1 << 26)
+/* Samples of a picture that is traced, which take 8 bytes each at most. */
+#define MOST_SAMPLES ((size_t)1 << 25)
+
+/* Pixels are added up in portions of so many. */
+#define PORTION ((size_t)1 << 16)
 
 void tracer_close(tracer *t)
 {
@@ -172,6 +175,8 @@ static int by_pixels(const void *a, const void *b)
 static size_t fold(trace_part *parts, size_t count)
 {
     size_t kept = 0;
+    if (count == 0)
+        return 0;
     qsort(parts, count, sizeof *parts, by_part);
     for (size_t i = 0; i < count; i++) {
         if (kept && same_part(parts[kept - 1], parts[i]))
@@ -197,16 +202,34 @@ static bool keep_trace(tracer *t, const trace *made)
     return true;
 }
 
+/* Make room for one more: by adding up first, and by memory where that does not help. */
+static bool make_room(trace *made, size_t *room)
+{
+    if (made->count < *room)
+        return true;
+    made->count = fold(made->parts, made->count);
+    if (made->parts && made->count < *room / 2)
+        return true;
+    trace_part *grown = realloc(made->parts, (*room + PORTION) * sizeof *grown);
+    if (!grown)
+        return false;
+    made->parts = grown;
+    *room += PORTION;
+    return true;
+}
+
 static bool add_trace(tracer *t, const octree_game *const games[2], const spots *s, const uint32_t *numbers)
 {
     trace made = {.tick = octree_game_tick(games[0])->number, .pixels = s->count};
-    made.parts = malloc((s->count + 1) * sizeof *made.parts);
-    if (!made.parts)
-        return false;
-    for (size_t i = 0; i < s->count; i++)
-        made.parts[i] = part_at(t, games, s, numbers, i);
-    made.count = fold(made.parts, s->count);
-    if (keep_trace(t, &made))
+    size_t room = 0;
+    bool ok = true;
+    for (size_t i = 0; ok && i < s->count; i++) {
+        ok = make_room(&made, &room);
+        if (ok)
+            made.parts[made.count++] = part_at(t, games, s, numbers, i);
+    }
+    made.count = fold(made.parts, made.count);
+    if (ok && keep_trace(t, &made))
         return true;
     free(made.parts);
     return false;
@@ -251,8 +274,11 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
     const int samples = view_samples(&t->scenes[0].view);
     const size_t size = (size_t)frames[0].width * (size_t)frames[0].height * (size_t)(samples * samples);
     spots s;
-    if (size > MOST_SAMPLES)
+    if (size > MOST_SAMPLES) {
+        snprintf(t->untraced, sizeof t->untraced, "a picture of more than %zu samples is too large for it",
+                 MOST_SAMPLES);
         return true;
+    }
     uint32_t *numbers = malloc(size * sizeof *numbers);
     bool ok = list_spots(&frames[0], &frames[1], pair, samples, &s) && numbers;
     if (ok && pick(t, &t->scenes[0], numbers)) {
