@@ -239,6 +239,41 @@ static void assert_fact_holds(const octree *a, const octree *b, const cause_fact
                     octree_node_at(a, fact->node, &node) == OCTREE_NOT_FOUND);
 }
 
+static uint64_t result_id(const octree_answer *answer, size_t i)
+{
+    return answer->points ? answer->points[i].id : answer->neighbors[i].point.id;
+}
+
+static size_t count_only_in(const octree_answer *one, const octree_answer *other)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < one->count; i++) {
+        bool found = false;
+        for (size_t j = 0; j < other->count; j++)
+            found = found || result_id(other, j) == result_id(one, i);
+        count += !found;
+    }
+    return count;
+}
+
+/* The session asks the same on both sides: the answers are in the same places. */
+static void assert_answers_told(const octree_tick *a, const octree_tick *b, const cause_facts *facts)
+{
+    size_t unlike = 0;
+    assert_int_equal(a->answer_count, b->answer_count);
+    for (size_t i = 0; i < b->answer_count; i++) {
+        const size_t gained = count_only_in(&b->answers[i], &a->answers[i]);
+        const size_t lost = count_only_in(&a->answers[i], &b->answers[i]);
+        unlike += gained + lost > 0;
+        for (size_t j = 0; j < facts->count; j++)
+            if (facts->facts[j].kind == CAUSE_ANSWER && facts->facts[j].query == i) {
+                assert_int_equal(facts->facts[j].gained, gained);
+                assert_int_equal(facts->facts[j].lost, lost);
+            }
+    }
+    assert_int_equal(facts->found[CAUSE_ANSWER] + facts->found[CAUSE_NEAREST], unlike);
+}
+
 static void assert_tick_told(const octree_game *const games[2], const cause_tick *told)
 {
     const octree_tick *x = octree_game_tick(games[0]), *y = octree_game_tick(games[1]);
@@ -247,6 +282,7 @@ static void assert_tick_told(const octree_game *const games[2], const cause_tick
     assert_trees_told(games, &told->facts);
     for (size_t i = 0; i < told->facts.count; i++)
         assert_fact_holds(a, b, &told->facts.facts[i]);
+    assert_answers_told(x, y, &told->facts);
     unsigned events = 0;
     for (unsigned bits = x->events ^ y->events; bits; bits &= bits - 1)
         events++;

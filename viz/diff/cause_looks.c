@@ -48,13 +48,13 @@ static void list_options(const cause_look *look, cause_option options[OPTIONS])
         {"diagram", cause_word(view_diagram_name(v->diagram))},
         {"slice", slice_value(&v->filter)},
         {"range of depths", depths_value(&v->filter)},
-        {"choice of leaves alone", truth(v->filter.leaves)},
+        {"rule for leaves alone", truth(v->filter.leaves)},
         {"region", v->filter.by_region ? cause_box(&v->filter.region) : cause_word("none")},
-        {"choice of labels", truth(v->labels)},
+        {"rule for labels", truth(v->labels)},
         {"level of detail", cause_number(v->lod)},
         {"budget", cause_whole(v->budget)},
         {"anti-aliasing", cause_whole((uint64_t)view_samples(v))},
-        {"distance of frames", cause_whole(look->every)},
+        {"interval of frames", cause_whole(look->every)},
     };
     memcpy(options, list, sizeof list);
 }

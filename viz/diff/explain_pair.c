@@ -33,12 +33,12 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     return as_drawn;
 }
 
-/* Name the frames that somebody changed. */
+/* Two frames that say the same of their pixels, and differ in them: name what somebody changed. */
 static bool print_changed(FILE *out, const diff_pair *pair, const origins *o)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
     bool changed = false;
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2 && o->of[0].pixels == o->of[1].pixels; i++)
         if (!is_as_drawn(frames[i], &o->of[i])) {
             fprintf(out, "%s%s was changed after it was drawn: its pixels are not those that it says",
                     changed ? "; " : "", frames[i]->path);
