@@ -127,6 +127,24 @@ static void the_same_frames_of_unlike_sessions_are_the_same(void **state)
     command_release(&result);
 }
 
+/* What refuses to draw is no reason not to say what is known. */
+static void without_a_renderer_the_rest_is_told(void **state)
+{
+    const recorded_pair p = film_pair(*state, 4);
+    const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
+    command_result result = run_octreel(&other, "diff %s %s", p.a.path, p.b.path);
+    assert_int_equal(result.status, 1);
+    assert_string_equal(result.err, "");
+    assert_says(&result, "another leaf capacity (4, was 2)");
+    assert_says(&result, "\n    tick 1: node");
+    assert_says(&result, "\n  nothing is traced to what is drawn: ");
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
+    assert_null(strstr(result.out, "nothing is traced"));
+    assert_says(&result, " pixels: ");
+    command_release(&result);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -136,6 +154,7 @@ int main(void)
         TEST(all_or_no_frames_are_explained_where_that_is_asked_for),
         TEST(json_has_the_facts),
         TEST(damage_is_trouble_behind_the_report),
+        TEST(without_a_renderer_the_rest_is_told),
         TEST(the_same_frames_of_unlike_sessions_are_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
