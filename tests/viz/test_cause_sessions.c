@@ -221,9 +221,8 @@ static void quits(variant *v)
 static void keys_are_named_by_their_ticks(void **state)
 {
     (void)state;
-    assert_says(other_key, "another key at tick 3 (s, was w); tick 3: the player at (1, 0, 0), was (1, 2, 0)");
-    assert_says(other_keys, "3 other keys (ticks 1, 3 and 4); tick 1: the player at (1, 0, 0), "
-                            "was (0, 1, 0)");
+    assert_says(other_key, "another key at tick 3 (s, was w); tick 3: the player at (1, 0, 0) instead of (1, 2, 0)");
+    assert_says(other_keys, "3 other keys (ticks 1, 3 and 4); tick 1: the player at (1, 0, 0) instead of (0, 1, 0)");
     assert_says(waits, "");
     assert_says(shorter, "another last tick (5, was 6); the ticks that both have are the same");
     assert_says(quits, "another last tick (2, was 6); the ticks that both have are the same");

@@ -174,7 +174,9 @@ static void print_path(FILE *out, const cause_fact *fact)
     static const char *const words[CAUSE_KINDS] = {
         [CAUSE_PRESSED] = "key ", [CAUSE_PLAYER] = "the player at ", [CAUSE_ATTEMPT] = "its attempt at "};
     fputs(words[fact->kind], out);
-    print_change(out, fact);
+    print_value(out, &fact->b);
+    fputs(" instead of ", out);
+    print_value(out, &fact->a);
 }
 
 static void print_way(FILE *out, const cause_fact *fact)
@@ -246,7 +248,7 @@ static void print_counts(FILE *out, const cause_fact *fact)
         fprintf(out, "other %ss %s", what, verb);
         return;
     }
-    fprintf(out, "%" PRIu64 " %s%s %s, was %" PRIu64, fact->b.whole, what, fact->b.whole == 1 ? "" : "s", verb,
+    fprintf(out, "%" PRIu64 " %s%s %s instead of %" PRIu64, fact->b.whole, what, fact->b.whole == 1 ? "" : "s", verb,
             fact->a.whole);
 }
 
@@ -257,7 +259,7 @@ typedef struct phrase {
     print_fact *one;
     const char *before, *after; /* of many; null before: each by itself */
     bool brief;                 /* one fact, too, is told as many are where there is little room */
-    bool minor;                 /* told there only where nothing else is */
+    bool minor;                 /* told behind the others; where there is little room, only without them */
 } phrase;
 
 static const phrase phrases[CAUSE_KINDS] = {
@@ -330,12 +332,13 @@ static size_t pick(const cause_facts *facts, cause_kind kind, const cause_fact *
     return count;
 }
 
-#define BRIEF_SUBJECTS 3
+enum { BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
 /* Of so many that are listed. "and 1 more" would be no shorter than naming it. */
 static size_t count_told(size_t count, bool brief)
 {
-    return brief && count > BRIEF_SUBJECTS + 1 ? BRIEF_SUBJECTS : count;
+    const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS;
+    return count > most + 1 ? most : count;
 }
 
 /* "nodes 0/3/7, 0/3/6 and 9 more split"; "12 more edits (ticks 3, 4, 5 and 9 more)". */
@@ -381,20 +384,20 @@ static void print_kind(FILE *out, const cause_facts *facts, cause_kind kind, boo
         (apart ? print_each : print_many)(out, picked, count, facts->found[kind], brief);
 }
 
-static bool has_major(const cause_facts *facts)
+static unsigned count_kinds(const cause_facts *facts, bool minor)
 {
+    unsigned count = 0;
     for (int i = 0; i < CAUSE_KINDS; i++)
-        if (facts->found[i] && !phrases[i].minor)
-            return true;
-    return false;
+        count += facts->found[i] && phrases[i].minor == minor;
+    return count;
 }
 
-void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
+/* Those that matter, or those that do not. */
+static void print_half(FILE *out, const cause_facts *facts, bool minor, bool brief)
 {
-    const bool major = brief && has_major(facts);
     unsigned told = 0;
     for (int i = 0; i < CAUSE_KINDS; i++) {
-        if (facts->found[i] == 0 || (major && phrases[i].minor))
+        if (facts->found[i] == 0 || phrases[i].minor != minor)
             continue;
         if (brief && told == CAUSE_BRIEF) {
             fputs(" and more", out);
@@ -403,6 +406,16 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
         fputs(told++ ? ", " : "", out);
         print_kind(out, facts, (cause_kind)i, brief);
     }
+}
+
+void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
+{
+    const bool major = count_kinds(facts, false) > 0, minor = count_kinds(facts, true) > 0 && !(brief && major);
+    print_half(out, facts, false, brief);
+    if (major && minor)
+        fputs("; ", out);
+    if (minor)
+        print_half(out, facts, true, brief);
 }
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */

@@ -6,9 +6,9 @@
 
 #include <stdio.h>
 
-/* The facts of one list, with commas between: "node 0/3/7 split, point 12 moved from (0, 0, 0) to (1, 2, 3)". Brief is
- * without places, and no more than CAUSE_BRIEF kinds of facts, those that matter least left out. Nothing where there is
- * none. */
+/* The facts of one list, with commas between, those that matter least behind a semicolon: "node 0/3/7 split, point 12
+ * moved from (0, 0, 0) to (1, 2, 3)". Brief is without places, and no more than CAUSE_BRIEF kinds of facts, those that
+ * matter least left out. Nothing where there is none. */
 #define CAUSE_BRIEF 4
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief);
 
