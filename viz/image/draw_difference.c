@@ -12,7 +12,7 @@
 /* Indices of the palette: greys, what is forgiven, what only one of both has, and the heat of a difference. */
 enum { GREYS = 64, FORGIVEN = GREYS, OUTSIDE, HEAT, HEATS = 256 - HEAT };
 
-static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {118, 60, 170};
+static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 46, 104};
 
 /* Apart from the greys for colour-blind eyes too, each brighter than the one before. */
 static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
@@ -46,8 +46,8 @@ image_palette image_difference_palette(void)
 
 static uint8_t grey_index(const pixel_samples *p, int range)
 {
-    const long luma = (77L * p->of[0] + 150L * p->of[1] + 29L * p->of[2]) / 256;
-    return (uint8_t)(luma * (GREYS - 1) / range);
+    const double luma = (77.0 * p->of[0] + 150.0 * p->of[1] + 29.0 * p->of[2]) / (256.0 * range);
+    return (uint8_t)((GREYS - 1) * sqrt(luma)); /* so that dark pictures stay legible */
 }
 
 static uint8_t unlike_index(const image *a, const image *b, const image_tolerance *tolerance, int x, int y,
