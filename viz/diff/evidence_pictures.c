@@ -2,6 +2,7 @@
 #include "evidence_pictures.h"
 #include "copy_file.h"
 #include "parallel.h"
+#include "read_pair.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -97,14 +98,12 @@ typedef struct canvas {
 
 static bool read_images(canvas *c, const diff_pair *pair, image_color background, record_error *error)
 {
-    const diff_frame *const frames[2] = {pair->a, pair->b};
-    for (int i = 0; i < 2; i++) {
-        image_error why;
-        if (!image_read_png_over(frames[i]->path, background, &c->images[i], &why))
-            return record_fail(error, "%s", why.text);
-        c->width = c->images[i].width > c->width ? c->images[i].width : c->width;
-        c->height = c->images[i].height > c->height ? c->images[i].height : c->height;
-    }
+    image_error why;
+    if (!read_pair(pair, background, c->images, &why))
+        return record_fail(error, "%s", why.text);
+    const image *a = &c->images[0], *b = &c->images[1];
+    c->width = a->width > b->width ? a->width : b->width;
+    c->height = a->height > b->height ? a->height : b->height;
     return true;
 }
 
