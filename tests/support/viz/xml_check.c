@@ -49,9 +49,9 @@ static char read_character(reader *r)
                 r->at += strlen(named[i][0]);
                 return named[i][1][0];
             }
-        char *end;
+        char *end = NULL;
         const long code = strncmp(r->at, "&#", 2) == 0 ? strtol(r->at + 2, &end, 10) : 0;
-        if (code == 0 || *end != ';' || (code < ' ' && !strchr("\t\n\r", (int)code)))
+        if (code == 0 || end == NULL || *end != ';' || (code < ' ' && !strchr("\t\n\r", (int)code)))
             fail_at(r, "a reference is none");
         r->at = end + 1;
         return (char)code;
