@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "browser.h"
 #include "fixture.h"
@@ -44,22 +45,34 @@ static void make_sides(place a, place b)
     file_write_text(frame_in(b, 5).path, "\x89PNG, or so");
 }
 
-static void write_page(const char *a, const char *b, const char *folder, const char *cause, const char *headline)
+/* What happens after the pictures and before the page. */
+typedef void meddler(const char *folder);
+
+static void write_page_of(comparison_of *made, const char *folder, meddler *meddle)
 {
     const diff_options exact = diff_options_default();
-    comparison_of made = assert_compared(a, b, &exact);
     record_error error = {""};
     evidence e;
+    const diff_report report = {&made->a, &made->b, &exact, &made->result, &e};
+    if (!evidence_prepare(folder, &made->a, &made->b, &error) ||
+        !evidence_collect(&e, folder, &made->result, &exact, &error))
+        fail_msg("%s", error.text);
+    if (meddle)
+        meddle(folder);
+    if (!diff_report_page(&report, &error))
+        fail_msg("%s", error.text);
+    evidence_release(&e);
+    comparison_release(made);
+}
+
+static void write_page(const char *a, const char *b, const char *folder, const char *cause, const char *headline)
+{
+    comparison_of made = assert_compared(a, b, NULL);
     if (cause)
         made.result.pairs[0].cause = strdup(cause);
     if (headline)
         made.result.headline = strdup(headline);
-    const diff_report report = {&made.a, &made.b, &exact, &made.result, &e};
-    if (!evidence_prepare(folder, &made.a, &made.b, &error) ||
-        !evidence_collect(&e, folder, &made.result, &exact, &error) || !diff_report_page(&report, &error))
-        fail_msg("%s", error.text);
-    evidence_release(&e);
-    comparison_release(&made);
+    write_page_of(&made, folder, NULL);
 }
 
 static int drive_page(void **state)
@@ -263,6 +276,28 @@ static void page_of_few_differences_leaves_none_out(void **state)
     assert_opens_with(state, folder, "<h2 id=\"cause\">A reference without a frame</h2>");
 }
 
+/* Nobody reads so much: it is all holes. */
+static void enlarge(const char *folder)
+{
+    assert_int_equal(truncate(place_below(folder, "1.actual.png").path, (off_t)DIFF_REPORT_PAGE_BYTES), 0);
+}
+
+static void pictures_that_are_too_large_for_a_page_are_left_beside_it(void **state)
+{
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "large a", "1.png 2.png"), b = gallery_make(d->folder, "large b", "");
+    const place folder = place_in(d->folder, "large evidence");
+    for (int i = 1; i < 3; i++)
+        gallery_write(place_below(b.path, i == 1 ? "1.png" : "2.png").path, 9, 0);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    write_page_of(&made, folder.path, enlarge);
+    char *page = file_read(place_below(folder.path, "report.html").path, NULL);
+    assert_null(strstr(page, "<img data-frame=\"0\""));
+    assert_non_null(strstr(page, "<img data-frame=\"1\" data-picture=\"difference\" src=\"data:image/png;base64,"));
+    free(page);
+    assert_opens_with(state, folder, "Its pictures are too large for this page. They lie beside it.");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -281,6 +316,7 @@ int main(void)
         cmocka_unit_test(page_loads_nothing),
         cmocka_unit_test(page_of_no_difference_says_so),
         cmocka_unit_test(page_of_few_differences_leaves_none_out),
+        cmocka_unit_test(pictures_that_are_too_large_for_a_page_are_left_beside_it),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);
 }

@@ -33,7 +33,7 @@ static const char help[] =
     "      --junit FILE      write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions\n"
     "                        read it\n"
     "      --markdown FILE   write a summary for a CI job's page: the verdict and a table of what differs\n"
-    "                        (FILE may be -, standard output, for one of both)\n"
+    "                        (FILE may be -, standard output, for one of the two)\n"
     "  -h, --help\n\n"
     "Exit status: 0 the same, or all forgiven; 1 different; 2 trouble, as when a picture cannot be read.\n\n"
     "Examples: octreel diff before.png after.png\n"
