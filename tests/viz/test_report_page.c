@@ -12,7 +12,9 @@
 
 enum { FRAMES = 57 }; /* of which the fifth is the same: six more differ than are in the page */
 
-#define CAUSE "node 0/3/7 split, point 12 moved </script><script>document.title = 'mine'</script> & \"so on\""
+#define CAUSE                                                                                                          \
+    "node 0/3/7 split, point 12 moved </script><script>document.title = 'mine'</script> & \"so on\"; 7 pixels: 5 of "  \
+    "node 0/3/7; text: 2"
 #define HEADLINE "From tick 0 on: <b>another</b> capacity"
 
 /* Two folders that differ in every way that a frame can, and what the page said while drive_report.js used it. */
@@ -133,6 +135,8 @@ static void cause_is_the_headline_beside_the_picture(void **state)
     assert_said(state, "frame 0",
                 "frame_000000.png | Node 0/3/7 split, point 12 moved </script><script>document.title = "
                 "'mine'</script> & \"so on\" | expected actual difference | swipe");
+    assert_said(state, "details 0", "7 pixels: 5 of node 0/3/7; text: 2");
+    assert_said(state, "details 5", "none");
     assert_said_part(state, "facts 0",
                      "pixels; 7 of 384, 1.8\xe2\x80\xaf%; worst; 0.0027 YIQ at 0, 3; channels; by up to 1 of "
                      "255; within; 0, 3 to 6, 3; size; 24 \xc3\x97 16; files; ");

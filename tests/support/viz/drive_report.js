@@ -75,6 +75,7 @@ async function sayFrames()
     for (let i = 0; i < 6; i++, press("n")) {
         await settled();
         sayFrame(`frame ${i}`);
+        say(`details ${i}`, at("details").hidden ? "none" : textOf("details"));
         say(`facts ${i}`, [...at("facts-of-frame").children].map(fact => fact.textContent).join("; "));
     }
     press("Home");

@@ -58,10 +58,20 @@ function shortWords(finding)
 
 const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
 
-/* The cause where one is known, or how much differs. */
+/* The cause where one is known, or how much differs, up to the first pause. */
 function headlineOf(finding)
 {
-    return capital(finding.cause ?? finding.words.split("; ")[0]);
+    return capital((finding.cause ?? finding.words).split("; ")[0]);
+}
+
+/* What else the cause says, and what differs where it is not counted. */
+function detailsOf(finding)
+{
+    const [, ...rest] = (finding.cause ?? "").split("; ");
+    const details = rest.length > 0 ? [rest.join("; ")] : [];
+    if (finding.cause && finding.finding !== "pixels")
+        details.push(finding.words);
+    return details.map(capital).join(". ");
 }
 
 function share(pixels, [width, height])

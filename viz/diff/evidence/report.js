@@ -82,8 +82,8 @@ class Report {
     {
         byId("frame").textContent = finding.frame;
         byId("cause").textContent = headlineOf(finding);
-        byId("words").textContent = finding.words;
-        byId("words").hidden = !finding.cause || finding.finding === "pixels"; /* whose numbers are below */
+        byId("details").textContent = detailsOf(finding);
+        byId("details").hidden = detailsOf(finding) === "";
         byId("colors").hidden = !finding.files.difference;
         byId("facts-of-frame").replaceChildren();
         for (const [name, value] of factsOf(finding))
