@@ -266,7 +266,7 @@ static void page_of_no_difference_says_so(void **state)
     const place a = gallery_make(d->folder, "same", "1.png 2.png"), folder = place_in(d->folder, "calm");
     write_page(a.path, a.path, folder.path, NULL, NULL);
     assert_opens_with(state, folder,
-                      "<h2>Nothing differs</h2>\n  <p id=\"calm-words\">2 frames, 2 the same by their "
+                      "<h2>No frame differs</h2>\n  <p id=\"calm-words\">2 frames, 2 the same by their "
                       "bytes</p>\n  <p id=\"calm-tolerance\">Compared exactly</p>");
 }
 

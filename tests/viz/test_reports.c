@@ -23,7 +23,7 @@ static comparison_of compare(const char *a, const char *b, const char *cause)
     return made;
 }
 
-typedef void reporter(FILE *out, const diff_report *report);
+typedef bool reporter(FILE *out, const diff_report *report);
 
 static char *report_text(comparison_of *made, const evidence *e, reporter *write)
 {
@@ -33,7 +33,7 @@ static char *report_text(comparison_of *made, const evidence *e, reporter *write
     size_t size;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    write(out, &report);
+    assert_true(write(out, &report));
     assert_int_equal(fclose(out), 0);
     return text;
 }
@@ -79,7 +79,8 @@ static void junit_has_a_case_for_each_frame(void **state)
                      "different: 4 of 384 pixels differ; worst 0.0027 YIQ at (0,3), channels by up to 1 of 255; within "
                      "(0,3)-(3,3). Cause: node 0/3 split");
     assert_attribute(xml, "error", 0, "type", "unreadable");
-    assert_says(xml, "compared exactly");
+    assert_says(xml, "<system-out>trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\ncompared exactly\n"
+                     "    </system-out>\n");
     free(xml);
     comparison_release(&made);
 }
@@ -93,6 +94,20 @@ static void junit_of_no_difference_has_passed_cases(void **state)
     assert_int_equal(xml_count(xml, "failure") + xml_count(xml, "error"), 0);
     assert_attribute(xml, "testsuite", 0, "failures", "0");
     free(xml);
+    comparison_release(&made);
+}
+
+/* Where two recordings cannot be explained, that is said beside what differs. */
+static void reports_say_that_nobody_can_say_why(void **state)
+{
+    comparison_of made = compare_three(state, NULL);
+    made.result.trouble = strdup("a/session.json: it ends <too> early");
+    char *xml = report_text(&made, NULL, diff_report_junit), *text = report_text(&made, NULL, diff_report_markdown);
+    assert_int_equal(xml_count(xml, "system-err"), 1);
+    assert_says(xml, "it ends &#60;too&#62; early</system-err>");
+    assert_says(text, "\nNobody can say why: a/session.json: it ends &#60;too&#62; early\n");
+    free(xml);
+    free(text);
     comparison_release(&made);
 }
 
@@ -223,6 +238,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(junit_has_a_case_for_each_frame),
         WITH_FOLDER(junit_of_no_difference_has_passed_cases),
+        WITH_FOLDER(reports_say_that_nobody_can_say_why),
         WITH_FOLDER(junit_survives_any_name_and_cause),
         WITH_FOLDER(junit_names_the_pictures_that_were_left),
         WITH_FOLDER(markdown_has_the_verdict_and_a_row_for_each_difference),

@@ -23,7 +23,8 @@ static const char help[] =
     "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from it in\n"
     "each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone differs. The\n"
     "verdict is about the frames, whatever their sessions are.\n"
-    "      --causes N        explain the first N frames and ticks that differ (default 10), \"all\", or 0 for none\n\n"
+    "      --causes N        explain the first N frames and ticks that differ (default 10, with -o 50), \"all\", or 0\n"
+    "                        for none\n\n"
     "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
     "  -o, --output FOLDER   leave evidence: report.html, a page that holds all it shows, and of each frame that\n"
     "                        differs NAME.expected.png, NAME.actual.png, NAME.difference.png (what counts glows, be\n"
@@ -45,6 +46,7 @@ typedef struct arguments {
     image_rectangle *ignored;              /* owned */
     const char *folder, *junit, *markdown; /* null: not asked for */
     uint64_t causes;                       /* how many are explained */
+    bool causes_said;
     bool json;
 } arguments;
 
@@ -100,6 +102,7 @@ static bool take_option(arguments *a, int option)
         return read_layer(optarg, &a->options.ignore_text);
     case 'c':
         a->causes = UINT64_MAX;
+        a->causes_said = true;
         return strcmp(optarg, "all") == 0 || read_count("--causes", optarg, 0, UINT32_MAX, &a->causes);
     case 'b':
         return read_color("--background", optarg, &a->options.background);
@@ -136,7 +139,7 @@ static int tell_trouble(const diff_result *result)
 
 /* ---- What is said, and where --------------------------------------------------------------------------------- */
 
-typedef void reporter(FILE *out, const diff_report *report);
+typedef bool reporter(FILE *out, const diff_report *report);
 
 static bool is_stdout(const char *path)
 {
@@ -158,20 +161,24 @@ static bool write_report(const char *path, reporter *write, const diff_report *r
         return true;
     if (!part_open(&file, path, error))
         return false;
-    write(file.stream, report);
-    return part_close(&file, error);
+    if (write(file.stream, report))
+        return part_close(&file, error);
+    record_fail(error, "%s: there is no memory to write it", path);
+    return part_abandon(&file);
 }
 
-static void print_report(const arguments *a, const diff_report *report)
+static bool print_report(const arguments *a, const diff_report *report, record_error *error)
 {
+    bool ok = true;
     if (a->json)
         diff_report_json(stdout, report);
     else if (is_stdout(a->junit))
-        diff_report_junit(stdout, report);
+        ok = diff_report_junit(stdout, report);
     else if (is_stdout(a->markdown))
-        diff_report_markdown(stdout, report);
+        ok = diff_report_markdown(stdout, report);
     else if (report->result->found[FOUND_UNREADABLE] < report->result->count) /* else nothing was compared */
         diff_report_text(stdout, report);
+    return ok || record_fail(error, "there is no memory to print the report");
 }
 
 static int report(const arguments *a, diff_report *all)
@@ -188,9 +195,7 @@ static int report(const arguments *a, diff_report *all)
         ok = ok && diff_report_page(all, &error);
     }
     ok = ok && write_report(a->junit, diff_report_junit, all, &error) &&
-         write_report(a->markdown, diff_report_markdown, all, &error);
-    if (ok)
-        print_report(a, all);
+         write_report(a->markdown, diff_report_markdown, all, &error) && print_report(a, all, &error);
     evidence_release(&e);
     if (!ok)
         return trouble("%s", error.text);
@@ -224,6 +229,8 @@ int cmd_diff(int argc, char **argv)
         asked = option == 'h';
         ok = asked || take_option(&a, option);
     }
+    if (a.folder && !a.causes_said)
+        a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */
     if (asked)
         status = fputs(help, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
     else if (ok && argc - optind != 2)

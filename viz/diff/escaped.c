@@ -3,7 +3,7 @@
 #include "utf8.h"
 
 #include <ctype.h>
-#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *numbered(char c, char room[ESCAPE_ROOM])
@@ -17,6 +17,11 @@ const char *escape_xml(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     (void)text;
     return strchr("<>&\"'\n\t", *at) ? numbered(*at, room) : NULL;
+}
+
+const char *escape_xml_text(const char *text, const char *at, char room[ESCAPE_ROOM])
+{
+    return *at == '\n' ? "\n" : escape_xml(text, at, room);
 }
 
 static bool is_word(char c)
@@ -68,4 +73,13 @@ void write_escaped(FILE *out, const char *text, escape *how)
         else
             putc(c, out);
     }
+}
+
+bool write_escaped_sentence(FILE *out, sentence *s, escape *how)
+{
+    char *text;
+    const bool ok = sentence_end(s, &text);
+    write_escaped(out, text ? text : "", how);
+    free(text);
+    return ok;
 }

@@ -25,13 +25,14 @@ void diff_report_text(FILE *out, const diff_report *report);
 /* One JSON object on one line, with all frames that are not the same. */
 void diff_report_json(FILE *out, const diff_report *report);
 
-/* JUnit's XML, as GitHub's actions, GitLab and Jenkins read it: a test case for each frame. */
-void diff_report_junit(FILE *out, const diff_report *report);
+/* JUnit's XML, as GitHub's actions, GitLab and Jenkins read it: a test case for each frame. False where there is no
+ * memory. */
+bool diff_report_junit(FILE *out, const diff_report *report);
 
 /* A section for the page of a CI job, in GitHub's Markdown: the verdict, and a table of the frames that differ, at most
- * DIFF_REPORT_ROWS of them. */
+ * DIFF_REPORT_ROWS of them. False where there is no memory. */
 #define DIFF_REPORT_ROWS 20
-void diff_report_markdown(FILE *out, const diff_report *report);
+bool diff_report_markdown(FILE *out, const diff_report *report);
 
 /* report.html, in the folder of evidence: one file to look through what differs, which loads nothing. It has the first
  * DIFF_REPORT_PAGE_FRAMES frames that differ, the pictures of as many of them as there is room for, and says what was

@@ -15,34 +15,27 @@ static void write_attribute(FILE *out, const char *name, const char *value)
     putc('"', out);
 }
 
-/* What a function prints, escaped: null when there is no memory. */
-static char *difference_of(const diff_pair *pair)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return NULL;
-    diff_print_difference(out, pair);
-    if (pair->cause)
-        fprintf(out, ". Cause: %s", pair->cause);
-    fclose(out);
-    return text;
-}
-
-static void write_fault(FILE *out, const diff_pair *pair)
+static bool write_fault(FILE *out, const diff_pair *pair)
 {
     const diff_verdict verdict = diff_finding_verdict(pair->finding);
     const char *element = verdict == DIFF_TROUBLE ? "error" : "failure";
-    char *difference = difference_of(pair);
-    const char *words = difference ? difference : "there is no memory";
-    fprintf(out, "      <%s type=\"%s\" message=\"%s: ", element, diff_finding_name(pair->finding),
-            diff_verdict_name(verdict));
-    write_escaped(out, words, escape_xml);
-    fputs("\">", out);
+    char *words;
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    fprintf(s.stream, "%s: ", diff_verdict_name(verdict));
+    diff_print_difference(s.stream, pair);
+    if (pair->cause)
+        fprintf(s.stream, ". Cause: %s", pair->cause);
+    if (!sentence_end(&s, &words))
+        return false;
+    fprintf(out, "      <%s type=\"%s\"", element, diff_finding_name(pair->finding));
+    write_attribute(out, "message", words);
+    putc('>', out);
     write_escaped(out, words, escape_xml); /* some readers show the one, some the other */
     fprintf(out, "</%s>\n", element);
-    free(difference);
+    free(words);
+    return true;
 }
 
 static void write_paths(FILE *out, const diff_report *report, size_t i)
@@ -64,7 +57,7 @@ static void write_paths(FILE *out, const diff_report *report, size_t i)
     fputs("      </system-out>\n", out);
 }
 
-static void write_case(FILE *out, const diff_report *report, size_t i)
+static bool write_case(FILE *out, const diff_report *report, size_t i)
 {
     const diff_pair *pair = &report->result->pairs[i];
     const bool fails = diff_finding_verdict(pair->finding) != DIFF_SAME;
@@ -74,11 +67,13 @@ static void write_case(FILE *out, const diff_report *report, size_t i)
     fputs(" time=\"0\"", out);
     fputs(fails ? ">\n" : "/>\n", out);
     if (!fails)
-        return;
-    write_fault(out, pair);
+        return true;
+    if (!write_fault(out, pair))
+        return false;
     if (report->evidence && report->evidence->pictures[i])
         write_paths(out, report, i);
     fputs("    </testcase>\n", out);
+    return true;
 }
 
 static void write_counts(FILE *out, const diff_result *result)
@@ -88,33 +83,39 @@ static void write_counts(FILE *out, const diff_result *result)
 }
 
 /* What holds for all of them: the verdict, why, and how they were compared. */
-static void write_summary(FILE *out, const diff_report *report)
+static bool write_summary(FILE *out, const diff_report *report)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *words = open_memstream(&text, &size);
-    if (!words)
-        return;
-    diff_print_verdict(words, report->result);
-    fprintf(words, "%s%s\n", report->result->headline ? "\n" : "",
-            report->result->headline ? report->result->headline : "");
-    diff_print_tolerance(words, report);
-    fclose(words);
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    diff_print_verdict(s.stream, report->result);
+    putc('\n', s.stream);
+    if (report->result->headline)
+        fprintf(s.stream, "%s\n", report->result->headline);
+    diff_print_tolerance(s.stream, report);
+    putc('\n', s.stream);
     fputs("    <system-out>", out);
-    write_escaped(out, text ? text : "", escape_xml);
-    fputs("\n    </system-out>\n", out);
-    free(text);
+    const bool ok = write_escaped_sentence(out, &s, escape_xml_text);
+    fputs("    </system-out>\n", out);
+    if (report->result->trouble) {
+        fputs("    <system-err>", out);
+        write_escaped(out, report->result->trouble, escape_xml);
+        fputs("</system-err>\n", out);
+    }
+    return ok;
 }
 
-void diff_report_junit(FILE *out, const diff_report *report)
+bool diff_report_junit(FILE *out, const diff_report *report)
 {
+    bool ok = true;
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"octreel diff\"", out);
     write_counts(out, report->result);
     fputs("  <testsuite", out);
     write_attribute(out, "name", report->a->path);
     write_counts(out, report->result);
-    for (size_t i = 0; i < report->result->count; i++)
-        write_case(out, report, i);
-    write_summary(out, report);
+    for (size_t i = 0; ok && i < report->result->count; i++)
+        ok = write_case(out, report, i);
+    ok = ok && write_summary(out, report);
     fputs("  </testsuite>\n</testsuites>\n", out);
+    return ok;
 }

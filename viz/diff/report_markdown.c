@@ -18,27 +18,6 @@ static void write_name(FILE *out, const char *name)
     fputs("</code>", out);
 }
 
-/* What another function prints, escaped. */
-typedef struct words {
-    FILE *stream;
-    char *text;
-    size_t size;
-} words;
-
-static bool words_begin(words *w)
-{
-    *w = (words){.stream = NULL};
-    w->stream = open_memstream(&w->text, &w->size);
-    return w->stream != NULL;
-}
-
-static void words_end(words *w, FILE *out)
-{
-    fclose(w->stream);
-    write_text(out, w->text ? w->text : "");
-    free(w->text);
-}
-
 static bool has_causes(const diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++)
@@ -58,17 +37,20 @@ static void write_pixels(FILE *out, const diff_pair *pair)
             d->counted.worst_x, d->counted.worst_y);
 }
 
-static void write_row(FILE *out, const diff_pair *pair, bool causes)
+static bool write_row(FILE *out, const diff_pair *pair, bool causes)
 {
-    words w;
+    bool ok = true;
     fputs("| ", out);
     write_name(out, diff_pair_name(pair));
     fputs(" | ", out);
     if (pair->finding == FOUND_PIXELS) {
         write_pixels(out, pair);
-    } else if (words_begin(&w)) {
-        diff_print_difference(w.stream, pair);
-        words_end(&w, out);
+    } else {
+        sentence s;
+        ok = sentence_begin(&s);
+        if (ok)
+            diff_print_difference(s.stream, pair);
+        ok = ok && write_escaped_sentence(out, &s, escape_markdown);
         fputs(" |", out);
     }
     fputs(" |", out);
@@ -78,56 +60,73 @@ static void write_row(FILE *out, const diff_pair *pair, bool causes)
         fputs(" |", out);
     }
     putc('\n', out);
+    return ok;
 }
 
-static void write_table(FILE *out, const diff_result *result)
+static bool write_table(FILE *out, const diff_result *result)
 {
     const bool causes = has_causes(result);
     size_t rows = 0;
+    bool ok = true;
     fprintf(out, "\n| frame | difference | worst |%s\n|---|---|---|%s\n", causes ? " cause |" : "",
             causes ? "---|" : "");
-    for (size_t i = 0; i < result->count; i++)
+    for (size_t i = 0; ok && i < result->count; i++)
         if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && rows++ < DIFF_REPORT_ROWS)
-            write_row(out, &result->pairs[i], causes);
+            ok = write_row(out, &result->pairs[i], causes);
     if (rows > DIFF_REPORT_ROWS)
         fprintf(out, "\nand %zu more\n", rows - DIFF_REPORT_ROWS);
+    return ok;
 }
 
-static void write_verdict(FILE *out, const diff_report *report)
+static void write_why(FILE *out, const diff_result *result)
 {
-    words w;
-    fputs("### octreel diff: ", out);
-    if (words_begin(&w)) {
-        diff_print_verdict(w.stream, report->result);
-        words_end(&w, out);
-    }
-    fputs("\n\n", out);
-    if (report->result->headline) {
+    if (result->headline) {
         fputs("**", out);
-        write_text(out, report->result->headline);
+        write_text(out, result->headline);
         fputs("**\n\n", out);
     }
+    if (result->trouble) {
+        fputs("Nobody can say why: ", out);
+        write_text(out, result->trouble);
+        fputs("\n\n", out);
+    }
+}
+
+static bool write_verdict(FILE *out, const diff_report *report)
+{
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    diff_print_verdict(s.stream, report->result);
+    fputs("### octreel diff: ", out);
+    bool ok = write_escaped_sentence(out, &s, escape_markdown);
+    fputs("\n\n", out);
+    write_why(out, report->result);
     write_name(out, report->b->path);
     fputs(" against ", out);
     write_name(out, report->a->path);
     fputs(", ", out);
-    if (words_begin(&w)) {
-        diff_print_tolerance(w.stream, report);
-        words_end(&w, out);
-    }
+    if (!ok || !sentence_begin(&s))
+        return false;
+    diff_print_tolerance(s.stream, report);
+    ok = write_escaped_sentence(out, &s, escape_markdown);
     fputs(".\n", out);
+    return ok;
 }
 
-void diff_report_markdown(FILE *out, const diff_report *report)
+static bool any_differs(const diff_result *result)
 {
-    write_verdict(out, report);
-    if (report->result->verdict != DIFF_SAME)
-        write_table(out, report->result);
+    return diff_count_different(result) + result->found[FOUND_UNREADABLE] > 0;
+}
+
+bool diff_report_markdown(FILE *out, const diff_report *report)
+{
+    if (!write_verdict(out, report) || (any_differs(report->result) && !write_table(out, report->result)))
+        return false;
     if (report->evidence) {
-        char *page = folder_path(report->evidence->folder, EVIDENCE_PAGE);
-        fputs("\nEvidence: ", out);
-        write_name(out, page ? page : report->evidence->folder);
-        putc('\n', out);
-        free(page);
+        fputs("\nEvidence: <code>", out);
+        write_text(out, report->evidence->folder);
+        fputs("/" EVIDENCE_PAGE "</code>\n", out);
     }
+    return true;
 }

@@ -6,6 +6,7 @@
 #include "base64.h"
 #include "evidence_page.h"
 #include "report_json.h"
+#include "sentence.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -67,54 +68,71 @@ static void choose_pairs(page *p)
 
 /* A line of JSON while it is made: in memory, for an element of HTML ends at the first "</" in it. */
 typedef struct fact_line {
-    FILE *stream;
-    char *text;
-    size_t size;
+    sentence made;
     json_writer writer;
 } fact_line;
 
 static bool line_begin(fact_line *line)
 {
-    *line = (fact_line){.stream = NULL};
-    line->stream = open_memstream(&line->text, &line->size);
-    line->writer.out = line->stream;
-    if (line->stream)
-        json_write_begin_object(&line->writer);
-    return line->stream != NULL;
+    *line = (fact_line){.writer = {.out = NULL}};
+    if (!sentence_begin(&line->made))
+        return false;
+    line->writer.out = line->made.stream;
+    json_write_begin_object(&line->writer);
+    return true;
 }
 
 /* In JSON a < stands in strings alone. */
 static bool line_end(fact_line *line, FILE *out)
 {
+    char *text;
     json_write_end_object(&line->writer);
     json_write_end_line(&line->writer);
-    const bool ok = fclose(line->stream) == 0;
-    for (size_t i = 0; ok && i < line->size; i++)
-        if (line->text[i] == '<')
+    const bool ok = sentence_end(&line->made, &text);
+    for (const char *at = ok ? text : ""; *at; at++)
+        if (*at == '<')
             fputs("\\u003c", out);
         else
-            putc(line->text[i], out);
-    free(line->text);
+            putc(*at, out);
+    free(text);
     return ok;
 }
 
-/* A member whose text a function of report.h prints. */
-static void write_words(json_writer *w, const char *key, const diff_report *report, const diff_pair *pair)
+/* Print what belongs to a report, or to one pair of it. */
+typedef void printer(FILE *out, const diff_report *report, const diff_pair *pair);
+
+static void print_verdict(FILE *out, const diff_report *report, const diff_pair *pair)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *words = open_memstream(&text, &size);
-    if (!words)
-        return;
-    if (pair)
-        diff_print_difference(words, pair);
-    else if (strcmp(key, "verdict_words") == 0)
-        diff_print_verdict(words, report->result);
-    else
-        diff_print_tolerance(words, report);
-    fclose(words);
+    (void)pair;
+    diff_print_verdict(out, report->result);
+}
+
+static void print_tolerance(FILE *out, const diff_report *report, const diff_pair *pair)
+{
+    (void)pair;
+    diff_print_tolerance(out, report);
+}
+
+static void print_difference(FILE *out, const diff_report *report, const diff_pair *pair)
+{
+    (void)report;
+    diff_print_difference(out, pair);
+}
+
+/* A member whose text is printed. */
+static bool write_words(json_writer *w, const char *key, printer *print, const diff_report *report,
+                        const diff_pair *pair)
+{
+    char *text;
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    print(s.stream, report, pair);
+    if (!sentence_end(&s, &text))
+        return false;
     json_member_text(w, key, text ? text : "");
     free(text);
+    return true;
 }
 
 static bool write_whole(const page *p)
@@ -123,11 +141,11 @@ static bool write_whole(const page *p)
     if (!line_begin(&line))
         return false;
     diff_json_summary(&line.writer, p->report);
-    write_words(&line.writer, "verdict_words", p->report, NULL);
-    write_words(&line.writer, "tolerance_words", p->report, NULL);
+    const bool ok = write_words(&line.writer, "verdict_words", print_verdict, p->report, NULL) &&
+                    write_words(&line.writer, "tolerance_words", print_tolerance, p->report, NULL);
     json_member_integer(&line.writer, "different", p->count + p->left_out);
     json_member_integer(&line.writer, "left_out", p->left_out);
-    return line_end(&line, p->out);
+    return line_end(&line, p->out) && ok;
 }
 
 /* The files' names, as they lie beside the page. */
@@ -154,11 +172,11 @@ static bool write_pair(const page *p, size_t n)
     if (!line_begin(&line))
         return false;
     diff_json_finding(&line.writer, pair);
-    write_words(&line.writer, "words", p->report, pair);
+    const bool ok = write_words(&line.writer, "words", print_difference, p->report, pair);
     write_files(&line.writer, p->report, i);
     json_write_key(&line.writer, "embedded");
     json_write_bool(&line.writer, p->embedded[n]);
-    return line_end(&line, p->out);
+    return line_end(&line, p->out) && ok;
 }
 
 static bool write_facts(const page *p, record_error *error)

@@ -235,8 +235,10 @@ function describe(whole)
     byId("verdict").dataset.verdict = whole.verdict;
     byId("about").append(element("strong", whole.compared.path), " against ", element("strong", whole.reference.path),
                          ` · ${words.slice(colon + 2)} · ${whole.tolerance_words}`);
-    byId("headline").textContent = whole.headline ?? "";
+    byId("headline").textContent = capital(whole.headline ?? "");
     byId("headline").hidden = !whole.headline;
+    byId("trouble").textContent = `Nobody can say why: ${whole.trouble}`;
+    byId("trouble").hidden = !whole.trouble;
     document.title = `${whole.verdict}: ${whole.compared.path} – octreel diff`;
 }
 
@@ -273,7 +275,7 @@ function fillControls(look)
 function showCalm(whole)
 {
     byId("calm").hidden = false;
-    byId("calm").querySelector("h2").textContent = "Nothing differs";
+    byId("calm").querySelector("h2").textContent = "No frame differs";
     byId("calm-words").textContent = whole.verdict_words.replace(/^.*?: /, "");
     byId("calm-tolerance").textContent = capital(whole.tolerance_words);
 }
