@@ -1,7 +1,7 @@
 /* test_golden.c - the frames of golden/ are drawn as they were: exactly.
  *
  * All are drawn into the folder golden/ of the build's tests and compared with the references as octreel diff does it;
- * what differs is left there, with <name>.diff.png in the current folder, and both renderers are named.
+ * what differs leaves its evidence in the current folder (<name>.ref.side.png), and both renderers are named.
  * `test_golden --draw` draws and does no more: the target golden-update runs it, and octreel accept behind it.
  */
 #include <setjmp.h>
@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "evidence_pictures.h"
 #include "golden_frames.h"
 #include "report.h"
 
@@ -117,24 +118,6 @@ static void read_renderer(char text[TEXT_SIZE])
         fclose(file);
 }
 
-static void draw_difference(const golden_frame *frame, const diff_pair *pair)
-{
-    char name[NAME_SIZE];
-    image_error error;
-    image reference, drawn, difference;
-    if (!pair->a || !image_read_png(pair->a->path, &reference, &error))
-        return;
-    if (image_read_png(pair->b->path, &drawn, &error)) {
-        snprintf(name, sizeof name, "%s.diff.png", frame->name);
-        if (image_draw_difference(&reference, &drawn, &difference)) {
-            image_write_png(&difference, name, NULL, 0, &error);
-            image_release(&difference);
-        }
-        image_release(&drawn);
-    }
-    image_release(&reference);
-}
-
 static void fail_pair(const gallery *g, const diff_pair *pair)
 {
     char *sentence = NULL, before[TEXT_SIZE];
@@ -144,19 +127,23 @@ static void fail_pair(const gallery *g, const diff_pair *pair)
     diff_print_pair(out, pair);
     fclose(out);
     read_renderer(before);
-    fail_msg("%s: see golden/ and .diff.png in tests/ of the build folder.\nreference: %s\nnow:       %s", sentence,
-             before, g->renderer);
+    fail_msg("%s: see its .side.png and the others beside it, in the current folder.\nreference: %s\nnow:       %s",
+             sentence, before, g->renderer);
 }
 
 static void frame_is_its_reference(void **state)
 {
     const exhibit *e = *state;
+    const diff_options exact = diff_options_default();
+    record_error error;
+    unsigned written;
     char name[NAME_SIZE];
     const diff_pair *pair = diff_find(&e->gallery->result, file_name(e->frame, name));
     assert_non_null(pair);
     if (diff_finding_verdict(pair->finding) == DIFF_SAME)
         return;
-    draw_difference(e->frame, pair);
+    if (!evidence_draw(pair, &exact, ".", &written, &error))
+        print_error("%s\n", error.text);
     fail_pair(e->gallery, pair);
 }
 

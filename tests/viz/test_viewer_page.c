@@ -22,40 +22,6 @@ typedef struct driven {
     char *said;   /* null without a browser */
 } driven;
 
-/* &amp; &lt; and &gt; in place. */
-static void decode(char *text)
-{
-    static const struct {
-        const char *name;
-        char character;
-    } names[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}};
-    char *to = text;
-    while (*text != '\0') {
-        size_t length = 1;
-        char character = *text;
-        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-            if (strncmp(text, names[i].name, strlen(names[i].name)) == 0) {
-                length = strlen(names[i].name);
-                character = names[i].character;
-            }
-        *to++ = character;
-        text += length;
-    }
-    *to = '\0';
-}
-
-/* The page with a script behind it. */
-static void write_driven_page(const char *folder)
-{
-    char *page = file_read(place_below(folder, "index.html").path, NULL), *script = file_read(OCTREEL_DRIVE, NULL);
-    FILE *file = fopen(place_below(folder, "driven.html").path, "w");
-    assert_non_null(file);
-    fprintf(file, "%s<script>\n%s</script>\n", page, script);
-    assert_int_equal(fclose(file), 0);
-    free(page);
-    free(script);
-}
-
 static int drive_page(void **state)
 {
     driven *d = calloc(1, sizeof *d);
@@ -68,16 +34,8 @@ static int drive_page(void **state)
     const octree_session session = octree_session_default();
     const film_options options = small_film(film.path);
     assert_filmed(&session, &options);
-    write_driven_page(film.path);
-    char *page = browser_open(d->folder, place_below(film.path, "driven.html").path, "");
-    char *said = strstr(page, "<pre id=\"said\">");
-    if (said == NULL)
-        fail_msg("the page did not come to its end: %.2000s", page);
-    *strstr(said, "</pre>") = '\0';
-    decode(said);
-    d->said = strdup(said + strlen("<pre id=\"said\">"));
-    free(page);
-    return d->said == NULL ? -1 : 0;
+    d->said = browser_drive(d->folder, place_below(film.path, "index.html").path, OCTREEL_DRIVE);
+    return 0;
 }
 
 static int forget_page(void **state)
@@ -89,24 +47,9 @@ static int forget_page(void **state)
     return status;
 }
 
-/* What was said about something; the caller frees it. */
-static char *said_about(const driven *d, const char *what)
-{
-    char line[128];
-    const int length = snprintf(line, sizeof line, "\n%s\t", what);
-    const char *found = strstr(d->said, line);
-    if (found == NULL)
-        fail_msg("nothing is said about %s", what);
-    found += length;
-    return strndup(found, strcspn(found, "\n"));
-}
-
 static void assert_said(const driven *d, const char *what, const char *expected)
 {
-    char *value = said_about(d, what);
-    if (strcmp(value, expected) != 0)
-        fail_msg("%s: \"%s\" and not \"%s\"", what, value, expected);
-    free(value);
+    assert_said_about(d->said, what, expected);
 }
 
 /* ---- Facts -------------------------------------------------------------------------------------------------- */
@@ -197,7 +140,7 @@ static void shows_at_every_tick_what_ticks_jsonl_says(void **state)
 {
     need_browser();
     const driven *d = *state;
-    char *said = strdup(d->said), *at = said;
+    char *said = strdup(d->said), *at = said + 1;
     assert_int_equal(for_each_line(place_in(d->folder, "film").path, assert_tick_said, &at), LAST + 1);
     free(said);
 }
@@ -278,7 +221,7 @@ static void filter_leads_from_match_to_match(void **state)
 static void plays_frame_by_frame_until_paused(void **state)
 {
     need_browser();
-    char *played = said_about(*state, "played"), *at = played;
+    char *played = said_about(((driven *)*state)->said, "played"), *at = played;
     long count = 0;
     for (char *end; *at != '\0'; at = end)
         assert_int_equal(strtol(at, &end, 10), ++count);
@@ -317,7 +260,7 @@ static void question_mark_lists_the_keys(void **state)
 static void page_stays_small_and_free_of_errors(void **state)
 {
     need_browser();
-    char *elements = said_about(*state, "elements");
+    char *elements = said_about(((driven *)*state)->said, "elements");
     assert_true(strtol(elements, NULL, 10) < 400);
     free(elements);
     assert_said(*state, "errors", "0");

@@ -1,5 +1,6 @@
 /* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
 #include "command.h"
+#include "explain.h"
 #include "report.h"
 
 #include <getopt.h>
@@ -19,17 +20,33 @@ static const char help[] =
     "      --antialias       pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)\n"
     "      --ignore X,Y,W,H  a rectangle of pixels; may be given again\n"
     "      --ignore-layer text  in recordings: the panel and all letters, wherever they are in each frame\n\n"
+    "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from it in\n"
+    "each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone differs. The\n"
+    "verdict is about the frames, whatever their sessions are.\n"
+    "      --causes N        explain the first N frames and ticks that differ (default 10, with -o 50), \"all\", or 0\n"
+    "                        for none\n\n"
     "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
+    "  -o, --output FOLDER   leave evidence: report.html, a page that holds all it shows, and of each frame that\n"
+    "                        differs NAME.expected.png, NAME.actual.png, NAME.difference.png (what counts glows, be\n"
+    "                        it by one level; what is forgiven is blue) and NAME.side.png, all three together\n"
     "      --json            print JSON\n"
+    "      --junit FILE      write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions\n"
+    "                        read it\n"
+    "      --markdown FILE   write a summary for a CI job's page: the verdict and a table of what differs\n"
+    "                        (FILE may be -, standard output, for one of the two)\n"
     "  -h, --help\n\n"
     "Exit status: 0 the same, or all forgiven; 1 different; 2 trouble, as when a picture cannot be read.\n\n"
     "Examples: octreel diff before.png after.png\n"
     "          octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
+    "          octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
     "          octreel digest frames -o frames.digests && octreel diff frames.digests frames\n";
 
 typedef struct arguments {
     diff_options options;
-    image_rectangle *ignored; /* owned */
+    image_rectangle *ignored;              /* owned */
+    const char *folder, *junit, *markdown; /* null: not asked for */
+    uint64_t causes;                       /* how many are explained */
+    bool causes_said;
     bool json;
 } arguments;
 
@@ -39,8 +56,12 @@ static const struct option options[] = {
     {"antialias", no_argument, NULL, 'a'},
     {"ignore", required_argument, NULL, 'i'},
     {"ignore-layer", required_argument, NULL, 'l'},
+    {"causes", required_argument, NULL, 'c'},
     {"background", required_argument, NULL, 'b'},
+    {"output", required_argument, NULL, 'o'},
     {"json", no_argument, NULL, 'j'},
+    {"junit", required_argument, NULL, 'u'},
+    {"markdown", required_argument, NULL, 'm'},
     {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
 };
@@ -79,10 +100,23 @@ static bool take_option(arguments *a, int option)
         return add_rectangle(a, optarg);
     case 'l':
         return read_layer(optarg, &a->options.ignore_text);
+    case 'c':
+        a->causes = UINT64_MAX;
+        a->causes_said = true;
+        return strcmp(optarg, "all") == 0 || read_count("--causes", optarg, 0, UINT32_MAX, &a->causes);
     case 'b':
         return read_color("--background", optarg, &a->options.background);
+    case 'o':
+        a->folder = optarg;
+        return true;
     case 'j':
         a->json = true;
+        return true;
+    case 'u':
+        a->junit = optarg;
+        return true;
+    case 'm':
+        a->markdown = optarg;
         return true;
     default:
         fputs("octreel diff --help tells what it takes\n", stderr);
@@ -90,10 +124,12 @@ static bool take_option(arguments *a, int option)
     }
 }
 
-/* The first sentence of what cannot be read, and how many more there are. */
+/* The first sentence of what cannot be read, and how many more there are; or why nobody can say why. */
 static int tell_trouble(const diff_result *result)
 {
     size_t i = 0;
+    if (result->found[FOUND_UNREADABLE] == 0)
+        return trouble("%s; --causes 0 does not ask why", result->trouble);
     while (result->pairs[i].finding != FOUND_UNREADABLE)
         i++;
     const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "there is no memory";
@@ -101,16 +137,69 @@ static int tell_trouble(const diff_result *result)
     return more ? trouble("%s (and %zu more)", sentence, more) : trouble("%s", sentence);
 }
 
-static int report(const arguments *a, const diff_side *reference, const diff_side *compared, const diff_result *result)
+/* ---- What is said, and where --------------------------------------------------------------------------------- */
+
+typedef bool reporter(FILE *out, const diff_report *report);
+
+static bool is_stdout(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+static bool check_outputs(const arguments *a)
+{
+    if (a->json + is_stdout(a->junit) + is_stdout(a->markdown) <= 1)
+        return true;
+    trouble("standard output has room for one report: give the others a file");
+    return false;
+}
+
+static bool write_report(const char *path, reporter *write, const diff_report *report, record_error *error)
+{
+    part_file file;
+    if (!path || is_stdout(path))
+        return true;
+    if (!part_open(&file, path, error))
+        return false;
+    if (write(file.stream, report))
+        return part_close(&file, error);
+    record_fail(error, "%s: there is no memory to write it", path);
+    return part_abandon(&file);
+}
+
+static bool print_report(const arguments *a, const diff_report *report, record_error *error)
+{
+    bool ok = true;
+    if (a->json)
+        diff_report_json(stdout, report);
+    else if (is_stdout(a->junit))
+        ok = diff_report_junit(stdout, report);
+    else if (is_stdout(a->markdown))
+        ok = diff_report_markdown(stdout, report);
+    else if (report->result->found[FOUND_UNREADABLE] < report->result->count) /* else nothing was compared */
+        diff_report_text(stdout, report);
+    return ok || record_fail(error, "there is no memory to print the report");
+}
+
+static int report(const arguments *a, diff_report *all)
 {
     static const int statuses[] = {
         [DIFF_SAME] = EXIT_DONE, [DIFF_DIFFERENT] = EXIT_FINDING, [DIFF_TROUBLE] = EXIT_TROUBLE};
-    const diff_report all = {reference, compared, &a->options, result};
-    if (a->json)
-        diff_report_json(stdout, &all);
-    else if (result->found[FOUND_UNREADABLE] < result->count) /* else nothing was compared */
-        diff_report_text(stdout, &all);
-    return result->verdict == DIFF_TROUBLE ? tell_trouble(result) : statuses[result->verdict];
+    const diff_verdict verdict = all->result->verdict;
+    evidence e = {.folder = NULL};
+    record_error error;
+    bool ok = true;
+    if (a->folder) {
+        ok = evidence_collect(&e, a->folder, all->result, all->options, &error);
+        all->evidence = &e;
+        ok = ok && diff_report_page(all, &error);
+    }
+    ok = ok && write_report(a->junit, diff_report_junit, all, &error) &&
+         write_report(a->markdown, diff_report_markdown, all, &error) && print_report(a, all, &error);
+    evidence_release(&e);
+    if (!ok)
+        return trouble("%s", error.text);
+    return verdict == DIFF_TROUBLE ? tell_trouble(all->result) : statuses[verdict];
 }
 
 static int compare(const arguments *a, const char *paths[2])
@@ -119,8 +208,11 @@ static int compare(const arguments *a, const char *paths[2])
     diff_result result = {0};
     record_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
-                    diff_run(&sides[0], &sides[1], &a->options, &result, &error);
-    const int status = ok ? report(a, &sides[0], &sides[1], &result) : trouble("%s", error.text);
+                    (!a->folder || evidence_prepare(a->folder, &sides[0], &sides[1], &error)) &&
+                    diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
+                    diff_explain(&sides[0], &sides[1], a->causes, &result, &error);
+    diff_report all = {.a = &sides[0], .b = &sides[1], .options = &a->options, .result = &result};
+    const int status = ok ? report(a, &all) : trouble("%s", error.text);
     diff_release(&result);
     diff_side_release(&sides[0]);
     diff_side_release(&sides[1]);
@@ -129,19 +221,21 @@ static int compare(const arguments *a, const char *paths[2])
 
 int cmd_diff(int argc, char **argv)
 {
-    arguments a = {.options = diff_options_default()};
+    arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
     int status = EXIT_TROUBLE;
     bool ok = true, asked = false;
     optind = 1;
-    for (int option; ok && !asked && (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
+    for (int option; ok && !asked && (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         asked = option == 'h';
         ok = asked || take_option(&a, option);
     }
+    if (a.folder && !a.causes_said)
+        a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */
     if (asked)
         status = fputs(help, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
     else if (ok && argc - optind != 2)
         status = trouble("diff takes a reference and what is compared with it; octreel diff --help tells more");
-    else if (ok)
+    else if (ok && check_outputs(&a))
         status = compare(&a, (const char *[]){argv[optind], argv[optind + 1]});
     free(a.ignored);
     return status;

@@ -1,9 +1,9 @@
 /* accept.c - see accept.h. */
 #include "accept.h"
+#include "copy_file.h"
 #include "digest_file.h"
 #include "report.h"
 #include "same_bytes.h"
-#include "whole_file.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -133,22 +133,6 @@ static bool compare(accepting *a, record_error *error)
 }
 
 /* ---- Doing it ------------------------------------------------------------------------------------------------ */
-
-static bool copy_file(const char *from, const char *to, record_error *error)
-{
-    char *bytes, reason[WHOLE_FILE_REASON];
-    size_t size;
-    part_file file;
-    if (!whole_file_read(from, &bytes, &size, reason))
-        return record_fail(error, "%s: %s", from, reason);
-    bool ok = part_open(&file, to, error);
-    if (ok) {
-        fwrite(bytes, 1, size, file.stream); /* part_close tells */
-        ok = part_close(&file, error);
-    }
-    free(bytes);
-    return ok;
-}
 
 static bool remove_file(const char *path, record_error *error)
 {

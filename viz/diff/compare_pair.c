@@ -1,7 +1,7 @@
 /* compare_pair.c - see compare_pair.h. */
 #include "compare_pair.h"
 #include "digest_file.h"
-#include "parallel.h"
+#include "read_pair.h"
 #include "same_bytes.h"
 
 #include <string.h>
@@ -19,36 +19,21 @@ bool compare_bytes(diff_pair *pair)
     return true;
 }
 
-/* Both frames of a pair while they are read. */
-typedef struct reading {
-    const diff_frame *frames[2];
-    image_color background;
-    image images[2];
-    image_error errors[2];
-    bool read[2];
-} reading;
-
-static void read_one(size_t i, void *context)
-{
-    reading *r = context;
-    r->read[i] = image_read_png_over(r->frames[i]->path, r->background, &r->images[i], &r->errors[i]);
-}
-
 static void find_unreadable(diff_pair *pair, const image_error *error)
 {
     pair->finding = FOUND_UNREADABLE;
     pair->trouble = strdup(error->text); /* without memory there is no sentence: reports can do without */
 }
 
-static void judge(diff_pair *pair, const diff_options *options, const reading *r)
+static void judge(diff_pair *pair, const diff_options *options, const image images[2])
 {
     image_tolerance tolerance = options->tolerance;
     tolerance.ignored = pair->ignored;
     tolerance.ignored_count = pair->ignored_count;
-    pair->difference = image_compare_within(&r->images[0], &r->images[1], &tolerance);
-    pair->transparent = r->images[0].transparent || r->images[1].transparent;
+    pair->difference = image_compare_within(&images[0], &images[1], &tolerance);
+    pair->transparent = images[0].transparent || images[1].transparent;
     for (int i = 0; i < 2; i++)
-        pair->about[i] = (frame_digest){.width = r->images[i].width, .height = r->images[i].height};
+        pair->about[i] = (frame_digest){.width = images[i].width, .height = images[i].height};
     if (!pair->difference.same_size)
         pair->finding = FOUND_SIZE;
     else if (image_same(&pair->difference))
@@ -61,14 +46,15 @@ static void judge(diff_pair *pair, const diff_options *options, const reading *r
 
 static void compare_pictures(diff_pair *pair, const diff_options *options)
 {
-    reading r = {.frames = {pair->a, pair->b}, .background = options->background};
-    parallel_for(2, 2, read_one, &r);
-    if (r.read[0] && r.read[1])
-        judge(pair, options, &r);
-    else
-        find_unreadable(pair, &r.errors[r.read[0] ? 1 : 0]);
-    image_release(&r.images[0]);
-    image_release(&r.images[1]);
+    image images[2];
+    image_error error;
+    if (!read_pair(pair, options->background, images, &error)) {
+        find_unreadable(pair, &error);
+        return;
+    }
+    judge(pair, options, images);
+    image_release(&images[0]);
+    image_release(&images[1]);
 }
 
 static void compare_digests(diff_pair *pair, const diff_options *options)

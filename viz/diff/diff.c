@@ -1,6 +1,7 @@
 /* diff.c - see diff.h. */
 #include "diff.h"
 #include "compare_pair.h"
+#include "explain.h"
 #include "parallel.h"
 #include "text_layer.h"
 
@@ -51,8 +52,12 @@ void diff_release(diff_result *result)
     for (size_t i = 0; i < result->count; i++) {
         free(result->pairs[i].ignored);
         free(result->pairs[i].trouble);
+        free(result->pairs[i].cause);
     }
     free(result->pairs);
+    free(result->headline);
+    free(result->trouble);
+    explanation_free(result->explanation);
     *result = (diff_result){0};
 }
 

@@ -47,7 +47,9 @@ typedef struct diff_pair {
     image_difference difference; /* where both were decoded */
     image_rectangle *ignored;    /* the tolerance's, and those of text; owned */
     size_t ignored_count;
-    char *trouble; /* the sentence of what is unreadable; owned */
+    char *trouble;   /* the sentence of what is unreadable; owned */
+    char *cause;     /* one sentence: why they differ; null where none is known; owned */
+    bool only_drawn; /* both frames show the same scene, as they were drawn */
 } diff_pair;
 
 typedef struct diff_result {
@@ -55,6 +57,9 @@ typedef struct diff_result {
     size_t count;
     size_t found[DIFF_FINDINGS]; /* pairs of each finding */
     diff_verdict verdict;
+    char *headline;                  /* one line: why the sides differ; null where none is known; owned */
+    char *trouble;                   /* the sentence of why nobody can say; owned */
+    struct explanation *explanation; /* of two recordings that differ; see explain.h; owned */
 } diff_result;
 
 /* Compare b with the reference a. Identical files are told by their bytes, on all cores; what is left is decoded, each

@@ -1,5 +1,6 @@
 /* report.c - a comparison for people. See report.h. */
 #include "report.h"
+#include "explain.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -11,8 +12,7 @@ const char *diff_verdict_name(diff_verdict verdict)
     return names[verdict];
 }
 
-/* Rounded up, so that what is printed is enough to forgive it. */
-static double shown_delta(double delta)
+double diff_shown_delta(double delta)
 {
     return ceil(delta * 1e4) / 1e4;
 }
@@ -36,8 +36,8 @@ static void print_worst(FILE *out, const image_difference *d)
     if (tally->pixels == 0)
         return;
     fprintf(out, "; worst %.4f " IMAGE_DELTA_UNIT " at (%d,%d), channels by up to %d of %d; within (%d,%d)-(%d,%d)",
-            shown_delta(tally->worst_delta), tally->worst_x, tally->worst_y, tally->largest_channel, d->channel_range,
-            tally->min_x, tally->min_y, tally->max_x, tally->max_y);
+            diff_shown_delta(tally->worst_delta), tally->worst_x, tally->worst_y, tally->largest_channel,
+            d->channel_range, tally->min_x, tally->min_y, tally->max_x, tally->max_y);
 }
 
 static void print_pixels(FILE *out, const diff_pair *pair)
@@ -51,10 +51,9 @@ static void print_pixels(FILE *out, const diff_pair *pair)
     print_worst(out, d);
 }
 
-void diff_print_pair(FILE *out, const diff_pair *pair)
+void diff_print_difference(FILE *out, const diff_pair *pair)
 {
     const frame_digest *about = pair->about;
-    fprintf(out, "%s: ", diff_pair_name(pair));
     switch (pair->finding) {
     case FOUND_PIXELS:
         print_pixels(out, pair);
@@ -85,9 +84,15 @@ void diff_print_pair(FILE *out, const diff_pair *pair)
     }
 }
 
+void diff_print_pair(FILE *out, const diff_pair *pair)
+{
+    fprintf(out, "%s: ", diff_pair_name(pair));
+    diff_print_difference(out, pair);
+}
+
 /* ---- All of them --------------------------------------------------------------------------------------------- */
 
-static bool is_listed(diff_finding finding)
+bool diff_is_listed(diff_finding finding)
 {
     return finding != FOUND_SAME_BYTES && finding != FOUND_SAME_PIXELS;
 }
@@ -97,7 +102,7 @@ static const char *plural(size_t count)
     return count == 1 ? "" : "s";
 }
 
-static size_t count_different(const diff_result *result)
+size_t diff_count_different(const diff_result *result)
 {
     size_t count = 0;
     for (int i = 0; i < DIFF_FINDINGS; i++)
@@ -106,9 +111,9 @@ static size_t count_different(const diff_result *result)
     return count;
 }
 
-static void print_verdict(FILE *out, const diff_result *result)
+void diff_print_verdict(FILE *out, const diff_result *result)
 {
-    const size_t *found = result->found, different = count_different(result);
+    const size_t *found = result->found, different = diff_count_different(result);
     fprintf(out, "%s: ", diff_verdict_name(result->verdict));
     if (different)
         fprintf(out, "%zu of ", different);
@@ -123,23 +128,36 @@ static void print_verdict(FILE *out, const diff_result *result)
                 found[FOUND_SAME_PIXELS] == 1 ? "its" : "their");
     if (found[FOUND_WITHIN])
         fprintf(out, ", %zu forgiven", found[FOUND_WITHIN]);
-    fputc('\n', out);
 }
 
 static void print_pairs(FILE *out, const diff_result *result)
 {
     size_t listed = 0;
     for (size_t i = 0; i < result->count; i++) {
-        if (!is_listed(result->pairs[i].finding))
+        if (!diff_is_listed(result->pairs[i].finding))
             continue;
         if (listed++ >= DIFF_REPORT_LINES)
             continue;
         fputs("  ", out);
         diff_print_pair(out, &result->pairs[i]);
         fputc('\n', out);
+        if (result->pairs[i].cause)
+            fprintf(out, "    %s\n", result->pairs[i].cause);
     }
     if (listed > DIFF_REPORT_LINES)
         fprintf(out, "  ... and %zu more; --json lists all\n", listed - DIFF_REPORT_LINES);
+}
+
+/* Recordings are explained up to a number of frames. */
+static void print_unexplained(FILE *out, const diff_result *result)
+{
+    size_t more = 0;
+    for (size_t i = 0; result->explanation && i < result->count; i++)
+        more += explain_is_unlike(&result->pairs[i]) && !result->pairs[i].cause;
+    if (more)
+        fprintf(out, "  %zu of these %s left unexplained; --causes all tells more\n", more, more == 1 ? "is" : "are");
+    if (result->explanation && *result->explanation->tracer.untraced)
+        fprintf(out, "  nothing is traced to what is drawn: %s\n", result->explanation->tracer.untraced);
 }
 
 static bool any_transparent(const diff_result *result)
@@ -157,7 +175,7 @@ static void separate(FILE *out, bool *first)
     *first = false;
 }
 
-static void print_tolerance(FILE *out, const diff_report *report)
+void diff_print_tolerance(FILE *out, const diff_report *report)
 {
     const image_tolerance *t = &report->options->tolerance;
     const image_color ground = report->options->background;
@@ -187,12 +205,18 @@ static void print_tolerance(FILE *out, const diff_report *report)
         fputs("compared exactly", out);
     if (any_transparent(report->result))
         fprintf(out, "; transparent pixels lie over #%02x%02x%02x", ground.r, ground.g, ground.b);
-    fputc('\n', out);
 }
 
 void diff_report_text(FILE *out, const diff_report *report)
 {
-    print_verdict(out, report->result);
+    diff_print_verdict(out, report->result);
+    fputc('\n', out);
+    if (report->result->headline)
+        fprintf(out, "%s\n", report->result->headline);
     print_pairs(out, report->result);
-    print_tolerance(out, report);
+    print_unexplained(out, report->result);
+    diff_print_tolerance(out, report);
+    fputc('\n', out);
+    if (report->evidence)
+        fprintf(out, "evidence: %s/" EVIDENCE_PAGE "\n", report->evidence->folder);
 }

@@ -1,8 +1,9 @@
-/* report_json.c - a comparison for programs. See report.h. */
-#include "report.h"
-#include "json_write.h"
+/* report_json.c - a comparison for programs. See report.h and report_json.h. */
+#include "report_json.h"
+#include "cause_json.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 
 static void write_bool(json_writer *w, const char *key, bool value)
 {
@@ -91,9 +92,8 @@ static void write_digest(json_writer *w, const char *key, const frame_digest *di
     json_member_text(w, key, text);
 }
 
-static void write_finding(json_writer *w, const diff_pair *pair)
+void diff_json_finding(json_writer *w, const diff_pair *pair)
 {
-    json_write_begin_object(w);
     json_member_text(w, "frame", diff_pair_name(pair));
     json_member_text(w, "finding", diff_finding_name(pair->finding));
     if (pair->about[0].width)
@@ -108,7 +108,38 @@ static void write_finding(json_writer *w, const diff_pair *pair)
     }
     if (pair->trouble)
         json_member_text(w, "trouble", pair->trouble);
+    if (pair->cause)
+        json_member_text(w, "cause", pair->cause);
+}
+
+static void write_evidence(json_writer *w, const diff_report *report, size_t i)
+{
+    json_write_key(w, "evidence");
+    json_write_begin_object(w);
+    for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
+        char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
+        if (path)
+            json_member_text(w, evidence_word((evidence_picture)picture), path);
+        free(path);
+    }
     json_write_end_object(w);
+}
+
+static void write_findings(json_writer *w, const diff_report *report)
+{
+    json_write_key(w, "findings");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < report->result->count; i++) {
+        const diff_pair *pair = &report->result->pairs[i];
+        if (!diff_is_listed(pair->finding))
+            continue;
+        json_write_begin_object(w);
+        diff_json_finding(w, pair);
+        if (report->evidence && report->evidence->pictures[i])
+            write_evidence(w, report, i);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
 }
 
 static void write_counts(json_writer *w, const diff_result *result)
@@ -121,22 +152,44 @@ static void write_counts(json_writer *w, const diff_result *result)
     json_write_end_object(w);
 }
 
-void diff_report_json(FILE *out, const diff_report *report)
+void diff_json_summary(json_writer *w, const diff_report *report)
 {
     const diff_result *result = report->result;
-    json_writer writer = {.out = out}, *w = &writer;
-    json_write_begin_object(w);
     json_member_text(w, "verdict", diff_verdict_name(result->verdict));
+    if (result->headline)
+        json_member_text(w, "headline", result->headline);
+    if (result->trouble)
+        json_member_text(w, "trouble", result->trouble);
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
     write_tolerance(w, report->options);
     write_counts(w, result);
-    json_write_key(w, "findings");
-    json_write_begin_array(w);
-    for (size_t i = 0; i < result->count; i++)
-        if (result->pairs[i].finding != FOUND_SAME_BYTES && result->pairs[i].finding != FOUND_SAME_PIXELS)
-            write_finding(w, &result->pairs[i]);
-    json_write_end_array(w);
+}
+
+static void write_place(json_writer *w, const evidence *e)
+{
+    char *page = folder_path(e->folder, EVIDENCE_PAGE);
+    json_write_key(w, "evidence");
+    json_write_begin_object(w);
+    json_member_text(w, "folder", e->folder);
+    if (page)
+        json_member_text(w, "page", page);
+    json_write_end_object(w);
+    free(page);
+}
+
+void diff_report_json(FILE *out, const diff_report *report)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    json_write_begin_object(w);
+    diff_json_summary(w, report);
+    if (report->evidence)
+        write_place(w, report->evidence);
+    write_findings(w, report);
+    if (report->result->explanation) {
+        json_write_key(w, "cause");
+        cause_write_json(w, report->result->explanation);
+    }
     json_write_end_object(w);
     json_write_end_line(w);
 }

@@ -1,15 +1,10 @@
-/* compare.c - the difference of two images: counting, judging, drawing. */
+/* compare.c - the difference of two images: counting and judging. */
 #include "antialias.h"
-#include "delta.h"
+#include "samples.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Colours are compared in spans of this many pixels, small enough for the stack and the first cache. */
-#define SPAN 128
-
-static const image_color UNLIKE_COLOR = {255, 0, 0};
 
 /* Two images while they are compared. */
 typedef struct comparison {
@@ -41,32 +36,9 @@ static bool stored_alike(const image *a, const image *b)
 
 /* ---- Counting ------------------------------------------------------------------------------------------------ */
 
-/* Samples of `count` pixels, as wide as the wider of both images has them. */
-static void read_span(const image *image, size_t n, int count, int range, pixel_samples span[SPAN])
-{
-    const size_t step = image_pixel_size(image);
-    const unsigned scale = range == 65535 ? 257 : 1;
-    const uint8_t *at = image->pixels + n * step;
-    if (image->wide) {
-        memcpy(span, at, (size_t)count * sizeof *span);
-        return;
-    }
-    for (int i = 0; i < count; i++, at += step) {
-        const image_color color =
-            image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]};
-        span[i] =
-            (pixel_samples){{(uint16_t)(color.r * scale), (uint16_t)(color.g * scale), (uint16_t)(color.b * scale)}};
-    }
-}
-
-static bool equal_samples(const pixel_samples *a, const pixel_samples *b)
-{
-    return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
-}
-
 static void measure(comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
-    if (equal_samples(a, &c->last[0]) && equal_samples(b, &c->last[1]))
+    if (samples_equal(a, &c->last[0]) && samples_equal(b, &c->last[1]))
         return;
     c->last[0] = *a;
     c->last[1] = *b;
@@ -93,21 +65,11 @@ static void add_pixel(image_tally *tally, int x, int y, const comparison *c)
     tally->max_y = y; /* rows come in order */
 }
 
-static bool is_ignored(const image_tolerance *tolerance, int x, int y)
-{
-    for (size_t i = 0; i < tolerance->ignored_count; i++) {
-        const image_rectangle *r = &tolerance->ignored[i];
-        if (x >= r->x && y >= r->y && x - r->x < r->width && y - r->y < r->height)
-            return true;
-    }
-    return false;
-}
-
 static void count_pixel(comparison *c, int x, int y, const pixel_samples *a, const pixel_samples *b)
 {
     const image_tolerance *tolerance = c->tolerance;
     image_difference *difference = c->difference;
-    if (is_ignored(tolerance, x, y)) {
+    if (tolerance_ignores(tolerance, x, y)) {
         difference->ignored++;
         return;
     }
@@ -130,10 +92,10 @@ static void count_row(comparison *c, int y, bool alike)
         const size_t n = (size_t)y * (size_t)c->a->width + (size_t)x;
         if (alike && memcmp(c->a->pixels + n * step, c->b->pixels + n * step, (size_t)count * step) == 0)
             continue;
-        read_span(c->a, n, count, c->difference->channel_range, span_a);
-        read_span(c->b, n, count, c->difference->channel_range, span_b);
+        samples_read(c->a, n, count, c->difference->channel_range, span_a);
+        samples_read(c->b, n, count, c->difference->channel_range, span_b);
         for (int i = 0; i < count; i++)
-            if (!equal_samples(&span_a[i], &span_b[i]))
+            if (!samples_equal(&span_a[i], &span_b[i]))
                 count_pixel(c, x + i, y, &span_a[i], &span_b[i]);
     }
 }
@@ -143,7 +105,7 @@ image_difference image_compare_within(const image *a, const image *b, const imag
     static const image_tally none = {.worst_x = -1, .worst_y = -1, .min_x = -1, .min_y = -1, .max_x = -1, .max_y = -1};
     image_difference difference = {
         .same_size = a->width == b->width && a->height == b->height,
-        .channel_range = a->wide || b->wide ? 65535 : 255,
+        .channel_range = samples_range(a, b),
         .unlike = none,
         .counted = none,
     };
@@ -172,31 +134,4 @@ bool image_same(const image_difference *difference)
 bool image_forgiven(const image_difference *difference, const image_tolerance *tolerance)
 {
     return difference->same_size && difference->counted.pixels <= tolerance->max_pixels;
-}
-
-/* ---- Drawing ------------------------------------------------------------------------------------------------- */
-
-/* A light grey, so that nothing but a difference is coloured. */
-static image_color faint(image_color color)
-{
-    int grey = (77 * color.r + 150 * color.g + 29 * color.b) / 256;
-    uint8_t light = (uint8_t)(255 - (255 - grey) / 4);
-    return (image_color){light, light, light};
-}
-
-bool image_draw_difference(const image *a, const image *b, image *out)
-{
-    if (!image_create(out, smaller(a->width, b->width), smaller(a->height, b->height), 3))
-        return false;
-    uint8_t *at = out->pixels;
-    for (int y = 0; y < out->height; y++) {
-        for (int x = 0; x < out->width; x++, at += 3) {
-            image_color color_a = image_color_at(a, x, y);
-            image_color color_b = image_color_at(b, x, y);
-            bool unlike = memcmp(&color_a, &color_b, sizeof color_a) != 0;
-            image_color drawn = unlike ? UNLIKE_COLOR : faint(color_a);
-            memcpy(at, &drawn, 3);
-        }
-    }
-    return true;
 }

@@ -72,6 +72,17 @@ typedef struct image_text {
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
                      image_error *error);
 
+/* A picture that is made while it is written, so that it never is in memory whole. */
+typedef struct image_rows {
+    int width, height;            /* at least 1; PNG readers may refuse what is larger than IMAGE_MAX_SIDE */
+    const image_palette *palette; /* of one byte a pixel, whose indices all have a colour; null: r, g, b */
+    const uint8_t *(*row)(int y, void *context); /* asked for from the top down; stays valid until the next one */
+    void *context;
+} image_rows;
+
+/* Write it as image_write_png() does. */
+bool image_write_png_rows(const image_rows *rows, const char *path, image_error *error);
+
 /* The libraries that write the files, and their versions at run time. Returns `text`. */
 #define IMAGE_LIBRARY_TEXT 64
 char *image_library(char text[IMAGE_LIBRARY_TEXT]);
@@ -151,8 +162,11 @@ image_difference image_compare_within(const image *a, const image *b, const imag
 bool image_same(const image_difference *difference);
 bool image_forgiven(const image_difference *difference, const image_tolerance *tolerance);
 
-/* A picture of the difference: unlike pixels in red over a faint grey copy of `a`. Created in RGB at the common size:
- * where sizes are unlike, the part that both have, from the top left corner. False when there is no memory. */
-bool image_draw_difference(const image *a, const image *b, image *out);
+/* A picture of the difference, row by row: what counts glows, from orange for one level to white for the largest, over
+ * a dim grey copy of `a`; what is forgiven is blue; what only one of both images has, where their sizes are unlike, is
+ * violet, and nothing is forgiven then. `row` receives an index of the palette for each pixel of the longer row; y is a
+ * row of the taller image. */
+image_palette image_difference_palette(void);
+void image_difference_row(const image *a, const image *b, const image_tolerance *tolerance, int y, uint8_t *row);
 
 #endif

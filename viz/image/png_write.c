@@ -14,7 +14,7 @@
 
 /* What goes into the file. */
 typedef struct content {
-    const image *image;
+    const image_rows *rows;
     const image_text *texts;
     size_t text_count;
 } content;
@@ -44,19 +44,20 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t size)
         png_error(png, strerror(errno));
 }
 
-static void set_header(png_structp png, png_infop info, const image *image)
+static void set_header(png_structp png, png_infop info, const image_rows *rows)
 {
-    bool indexed = image->channels == 1;
-    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
+    const image_palette *palette = rows->palette;
+    bool indexed = palette != NULL;
+    png_set_IHDR(png, info, (png_uint_32)rows->width, (png_uint_32)rows->height, 8,
                  indexed ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE,
                  PNG_FILTER_TYPE_BASE);
     if (indexed) {
         png_color colors[256];
-        for (int i = 0; i < image->palette.count; i++) {
-            image_color color = image->palette.colors[i];
+        for (int i = 0; i < palette->count; i++) {
+            image_color color = palette->colors[i];
             colors[i] = (png_color){color.r, color.g, color.b};
         }
-        png_set_PLTE(png, info, colors, image->palette.count);
+        png_set_PLTE(png, info, colors, palette->count);
     }
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
     png_set_compression_level(png, 1);
@@ -76,11 +77,10 @@ static void set_texts(png_structp png, png_infop info, const image_text *texts, 
     }
 }
 
-static void write_rows(png_structp png, const image *image)
+static void write_rows(png_structp png, const image_rows *rows)
 {
-    size_t row_size = (size_t)image->width * (size_t)image->channels;
-    for (int y = 0; y < image->height; y++)
-        png_write_row(png, image->pixels + (size_t)y * row_size);
+    for (int y = 0; y < rows->height; y++)
+        png_write_row(png, rows->row(y, rows->context));
 }
 
 /* The function that libpng's errors jump back to; nothing in it changes between setjmp and jump. */
@@ -89,10 +89,10 @@ static bool write_chunks(png_structp png, png_infop info, const content *content
     if (setjmp(png_jmpbuf(png)) != 0)
         return false;
     png_set_write_fn(png, file, write_bytes, NULL);
-    set_header(png, info, content->image);
+    set_header(png, info, content->rows);
     set_texts(png, info, content->texts, content->text_count);
     png_write_info(png, info);
-    write_rows(png, content->image);
+    write_rows(png, content->rows);
     png_write_end(png, NULL);
     return true;
 }
@@ -131,6 +131,26 @@ static bool write_by_rename(const content *content, const char *part, image_faul
     return whole;
 }
 
+static bool write_content(const content *content, image_fault *fault)
+{
+    if (!is_replaceable(fault->path))
+        return image_fault_report(fault, "cannot be replaced: ", "it is there, and is not a regular file");
+    size_t part_size = strlen(fault->path) + sizeof ".part";
+    char *part = malloc(part_size);
+    if (part == NULL)
+        return image_fault_report(fault, "", strerror(ENOMEM));
+    snprintf(part, part_size, "%s.part", fault->path);
+    bool written = write_by_rename(content, part, fault);
+    free(part);
+    return written;
+}
+
+static const uint8_t *row_of_image(int y, void *context)
+{
+    const image *image = context;
+    return image->pixels + (size_t)y * (size_t)image->width * (size_t)image->channels;
+}
+
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
                      image_error *error)
 {
@@ -138,17 +158,18 @@ bool image_write_png(const image *image, const char *path, const image_text *tex
     const char *reason = refusal(image);
     if (reason != NULL)
         return image_fault_report(&fault, "", reason);
-    if (!is_replaceable(path))
-        return image_fault_report(&fault, "cannot be replaced: ", "it is there, and is not a regular file");
-    size_t part_size = strlen(path) + sizeof ".part";
-    char *part = malloc(part_size);
-    if (part == NULL)
-        return image_fault_report(&fault, "", strerror(ENOMEM));
-    snprintf(part, part_size, "%s.part", path);
-    content content = {image, texts, text_count};
-    bool written = write_by_rename(&content, part, &fault);
-    free(part);
-    return written;
+    const image_rows rows = {.width = image->width,
+                             .height = image->height,
+                             .palette = image->channels == 1 ? &image->palette : NULL,
+                             .row = row_of_image,
+                             .context = (void *)image}; /* which is only read */
+    return write_content(&(content){&rows, texts, text_count}, &fault);
+}
+
+bool image_write_png_rows(const image_rows *rows, const char *path, image_error *error)
+{
+    image_fault fault = {path, error};
+    return write_content(&(content){.rows = rows}, &fault);
 }
 
 char *image_library(char text[IMAGE_LIBRARY_TEXT])

@@ -117,15 +117,43 @@ bool frame_read_tick(const char *path, uint64_t *tick, record_error *error)
     return record_fail(error, "%s: is no frame of a recording: it has no text %s", path, tick_keyword);
 }
 
-bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
+static bool read_digest(const char *path, const char *keyword, uint64_t *digest)
+{
+    char text[DIGEST_TEXT];
+    const bool told = image_read_text(path, keyword, text, sizeof text);
+    if (told)
+        *digest = strtoull(text, NULL, 16);
+    return told;
+}
+
+static bool read_tick_digest(const char *folder, uint64_t tick, const char *keyword, uint64_t *digest)
 {
     record_error ignored;
-    char text[DIGEST_TEXT], *path = frame_path(folder, tick, &ignored);
-    const bool told = path && image_read_text(path, session_keyword, text, sizeof text);
-    if (told)
-        *session = strtoull(text, NULL, 16);
+    char *path = frame_path(folder, tick, &ignored);
+    const bool told = path && read_digest(path, keyword, digest);
     free(path);
     return told;
+}
+
+bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
+{
+    return read_tick_digest(folder, tick, session_keyword, session);
+}
+
+bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene)
+{
+    return read_tick_digest(folder, tick, scene_keyword, scene);
+}
+
+bool frame_read_origin(const char *path, frame_origin *origin)
+{
+    char tick[NUMBER_SIZE];
+    *origin = (frame_origin){0};
+    if (!image_read_text(path, tick_keyword, tick, sizeof tick))
+        return false;
+    origin->tick = strtoull(tick, NULL, 10);
+    return read_digest(path, session_keyword, &origin->session) && read_digest(path, scene_keyword, &origin->scene) &&
+           read_digest(path, pixels_keyword, &origin->pixels);
 }
 
 bool frame_check(const char *folder, frame_origin *origin, record_error *error)

@@ -31,6 +31,13 @@ bool frame_read_tick(const char *path, uint64_t *tick, record_error *error);
 /* The session that the frame of a tick says it is of. False where it is not there or says nothing. */
 bool frame_session(const char *folder, uint64_t tick, uint64_t *session);
 
+/* The same for the digest of the scene that it shows. */
+bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene);
+
+/* What a frame of any name says of itself: its tick, and the digests of its session, its scene and its pixels. False
+ * where something of it is missing. */
+bool frame_read_origin(const char *path, frame_origin *origin);
+
 /* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
  * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
 bool frame_check(const char *folder, frame_origin *origin, record_error *error);

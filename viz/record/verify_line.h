@@ -1,5 +1,4 @@
-/* verify_line.h - the lines of a ticks.jsonl one by one, whatever they hold, and in what one differs from another.
- * Private to verify.c. */
+/* verify_line.h - the lines of a ticks.jsonl one by one, whatever they hold, and in what one differs from another. */
 #ifndef RECORD_VERIFY_LINE_H
 #define RECORD_VERIFY_LINE_H
 

@@ -60,3 +60,80 @@ char *browser_open(const temp_folder *own, const char *path, const char *hash)
     free(result.err);
     return page;
 }
+
+/* ---- Pages that a script uses -------------------------------------------------------------------------------- */
+
+/* &amp; &lt; and &gt; in place. */
+static void decode(char *text)
+{
+    static const struct {
+        const char *name;
+        char character;
+    } names[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}};
+    char *to = text;
+    while (*text != '\0') {
+        size_t length = 1;
+        char character = *text;
+        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+            if (strncmp(text, names[i].name, strlen(names[i].name)) == 0) {
+                length = strlen(names[i].name);
+                character = names[i].character;
+            }
+        *to++ = character;
+        text += length;
+    }
+    *to = '\0';
+}
+
+/* "driven.html" beside the page. */
+static place write_driven_page(const char *page, const char *script)
+{
+    place driven;
+    const char *slash = strrchr(page, '/');
+    snprintf(driven.path, sizeof driven.path, "%.*sdriven.html", slash == NULL ? 0 : (int)(slash + 1 - page), page);
+    char *page_text = file_read(page, NULL), *script_text = file_read(script, NULL);
+    FILE *file = fopen(driven.path, "w");
+    assert_non_null(file);
+    fprintf(file, "%s<script>\n%s</script>\n", page_text, script_text);
+    assert_int_equal(fclose(file), 0);
+    free(page_text);
+    free(script_text);
+    return driven;
+}
+
+char *browser_drive(const temp_folder *own, const char *page, const char *script)
+{
+    static const char begin[] = "<pre id=\"said\">";
+    const place driven = write_driven_page(page, script);
+    char *text = browser_open(own, driven.path, ""), *said = strstr(text, begin);
+    if (said == NULL)
+        fail_msg("the page did not come to its end: %.2000s", text);
+    *strstr(said, "</pre>") = '\0';
+    decode(said);
+    const size_t length = strlen(said + sizeof begin - 1);
+    char *lines = malloc(length + 2);
+    assert_non_null(lines);
+    lines[0] = '\n';
+    memcpy(lines + 1, said + sizeof begin - 1, length + 1);
+    free(text);
+    return lines;
+}
+
+char *said_about(const char *said, const char *what)
+{
+    char line[128];
+    const int length = snprintf(line, sizeof line, "\n%s\t", what);
+    const char *found = strstr(said, line);
+    if (found == NULL)
+        fail_msg("nothing is said about %s", what);
+    found += length;
+    return strndup(found, strcspn(found, "\n"));
+}
+
+void assert_said_about(const char *said, const char *what, const char *expected)
+{
+    char *value = said_about(said, what);
+    if (strcmp(value, expected) != 0)
+        fail_msg("%s: \"%s\" and not \"%s\"", what, value, expected);
+    free(value);
+}

@@ -1,5 +1,7 @@
-# embed.cmake - the page as a C array: index.html with its style and scripts put where it names them, cut in two where
-# a recording's facts go.  cmake -D SOURCE=index.html -D OUTPUT=viewer_page.c -P embed.cmake
+# embed_page.cmake - a page as C arrays: the HTML with its style and scripts put where it names them, cut in two where
+# facts go.  cmake -D SOURCE=viewer/index.html -D OUTPUT=viewer_page.c -P embed_page.cmake  makes viewer_page_head and
+# viewer_page_tail, which viewer_page.h declares.
+get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)
 file(READ ${SOURCE} page)
 
@@ -7,10 +9,10 @@ file(READ ${SOURCE} page)
 macro(inline element regex)
   string(REGEX MATCHALL "${regex}" tags "${page}")
   foreach(tag ${tags})
-    string(REGEX REPLACE "${regex}" "\\1" name "${tag}")
-    file(READ ${folder}/${name} text)
+    string(REGEX REPLACE "${regex}" "\\1" part "${tag}")
+    file(READ ${folder}/${part} text)
     if(text MATCHES "</${element}")
-      message(FATAL_ERROR "${name}: \"</${element}\" would end the element that it is put into")
+      message(FATAL_ERROR "${part}: \"</${element}\" would end the element that it is put into")
     endif()
     string(REPLACE "${tag}" "<${element}>\n${text}</${element}>" page "${page}")
   endforeach()
@@ -28,12 +30,12 @@ string(SUBSTRING "${page}" ${behind} -1 tail)
 
 # Bytes and not a string literal, of which C promises 4095 characters and no more.
 string(REPEAT "." 80 row) # sixteen bytes
-set(source "#include \"viewer_page.h\"\n")
+set(source "#include \"${name}.h\"\n")
 foreach(part head tail)
   string(HEX "${${part}}" bytes)
   string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
   string(REGEX REPLACE "(${row})" "\\1\n" bytes "${bytes}")
-  string(APPEND source "\nconst unsigned char viewer_page_${part}[] = {\n${bytes}\n};\n"
-                       "const size_t viewer_page_${part}_size = sizeof viewer_page_${part};\n")
+  string(APPEND source "\nconst unsigned char ${name}_${part}[] = {\n${bytes}\n};\n"
+                       "const size_t ${name}_${part}_size = sizeof ${name}_${part};\n")
 endforeach()
 file(WRITE ${OUTPUT} "${source}")

@@ -1,0 +1,337 @@
+/* test_cause_sessions.c - in what two sessions differ, and the line that says so: every part of a session in turn. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cause_words.h"
+#include "fixture.h"
+#include "game_fixture.h"
+#include "sentence.h"
+
+/* A session that a test may change in any part. */
+typedef struct variant {
+    octree_session session;
+    octree_body bodies[16];
+    octree_edit edits[8];
+    octree_query queries[4];
+} variant;
+
+static const octree_body some_bodies[] = {
+    {1, {1, 2, 3}, {0, 0, 0}}, {2, {-4, 5, -6}, {0, 0, 0}}, {3, {7, 7, 7}, {0, 0, 0}}, {4, {8, 7, 7}, {0, 0, 0}}};
+
+static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {1, {1, 2, 4}, {0, 0, 0}}},
+                                         {2, OCTREE_EDIT_INSERT, {9, {9, 9, 9}, {0, 0, 0}}},
+                                         {4, OCTREE_EDIT_REMOVE, {2, {0, 0, 0}, {0, 0, 0}}}};
+
+static void make_variant(variant *v)
+{
+    *v = (variant){.session = small_session(v->bodies, 4)};
+    memcpy(v->bodies, some_bodies, sizeof some_bodies);
+    memcpy(v->edits, some_edits, sizeof some_edits);
+    v->queries[0] = (octree_query){.tick = 3, .kind = OCTREE_QUERY_RADIUS, .radius = 5};
+    v->queries[1] =
+        (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-5, -5, -5}, {5, 5, 5}}};
+    v->session.keys = "wdwa";
+    v->session.ticks = 6;
+    v->session.edits = v->edits;
+    v->session.edit_count = 3;
+    v->session.queries = v->queries;
+    v->session.query_count = 2;
+}
+
+static char *headline_of(const variant *a, const variant *b)
+{
+    const cause_wanted wanted = {.first = 1};
+    record_error error = {""};
+    char *text;
+    cause c;
+    sentence s;
+    if (!cause_find(&a->session, &b->session, NULL, &wanted, NULL, NULL, &c, &error))
+        fail_msg("%s", error.text);
+    assert_true(sentence_begin(&s));
+    cause_print_headline(s.stream, &c);
+    assert_true(sentence_end(&s, &text));
+    cause_release(&c);
+    return text;
+}
+
+static void assert_says(void change(variant *v), const char *expected)
+{
+    static variant a, b;
+    make_variant(&a);
+    make_variant(&b);
+    change(&b);
+    char *text = headline_of(&a, &b);
+    if (strcmp(text ? text : "", expected) != 0)
+        fail_msg("it says \"%s\" and not \"%s\"", text ? text : "", expected);
+    free(text);
+}
+
+/* ---- Options ------------------------------------------------------------------------------------------------- */
+
+static void set_world(variant *v)
+{
+    v->session.tree.world.max[2] = 12.5;
+}
+
+static void set_capacity(variant *v)
+{
+    v->session.tree.leaf_capacity = 8;
+}
+
+static void set_depth(variant *v)
+{
+    v->session.tree.max_depth = 0;
+}
+
+static void set_rule(variant *v)
+{
+    v->session.tree.full_leaf = OCTREE_GROW;
+}
+
+static void set_player(variant *v)
+{
+    v->session.player.id = 77;
+}
+
+static void set_start(variant *v)
+{
+    v->session.player.position[0] = 0.5;
+}
+
+static void set_step(variant *v)
+{
+    v->session.player.step = 0.25;
+}
+
+static void set_box(variant *v)
+{
+    v->session.player.box_size = 4;
+}
+
+static void set_sweep(variant *v)
+{
+    v->session.player.sweep = true;
+}
+
+static void set_two(variant *v)
+{
+    set_capacity(v);
+    set_step(v);
+}
+
+static void each_option_is_named_with_both_values(void **state)
+{
+    (void)state;
+    assert_says(set_world, "another world ((-10, -10, -10) to (10, 10, 12.5), was (-10, -10, -10) to (10, 10, 10)): "
+                           "every tick from 0 differs");
+    assert_says(set_capacity, "another leaf capacity (8, was 2): every tick from 0 differs");
+    assert_says(set_depth, "another depth (0, was 5): every tick from 0 differs");
+    assert_says(set_rule, "another rule for full leaves (grow, was refuse): no tick differs");
+    assert_says(set_player, "another player's id (77, was 100): every tick from 0 differs");
+    assert_says(set_start, "another start of the player ((0.5, 0, 0), was (0, 0, 0)): every tick from 0 differs");
+    assert_says(set_step, "another step of the player (0.25, was 1): every tick from 1 differs");
+    assert_says(set_box, "another collision box (4, was 0.5): every tick from 0 differs");
+    assert_says(set_sweep, "another collision test (swept, was at the end of a step): every tick from 0 differs");
+}
+
+static void options_come_before_what_follows_from_them(void **state)
+{
+    (void)state;
+    assert_says(set_two,
+                "another leaf capacity (8, was 2), another step of the player (0.25, was 1): every tick from 0 "
+                "differs");
+}
+
+/* ---- Points -------------------------------------------------------------------------------------------------- */
+
+static void add_body(variant *v)
+{
+    v->bodies[v->session.body_count++] = (octree_body){.id = 5, .position = {9, -9, 9}};
+}
+
+static void drop_body(variant *v)
+{
+    v->bodies[1] = v->bodies[3];
+    v->session.body_count--;
+}
+
+static void move_body(variant *v)
+{
+    v->bodies[2].position[1] = -7;
+}
+
+static void push_body(variant *v)
+{
+    v->bodies[2].velocity[1] = -0.5;
+}
+
+static void swap_bodies(variant *v)
+{
+    v->bodies[0] = some_bodies[1];
+    v->bodies[1] = some_bodies[0];
+}
+
+static void move_all(variant *v)
+{
+    for (size_t i = 0; i < v->session.body_count; i++)
+        v->bodies[i].position[0] -= 0.5;
+}
+
+static void points_at_the_start_are_named(void **state)
+{
+    (void)state;
+    assert_says(add_body, "one more point at the start (point 5 at (9, -9, 9)); tick 0: node 5 born, point 5 added");
+    assert_says(drop_body,
+                "one point fewer at the start (point 2 at (-4, 5, -6)); tick 0: node 2 gone, point 2 removed");
+    assert_says(move_body,
+                "another start of a point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 born, point 3 moved");
+    assert_says(push_body, "another velocity of a point (point 3: (0, -0.5, 0), was (0, 0, 0)); tick 1: point 3 moved");
+    assert_says(swap_bodies, "another order of the points at the start; no tick differs");
+    assert_says(move_all, "4 points start elsewhere (1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
+}
+
+/* ---- Keys ---------------------------------------------------------------------------------------------------- */
+
+static void other_key(variant *v)
+{
+    v->session.keys = "wdsa";
+}
+
+static void other_keys(variant *v)
+{
+    v->session.keys = "dddd";
+}
+
+/* What is missing is a wait. */
+static void waits(variant *v)
+{
+    v->session.keys = "wdwa..";
+}
+
+static void shorter(variant *v)
+{
+    v->session.ticks = 5;
+}
+
+static void quits(variant *v)
+{
+    v->session.keys = "wdq";
+}
+
+static void keys_are_named_by_their_ticks(void **state)
+{
+    (void)state;
+    assert_says(other_key, "another key at tick 3 (s, was w); tick 3: the player at (1, 0, 0) instead of (1, 2, 0)");
+    assert_says(other_keys, "3 other keys (ticks 1, 3 and 4); tick 1: the player at (1, 0, 0) instead of (0, 1, 0)");
+    assert_says(waits, "");
+    assert_says(shorter, "another last tick (5, was 6); the ticks that both have are the same");
+    assert_says(quits, "another last tick (2, was 6); the ticks that both have are the same");
+}
+
+/* ---- Edits --------------------------------------------------------------------------------------------------- */
+
+static void one_more_edit(variant *v)
+{
+    v->edits[3] = (octree_edit){5, OCTREE_EDIT_REMOVE, {.id = 3}};
+    v->session.edit_count++;
+}
+
+static void one_edit_fewer(variant *v)
+{
+    v->session.edit_count--;
+}
+
+static void other_edit(variant *v)
+{
+    v->edits[0].body.position[2] = -4;
+}
+
+static void faster_edit(variant *v)
+{
+    v->edits[1].body.velocity[0] = -1;
+}
+
+static void swap_edits(variant *v)
+{
+    v->edits[0] = some_edits[1];
+    v->edits[1] = some_edits[0];
+}
+
+/* What a removal says of a place means nothing. */
+static void idle_edit(variant *v)
+{
+    v->edits[2].body.position[0] = 5;
+}
+
+static void many_edits(variant *v)
+{
+    for (uint64_t i = 0; i < 4; i++)
+        v->edits[3 + i] = (octree_edit){5, OCTREE_EDIT_INSERT, {.id = 20 + i, .position = {-9, -9, -9 + (double)i}}};
+    v->session.edit_count += 4;
+}
+
+static void edits_are_named_by_tick_and_point(void **state)
+{
+    (void)state;
+    assert_says(one_more_edit, "one more edit at tick 5 (point 3 removed); tick 5: node 7/7 merged, point 3 removed");
+    assert_says(one_edit_fewer, "one edit fewer at tick 4 (point 2 removed); tick 4: node 2 born, point 2 added");
+    assert_says(other_edit, "another edit at tick 2 (point 1 moved to (1, 2, -4), was (1, 2, 4)); tick 2: node 6 born, "
+                            "point 1 moved");
+    assert_says(faster_edit,
+                "another edit at tick 2 (point 9 inserted with velocity (-1, 0, 0), was (0, 0, 0)); tick 2: "
+                "point 9 moved");
+    assert_says(swap_edits, "another order of the edits of tick 2; no tick differs");
+    assert_says(idle_edit, "");
+    assert_says(many_edits,
+                "4 more edits (of points 20, 21, 22 and 23); tick 5: node 0 born, points 20, 21, 22 and 23 added");
+}
+
+/* ---- Queries ------------------------------------------------------------------------------------------------- */
+
+static void one_more_query(variant *v)
+{
+    v->queries[2] = v->queries[1];
+    v->queries[1] = (octree_query){.tick = 4, .kind = OCTREE_QUERY_NEAREST, .target = {1, 1, 1}};
+    v->session.query_count = 3;
+}
+
+static void one_query_fewer(variant *v)
+{
+    v->session.query_count = 1;
+}
+
+static void wider_query(variant *v)
+{
+    v->queries[1].box.max[1] = 8;
+    v->queries[1].box.max[2] = 8;
+    v->queries[1].box.max[0] = 8;
+}
+
+/* A ball has no box. */
+static void idle_query(variant *v)
+{
+    v->queries[0].box.max[0] = 8;
+    v->queries[0].k = 3;
+}
+
+static void queries_are_named_by_kind_and_tick(void **state)
+{
+    (void)state;
+    assert_says(one_more_query, "one more nearest query at tick 4; tick 4: the nearest query asked besides");
+    assert_says(one_query_fewer, "one range query fewer at every tick; tick 0: the range query not asked");
+    assert_says(wider_query, "another range query at every tick; tick 0: 2 more hits in the range query");
+    assert_says(idle_query, "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_option_is_named_with_both_values),
+        cmocka_unit_test(options_come_before_what_follows_from_them),
+        cmocka_unit_test(points_at_the_start_are_named),
+        cmocka_unit_test(keys_are_named_by_their_ticks),
+        cmocka_unit_test(edits_are_named_by_tick_and_point),
+        cmocka_unit_test(queries_are_named_by_kind_and_tick),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

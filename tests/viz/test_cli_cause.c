@@ -1,0 +1,161 @@
+/* test_cli_cause.c - octreel diff of two recordings: the cause in words and as JSON, and exit statuses. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "edits.h"
+#include "fixture.h"
+#include "recordings.h"
+#include "tick_lines.h"
+
+/* A short flight, and the same with another leaf capacity. */
+typedef struct recorded_pair {
+    place a, b;
+} recorded_pair;
+
+static recorded_pair film_pair(const temp_folder *own, size_t capacity)
+{
+    const recorded_pair made = {place_in(own, "a"), place_in(own, "b")};
+    octree_session session = short_session("wdwd");
+    film_options options = small_film(made.a.path);
+    assert_filmed(&session, &options);
+    session.tree.leaf_capacity = capacity;
+    options.folder = made.b.path;
+    assert_filmed(&session, &options);
+    return made;
+}
+
+static void assert_says(const command_result *result, const char *part)
+{
+    if (!strstr(result->out, part))
+        fail_msg("\"%s\" does not say \"%s\"", result->out, part);
+}
+
+static void the_headline_comes_second_and_causes_below_their_frames(void **state)
+{
+    const recorded_pair p = film_pair(*state, 4);
+    command_result result = run_octreel(NULL, "diff %s %s --causes 2", p.a.path, p.b.path);
+    assert_int_equal(result.status, 1);
+    assert_string_equal(result.err, "");
+    assert_says(&result,
+                "different: 5 of 5 frames\nanother leaf capacity (4, was 2): every tick from 0 differs\n  frame_");
+    assert_says(&result, "\n    tick 1: node");
+    assert_null(strstr(result.out, "\n    tick 2: "));
+    assert_says(&result, "\n  3 of these are left unexplained; --causes all tells more\n");
+    command_release(&result);
+}
+
+static void all_or_no_frames_are_explained_where_that_is_asked_for(void **state)
+{
+    const recorded_pair p = film_pair(*state, 4);
+    command_result result = run_octreel(NULL, "diff %s %s --causes all", p.a.path, p.b.path);
+    assert_says(&result, "\n    tick 4: ");
+    assert_null(strstr(result.out, "unexplained"));
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s --causes 0", p.a.path, p.b.path);
+    assert_int_equal(result.status, 1);
+    assert_null(strstr(result.out, "capacity"));
+    assert_null(strstr(result.out, "unexplained"));
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s --causes some", p.a.path, p.b.path);
+    assert_trouble(&result, "--causes takes a whole number");
+}
+
+static void json_has_the_facts(void **state)
+{
+    const recorded_pair p = film_pair(*state, 4);
+    command_result result = run_octreel(NULL, "diff %s %s --json --causes 3", p.a.path, p.b.path);
+    assert_int_equal(result.status, 1);
+    json_t *all = json_read(result.out), *cause = json_member(all, "cause");
+    assert_string_equal(json_string_value(json_member(all, "headline")),
+                        "another leaf capacity (4, was 2): every tick from 0 differs");
+    const json_t *option = json_array_get(json_member(cause, "session"), 0);
+    assert_members(option, "kind name reference frames");
+    assert_string_equal(json_string_value(json_member(option, "name")), "leaf capacity");
+    assert_whole_number(json_member(option, "reference"), 2);
+    assert_whole_number(json_member(option, "frames"), 4);
+    assert_whole_number(json_member(cause, "compared"), 5);
+    assert_whole_number(json_member(cause, "differing"), 5);
+    assert_int_equal(json_array_size(json_member(cause, "ticks")), 3);
+    assert_int_equal(json_array_size(json_member(cause, "look")), 0);
+    assert_int_equal(json_array_size(json_member(cause, "doubts")), 0);
+    const json_t *facts = json_member(json_array_get(json_member(cause, "ticks"), 0), "facts");
+    const json_t *fact = json_array_get(facts, 0);
+    assert_string_equal(json_string_value(json_member(fact, "kind")), "node_merged");
+    assert_non_null(json_member(fact, "node"));
+    const json_t *finding = json_array_get(json_member(all, "findings"), 2);
+    assert_non_null(json_member(finding, "cause"));
+    json_decref(all);
+    command_release(&result);
+}
+
+static void damage_is_trouble_behind_the_report(void **state)
+{
+    const recorded_pair p = film_pair(*state, 4);
+    cut_file(p.b.path, "session.json", 30);
+    command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
+    assert_int_equal(result.status, 2);
+    assert_says(&result, "trouble: 5 of 5 frames\n");
+    assert_says(&result, "frame_000004.png: ");
+    assert_non_null(strstr(result.err, "octreel: "));
+    assert_non_null(strstr(result.err, "session.json"));
+    assert_non_null(strstr(result.err, "--causes 0 does not ask why\n"));
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s --json", p.a.path, p.b.path);
+    json_t *all = json_read(result.out);
+    assert_int_equal(result.status, 2);
+    assert_non_null(strstr(json_string_value(json_member(all, "trouble")), "session.json"));
+    json_decref(all);
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s --causes 0", p.a.path, p.b.path);
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+}
+
+static void the_same_frames_of_unlike_sessions_are_the_same(void **state)
+{
+    const recorded_pair p = film_pair(*state, 2);
+    command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
+    assert_done(&result);
+    assert_string_equal(result.out, "same: 5 frames, 5 the same by their bytes\ncompared exactly\n");
+    command_release(&result);
+    edit_line(p.b.path, 3, "\"merges\": []", "\"merges\": [\"0/1\"]");
+    result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
+    assert_done(&result);
+    assert_says(&result, "ticks.jsonl at tick 3 is not what its session gives");
+    command_release(&result);
+}
+
+/* What refuses to draw is no reason not to say what is known. */
+static void without_a_renderer_the_rest_is_told(void **state)
+{
+    const recorded_pair p = film_pair(*state, 4);
+    const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
+    command_result result = run_octreel(&other, "diff %s %s", p.a.path, p.b.path);
+    assert_int_equal(result.status, 1);
+    assert_string_equal(result.err, "");
+    assert_says(&result, "another leaf capacity (4, was 2)");
+    assert_says(&result, "\n    tick 1: node");
+    assert_says(&result, "\n  nothing is traced to what is drawn: ");
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
+    assert_null(strstr(result.out, "nothing is traced"));
+    assert_says(&result, " pixels: ");
+    command_release(&result);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(the_headline_comes_second_and_causes_below_their_frames),
+        TEST(all_or_no_frames_are_explained_where_that_is_asked_for),
+        TEST(json_has_the_facts),
+        TEST(damage_is_trouble_behind_the_report),
+        TEST(without_a_renderer_the_rest_is_told),
+        TEST(the_same_frames_of_unlike_sessions_are_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,179 @@
+/* test_diff_trace.c - the pixels in which two frames differ belong to elements: to those that differ. */
+#include <string.h>
+
+#include "explain.h"
+#include "fixture.h"
+#include "galleries.h"
+#include "recordings.h"
+
+/* A film of these layers alone. */
+static place film_layers(const temp_folder *own, const char *name, const octree_session *session, unsigned layers,
+                         int aa)
+{
+    const place folder = place_in(own, name);
+    film_options options = small_film(folder.path);
+    options.view.layers = layers;
+    options.view.aa = aa;
+    options.view.lod = 0;
+    assert_filmed(session, &options);
+    return folder;
+}
+
+static comparison_of assert_traced(const place *a, const place *b, const diff_options *options)
+{
+    comparison_of made = assert_compared(a->path, b->path, options);
+    record_error error = {""};
+    if (!diff_explain(&made.a, &made.b, 10, &made.result, &error))
+        fail_msg("%s", error.text);
+    assert_non_null(made.result.explanation);
+    assert_string_equal(made.result.explanation->tracer.untraced, "");
+    return made;
+}
+
+static const trace *trace_of(const comparison_of *made, uint64_t tick)
+{
+    const trace *t = tracer_at(&made->result.explanation->tracer, tick);
+    assert_non_null(t);
+    return t;
+}
+
+/* The parts are all of the pixels that the comparison counts, the largest first and none twice. */
+static void assert_adds_up(const comparison_of *made)
+{
+    for (size_t i = 0; i < made->result.count; i++) {
+        const diff_pair *pair = &made->result.pairs[i];
+        if (!explain_is_unlike(pair))
+            continue;
+        const trace *t = trace_of(made, i);
+        uint64_t sum = 0;
+        for (size_t j = 0; j < t->count; j++) {
+            sum += t->parts[j].pixels;
+            assert_true(t->parts[j].pixels > 0);
+            assert_true(j == 0 || t->parts[j].pixels <= t->parts[j - 1].pixels);
+            for (size_t k = 0; k < j; k++)
+                assert_false(t->parts[k].layer == t->parts[j].layer && t->parts[k].id == t->parts[j].id);
+        }
+        assert_int_equal(sum, pair->difference.unlike.pixels);
+        assert_int_equal(t->pixels, sum);
+    }
+}
+
+static void assert_part(const trace_part *part, int layer, uint64_t id)
+{
+    if (part->layer != layer || part->id != id)
+        fail_msg("layer %d, id %llu", part->layer, (unsigned long long)part->id);
+}
+
+/* ---- What moves, splits, is written -------------------------------------------------------------------------- */
+
+static octree_session moved_session(octree_edit *edit)
+{
+    octree_session session = short_session("wd");
+    *edit = (octree_edit){1, OCTREE_EDIT_MOVE, {.id = 3, .position = {300, -700, 300}}};
+    session.edits = edit;
+    session.edit_count = 1;
+    return session;
+}
+
+static void a_moved_point_has_all_pixels_of_its_layer(void **state)
+{
+    const octree_session session = short_session("wd");
+    octree_edit edit;
+    const octree_session other = moved_session(&edit);
+    for (int aa = 1; aa <= 4; aa *= 2) {
+        const char *names[2] = {aa == 1 ? "a1" : aa == 2 ? "a2" : "a4", aa == 1 ? "b1" : aa == 2 ? "b2" : "b4"};
+        const place a = film_layers(*state, names[0], &session, 1u << LAYER_POINTS, aa);
+        const place b = film_layers(*state, names[1], &other, 1u << LAYER_POINTS, aa);
+        comparison_of made = assert_traced(&a, &b, NULL);
+        assert_adds_up(&made);
+        assert_null(tracer_at(&made.result.explanation->tracer, 0));
+        for (uint64_t tick = 1; tick < 3; tick++) {
+            assert_int_equal(trace_of(&made, tick)->count, 1);
+            assert_part(&trace_of(&made, tick)->parts[0], LAYER_POINTS, 3);
+        }
+        const diff_pair *pair = diff_find(&made.result, "frame_000001.png");
+        assert_non_null(strstr(pair->cause, " of point 3"));
+        comparison_release(&made);
+    }
+}
+
+/* One point more in a leaf that is full: its children are drawn, and belong to the node that split. */
+static void what_a_split_draws_belongs_to_the_node_that_split(void **state)
+{
+    octree_session session = short_session("wd");
+    const octree_edit edits[] = {{1, OCTREE_EDIT_INSERT, {.id = 50, .position = {-400, -300, -900}}},
+                                 {1, OCTREE_EDIT_INSERT, {.id = 51, .position = {-900, -300, -100}}},
+                                 {1, OCTREE_EDIT_INSERT, {.id = 52, .position = {-900, -800, -900}}}};
+    session.edits = edits;
+    session.edit_count = 2;
+    const place a = film_layers(*state, "a", &session, 1u << LAYER_NODES, 1);
+    session.edit_count = 3;
+    const place b = film_layers(*state, "b", &session, 1u << LAYER_NODES, 1);
+    comparison_of made = assert_traced(&a, &b, NULL);
+    assert_adds_up(&made);
+    const cause_tick *told = cause_at(&made.result.explanation->cause, 1);
+    const cause_fact *fact = &told->facts.facts[0];
+    assert_int_equal(fact->kind, CAUSE_NODE_SPLIT);
+    assert_int_equal(told->facts.found[CAUSE_NODE_SPLIT], 1);
+    assert_int_equal(trace_of(&made, 1)->count, 1);
+    assert_part(&trace_of(&made, 1)->parts[0], LAYER_NODES, fact->node);
+    comparison_release(&made);
+}
+
+static void all_layers_together_add_up(void **state)
+{
+    octree_session session = short_session("wdnwd.");
+    const place a = film_layers(*state, "a", &session, VIEW_ALL_LAYERS, 2);
+    session.tree.leaf_capacity = 4;
+    session.player.step = 75;
+    const place b = film_layers(*state, "b", &session, VIEW_ALL_LAYERS, 2);
+    comparison_of made = assert_traced(&a, &b, NULL);
+    assert_true(made.result.found[FOUND_PIXELS] > 4);
+    assert_adds_up(&made);
+    comparison_release(&made);
+}
+
+static void what_is_ignored_is_not_traced(void **state)
+{
+    octree_session session = short_session("wd");
+    const place a = film_layers(*state, "a", &session, VIEW_DEFAULT_LAYERS, 1);
+    session.player.step = 300;
+    const place b = film_layers(*state, "b", &session, VIEW_DEFAULT_LAYERS, 1);
+    const image_rectangle left = {0, 0, SMALL_WIDTH / 2, SMALL_HEIGHT};
+    diff_options options = diff_options_default();
+    options.tolerance.ignored = &left;
+    options.tolerance.ignored_count = 1;
+    comparison_of made = assert_traced(&a, &b, &options);
+    assert_adds_up(&made);
+    const uint64_t half = trace_of(&made, 1)->pixels;
+    comparison_release(&made);
+    made = assert_traced(&a, &b, NULL);
+    assert_true(half > 0 && half < trace_of(&made, 1)->pixels);
+    comparison_release(&made);
+}
+
+/* ---- What is not traced -------------------------------------------------------------------------------------- */
+
+static void frames_of_unlike_sizes_are_not_traced(void **state)
+{
+    const octree_session session = short_session("wd");
+    const place a = film_layers(*state, "a", &session, VIEW_DEFAULT_LAYERS, 1),
+                b = film_layers(*state, "b", &session, VIEW_DEFAULT_LAYERS, 2);
+    comparison_of made = assert_traced(&a, &b, NULL);
+    assert_null(tracer_at(&made.result.explanation->tracer, 1));
+    comparison_release(&made);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_moved_point_has_all_pixels_of_its_layer),
+        TEST(what_a_split_draws_belongs_to_the_node_that_split),
+        TEST(all_layers_together_add_up),
+        TEST(what_is_ignored_is_not_traced),
+        TEST(frames_of_unlike_sizes_are_not_traced),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

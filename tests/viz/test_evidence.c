@@ -1,0 +1,247 @@
+/* test_evidence.c - the folder of evidence: which pictures are left of each finding, what is in them, and into which
+ * folders they go. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "evidence.h"
+#include "fixture.h"
+#include "galleries.h"
+#include "images.h"
+
+/* Compare, and leave evidence. */
+static comparison_of leave_evidence(const char *a, const char *b, const diff_options *options, const char *folder)
+{
+    const diff_options exact = diff_options_default();
+    comparison_of made = assert_compared(a, b, options);
+    record_error error = {""};
+    evidence e;
+    if (!evidence_prepare(folder, &made.a, &made.b, &error) ||
+        !evidence_collect(&e, folder, &made.result, options ? options : &exact, &error))
+        fail_msg("%s", error.text);
+    evidence_release(&e);
+    return made;
+}
+
+static void leave_and_forget(const char *a, const char *b, const char *folder)
+{
+    comparison_of made = leave_evidence(a, b, NULL, folder);
+    comparison_release(&made);
+}
+
+/* The names in a folder, with blanks between them. */
+static void assert_holds(const char *folder, const char *names)
+{
+    char all[2048] = "";
+    listing there = folder_list(folder);
+    for (size_t i = 0; i < there.count; i++)
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? " " : "", there.names[i]);
+    listing_release(&there);
+    assert_string_equal(all, names);
+}
+
+static void assert_refused(const char *a, const char *b, const char *folder, const char *part)
+{
+    diff_side sides[2] = {assert_side(a), assert_side(b)};
+    record_error error = {""};
+    assert_false(evidence_prepare(folder, &sides[0], &sides[1], &error));
+    if (!strstr(error.text, part) || !strstr(error.text, folder))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, part);
+    diff_side_release(&sides[0]);
+    diff_side_release(&sides[1]);
+}
+
+static void each_finding_leaves_what_can_be_had(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 3.png 4.png 5.png"),
+                b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 6.png"), folder = place_in(*state, "out");
+    gallery_write(place_below(b.path, "2.png").path, 1, 3);
+    image small;
+    image_error error = {""};
+    assert_true(image_create(&small, 3, 40, 3) &&
+                image_write_png(&small, place_below(b.path, "3.png").path, NULL, 0, &error));
+    image_release(&small);
+    assert_int_equal(truncate(place_below(b.path, "4.png").path, 99), 0);
+    leave_and_forget(a.path, b.path, folder.path);
+    assert_holds(folder.path, "2.actual.png 2.difference.png 2.expected.png 2.side.png "
+                              "3.actual.png 3.difference.png 3.expected.png 3.side.png "
+                              "4.actual.png 4.expected.png 5.expected.png 6.actual.png evidence.txt");
+    assert_same_files(place_below(folder.path, "2.expected.png").path, place_below(a.path, "2.png").path);
+    assert_same_files(place_below(folder.path, "2.actual.png").path, place_below(b.path, "2.png").path);
+    assert_same_files(place_below(folder.path, "4.actual.png").path, place_below(b.path, "4.png").path);
+}
+
+static void digests_leave_the_frame_alone(void **state)
+{
+    const place b = gallery_make(*state, "b", "1.png"), folder = place_in(*state, "out"),
+                digests = place_in(*state, "digests");
+    file_write_text(digests.path, "octreel-digests 1\nbackground ffffff\n0123456789abcdef 24x16 1.png\n");
+    leave_and_forget(digests.path, b.path, folder.path);
+    assert_holds(folder.path, "1.actual.png evidence.txt");
+}
+
+/* The side by side picture is both as they are and then the difference, whose glowing pixels are those that count. */
+static void pictures_show_what_they_are_named_for(void **state)
+{
+    enum { GAP = 12 };
+    const image_rectangle ignored = {0, 0, 3, 16};
+    diff_options options = diff_options_default();
+    const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png"), folder = place_in(*state, "out");
+    options.tolerance = (image_tolerance){.ignored = &ignored, .ignored_count = 1};
+    gallery_write(a.path, 3, 0);
+    gallery_write(b.path, 3, 10);
+    comparison_of made = leave_evidence(a.path, b.path, &options, folder.path);
+    assert_int_equal(made.result.pairs[0].difference.counted.pixels, 7);
+    image images[3] = {assert_read_rgb(a.path), assert_read_rgb(b.path),
+                       assert_read_rgb(place_below(folder.path, "b.difference.png").path)};
+    image side = assert_read_rgb(place_below(folder.path, "b.side.png").path);
+    assert_int_equal(side.width, 3 * GALLERY_WIDTH + 2 * GAP);
+    assert_int_equal(side.height, GALLERY_HEIGHT);
+    for (int n = 0; n < GALLERY_WIDTH * GALLERY_HEIGHT; n++) {
+        const int x = n % GALLERY_WIDTH, y = n / GALLERY_WIDTH;
+        for (int i = 0; i < 3; i++) {
+            const image_color one = image_color_at(&images[i], x, y),
+                              beside = image_color_at(&side, x + i * (GALLERY_WIDTH + GAP), y);
+            assert_memory_equal(&one, &beside, sizeof one);
+        }
+        const image_color drawn = image_color_at(&images[2], x, y);
+        const bool unlike = y == 3 && x < 10;
+        assert_int_equal(unlike && x >= 3, drawn.r > drawn.b);
+        assert_int_equal(unlike && x<3, drawn.b> drawn.r);
+    }
+    for (int i = 0; i < 3; i++)
+        image_release(&images[i]);
+    image_release(&side);
+    comparison_release(&made);
+}
+
+static void nothing_that_differs_leaves_no_pictures(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png"), folder = place_in(*state, "deep/er/out");
+    leave_and_forget(a.path, a.path, folder.path);
+    assert_holds(folder.path, "evidence.txt");
+}
+
+static void names_that_are_unlike_stay_so(void **state)
+{
+    (void)state;
+    static const char *const names[][2] = {
+        {"frame_000041.png", "frame_000041.side.png"},
+        {"a.PNG", "a.side.PNG"},
+        {"a.ref.png", "a.ref.side.png"},
+        {"photo", "photo.side.png"},
+        {"png", "png.side.png"},
+        {".png", ".png.side.png"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char *name = evidence_name(names[i][0], EVIDENCE_SIDE);
+        assert_string_equal(name, names[i][1]);
+        assert_true(evidence_is_name(name));
+        assert_false(evidence_is_name(names[i][0]));
+        free(name);
+    }
+    assert_true(evidence_is_name("a.difference.png.part"));
+    assert_false(evidence_is_name(".difference.png"));
+    assert_false(evidence_is_name("difference.png"));
+}
+
+/* ---- The folder ---------------------------------------------------------------------------------------------- */
+
+static void next_evidence_takes_the_place_of_the_last(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png");
+    const place folder = place_in(*state, "out");
+    leave_and_forget(a.path, b.path, folder.path);
+    assert_holds(folder.path, "2.expected.png evidence.txt");
+    file_write_text(place_below(folder.path, "report.html.part").path, "torn");
+    file_write_text(place_below(folder.path, "2.side.png.part").path, "torn");
+    file_write_text(place_below(folder.path, "notes.txt").path, "mine");
+    leave_and_forget(b.path, a.path, folder.path);
+    assert_holds(folder.path, "2.actual.png evidence.txt notes.txt");
+    leave_and_forget(a.path, a.path, folder.path);
+    assert_holds(folder.path, "evidence.txt notes.txt");
+}
+
+static void folder_of_others_is_refused_and_left_as_it_is(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), other = gallery_make(*state, "b", "1.side.png");
+    assert_refused(a.path, a.path, other.path, "holds 1.side.png, and no evidence of octreel diff");
+    assert_holds(other.path, "1.side.png");
+    file_write_text(place_below(other.path, "evidence.txt").path, "octreel evid");
+    assert_refused(a.path, a.path, other.path, "no evidence of octreel diff");
+    assert_holds(other.path, "1.side.png evidence.txt");
+}
+
+static void empty_folder_is_taken(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), empty = gallery_make(*state, "b", "");
+    leave_and_forget(a.path, a.path, empty.path);
+    assert_holds(empty.path, "evidence.txt");
+}
+
+/* Evidence is emptied first: what is compared must not be in it. */
+static void what_is_compared_is_not_removed(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "2.png");
+    const place folder = place_in(*state, "out");
+    leave_and_forget(a.path, b.path, folder.path);
+    assert_holds(folder.path, "1.expected.png 2.actual.png evidence.txt");
+    const place expected = place_below(folder.path, "1.expected.png"),
+                actual = place_below(folder.path, "2.actual.png");
+    assert_refused(folder.path, a.path, folder.path, "it is compared, and would be removed");
+    assert_refused(a.path, folder.path, folder.path, "it is compared, and would be removed");
+    assert_refused(expected.path, actual.path, folder.path, "a picture in it is compared");
+    assert_holds(folder.path, "1.expected.png 2.actual.png evidence.txt");
+}
+
+static void folder_that_cannot_be_made_is_named(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), file = place_in(*state, "file");
+    file_write_text(file.path, "here");
+    assert_refused(a.path, a.path, file.path, "a file is in its place");
+}
+
+static void picture_that_cannot_be_written_is_named(void **state)
+{
+    static const char *const names[] = {"2.expected.png", "2.actual.png", "2.difference.png", "2.side.png"};
+    const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
+    gallery_write(place_below(b.path, "2.png").path, 1, 3);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "out%zu", i);
+        const place folder = place_in(*state, name);
+        const diff_options exact = diff_options_default();
+        comparison_of made = assert_compared(a.path, b.path, NULL);
+        record_error error = {""};
+        evidence e;
+        assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error));
+        const place taken = place_below(folder.path, names[i]); /* by a folder, which nothing is renamed over */
+        assert_int_equal(mkdir(taken.path, 0777), 0);
+        assert_false(evidence_collect(&e, folder.path, &made.result, &exact, &error));
+        if (!strstr(error.text, taken.path))
+            fail_msg("\"%s\" does not name %s", error.text, taken.path);
+        comparison_release(&made);
+    }
+}
+
+#define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FOLDER(each_finding_leaves_what_can_be_had),
+        WITH_FOLDER(digests_leave_the_frame_alone),
+        WITH_FOLDER(pictures_show_what_they_are_named_for),
+        WITH_FOLDER(nothing_that_differs_leaves_no_pictures),
+        cmocka_unit_test(names_that_are_unlike_stay_so),
+        WITH_FOLDER(next_evidence_takes_the_place_of_the_last),
+        WITH_FOLDER(folder_of_others_is_refused_and_left_as_it_is),
+        WITH_FOLDER(empty_folder_is_taken),
+        WITH_FOLDER(what_is_compared_is_not_removed),
+        WITH_FOLDER(folder_that_cannot_be_made_is_named),
+        WITH_FOLDER(picture_that_cannot_be_written_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,326 @@
+/* test_report_page.c - report.html in headless Chromium: it says the cause, steps from difference to difference,
+ * swipes, blinks and zooms, says what was left out, and loads nothing. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "browser.h"
+#include "fixture.h"
+#include "galleries.h"
+#include "report.h"
+
+enum { FRAMES = 57 }; /* of which the fifth is the same: six more differ than are in the page */
+
+#define CAUSE                                                                                                          \
+    "node 0/3/7 split, point 12 moved </script><script>document.title = 'mine'</script> & \"so on\"; 7 pixels: 5 of "  \
+    "node 0/3/7; text: 2"
+#define HEADLINE "From tick 0 on: <b>another</b> capacity"
+
+/* Two folders that differ in every way that a frame can, and what the page said while drive_report.js used it. */
+typedef struct driven {
+    void *folder; /* a temp_folder */
+    char *said;   /* null without a browser */
+} driven;
+
+static place frame_in(place folder, int i)
+{
+    char name[32];
+    snprintf(name, sizeof name, "frame_%06d.png", i);
+    return place_below(folder.path, name);
+}
+
+/* Frame 0 has a cause; 1 another size; 2 no reference; 3 no frame; 4 is the same; 5 cannot be read. */
+static void make_sides(place a, place b)
+{
+    for (int i = 0; i < FRAMES; i++) {
+        if (i != 2)
+            gallery_write(frame_in(a, i).path, (uint64_t)i, 0);
+        if (i != 3 && i != 1)
+            gallery_write(frame_in(b, i).path, (uint64_t)i, i == 4 ? 0 : 7);
+    }
+    image small;
+    image_error error = {""};
+    assert_true(image_create(&small, 5, 30, 3));
+    assert_true(image_write_png(&small, frame_in(b, 1).path, NULL, 0, &error));
+    image_release(&small);
+    file_write_text(frame_in(b, 5).path, "\x89PNG, or so");
+}
+
+/* What happens after the pictures and before the page. */
+typedef void meddler(const char *folder);
+
+static void write_page_of(comparison_of *made, const char *folder, meddler *meddle)
+{
+    const diff_options exact = diff_options_default();
+    record_error error = {""};
+    evidence e;
+    const diff_report report = {&made->a, &made->b, &exact, &made->result, &e};
+    if (!evidence_prepare(folder, &made->a, &made->b, &error) ||
+        !evidence_collect(&e, folder, &made->result, &exact, &error))
+        fail_msg("%s", error.text);
+    if (meddle)
+        meddle(folder);
+    if (!diff_report_page(&report, &error))
+        fail_msg("%s", error.text);
+    evidence_release(&e);
+    comparison_release(made);
+}
+
+static void write_page(const char *a, const char *b, const char *folder, const char *cause, const char *headline)
+{
+    comparison_of made = assert_compared(a, b, NULL);
+    if (cause)
+        made.result.pairs[0].cause = strdup(cause);
+    if (headline)
+        made.result.headline = strdup(headline);
+    write_page_of(&made, folder, NULL);
+}
+
+static int drive_page(void **state)
+{
+    driven *d = calloc(1, sizeof *d);
+    *state = d;
+    if (d == NULL || temp_folder_make(&d->folder) != 0)
+        return -1;
+    const place a = gallery_make(d->folder, "golden", ""), b = gallery_make(d->folder, "new & <b>", "");
+    const place folder = place_in(d->folder, "evidence");
+    make_sides(a, b);
+    write_page(a.path, b.path, folder.path, CAUSE, HEADLINE);
+    if (browser_is_there())
+        d->said = browser_drive(d->folder, place_below(folder.path, "report.html").path, OCTREEL_DRIVE_REPORT);
+    return 0;
+}
+
+static int forget_page(void **state)
+{
+    driven *d = *state;
+    const int status = nested_folder_remove(&d->folder);
+    free(d->said);
+    free(d);
+    return status;
+}
+
+static void assert_said(void **state, const char *what, const char *expected)
+{
+    const driven *d = *state;
+    need_browser();
+    assert_said_about(d->said, what, expected);
+}
+
+/* What was said holds a part. */
+static void assert_said_part(void **state, const char *what, const char *part)
+{
+    need_browser();
+    char *value = said_about(((driven *)*state)->said, what);
+    if (!strstr(value, part))
+        fail_msg("%s: \"%s\" does not say \"%s\"", what, value, part);
+    free(value);
+}
+
+static void page_comes_up_with_the_verdict_and_without_errors(void **state)
+{
+    assert_said(state, "errors", "none");
+    assert_said(state, "verdict", "Trouble");
+    assert_said_part(state, "about",
+                     "55 of 57 frames, 1 cannot be read, 1 the same by its bytes \xc2\xb7 compared exactly");
+    assert_said_part(state, "about", "new & <b> against ");
+    assert_said(state, "headline", HEADLINE);
+    assert_said_part(state, "title", "trouble: ");
+}
+
+/* As text, whatever is in it. */
+static void cause_is_the_headline_beside_the_picture(void **state)
+{
+    assert_said(state, "frame 0",
+                "frame_000000.png | Node 0/3/7 split, point 12 moved </script><script>document.title = "
+                "'mine'</script> & \"so on\" | expected actual difference | swipe");
+    assert_said(state, "details 0", "7 pixels: 5 of node 0/3/7; text: 2");
+    assert_said(state, "details 5", "none");
+    assert_said_part(state, "facts 0",
+                     "pixels; 7 of 384, 1.8\xe2\x80\xaf%; worst; 0.0027 YIQ at 0, 3; channels; by up to 1 of "
+                     "255; within; 0, 3 to 6, 3; size; 24 \xc3\x97 16; files; ");
+}
+
+/* The way to look that was asked for comes back with the pictures it needs. */
+static void frames_without_all_pictures_show_what_they_have(void **state)
+{
+    assert_said(state, "frame 1",
+                "frame_000001.png | The reference is 24x16, the frame is 5x30 | expected actual "
+                "difference | swipe");
+    assert_said(state, "frame 2", "frame_000002.png | A frame without a reference | actual | actual");
+    assert_said(state, "frame 3", "frame_000003.png | A reference without a frame | expected | expected");
+    assert_said_part(state, "frame 4", "frame_000005.png | Cannot be read: ");
+    assert_said_part(state, "frame 5",
+                     "frame_000006.png | 7 of 384 pixels differ | expected actual difference | swipe");
+}
+
+static void keys_lead_from_difference_to_difference(void **state)
+{
+    static const char expected[] =
+        "\nkey n\tframe_000001.png\nkey ArrowRight\tframe_000002.png\nkey p\tframe_000001.png\n"
+        "key ArrowLeft\tframe_000000.png\nkey p\tframe_000000.png\nkey End\tframe_000050.png\n"
+        "key n\tframe_000050.png\nkey Home\tframe_000000.png\n";
+    need_browser();
+    assert_non_null(strstr(((driven *)*state)->said, expected));
+}
+
+static void page_says_how_many_frames_were_left_out(void **state)
+{
+    assert_said(state, "listed", "50");
+    assert_said(state, "place", "1 of 50");
+    assert_said(state, "left out",
+                "6 more frames differ: this page has the first 50. The pictures of all lie beside it.");
+}
+
+static void keys_choose_how_to_look(void **state)
+{
+    assert_said(state, "mode d", "difference: difference: difference");
+    assert_said(state, "mode t", "side: expected actual difference: side");
+    assert_said(state, "mode e", "expected: expected: expected");
+    assert_said(state, "mode a", "actual: actual: actual");
+    assert_said(state, "mode s", "swipe: expected actual: swipe");
+    assert_said(state, "mode by button", "difference");
+}
+
+static void difference_glows_for_one_level(void **state)
+{
+    need_browser();
+    int r, g, b;
+    char *glows = said_about(((driven *)*state)->said, "glows"), *dim = said_about(((driven *)*state)->said, "dim");
+    assert_int_equal(sscanf(glows, "%d,%d,%d", &r, &g, &b), 3);
+    assert_true(r == 255 && g > 90 && b < 90);
+    assert_int_equal(sscanf(dim, "%d,%d,%d", &r, &g, &b), 3);
+    assert_true(r == g && g == b && r < 100);
+    free(glows);
+    free(dim);
+}
+
+static void line_is_swiped_by_pointer_and_keys(void **state)
+{
+    assert_said(state, "swipe pressed", "inset(0px 75% 0px 0px) inset(0px 0px 0px 25%)");
+    assert_said(state, "swipe dragged", "100");
+    assert_said(state, "swipe let go", "100");
+    assert_said(state, "swipe by keys", "96");
+}
+
+static void pictures_blink_by_themselves_and_by_hand(void **state)
+{
+    assert_said(state, "blink", "expected actual expected actual");
+    assert_said(state, "blink by hand", "expected expected actual");
+}
+
+static void zoom_leads_to_the_worst_place_and_back(void **state)
+{
+    assert_said(state, "worst in the middle", "0,3");
+    assert_said(state, "worst is larger", "true");
+    assert_said(state, "worst and back", "true");
+    assert_said(state, "larger", "true");
+    assert_said(state, "not smaller than all of it", "true");
+    assert_said(state, "beside each other alike", "0,3 0,3 0,3");
+    assert_said(state, "wheel", "true");
+    assert_said(state, "marks", "true");
+    assert_said(state, "marks off", "0");
+}
+
+static void address_names_the_frame_and_leads_to_it(void **state)
+{
+    assert_said(state, "address", "#frame=frame_000001.png&mode=difference");
+    assert_said(state, "from address", "frame_000003.png expected");
+    assert_said(state, "from nonsense", "frame_000000.png");
+}
+
+static void question_mark_lists_the_keys(void **state)
+{
+    assert_said(state, "help before", "false");
+    assert_said(state, "help", "true");
+    assert_said(state, "behind the help", "frame_000000.png");
+    assert_said(state, "keys listed", "n \xe2\x86\x92 p \xe2\x86\x90 Home End s b d t e a space [ ] z + - 0 m ?");
+}
+
+static void page_loads_nothing(void **state)
+{
+    driven *d = *state;
+    assert_said(state, "loaded", "0");
+    char *page = file_read(place_below(place_in(d->folder, "evidence").path, "report.html").path, NULL);
+    assert_null(strstr(page, "http:"));
+    assert_null(strstr(page, "https:"));
+    free(page);
+}
+
+/* ---- Other pages, as they are opened ------------------------------------------------------------------------ */
+
+static void assert_opens_with(void **state, place folder, const char *part)
+{
+    driven *d = *state;
+    need_browser();
+    char *page = browser_open(d->folder, place_below(folder.path, "report.html").path, "");
+    if (!strstr(page, part))
+        fail_msg("the page has no %s", part);
+    free(page);
+}
+
+static void page_of_no_difference_says_so(void **state)
+{
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "same", "1.png 2.png"), folder = place_in(d->folder, "calm");
+    write_page(a.path, a.path, folder.path, NULL, NULL);
+    assert_opens_with(state, folder,
+                      "<h2>No frame differs</h2>\n  <p id=\"calm-words\">2 frames, 2 the same by their "
+                      "bytes</p>\n  <p id=\"calm-tolerance\">Compared exactly</p>");
+}
+
+static void page_of_few_differences_leaves_none_out(void **state)
+{
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "few", "1.png 2.png"), b = gallery_make(d->folder, "fewer", "1.png");
+    const place folder = place_in(d->folder, "few evidence");
+    write_page(a.path, b.path, folder.path, NULL, NULL);
+    assert_opens_with(state, folder, "<p id=\"left-out\" hidden=\"\">");
+    assert_opens_with(state, folder, "<h2 id=\"cause\">A reference without a frame</h2>");
+}
+
+/* Nobody reads so much: it is all holes. */
+static void enlarge(const char *folder)
+{
+    assert_int_equal(truncate(place_below(folder, "1.actual.png").path, (off_t)DIFF_REPORT_PAGE_BYTES), 0);
+}
+
+static void pictures_that_are_too_large_for_a_page_are_left_beside_it(void **state)
+{
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "large a", "1.png 2.png"), b = gallery_make(d->folder, "large b", "");
+    const place folder = place_in(d->folder, "large evidence");
+    for (int i = 1; i < 3; i++)
+        gallery_write(place_below(b.path, i == 1 ? "1.png" : "2.png").path, 9, 0);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    write_page_of(&made, folder.path, enlarge);
+    char *page = file_read(place_below(folder.path, "report.html").path, NULL);
+    assert_null(strstr(page, "<img data-frame=\"0\""));
+    assert_non_null(strstr(page, "<img data-frame=\"1\" data-picture=\"difference\" src=\"data:image/png;base64,"));
+    free(page);
+    assert_opens_with(state, folder, "Its pictures are too large for this page. They lie beside it.");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(page_comes_up_with_the_verdict_and_without_errors),
+        cmocka_unit_test(cause_is_the_headline_beside_the_picture),
+        cmocka_unit_test(frames_without_all_pictures_show_what_they_have),
+        cmocka_unit_test(keys_lead_from_difference_to_difference),
+        cmocka_unit_test(page_says_how_many_frames_were_left_out),
+        cmocka_unit_test(keys_choose_how_to_look),
+        cmocka_unit_test(difference_glows_for_one_level),
+        cmocka_unit_test(line_is_swiped_by_pointer_and_keys),
+        cmocka_unit_test(pictures_blink_by_themselves_and_by_hand),
+        cmocka_unit_test(zoom_leads_to_the_worst_place_and_back),
+        cmocka_unit_test(address_names_the_frame_and_leads_to_it),
+        cmocka_unit_test(question_mark_lists_the_keys),
+        cmocka_unit_test(page_loads_nothing),
+        cmocka_unit_test(page_of_no_difference_says_so),
+        cmocka_unit_test(page_of_few_differences_leaves_none_out),
+        cmocka_unit_test(pictures_that_are_too_large_for_a_page_are_left_beside_it),
+    };
+    return cmocka_run_group_tests(tests, drive_page, forget_page);
+}

@@ -1,0 +1,251 @@
+/* test_reports.c - JUnit's XML and Markdown: what they say, and that no name can break them. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "escaped.h"
+#include "fixture.h"
+#include "galleries.h"
+#include "report.h"
+#include "xml_check.h"
+
+/* The longest name that breaks what it can: markup, controls, bytes that are no UTF-8, characters that XML lacks. */
+#define NASTY "a<b>&\"'`|*]]>\x01\x1b\x7f\n\t\xff\xc3(\xef\xbf\xbe\xc2\x85_\xc3\xa9.png"
+
+/* Both sides, compared; each pair's cause is set by hand, and there is no evidence. */
+static comparison_of compare(const char *a, const char *b, const char *cause)
+{
+    comparison_of made = assert_compared(a, b, NULL);
+    for (size_t i = 0; cause && i < made.result.count; i++)
+        made.result.pairs[i].cause = strdup(cause);
+    return made;
+}
+
+typedef bool reporter(FILE *out, const diff_report *report);
+
+static char *report_text(comparison_of *made, const evidence *e, reporter *write)
+{
+    const diff_options exact = diff_options_default();
+    const diff_report report = {&made->a, &made->b, &exact, &made->result, e};
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    assert_true(write(out, &report));
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void assert_says(const char *text, const char *part)
+{
+    if (!strstr(text, part))
+        fail_msg("\"%s\" does not say \"%s\"", text, part);
+}
+
+/* Three frames that are the same, differ and cannot be read. */
+static comparison_of compare_three(void **state, const char *cause)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 3.png");
+    gallery_write(place_below(b.path, "2.png").path, 1, 4);
+    assert_int_equal(truncate(place_below(b.path, "3.png").path, 99), 0);
+    return compare(a.path, b.path, cause);
+}
+
+static void assert_attribute(const char *xml, const char *element, size_t n, const char *name, const char *expected)
+{
+    char *value = xml_attribute(xml, element, n, name);
+    assert_string_equal(value, expected);
+    free(value);
+}
+
+static void junit_has_a_case_for_each_frame(void **state)
+{
+    comparison_of made = compare_three(state, "node 0/3 split");
+    char *xml = report_text(&made, NULL, diff_report_junit);
+    assert_int_equal(xml_count(xml, "testsuites"), 1);
+    assert_int_equal(xml_count(xml, "testcase"), 3);
+    assert_int_equal(xml_count(xml, "failure"), 1);
+    assert_int_equal(xml_count(xml, "error"), 1);
+    for (int i = 0; i < 2; i++) {
+        assert_attribute(xml, i ? "testsuite" : "testsuites", 0, "tests", "3");
+        assert_attribute(xml, i ? "testsuite" : "testsuites", 0, "failures", "1");
+        assert_attribute(xml, i ? "testsuite" : "testsuites", 0, "errors", "1");
+    }
+    assert_attribute(xml, "testcase", 1, "name", "2.png");
+    assert_attribute(xml, "failure", 0, "type", "pixels");
+    assert_attribute(xml, "failure", 0, "message",
+                     "different: 4 of 384 pixels differ; worst 0.0027 YIQ at (0,3), channels by up to 1 of 255; within "
+                     "(0,3)-(3,3). Cause: node 0/3 split");
+    assert_attribute(xml, "error", 0, "type", "unreadable");
+    assert_says(xml, "<system-out>trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\ncompared exactly\n"
+                     "    </system-out>\n");
+    free(xml);
+    comparison_release(&made);
+}
+
+static void junit_of_no_difference_has_passed_cases(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png");
+    comparison_of made = compare(a.path, a.path, NULL);
+    char *xml = report_text(&made, NULL, diff_report_junit);
+    assert_int_equal(xml_count(xml, "testcase"), 2);
+    assert_int_equal(xml_count(xml, "failure") + xml_count(xml, "error"), 0);
+    assert_attribute(xml, "testsuite", 0, "failures", "0");
+    free(xml);
+    comparison_release(&made);
+}
+
+/* Where two recordings cannot be explained, that is said beside what differs. */
+static void reports_say_that_nobody_can_say_why(void **state)
+{
+    comparison_of made = compare_three(state, NULL);
+    made.result.trouble = strdup("a/session.json: it ends <too> early");
+    char *xml = report_text(&made, NULL, diff_report_junit), *text = report_text(&made, NULL, diff_report_markdown);
+    assert_int_equal(xml_count(xml, "system-err"), 1);
+    assert_says(xml, "it ends &#60;too&#62; early</system-err>");
+    assert_says(text, "\nNobody can say why: a/session.json: it ends &#60;too&#62; early\n");
+    free(xml);
+    free(text);
+    comparison_release(&made);
+}
+
+/* A reader of XML gets back what can be said in it, and U+FFFD for what cannot. */
+static void junit_survives_any_name_and_cause(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b & <c>", "1.png"),
+                file = place_in(*state, "report.xml");
+    gallery_write(place_below(b.path, NASTY).path, 1, 0);
+    comparison_of made = compare(a.path, b.path, "]]></failure> \x02 \"quoted\" & <tag>");
+    char *xml = report_text(&made, NULL, diff_report_junit);
+    assert_int_equal(xml_count(xml, "failure"), 1);
+    assert_attribute(xml, "testcase", 1, "name",
+                     "a<b>&\"'`|*]]>\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\n\t\xef\xbf\xbd\xef\xbf\xbd(\xef\xbf\xbd"
+                     "\xef\xbf\xbd_\xc3\xa9.png");
+    assert_attribute(xml, "failure", 0, "message",
+                     "different: a frame without a reference. Cause: ]]></failure> \xef\xbf\xbd \"quoted\" & <tag>");
+    file_write_text(file.path, xml);
+    if (program_is_there("xmllint")) {
+        command_result result = run_script("xmllint --noout '%s'", file.path);
+        assert_done(&result);
+        command_release(&result);
+    }
+    free(xml);
+    comparison_release(&made);
+}
+
+static void junit_names_the_pictures_that_were_left(void **state)
+{
+    comparison_of made = compare_three(state, NULL);
+    const diff_options exact = diff_options_default();
+    const place folder = place_in(*state, "out");
+    char part[4096];
+    record_error error = {""};
+    evidence e;
+    assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error) &&
+                evidence_collect(&e, folder.path, &made.result, &exact, &error));
+    char *xml = report_text(&made, &e, diff_report_junit);
+    assert_int_equal(xml_count(xml, "system-out"), 3);
+    snprintf(part, sizeof part, "difference: %s/2.difference.png\nside: %s/2.side.png\n[[ATTACHMENT|%s/2.side.png]]\n",
+             folder.path, folder.path, folder.path);
+    assert_says(xml, part);
+    evidence_release(&e);
+    free(xml);
+    comparison_release(&made);
+}
+
+/* ---- Markdown ------------------------------------------------------------------------------------------------ */
+
+static void markdown_has_the_verdict_and_a_row_for_each_difference(void **state)
+{
+    comparison_of made = compare_three(state, "node 0/3 split | twice");
+    made.result.headline = strdup("From tick 2 on: *another* capacity");
+    char *text = report_text(&made, NULL, diff_report_markdown);
+    assert_true(strncmp(text, "### octreel diff: trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\n\n",
+                        82) == 0);
+    assert_says(text, "\n**From tick 2 on: &#42;another&#42; capacity**\n\n");
+    assert_says(text, ", compared exactly.\n\n| frame | difference | worst | cause |\n|---|---|---|---|\n");
+    assert_says(text,
+                "\n| <code>2.png</code> | 4 of 384 pixels | 0.0027 YIQ at (0,3) | node 0/3 split &#124; twice |\n");
+    assert_says(text, "\n| <code>3.png</code> | cannot be read: ");
+    assert_null(strstr(text, "1.png"));
+    assert_null(strstr(text, " more"));
+    free(text);
+    comparison_release(&made);
+}
+
+static void markdown_without_causes_has_no_column_of_them(void **state)
+{
+    comparison_of made = compare_three(state, NULL);
+    char *text = report_text(&made, NULL, diff_report_markdown);
+    assert_says(text, "\n| frame | difference | worst |\n|---|---|---|\n");
+    assert_says(text, "\n| <code>2.png</code> | 4 of 384 pixels | 0.0027 YIQ at (0,3) |\n");
+    free(text);
+    comparison_release(&made);
+}
+
+static void markdown_of_no_difference_has_no_table(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png");
+    comparison_of made = compare(a.path, a.path, NULL);
+    char *text = report_text(&made, NULL, diff_report_markdown);
+    assert_says(text, "### octreel diff: same: 1 frame, 1 the same by its bytes\n");
+    assert_null(strstr(text, "|"));
+    free(text);
+    comparison_release(&made);
+}
+
+static void markdown_lists_the_first_and_counts_the_rest(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "");
+    for (int i = 0; i < DIFF_REPORT_ROWS + 3; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%d.png", i + 1);
+        gallery_write(place_below(b.path, name).path, 0, 0);
+    }
+    comparison_of made = compare(a.path, b.path, NULL);
+    char *text = report_text(&made, NULL, diff_report_markdown);
+    size_t rows = 0;
+    for (const char *at = text; (at = strstr(at, "\n| <code>")); at++)
+        rows++;
+    assert_int_equal(rows, DIFF_REPORT_ROWS);
+    assert_says(text, "\nand 2 more\n");
+    free(text);
+    comparison_release(&made);
+}
+
+/* One line, and nothing in it that Markdown, a table or HTML would take for its own. */
+static void markdown_survives_any_name(void **state)
+{
+    char *text;
+    size_t size;
+    (void)state;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    write_escaped(out, NASTY " _x_ a_b [l](u) ![i] ~~s~~ @you #1 \\| $m$", escape_markdown);
+    assert_int_equal(fclose(out), 0);
+    assert_null(strpbrk(text, "<>`|*[]~@\\$!\"'\n\t\x01\x1b\x7f"));
+    assert_says(text, " &#95;x&#95; a_b &#91;l&#93;(u) ");
+    assert_says(text, "_\xc3\xa9.png");
+    free(text);
+}
+
+#define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FOLDER(junit_has_a_case_for_each_frame),
+        WITH_FOLDER(junit_of_no_difference_has_passed_cases),
+        WITH_FOLDER(reports_say_that_nobody_can_say_why),
+        WITH_FOLDER(junit_survives_any_name_and_cause),
+        WITH_FOLDER(junit_names_the_pictures_that_were_left),
+        WITH_FOLDER(markdown_has_the_verdict_and_a_row_for_each_difference),
+        WITH_FOLDER(markdown_without_causes_has_no_column_of_them),
+        WITH_FOLDER(markdown_of_no_difference_has_no_table),
+        WITH_FOLDER(markdown_lists_the_first_and_counts_the_rest),
+        cmocka_unit_test(markdown_survives_any_name),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

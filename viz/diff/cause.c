@@ -1,0 +1,178 @@
+/* cause.c - see cause.h. */
+#include "cause.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Two games that are played together. */
+typedef struct playing {
+    octree_game *games[2];
+    bool same_rules;      /* trees of the same contents are the same, and have the same digest */
+    uint64_t versions[2]; /* of the trees that were looked at last, */
+    bool looked, unlike;  /* and whether they differ */
+    bool warm;            /* a tick before has left other heat, and it is shown */
+    bool shows_heat;
+    const cause_wanted *wanted;
+    size_t next_wanted;
+    cause_watch *watch; /* may be null */
+    void *context;
+    cause *found;
+} playing;
+
+static bool open_game(playing *p, int side, const octree_session *session, record_error *error)
+{
+    const octree_status status = octree_game_create(session, &p->games[side]);
+    return status == OCTREE_OK || record_fail(error, "the session of the %s cannot be played: %s",
+                                              side ? "frames" : "reference", octree_status_text(status));
+}
+
+/* ---- One tick ------------------------------------------------------------------------------------------------ */
+
+static bool compare_trees(const playing *p)
+{
+    cause_facts facts = {0};
+    if (p->same_rules)
+        return octree_digest(octree_game_tree(p->games[0])) != octree_digest(octree_game_tree(p->games[1]));
+    cause_compare_trees(p->games[0], p->games[1], &facts);
+    const bool unlike = cause_any(&facts) || facts.out_of_memory;
+    cause_facts_release(&facts);
+    return unlike;
+}
+
+static bool trees_differ(playing *p)
+{
+    const uint64_t versions[2] = {octree_version(octree_game_tree(p->games[0])),
+                                  octree_version(octree_game_tree(p->games[1]))};
+    if (!p->looked || versions[0] != p->versions[0] || versions[1] != p->versions[1])
+        p->unlike = compare_trees(p);
+    p->looked = true;
+    p->versions[0] = versions[0];
+    p->versions[1] = versions[1];
+    return p->unlike;
+}
+
+static bool is_wanted(playing *p, uint64_t tick, bool differs)
+{
+    const cause_wanted *w = p->wanted;
+    while (p->next_wanted < w->count && w->ticks[p->next_wanted] < tick)
+        p->next_wanted++;
+    return (differs && p->found->differing <= w->first) ||
+           (p->next_wanted < w->count && w->ticks[p->next_wanted] == tick);
+}
+
+static bool keep(cause *c, uint64_t tick, cause_facts *facts)
+{
+    if (c->count == c->room) {
+        const size_t room = c->room ? 2 * c->room : 16;
+        cause_tick *grown = realloc(c->ticks, room * sizeof *grown);
+        if (!grown)
+            return false;
+        c->ticks = grown;
+        c->room = room;
+    }
+    c->ticks[c->count++] = (cause_tick){tick, *facts};
+    *facts = (cause_facts){0};
+    return true;
+}
+
+static void note(cause *c, uint64_t tick)
+{
+    if (c->differing++ == 0)
+        c->first = tick;
+    c->last = tick;
+}
+
+/* Trees are taken apart only where somebody wants to know. */
+static bool look_at(playing *p, record_error *error)
+{
+    const octree_game *const games[2] = {p->games[0], p->games[1]};
+    const uint64_t tick = octree_game_tick(games[0])->number;
+    cause_facts facts = {0};
+    const bool trees = trees_differ(p);
+    cause_compare_ticks(p->games[0], p->games[1], &facts);
+    const bool differs = trees || cause_any(&facts);
+    if (differs)
+        note(p->found, tick);
+    bool ok = true;
+    if (is_wanted(p, tick, differs)) {
+        cause_facts_release(&facts);
+        if (trees)
+            cause_compare_trees(p->games[0], p->games[1], &facts);
+        cause_compare_ticks(p->games[0], p->games[1], &facts);
+        if (p->warm)
+            cause_add(&facts, (cause_fact){.kind = CAUSE_HEAT, .tick = CAUSE_NO_TICK});
+        ok = !facts.out_of_memory && keep(p->found, tick, &facts);
+    }
+    p->warm |= p->shows_heat && differs;
+    cause_facts_release(&facts);
+    p->found->compared++;
+    if (!ok)
+        return record_fail(error, "there is no memory for what differs in tick %" PRIu64, tick);
+    return !p->watch || p->watch(p->context, games, differs, error);
+}
+
+/* ---- All of them --------------------------------------------------------------------------------------------- */
+
+static bool advance(playing *p, record_error *error)
+{
+    for (int i = 0; i < 2; i++) {
+        const octree_status status = octree_game_advance(p->games[i]);
+        if (status != OCTREE_OK)
+            return record_fail(error, "tick %" PRIu64 " of the %s cannot be played: %s",
+                               octree_game_tick(p->games[i])->number + 1, i ? "frames" : "reference",
+                               octree_status_text(status));
+    }
+    return true;
+}
+
+static bool same_rules(const octree *a, const octree *b)
+{
+    const octree_def x = octree_definition(a), y = octree_definition(b);
+    return memcmp(&x.world, &y.world, sizeof x.world) == 0 && x.leaf_capacity == y.leaf_capacity &&
+           x.max_depth == y.max_depth && x.full_leaf == y.full_leaf;
+}
+
+bool cause_find(const octree_session *a, const octree_session *b, const cause_look look[2], const cause_wanted *wanted,
+                cause_watch *watch, void *context, cause *c, record_error *error)
+{
+    playing p = {.wanted = wanted, .watch = watch, .context = context, .found = c};
+    *c = (cause){0};
+    cause_compare_sessions(a, b, &c->session);
+    if (look)
+        cause_compare_looks(&look[0], &look[1], &c->look);
+    p.shows_heat = look && ((look[0].view.layers | look[1].view.layers) & VIEW_HEAT_LAYERS);
+    bool ok = (!c->session.out_of_memory && !c->look.out_of_memory) ||
+              record_fail(error, "there is no memory for what differs");
+    ok = ok && open_game(&p, 0, a, error) && open_game(&p, 1, b, error);
+    p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
+    for (bool over = false; ok && !over;) {
+        ok = look_at(&p, error);
+        over = octree_game_over(p.games[0]) || octree_game_over(p.games[1]);
+        ok = ok && (over || advance(&p, error));
+    }
+    octree_game_destroy(p.games[0]);
+    octree_game_destroy(p.games[1]);
+    return ok;
+}
+
+void cause_release(cause *c)
+{
+    for (size_t i = 0; i < c->count; i++)
+        cause_facts_release(&c->ticks[i].facts);
+    free(c->ticks);
+    cause_facts_release(&c->session);
+    cause_facts_release(&c->look);
+    *c = (cause){0};
+}
+
+static int by_tick(const void *tick, const void *told)
+{
+    const uint64_t x = *(const uint64_t *)tick, y = ((const cause_tick *)told)->tick;
+    return (x > y) - (x < y);
+}
+
+const cause_tick *cause_at(const cause *c, uint64_t tick)
+{
+    return c->count ? bsearch(&tick, c->ticks, c->count, sizeof *c->ticks, by_tick) : NULL;
+}

@@ -1,0 +1,85 @@
+/* escaped.c - see escaped.h. */
+#include "escaped.h"
+#include "utf8.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *numbered(char c, char room[ESCAPE_ROOM])
+{
+    snprintf(room, ESCAPE_ROOM, "&#%d;", c);
+    return room;
+}
+
+/* Ends of lines and tabs in an attribute are blanks to a reader of XML, unless they are written as numbers. */
+const char *escape_xml(const char *text, const char *at, char room[ESCAPE_ROOM])
+{
+    (void)text;
+    return strchr("<>&\"'\n\t", *at) ? numbered(*at, room) : NULL;
+}
+
+const char *escape_xml_text(const char *text, const char *at, char room[ESCAPE_ROOM])
+{
+    return *at == '\n' ? "\n" : escape_xml(text, at, room);
+}
+
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || (unsigned char)c >= 0x80;
+}
+
+/* An underscore within a word begins no emphasis; a character that is written as a number begins nothing. */
+const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_ROOM])
+{
+    if (*at == '_' && at > text && is_word(at[-1]) && is_word(at[1]))
+        return NULL;
+    if (*at == '\n' || *at == '\t')
+        return " ";
+    return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? numbered(*at, room) : NULL;
+}
+
+/* Control characters beyond ASCII, and the two that are none: U+0080 to U+009F, U+FFFE and U+FFFF. */
+static bool is_unfit(const unsigned char *at)
+{
+    return (at[0] == 0xc2 && at[1] < 0xa0) || (at[0] == 0xef && at[1] == 0xbf && at[2] >= 0xbe);
+}
+
+/* Returns the bytes that were written for. */
+static size_t write_beyond_ascii(FILE *out, const unsigned char *at)
+{
+    const size_t length = utf8_length(at);
+    if (length == 0 || is_unfit(at))
+        fputs(UTF8_REPLACEMENT, out);
+    else
+        fwrite(at, 1, length, out);
+    return length ? length : 1;
+}
+
+void write_escaped(FILE *out, const char *text, escape *how)
+{
+    char room[ESCAPE_ROOM];
+    for (const char *at = text; *at;) {
+        const unsigned char c = (unsigned char)*at;
+        if (c >= 0x80) {
+            at += write_beyond_ascii(out, (const unsigned char *)at);
+            continue;
+        }
+        const char *written = how(text, at++, room);
+        if (written)
+            fputs(written, out);
+        else if (c < ' ' || c == 0x7f)
+            fputs(UTF8_REPLACEMENT, out);
+        else
+            putc(c, out);
+    }
+}
+
+bool write_escaped_sentence(FILE *out, sentence *s, escape *how)
+{
+    char *text;
+    const bool ok = sentence_end(s, &text);
+    write_escaped(out, text ? text : "", how);
+    free(text);
+    return ok;
+}

@@ -1,0 +1,22 @@
+/* escaped.h - text of others inside a markup language. */
+#ifndef DIFF_ESCAPED_H
+#define DIFF_ESCAPED_H
+
+#include "sentence.h"
+
+/* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
+#define ESCAPE_ROOM 16
+typedef const char *escape(const char *text, const char *at, char room[ESCAPE_ROOM]);
+
+escape escape_xml;      /* inside an attribute or an element */
+escape escape_xml_text; /* inside an element, where lines may end */
+escape escape_markdown; /* inside a line, a cell of a table, or an element of HTML */
+
+/* Write UTF-8 in which each character of ASCII is written as the escape says. Control characters it leaves as they are,
+ * characters that XML does not know, and what is no UTF-8 become U+FFFD. */
+void write_escaped(FILE *out, const char *text, escape *how);
+
+/* Write what was printed into a sentence, and end it. False where there was no memory. */
+bool write_escaped_sentence(FILE *out, sentence *s, escape *how);
+
+#endif

@@ -1,0 +1,114 @@
+/* findings.js - what was found, as the page has it, and in words. */
+"use strict";
+
+const KINDS = {
+    pixels: "pixels differ",
+    size: "another size",
+    digest: "another digest",
+    no_frame: "no frame",
+    no_reference: "no reference",
+    unreadable: "unreadable",
+};
+
+const grouped = number => number.toLocaleString("en-US");
+const pair = ([x, y]) => `${x}, ${y}`;
+const sides = ([width, height]) => `${width} × ${height}`;
+
+class Findings {
+    constructor(text)
+    {
+        const lines = text.trim().split("\n").map(line => JSON.parse(line));
+        this.whole = lines[0];
+        this.frames = lines.slice(1);
+        this.pictures = document.getElementById("pictures").content;
+    }
+
+    /* The picture of a frame as an address that holds its data, or null. */
+    picture(frame, which)
+    {
+        return this.pictures.querySelector(`[data-frame="${frame}"][data-picture="${which}"]`)?.src ?? null;
+    }
+
+    indexOf(name)
+    {
+        return this.frames.findIndex(frame => frame.frame === name);
+    }
+}
+
+/* What counts; in a frame of unlike size, say, nothing was counted. */
+function tallyOf(finding)
+{
+    return finding.counted?.pixels > 0 ? finding.counted : finding.unlike ?? {pixels: 0};
+}
+
+/* A recording's frame_000041.png is known by its tick. */
+function shortName(finding)
+{
+    const tick = /^frame_(\d+)\.png$/.exec(finding.frame);
+    return tick ? `tick ${Number(tick[1])}` : finding.frame;
+}
+
+function shortWords(finding)
+{
+    const pixels = tallyOf(finding).pixels;
+    if (finding.finding !== "pixels")
+        return KINDS[finding.finding];
+    return `${grouped(pixels)} ${pixels === 1 ? "pixel" : "pixels"}`;
+}
+
+const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
+
+/* The cause where one is known, or how much differs, up to the first pause. */
+function headlineOf(finding)
+{
+    return capital((finding.cause ?? finding.words).split("; ")[0]);
+}
+
+/* What else the cause says, and what differs where it is not counted. */
+function detailsOf(finding)
+{
+    const [, ...rest] = (finding.cause ?? "").split("; ");
+    const details = rest.length > 0 ? [rest.join("; ")] : [];
+    if (finding.cause && finding.finding !== "pixels")
+        details.push(finding.words);
+    return details.map(capital).join(". ");
+}
+
+function share(pixels, [width, height])
+{
+    const percent = 100 * pixels / (width * height);
+    return percent < 0.01 ? "under 0.01\u202f%" : `${percent < 10 ? percent.toPrecision(2) : Math.round(percent)}\u202f%`;
+}
+
+function forgivenIn(finding)
+{
+    return [["close", "close"], ["antialiased", "anti-aliased"], ["ignored", "in what is ignored"]]
+        .filter(([member]) => finding[member] > 0).map(([member, words]) => `${grouped(finding[member])} ${words}`);
+}
+
+/* One where both are the same. */
+function sizesOf({reference_size: expected, frame_size: actual})
+{
+    const sizes = [["expected", expected], ["actual", actual]].filter(([, size]) => size);
+    return expected && actual && sides(expected) === sides(actual) ? [["size", sides(expected)]] :
+        sizes.map(([name, size]) => [name, sides(size)]);
+}
+
+/* Names and values, for people. */
+function factsOf(finding)
+{
+    const tally = tallyOf(finding), facts = [], forgiven = forgivenIn(finding);
+    if (tally.pixels > 0) {
+        facts.push(["pixels", `${grouped(tally.pixels)} of ${grouped(finding.frame_size[0] * finding.frame_size[1])}, ` +
+                              share(tally.pixels, finding.frame_size)]);
+        facts.push(["worst", `${tally.worst_delta.toFixed(4)} YIQ at ${pair(tally.worst_at)}`]);
+        facts.push(["channels", `by up to ${tally.largest_channel} of ${finding.channel_range}`]);
+        facts.push(["within", `${pair(tally.min)} to ${pair(tally.max)}`]);
+    }
+    if (forgiven.length > 0)
+        facts.push(["forgiven", forgiven.join(", ")]);
+    facts.push(...sizesOf(finding));
+    if (finding.reference_digest)
+        facts.push(["digests", `${finding.reference_digest} expected, ${finding.frame_digest} actual`]);
+    return facts;
+}

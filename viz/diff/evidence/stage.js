@@ -1,0 +1,273 @@
+/* stage.js - the pictures of one frame: in panes that show the same part of them, one over the other or beside. */
+"use strict";
+
+const PICTURES = ["expected", "actual", "difference"];
+const LARGEST_SCALE = 64;
+const WORST_ACROSS = 48; /* pixels of a picture that are seen around the worst place */
+const BLINK = 600; /* ms */
+const EDGE = 8; /* around a mark, in pixels of the screen */
+
+const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
+
+/* Panes of a way to look; those that lie on each other have the last one on top. */
+const PANES = {
+    swipe: ["expected", "actual"],
+    blink: ["expected", "actual"],
+    difference: ["difference"],
+    side: PICTURES,
+    expected: ["expected"],
+    actual: ["actual"],
+};
+
+class Stage {
+    constructor(root)
+    {
+        this.root = root;
+        this.handle = document.getElementById("handle");
+        this.panes = new Map(PICTURES.map(name => [name, root.querySelector(`[data-picture="${name}"]`)]));
+        this.images = new Map();
+        this.mode = "swipe";
+        this.swiped = 50; /* percent of the stage that is expected */
+        this.zoom = null; /* {scale, x, y}: the point of the picture in the middle; null: all of it */
+        this.marked = true;
+        this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+        this.onchange = () => {};
+        new ResizeObserver(() => this.arrange()).observe(root);
+        this.listen();
+    }
+
+    /* ---- What is there -------------------------------------------------------------------------------------- */
+
+    /* Pictures as addresses by their names; `place` has the worst place and the box around all that differs. */
+    async show(addresses, place)
+    {
+        const wanted = this.wanted = {};
+        const images = new Map(await Promise.all(Object.entries(addresses).map(async ([name, address]) =>
+            [name, await this.load(name, address)])));
+        if (this.wanted !== wanted)
+            return; /* another frame was asked for meanwhile */
+        this.images = images;
+        this.place = place;
+        this.zoom = null;
+        this.width = Math.max(1, ...[...images.values()].map(image => image.naturalWidth));
+        this.height = Math.max(1, ...[...images.values()].map(image => image.naturalHeight));
+        for (const [name, pane] of this.panes) {
+            const label = pane.querySelector(".label");
+            label.textContent = name;
+            pane.replaceChildren(...(images.has(name) ? [images.get(name)] : []), label, ...this.marks());
+        }
+        this.look(this.mode);
+    }
+
+    load(name, address)
+    {
+        const image = new Image();
+        image.alt = name;
+        image.draggable = false;
+        image.decoding = "sync"; /* no empty moment before it is seen */
+        return new Promise(done => {
+            image.onload = image.onerror = () => done(image); /* what cannot be decoded is empty */
+            image.src = address;
+        });
+    }
+
+    marks()
+    {
+        return this.place ? ["box", "ring"].map(name => {
+            const mark = document.createElement("div");
+            mark.className = `mark ${name}`;
+            return mark;
+        }) : [];
+    }
+
+    can(mode)
+    {
+        return PANES[mode].every(name => this.images.has(name));
+    }
+
+    /* ---- Ways to look --------------------------------------------------------------------------------------- */
+
+    /* Where a frame has not all that a way needs, what it has is shown; the way that was asked for stays in mind. */
+    look(mode)
+    {
+        this.mode = mode;
+        this.seen = this.can(mode) ? mode : PICTURES.find(name => this.can(name)) ?? "";
+        this.root.dataset.mode = this.seen;
+        clearInterval(this.blinking);
+        if (this.seen === "blink" && !this.still)
+            this.blinking = setInterval(() => this.flip(), BLINK);
+        this.root.classList.remove("flipped");
+        this.zoom &&= {...this.zoom, scale: Math.max(this.zoom.scale, this.fit())};
+        this.arrange();
+    }
+
+    flip()
+    {
+        this.root.classList.toggle("flipped");
+    }
+
+    /* By hand: from then on nothing blinks by itself. */
+    flipByHand()
+    {
+        if (this.seen !== "blink")
+            this.look("blink");
+        clearInterval(this.blinking);
+        this.flip();
+    }
+
+    swipe(percent)
+    {
+        this.swiped = clamp(percent, 0, 100);
+        this.handle.setAttribute("aria-valuenow", Math.round(this.swiped));
+        this.root.style.setProperty("--swiped", `${this.swiped}%`);
+    }
+
+    /* ---- Zoom ----------------------------------------------------------------------------------------------- */
+
+    shown()
+    {
+        return this.seen ? PANES[this.seen].map(name => this.panes.get(name)) : [];
+    }
+
+    /* How many beside each other let them be largest. */
+    columns()
+    {
+        if (this.seen !== "side")
+            return 1;
+        const size = columns => Math.min(this.root.clientWidth / columns / this.width,
+                                         this.root.clientHeight / Math.ceil(3 / columns) / this.height);
+        return [3, 2, 1].reduce((best, columns) => size(columns) > size(best) ? columns : best);
+    }
+
+    fit()
+    {
+        const pane = this.shown()[0];
+        const scale = Math.min(pane.clientWidth / this.width, pane.clientHeight / this.height);
+        return scale > 1 ? Math.floor(scale) : scale; /* small pictures in whole pixels */
+    }
+
+    scale()
+    {
+        return this.zoom?.scale ?? this.fit();
+    }
+
+    middle()
+    {
+        return this.zoom ?? {x: this.width / 2, y: this.height / 2};
+    }
+
+    zoomTo(scale, x, y)
+    {
+        const least = this.fit();
+        this.zoom = scale <= least ? null :
+            {scale: Math.min(scale, LARGEST_SCALE), x: clamp(x, 0, this.width), y: clamp(y, 0, this.height)};
+        this.arrange();
+    }
+
+    zoomBy(factor)
+    {
+        const {x, y} = this.middle();
+        this.zoomTo(this.scale() * factor, x, y);
+    }
+
+    /* The worst place in the middle, and the second time all of it again. */
+    zoomToWorst()
+    {
+        if (!this.place || this.zoom?.worst) {
+            this.zoomTo(0);
+            return;
+        }
+        const [x, y] = this.place.worst, pane = this.shown()[0];
+        this.zoomTo(Math.max(2 * this.fit(), Math.round(pane.clientWidth / WORST_ACROSS), 4), x + 0.5, y + 0.5);
+        if (this.zoom)
+            this.zoom.worst = true;
+    }
+
+    /* ---- Putting it there ----------------------------------------------------------------------------------- */
+
+    arrange()
+    {
+        if (!this.seen)
+            return;
+        this.root.style.setProperty("--columns", this.columns());
+        this.root.classList.toggle("zoomed", this.zoom !== null);
+        const scale = this.scale(), {x, y} = this.middle();
+        for (const pane of this.shown()) {
+            const left = pane.clientWidth / 2 - x * scale, top = pane.clientHeight / 2 - y * scale;
+            const image = pane.querySelector("img");
+            image.style.transform = `translate(${left}px, ${top}px) scale(${scale})`;
+            image.style.imageRendering = scale >= 2 ? "pixelated" : "auto";
+            this.putMarks(pane, left, top, scale);
+        }
+        this.swipe(this.swiped);
+        this.onchange();
+    }
+
+    putMarks(pane, left, top, scale)
+    {
+        if (!this.place)
+            return;
+        const {worst, min, max} = this.place;
+        const put = (mark, [x0, y0], [x1, y1], least) => {
+            const width = Math.max((x1 + 1 - x0) * scale + EDGE, least), height = Math.max((y1 + 1 - y0) * scale + EDGE, least);
+            mark.style.width = `${width}px`;
+            mark.style.height = `${height}px`;
+            mark.style.transform = `translate(${left + (x0 + x1 + 1) / 2 * scale - width / 2}px, ${
+                                              top + (y0 + y1 + 1) / 2 * scale - height / 2}px)`;
+        };
+        put(pane.querySelector(".box"), min, max, 0);
+        put(pane.querySelector(".ring"), worst, worst, 26);
+        this.root.classList.toggle("unmarked", !this.marked);
+    }
+
+    toggleMarks()
+    {
+        this.marked = !this.marked;
+        this.arrange();
+    }
+
+    /* ---- Pointer -------------------------------------------------------------------------------------------- */
+
+    listen()
+    {
+        this.root.addEventListener("wheel", event => this.wheel(event), {passive: false});
+        this.root.addEventListener("pointerdown", event => this.grab(event));
+        this.root.addEventListener("pointermove", event => this.drag(event));
+        for (const end of ["pointerup", "pointercancel"])
+            this.root.addEventListener(end, () => this.held = null);
+    }
+
+    /* What is under the pointer stays there. */
+    wheel(event)
+    {
+        const pane = event.target.closest(".pane");
+        if (!pane || !this.seen)
+            return;
+        event.preventDefault();
+        const box = pane.getBoundingClientRect(), before = this.scale(), {x, y} = this.middle();
+        const right = event.clientX - box.left - box.width / 2, down = event.clientY - box.top - box.height / 2;
+        const after = clamp(before * 2 ** (-event.deltaY / 300), this.fit(), LARGEST_SCALE);
+        this.zoomTo(after, x + right / before - right / after, y + down / before - down / after);
+    }
+
+    grab(event)
+    {
+        if (event.button !== 0 || !this.seen)
+            return;
+        const swipes = this.seen === "swipe" && (!this.zoom || event.target === this.handle);
+        this.held = {swipes, x: event.clientX, y: event.clientY, from: this.middle()};
+        this.root.setPointerCapture(event.pointerId);
+        this.drag(event);
+    }
+
+    drag(event)
+    {
+        if (!this.held)
+            return;
+        const box = this.root.getBoundingClientRect(), {x, y} = this.held.from, scale = this.scale();
+        if (this.held.swipes)
+            this.swipe(100 * (event.clientX - box.left) / box.width);
+        else if (this.zoom)
+            this.zoomTo(scale, x - (event.clientX - this.held.x) / scale, y - (event.clientY - this.held.y) / scale);
+    }
+}

@@ -1,0 +1,233 @@
+/* explain.c - see explain.h. */
+#include "explain.h"
+#include "cause_words.h"
+#include "explain_pair.h"
+#include "frame_file.h"
+#include "same_bytes.h"
+#include "sentence.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+bool explain_is_unlike(const diff_pair *pair)
+{
+    return pair->finding != FOUND_SAME_BYTES && pair->finding != FOUND_SAME_PIXELS && pair->finding != FOUND_UNREADABLE;
+}
+
+void explanation_free(explanation *e)
+{
+    if (!e)
+        return;
+    recorded_close(&e->sides[0]);
+    recorded_close(&e->sides[1]);
+    cause_release(&e->cause);
+    tracer_close(&e->tracer);
+    free(e);
+}
+
+/* ---- Playing both -------------------------------------------------------------------------------------------- */
+
+/* A pair that is explained, and the tick of its frames. */
+typedef struct wanted_pair {
+    uint64_t tick;
+    const diff_pair *pair;
+} wanted_pair;
+
+/* What is looked at while both are played. */
+typedef struct watching {
+    explanation *e;
+    wanted_pair *pairs; /* in ascending order of their ticks */
+    uint64_t *ticks;    /* the same, without the pairs */
+    size_t count, next;
+} watching;
+
+/* Lines that are the same, of ticks that are the same, are both right or both wrong. */
+static bool check_lines(explanation *e, const octree_game *const games[2], bool differs, record_error *error)
+{
+    recorded *const sides[2] = {&e->sides[0], &e->sides[1]};
+    const uint64_t tick = octree_game_tick(games[0])->number;
+    if (!recorded_read_line(sides[0], tick, error) || !recorded_read_line(sides[1], tick, error))
+        return false;
+    const line_reader *x = &sides[0]->lines, *y = &sides[1]->lines;
+    const bool both = sides[0]->reading && sides[1]->reading;
+    if (both && !differs && x->size == y->size && memcmp(x->line, y->line, x->size) == 0)
+        return true;
+    return recorded_check_line(sides[0], games[0], error) && recorded_check_line(sides[1], games[1], error);
+}
+
+static bool watch(void *context, const octree_game *const games[2], bool differs, record_error *error)
+{
+    watching *w = context;
+    const uint64_t tick = octree_game_tick(games[0])->number;
+    if (!check_lines(w->e, games, differs, error) || !tracer_add_tick(&w->e->tracer, w->e->sides, games, error))
+        return false;
+    if (w->next == w->count || w->pairs[w->next].tick != tick)
+        return true;
+    const diff_pair *pair = w->pairs[w->next++].pair;
+    return !pair->difference.unlike.pixels || tracer_add_pair(&w->e->tracer, w->e->sides, games, pair, error);
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const uint64_t x = ((const wanted_pair *)a)->tick, y = ((const wanted_pair *)b)->tick;
+    return (x > y) - (x < y);
+}
+
+/* The first pairs that differ. */
+static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
+{
+    w->pairs = malloc((result->count + 1) * sizeof *w->pairs);
+    w->ticks = malloc((result->count + 1) * sizeof *w->ticks);
+    if (!w->pairs || !w->ticks)
+        return false;
+    for (size_t i = 0; i < result->count && w->count < most; i++) {
+        const diff_pair *pair = &result->pairs[i];
+        w->pairs[w->count].pair = pair;
+        if (explain_is_unlike(pair) && frame_parse_name(diff_pair_name(pair), &w->pairs[w->count].tick))
+            w->count++;
+    }
+    qsort(w->pairs, w->count, sizeof *w->pairs, by_number);
+    for (size_t i = 0; i < w->count; i++)
+        w->ticks[i] = w->pairs[i].tick;
+    return true;
+}
+
+static bool play_both(explanation *e, const diff_result *result, uint64_t most, record_error *error)
+{
+    const cause_look looks[2] = {e->sides[0].look, e->sides[1].look};
+    watching w = {.e = e};
+    bool ok = list_pairs(&w, result, most) || record_fail(error, "there is no memory for %zu ticks", result->count);
+    const cause_wanted wanted = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, w.ticks, w.count};
+    ok = ok && cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, looks, &wanted,
+                          watch, &w, &e->cause, error);
+    free(w.pairs);
+    free(w.ticks);
+    return ok;
+}
+
+/* ---- The headline -------------------------------------------------------------------------------------------- */
+
+/* Whether all that were explained show the same scenes, drawn otherwise. */
+static bool only_drawn(const diff_result *result)
+{
+    bool any = false;
+    for (size_t i = 0; i < result->count; i++) {
+        const diff_pair *pair = &result->pairs[i];
+        if (pair->cause && !pair->only_drawn)
+            return false;
+        any = any || pair->cause;
+    }
+    return any;
+}
+
+/* The first pair that has a cause, where nothing can be said of all. */
+static const diff_pair *first_explained(const diff_result *result)
+{
+    for (size_t i = 0; i < result->count; i++)
+        if (result->pairs[i].cause)
+            return &result->pairs[i];
+    return NULL;
+}
+
+static void print_doubts(FILE *out, const explanation *e)
+{
+    bool any = false;
+    for (int side = 0; e && side < 2; side++)
+        for (size_t i = 0; i < e->sides[side].doubt_count; i++) {
+            fprintf(out, "%s%s", any ? "; " : "", e->sides[side].doubts[i]);
+            any = true;
+        }
+}
+
+static bool any_doubt(const explanation *e)
+{
+    return e && e->sides[0].doubt_count + e->sides[1].doubt_count > 0;
+}
+
+/* What nobody changed comes from who drew it, and what files say is doubted before it is believed. */
+static void print_headline(FILE *out, const diff_result *result)
+{
+    const explanation *e = result->explanation;
+    const bool known = e && (cause_any(&e->cause.session) || cause_any(&e->cause.look));
+    const diff_pair *first = first_explained(result);
+    print_doubts(out, e);
+    if (any_doubt(e) && (known || first))
+        fputs("; ", out);
+    if (known)
+        cause_print_headline(out, &e->cause);
+    else if (only_drawn(result))
+        explain_print_rendering(out, e);
+    else if (first && e)
+        fprintf(out, "%s: %s", diff_pair_name(first), first->cause);
+}
+
+static bool say(diff_result *result, record_error *error)
+{
+    sentence s;
+    if (sentence_begin(&s))
+        print_headline(s.stream, result);
+    const bool ok = sentence_end(&s, &result->headline);
+    return ok || record_fail(error, "there is no memory for a headline");
+}
+
+/* ---- Both kinds of sides ------------------------------------------------------------------------------------- */
+
+/* Whether a file is in one of them alone, or not the same in both. */
+static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
+{
+    char *paths[2] = {folder_path(a->path, name), folder_path(b->path, name)};
+    const bool there = paths[0] && paths[1] && (access(paths[0], F_OK) == 0 || access(paths[1], F_OK) == 0);
+    const bool differs = there && !same_bytes(paths[0], paths[1]);
+    free(paths[0]);
+    free(paths[1]);
+    return differs;
+}
+
+static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)
+{
+    for (size_t i = 0; i < result->count; i++)
+        if (explain_is_unlike(&result->pairs[i]))
+            return true;
+    return a->kind == DIFF_RECORDING && b->kind == DIFF_RECORDING &&
+           (file_differs(a, b, "session.json") || file_differs(a, b, "recording.json") ||
+            file_differs(a, b, "ticks.jsonl"));
+}
+
+static bool explain_pairs(diff_result *result, uint64_t most, record_error *error)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < result->count && most > 0; i++) {
+        if (!explain_is_unlike(&result->pairs[i]))
+            continue;
+        ok = explain_pair(result->explanation, &result->pairs[i], error);
+        most--;
+    }
+    return ok;
+}
+
+static bool explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, record_error *error)
+{
+    explanation *e = NULL;
+    bool ok = true;
+    if (a->kind == DIFF_RECORDING && b->kind == DIFF_RECORDING) {
+        e = result->explanation = calloc(1, sizeof *e);
+        ok = e || record_fail(error, "there is no memory");
+        ok = ok && recorded_open(&e->sides[0], a, error) && recorded_open(&e->sides[1], b, error) &&
+             play_both(e, result, most, error);
+    }
+    return ok && explain_pairs(result, most, error) && say(result, error);
+}
+
+bool diff_explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, record_error *error)
+{
+    record_error why;
+    if (most == 0 || !any_to_explain(a, b, result) || explain(a, b, most, result, &why))
+        return true;
+    explanation_free(result->explanation);
+    result->explanation = NULL;
+    result->verdict = DIFF_TROUBLE;
+    result->trouble = strdup(why.text);
+    return result->trouble || record_fail(error, "%s", why.text);
+}

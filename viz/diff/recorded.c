@@ -1,0 +1,136 @@
+/* recorded.c - see recorded.h. */
+#include "recorded.h"
+#include "frame_file.h"
+#include "ticks_write.h"
+#include "who_drew.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A longer line is not read to its end. */
+#define LONGEST_LINE ((size_t)1 << 26)
+
+static bool doubt(recorded *r, record_error *error, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    char *copy = strdup(text);
+    if (!copy)
+        return record_fail(error, "there is no memory");
+    if (r->doubt_count < RECORDED_DOUBTS)
+        r->doubts[r->doubt_count++] = copy;
+    else
+        free(copy);
+    return true;
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------------------- */
+
+static bool check_session(recorded *r, record_error *error)
+{
+    uint64_t tick, filmed;
+    if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
+        !frame_session(r->side->path, tick, &filmed) || filmed == r->replay.session_digest)
+        return true;
+    return doubt(r, error, "%s/session.json is not the session that was filmed", r->side->path);
+}
+
+static bool open_lines(recorded *r, record_error *error)
+{
+    char *path = folder_path(r->side->path, "ticks.jsonl");
+    r->reading = path ? lines_open(&r->lines, path, error) : record_fail(error, "there is no memory");
+    free(path);
+    return r->reading;
+}
+
+bool recorded_open(recorded *r, const diff_side *side, record_error *error)
+{
+    *r = (recorded){.side = side};
+    who_drew(side->path, r->drawn_by, sizeof r->drawn_by);
+    if (!replay_read(&r->replay, side->path, error))
+        return false;
+    r->look = (cause_look){r->replay.film.view, r->replay.film.every};
+    return check_session(r, error) && open_lines(r, error);
+}
+
+void recorded_close(recorded *r)
+{
+    for (size_t i = 0; i < r->doubt_count; i++)
+        free(r->doubts[i]);
+    lines_close(&r->lines);
+    replay_close(&r->replay);
+    *r = (recorded){0};
+}
+
+/* ---- Lines --------------------------------------------------------------------------------------------------- */
+
+bool recorded_read_line(recorded *r, uint64_t tick, record_error *error)
+{
+    static const char *const words[] = {
+        [LINE_WHOLE] = "",           [LINE_TORN] = "is torn within",       [LINE_LONG] = "has too long a line at",
+        [LINE_NONE] = "ends before", [LINE_TROUBLE] = "cannot be read at",
+    };
+    if (!r->reading)
+        return true;
+    const line_state state = lines_next(&r->lines, LONGEST_LINE);
+    r->reading = state == LINE_WHOLE;
+    return r->reading || doubt(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
+}
+
+/* The digest of the scene, which is what the frame says or else what the line says itself: scenes are not made here. */
+static uint64_t scene_of(const recorded *r, uint64_t tick)
+{
+    static const char before[] = "\"scene\": \"";
+    const size_t behind = sizeof "0123456789abcdef\"}\n" - 1, length = sizeof before - 1;
+    uint64_t scene = 0;
+    if (frame_scene(r->side->path, tick, &scene))
+        return scene;
+    const char *digits = r->lines.line + r->lines.size - behind;
+    if (r->lines.size > behind + length && memcmp(digits - length, before, length) == 0)
+        scene = strtoull(digits, NULL, 16);
+    return scene;
+}
+
+/* The line that belongs to the tick; the caller frees it. */
+static char *expected_line(const recorded *r, const octree_game *game, size_t *size)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const octree *tree = octree_game_tree(game);
+    char name[FRAME_NAME], *text = NULL;
+    tick_extras extras = {.tree_digest = octree_digest(tree)};
+    FILE *stream = open_memstream(&text, size);
+    if (!stream)
+        return NULL;
+    octree_statistics(tree, &extras.stats);
+    if (tick->number % r->look.every == 0) {
+        extras.frame = frame_name(tick->number, name);
+        extras.scene_digest = scene_of(r, tick->number);
+    }
+    tick_write(stream, tick, &extras);
+    const bool whole = !ferror(stream);
+    if (fclose(stream) == 0 && whole)
+        return text;
+    free(text);
+    return NULL;
+}
+
+bool recorded_check_line(recorded *r, const octree_game *game, record_error *error)
+{
+    const uint64_t tick = octree_game_tick(game)->number;
+    verify_finding finding = {.kind = VERIFY_LINES};
+    size_t size;
+    if (!r->reading)
+        return true;
+    char *expected = expected_line(r, game, &size);
+    if (!expected)
+        return record_fail(error, "there is no memory");
+    r->reading = line_same(&r->lines, expected, size, tick, &finding);
+    free(expected);
+    return r->reading || doubt(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
+                               r->side->path, tick, finding.text);
+}

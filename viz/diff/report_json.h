@@ -1,0 +1,14 @@
+/* report_json.h - members of JSON that more than one report has. */
+#ifndef DIFF_REPORT_JSON_H
+#define DIFF_REPORT_JSON_H
+
+#include "json_write.h"
+#include "report.h"
+
+/* The verdict, both sides, the tolerance and the counts, as members of an object that the caller began. */
+void diff_json_summary(json_writer *writer, const diff_report *report);
+
+/* A pair: its name, its finding and what belongs to that, as members likewise. */
+void diff_json_finding(json_writer *writer, const diff_pair *pair);
+
+#endif

@@ -1,0 +1,121 @@
+/* report_junit.c - a comparison as JUnit's XML: see report.h.
+ *
+ * A time is wanted by readers of it and not known: it is 0. The line with ATTACHMENT shows a picture in GitLab and in
+ * Jenkins, where the path is one that they find.
+ */
+#include "report.h"
+#include "escaped.h"
+
+#include <stdlib.h>
+
+static void write_attribute(FILE *out, const char *name, const char *value)
+{
+    fprintf(out, " %s=\"", name);
+    write_escaped(out, value, escape_xml);
+    putc('"', out);
+}
+
+static bool write_fault(FILE *out, const diff_pair *pair)
+{
+    const diff_verdict verdict = diff_finding_verdict(pair->finding);
+    const char *element = verdict == DIFF_TROUBLE ? "error" : "failure";
+    char *words;
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    fprintf(s.stream, "%s: ", diff_verdict_name(verdict));
+    diff_print_difference(s.stream, pair);
+    if (pair->cause)
+        fprintf(s.stream, ". Cause: %s", pair->cause);
+    if (!sentence_end(&s, &words))
+        return false;
+    fprintf(out, "      <%s type=\"%s\"", element, diff_finding_name(pair->finding));
+    write_attribute(out, "message", words);
+    putc('>', out);
+    write_escaped(out, words, escape_xml); /* some readers show the one, some the other */
+    fprintf(out, "</%s>\n", element);
+    free(words);
+    return true;
+}
+
+static void write_paths(FILE *out, const diff_report *report, size_t i)
+{
+    fputs("      <system-out>", out);
+    for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
+        char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
+        if (path) {
+            fprintf(out, "%s: ", evidence_word((evidence_picture)picture));
+            write_escaped(out, path, escape_xml);
+            fputs(picture == EVIDENCE_SIDE ? "\n[[ATTACHMENT|" : "\n", out);
+            if (picture == EVIDENCE_SIDE) {
+                write_escaped(out, path, escape_xml);
+                fputs("]]\n", out);
+            }
+        }
+        free(path);
+    }
+    fputs("      </system-out>\n", out);
+}
+
+static bool write_case(FILE *out, const diff_report *report, size_t i)
+{
+    const diff_pair *pair = &report->result->pairs[i];
+    const bool fails = diff_finding_verdict(pair->finding) != DIFF_SAME;
+    fputs("    <testcase", out);
+    write_attribute(out, "classname", report->b->path);
+    write_attribute(out, "name", diff_pair_name(pair));
+    fputs(" time=\"0\"", out);
+    fputs(fails ? ">\n" : "/>\n", out);
+    if (!fails)
+        return true;
+    if (!write_fault(out, pair))
+        return false;
+    if (report->evidence && report->evidence->pictures[i])
+        write_paths(out, report, i);
+    fputs("    </testcase>\n", out);
+    return true;
+}
+
+static void write_counts(FILE *out, const diff_result *result)
+{
+    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"0\" time=\"0\">\n", result->count,
+            diff_count_different(result), result->found[FOUND_UNREADABLE]);
+}
+
+/* What holds for all of them: the verdict, why, and how they were compared. */
+static bool write_summary(FILE *out, const diff_report *report)
+{
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    diff_print_verdict(s.stream, report->result);
+    putc('\n', s.stream);
+    if (report->result->headline)
+        fprintf(s.stream, "%s\n", report->result->headline);
+    diff_print_tolerance(s.stream, report);
+    putc('\n', s.stream);
+    fputs("    <system-out>", out);
+    const bool ok = write_escaped_sentence(out, &s, escape_xml_text);
+    fputs("    </system-out>\n", out);
+    if (report->result->trouble) {
+        fputs("    <system-err>", out);
+        write_escaped(out, report->result->trouble, escape_xml);
+        fputs("</system-err>\n", out);
+    }
+    return ok;
+}
+
+bool diff_report_junit(FILE *out, const diff_report *report)
+{
+    bool ok = true;
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"octreel diff\"", out);
+    write_counts(out, report->result);
+    fputs("  <testsuite", out);
+    write_attribute(out, "name", report->a->path);
+    write_counts(out, report->result);
+    for (size_t i = 0; ok && i < report->result->count; i++)
+        ok = write_case(out, report, i);
+    ok = ok && write_summary(out, report);
+    fputs("  </testsuite>\n</testsuites>\n", out);
+    return ok;
+}

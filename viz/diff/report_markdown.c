@@ -1,0 +1,132 @@
+/* report_markdown.c - a comparison for the page of a CI job: see report.h. */
+#include "report.h"
+#include "escaped.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+static void write_text(FILE *out, const char *text)
+{
+    write_escaped(out, text, escape_markdown);
+}
+
+/* A name: as HTML, for between backticks nothing can be escaped. */
+static void write_name(FILE *out, const char *name)
+{
+    fputs("<code>", out);
+    write_text(out, name);
+    fputs("</code>", out);
+}
+
+static bool has_causes(const diff_result *result)
+{
+    for (size_t i = 0; i < result->count; i++)
+        if (result->pairs[i].cause)
+            return true;
+    return false;
+}
+
+static void write_pixels(FILE *out, const diff_pair *pair)
+{
+    const image_difference *d = &pair->difference;
+    const uint64_t all = (uint64_t)pair->about[0].width * (uint64_t)pair->about[0].height;
+    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels", d->counted.pixels, all);
+    if (d->unlike.pixels > d->counted.pixels)
+        fprintf(out, ", %" PRIu64 " more forgiven", d->unlike.pixels - d->counted.pixels);
+    fprintf(out, " | %.4f " IMAGE_DELTA_UNIT " at (%d,%d)", diff_shown_delta(d->counted.worst_delta),
+            d->counted.worst_x, d->counted.worst_y);
+}
+
+static bool write_row(FILE *out, const diff_pair *pair, bool causes)
+{
+    bool ok = true;
+    fputs("| ", out);
+    write_name(out, diff_pair_name(pair));
+    fputs(" | ", out);
+    if (pair->finding == FOUND_PIXELS) {
+        write_pixels(out, pair);
+    } else {
+        sentence s;
+        ok = sentence_begin(&s);
+        if (ok)
+            diff_print_difference(s.stream, pair);
+        ok = ok && write_escaped_sentence(out, &s, escape_markdown);
+        fputs(" |", out);
+    }
+    fputs(" |", out);
+    if (causes) {
+        putc(' ', out);
+        write_text(out, pair->cause ? pair->cause : "");
+        fputs(" |", out);
+    }
+    putc('\n', out);
+    return ok;
+}
+
+static bool write_table(FILE *out, const diff_result *result)
+{
+    const bool causes = has_causes(result);
+    size_t rows = 0;
+    bool ok = true;
+    fprintf(out, "\n| frame | difference | worst |%s\n|---|---|---|%s\n", causes ? " cause |" : "",
+            causes ? "---|" : "");
+    for (size_t i = 0; ok && i < result->count; i++)
+        if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && rows++ < DIFF_REPORT_ROWS)
+            ok = write_row(out, &result->pairs[i], causes);
+    if (rows > DIFF_REPORT_ROWS)
+        fprintf(out, "\nand %zu more\n", rows - DIFF_REPORT_ROWS);
+    return ok;
+}
+
+static void write_why(FILE *out, const diff_result *result)
+{
+    if (result->headline) {
+        fputs("**", out);
+        write_text(out, result->headline);
+        fputs("**\n\n", out);
+    }
+    if (result->trouble) {
+        fputs("Nobody can say why: ", out);
+        write_text(out, result->trouble);
+        fputs("\n\n", out);
+    }
+}
+
+static bool write_verdict(FILE *out, const diff_report *report)
+{
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    diff_print_verdict(s.stream, report->result);
+    fputs("### octreel diff: ", out);
+    bool ok = write_escaped_sentence(out, &s, escape_markdown);
+    fputs("\n\n", out);
+    write_why(out, report->result);
+    write_name(out, report->b->path);
+    fputs(" against ", out);
+    write_name(out, report->a->path);
+    fputs(", ", out);
+    if (!ok || !sentence_begin(&s))
+        return false;
+    diff_print_tolerance(s.stream, report);
+    ok = write_escaped_sentence(out, &s, escape_markdown);
+    fputs(".\n", out);
+    return ok;
+}
+
+static bool any_differs(const diff_result *result)
+{
+    return diff_count_different(result) + result->found[FOUND_UNREADABLE] > 0;
+}
+
+bool diff_report_markdown(FILE *out, const diff_report *report)
+{
+    if (!write_verdict(out, report) || (any_differs(report->result) && !write_table(out, report->result)))
+        return false;
+    if (report->evidence) {
+        fputs("\nEvidence: <code>", out);
+        write_text(out, report->evidence->folder);
+        fputs("/" EVIDENCE_PAGE "</code>\n", out);
+    }
+    return true;
+}

@@ -1,0 +1,247 @@
+/* report_page.c - report.html of a folder of evidence: see report.h.
+ *
+ * Between the page's two halves go the facts, a line of JSON for the whole and one for each frame that differs, and
+ * behind them the pictures. They stay on the disk until they are copied, a block at a time.
+ */
+#include "base64.h"
+#include "evidence_page.h"
+#include "report_json.h"
+#include "sentence.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Pairs that are in the page, in their order. */
+typedef struct page {
+    const diff_report *report;
+    FILE *out;
+    size_t pairs[DIFF_REPORT_PAGE_FRAMES];
+    bool embedded[DIFF_REPORT_PAGE_FRAMES];
+    size_t count, left_out;
+} page;
+
+/* ---- What is in it ------------------------------------------------------------------------------------------- */
+
+/* Of all three pictures; what cannot be read shall not be tried by a browser either. */
+static bool is_embedded(const diff_report *report, size_t i, evidence_picture picture)
+{
+    return picture != EVIDENCE_SIDE && (report->evidence->pictures[i] & 1u << picture) &&
+           report->result->pairs[i].finding != FOUND_UNREADABLE;
+}
+
+static uint64_t pictures_size(const diff_report *report, size_t i)
+{
+    uint64_t sum = 0;
+    for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
+        struct stat status;
+        char *path = is_embedded(report, i, (evidence_picture)picture)
+                         ? evidence_path(report->evidence, report->result, i, (evidence_picture)picture)
+                         : NULL;
+        if (path && stat(path, &status) == 0)
+            sum += (uint64_t)status.st_size;
+        free(path);
+    }
+    return sum;
+}
+
+static void choose_pairs(page *p)
+{
+    const diff_result *result = p->report->result;
+    uint64_t room = DIFF_REPORT_PAGE_BYTES;
+    for (size_t i = 0; i < result->count; i++) {
+        if (diff_finding_verdict(result->pairs[i].finding) == DIFF_SAME)
+            continue;
+        if (p->count == DIFF_REPORT_PAGE_FRAMES) {
+            p->left_out++;
+            continue;
+        }
+        const uint64_t size = pictures_size(p->report, i);
+        p->embedded[p->count] = size <= room;
+        room -= size <= room ? size : 0;
+        p->pairs[p->count++] = i;
+    }
+}
+
+/* ---- Facts --------------------------------------------------------------------------------------------------- */
+
+/* A line of JSON while it is made: in memory, for an element of HTML ends at the first "</" in it. */
+typedef struct fact_line {
+    sentence made;
+    json_writer writer;
+} fact_line;
+
+static bool line_begin(fact_line *line)
+{
+    *line = (fact_line){.writer = {.out = NULL}};
+    if (!sentence_begin(&line->made))
+        return false;
+    line->writer.out = line->made.stream;
+    json_write_begin_object(&line->writer);
+    return true;
+}
+
+/* In JSON a < stands in strings alone. */
+static bool line_end(fact_line *line, FILE *out)
+{
+    char *text;
+    json_write_end_object(&line->writer);
+    json_write_end_line(&line->writer);
+    const bool ok = sentence_end(&line->made, &text);
+    for (const char *at = ok ? text : ""; *at; at++)
+        if (*at == '<')
+            fputs("\\u003c", out);
+        else
+            putc(*at, out);
+    free(text);
+    return ok;
+}
+
+/* Print what belongs to a report, or to one pair of it. */
+typedef void printer(FILE *out, const diff_report *report, const diff_pair *pair);
+
+static void print_verdict(FILE *out, const diff_report *report, const diff_pair *pair)
+{
+    (void)pair;
+    diff_print_verdict(out, report->result);
+}
+
+static void print_tolerance(FILE *out, const diff_report *report, const diff_pair *pair)
+{
+    (void)pair;
+    diff_print_tolerance(out, report);
+}
+
+static void print_difference(FILE *out, const diff_report *report, const diff_pair *pair)
+{
+    (void)report;
+    diff_print_difference(out, pair);
+}
+
+/* A member whose text is printed. */
+static bool write_words(json_writer *w, const char *key, printer *print, const diff_report *report,
+                        const diff_pair *pair)
+{
+    char *text;
+    sentence s;
+    if (!sentence_begin(&s))
+        return false;
+    print(s.stream, report, pair);
+    if (!sentence_end(&s, &text))
+        return false;
+    json_member_text(w, key, text ? text : "");
+    free(text);
+    return true;
+}
+
+static bool write_whole(const page *p)
+{
+    fact_line line;
+    if (!line_begin(&line))
+        return false;
+    diff_json_summary(&line.writer, p->report);
+    const bool ok = write_words(&line.writer, "verdict_words", print_verdict, p->report, NULL) &&
+                    write_words(&line.writer, "tolerance_words", print_tolerance, p->report, NULL);
+    json_member_integer(&line.writer, "different", p->count + p->left_out);
+    json_member_integer(&line.writer, "left_out", p->left_out);
+    return line_end(&line, p->out) && ok;
+}
+
+/* The files' names, as they lie beside the page. */
+static void write_files(json_writer *w, const diff_report *report, size_t i)
+{
+    json_write_key(w, "files");
+    json_write_begin_object(w);
+    for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
+        char *name = NULL;
+        if (report->evidence->pictures[i] & 1u << picture)
+            name = evidence_name(diff_pair_name(&report->result->pairs[i]), (evidence_picture)picture);
+        if (name)
+            json_member_text(w, evidence_word((evidence_picture)picture), name);
+        free(name);
+    }
+    json_write_end_object(w);
+}
+
+static bool write_pair(const page *p, size_t n)
+{
+    const size_t i = p->pairs[n];
+    const diff_pair *pair = &p->report->result->pairs[i];
+    fact_line line;
+    if (!line_begin(&line))
+        return false;
+    diff_json_finding(&line.writer, pair);
+    const bool ok = write_words(&line.writer, "words", print_difference, p->report, pair);
+    write_files(&line.writer, p->report, i);
+    json_write_key(&line.writer, "embedded");
+    json_write_bool(&line.writer, p->embedded[n]);
+    return line_end(&line, p->out) && ok;
+}
+
+static bool write_facts(const page *p, record_error *error)
+{
+    fputs("<script type=\"application/x-ndjson\" id=\"facts\">", p->out);
+    bool ok = write_whole(p);
+    for (size_t n = 0; ok && n < p->count; n++)
+        ok = write_pair(p, n);
+    fputs("</script>\n", p->out);
+    return ok || record_fail(error, "there is no memory");
+}
+
+/* ---- Pictures ------------------------------------------------------------------------------------------------ */
+
+static bool write_picture(const page *p, size_t n, evidence_picture picture, record_error *error)
+{
+    char *path = evidence_path(p->report->evidence, p->report->result, p->pairs[n], picture);
+    FILE *in = path ? fopen(path, "rb") : NULL;
+    if (!in) {
+        const int reason = path ? errno : ENOMEM;
+        record_fail(error, "%s: cannot be read: %s", path ? path : p->report->evidence->folder, strerror(reason));
+        free(path);
+        return false;
+    }
+    fprintf(p->out, "<img data-frame=\"%zu\" data-picture=\"%s\" src=\"data:image/png;base64,", n,
+            evidence_word(picture));
+    base64_copy(in, p->out);
+    fputs("\">\n", p->out);
+    const bool ok = !ferror(in) || record_fail(error, "%s: cannot be read: %s", path, strerror(errno));
+    fclose(in);
+    free(path);
+    return ok;
+}
+
+/* What is in a template is not decoded before the page takes it out. */
+static bool write_pictures(const page *p, record_error *error)
+{
+    bool ok = true;
+    fputs("<template id=\"pictures\">\n", p->out);
+    for (size_t n = 0; n < p->count; n++)
+        for (int picture = 0; ok && p->embedded[n] && picture < EVIDENCE_PICTURES; picture++)
+            if (is_embedded(p->report, p->pairs[n], (evidence_picture)picture))
+                ok = write_picture(p, n, (evidence_picture)picture, error);
+    fputs("</template>\n", p->out);
+    return ok;
+}
+
+static bool write_page(const page *p, record_error *error)
+{
+    fwrite(evidence_page_head, 1, evidence_page_head_size, p->out);
+    const bool ok = write_facts(p, error) && write_pictures(p, error);
+    fwrite(evidence_page_tail, 1, evidence_page_tail_size, p->out);
+    return ok;
+}
+
+bool diff_report_page(const diff_report *report, record_error *error)
+{
+    char *path = folder_path(report->evidence->folder, EVIDENCE_PAGE);
+    part_file file;
+    bool ok = path ? part_open(&file, path, error) : record_fail(error, "there is no memory");
+    if (ok) {
+        page p = {.report = report, .out = file.stream};
+        choose_pairs(&p);
+        ok = write_page(&p, error) ? part_close(&file, error) : part_abandon(&file);
+    }
+    free(path);
+    return ok;
+}

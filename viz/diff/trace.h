@@ -1,0 +1,59 @@
+/* trace.h - the pixels in which two frames of a tick differ, traced to the elements that are drawn there. */
+#ifndef DIFF_TRACE_H
+#define DIFF_TRACE_H
+
+#include "diff.h"
+#include "draw.h"
+#include "heat.h"
+#include "octree/game.h"
+#include "recorded.h"
+
+/* What some of the pixels show, on one side or both. Nodes that are there because one above them split, or that are
+ * gone because it merged, count as that one. */
+typedef struct trace_part {
+    int layer;   /* view_layer; TRACE_BACKGROUND: nothing is drawn there on either side */
+    uint64_t id; /* of a node in LAYER_NODES or a point in LAYER_POINTS; else 0 */
+    uint64_t pixels;
+} trace_part;
+
+#define TRACE_BACKGROUND (LAYER_DIAGRAM + 1)
+
+typedef struct trace {
+    uint64_t tick;
+    trace_part *parts; /* the largest first, none twice */
+    size_t count;
+    uint64_t pixels; /* of all parts */
+} trace;
+
+/* "node 0/3/7", "point 12", "text". */
+void trace_print_part(FILE *out, const trace_part *part);
+
+/* "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text"; of many parts the first so many, and
+ * text last of them. */
+#define TRACE_TOLD 5
+void trace_print(FILE *out, const trace *t);
+
+/* Two games that are drawn while they are played. A zeroed one has not begun. */
+typedef struct tracer {
+    heat heats[2];
+    scene scenes[2];
+    renderer *renderer; /* opened for the first frame that is traced */
+    trace *traces;      /* in ascending order of their ticks */
+    size_t count, room;
+    char untraced[256]; /* a sentence: why nothing can be drawn; else "" */
+} tracer;
+
+void tracer_close(tracer *t);
+
+/* To be called at each tick, for layers that show what ticks have left. */
+bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], record_error *error);
+
+/* Trace the pair of the tick at which the games are. Nothing is added where a frame does not show the scene of its tick
+ * or cannot be read, where sizes are unlike, or where nothing can be drawn: that is no error. */
+bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
+                     record_error *error);
+
+/* What is known of a tick, or null. */
+const trace *tracer_at(const tracer *t, uint64_t tick);
+
+#endif

@@ -1,0 +1,35 @@
+/* samples.h - pixels as samples, however an image stores them, and what is ignored of them. Private to this folder. */
+#ifndef OCTREEL_IMAGE_SAMPLES_H
+#define OCTREEL_IMAGE_SAMPLES_H
+
+#include "delta.h"
+#include "image.h"
+
+/* Colours are compared in spans of this many pixels, small enough for the stack and the first cache. */
+#define SPAN 128
+
+/* What samples of both images are out of: 255, or 65535 where one of them is wide. */
+static inline int samples_range(const image *a, const image *b)
+{
+    return a->wide || b->wide ? 65535 : 255;
+}
+
+/* `count` pixels from the n-th on, as wide as the range. */
+void samples_read(const image *image, size_t n, int count, int range, pixel_samples span[SPAN]);
+
+static inline bool samples_equal(const pixel_samples *a, const pixel_samples *b)
+{
+    return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
+}
+
+static inline bool tolerance_ignores(const image_tolerance *tolerance, int x, int y)
+{
+    for (size_t i = 0; i < tolerance->ignored_count; i++) {
+        const image_rectangle *r = &tolerance->ignored[i];
+        if (x >= r->x && y >= r->y && x - r->x < r->width && y - r->y < r->height)
+            return true;
+    }
+    return false;
+}
+
+#endif
