@@ -73,24 +73,39 @@ static void write_events(pen *p, const octree_tick *tick)
 /* A row names no more ids than these. */
 #define MOST_IDS 3
 
-/* "name  count: first, second ..." of ids. */
+/* "count: first second +more" of the ids that have room: none is cut. */
 static void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
 {
-    char text[SCENE_TEXT];
-    size_t used = (size_t)snprintf(text, sizeof text, "%zu%s", count, count ? ":" : "");
-    for (size_t i = 0; i < count && i < MOST_IDS && used < sizeof text; i++)
-        used += (size_t)snprintf(text + used, sizeof text - used, " %llu", (unsigned long long)points[i].id);
-    write_row(p, name, "%s%s", text, count > MOST_IDS ? " .." : "");
+    char text[SCENE_TEXT] = "", more[SCENE_TEXT] = "", id[SCENE_TEXT], rest[SCENE_TEXT] = "", number[SCENE_TEXT];
+    size_t told = 0, room = text_room(VALUE, 1);
+    snprintf(number, sizeof number, "%zu", count);
+    for (; told < count && told < MOST_IDS; told++) {
+        snprintf(id, sizeof id, " %llu", (unsigned long long)points[told].id);
+        if (told + 1 < count)
+            snprintf(rest, sizeof rest, " +%zu", count - told - 1);
+        else
+            rest[0] = 0;
+        if (strlen(number) + 1 + strlen(text) + strlen(id) + strlen(rest) > room)
+            break;
+        strcat(text, id);
+        strcpy(more, rest);
+    }
+    write_row(p, name, "%s%s%s%s", number, told ? ":" : "", text, more);
 }
 
 static void write_nearest(pen *p, const octree_answer *answer)
 {
-    char distance[32];
-    if (answer->count)
-        write_row(p, "nearest", "%llu at %s", (unsigned long long)answer->neighbors[0].point.id,
-                  number_text(answer->neighbors[0].distance, 6, distance));
-    else
+    char id[32], distance[32];
+    if (answer->count == 0) {
         write_row(p, "nearest", "none");
+        return;
+    }
+    number_text(answer->neighbors[0].distance, 6, distance);
+    snprintf(id, sizeof id, "%llu", (unsigned long long)answer->neighbors[0].point.id);
+    const bool fits = strlen(id) + strlen(" at ") + strlen(distance) <= text_room(VALUE, 1);
+    write_row(p, "nearest", "%s%s%s", id, fits ? " at " : "", fits ? distance : "");
+    if (!fits)
+        write_row(p, "", "at %s", distance);
 }
 
 static void write_knearest(pen *p, const octree_answer *answer)
@@ -112,16 +127,25 @@ static void write_range(pen *p, const octree_answer *answer)
     write_ids(p, "range", answer->points, answer->count);
 }
 
+/* In the colours of what is drawn of them. */
 static void write_answers(pen *p, const octree_answer *answers, size_t count)
 {
-    static void (*const writers[OCTREE_QUERY_KINDS])(pen *, const octree_answer *) = {
-        [OCTREE_QUERY_RANGE] = write_range,
-        [OCTREE_QUERY_NEAREST] = write_nearest,
-        [OCTREE_QUERY_KNEAREST] = write_knearest,
-        [OCTREE_QUERY_RADIUS] = write_radius,
+    static const struct {
+        void (*write)(pen *, const octree_answer *);
+        view_layer layer;
+        theme_role role;
+    } kinds[OCTREE_QUERY_KINDS] = {
+        [OCTREE_QUERY_RANGE] = {write_range, LAYER_RANGE, ROLE_RANGE},
+        [OCTREE_QUERY_NEAREST] = {write_nearest, LAYER_NEAREST, ROLE_NEAREST},
+        [OCTREE_QUERY_KNEAREST] = {write_knearest, LAYER_KNEAREST, ROLE_KNEAREST},
+        [OCTREE_QUERY_RADIUS] = {write_radius, LAYER_RADIUS, ROLE_RADIUS},
     };
-    for (size_t i = 0; i < count; i++)
-        writers[answers[i].kind](p, &answers[i]);
+    for (size_t i = 0; i < count; i++) {
+        const octree_query_kind kind = answers[i].kind;
+        p->name = view_shows(&p->scene->view, kinds[kind].layer) ? kinds[kind].role : ROLE_FAINT;
+        kinds[kind].write(p, &answers[i]);
+    }
+    p->name = ROLE_FAINT;
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
@@ -145,6 +169,7 @@ static void write_keys(pen *p, const octree_game *game)
         used +=
             (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ", session->keys[tick - 1]);
     if (used) {
+        text[used - 1] = 0; /* the last blank */
         write_text(p, MARGIN, ROLE_FAINT, 1, text);
         p->y += LINE;
     }
@@ -188,7 +213,7 @@ static void write_title(pen *p, const char *text)
 
 static pen begin_panel(scene *s)
 {
-    pen p = {.scene = s, .y = MARGIN};
+    pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT};
     fill(&p, 0, 0, COLUMN, s->view.height / s->unit + 1, ROLE_PANEL);
     return p;
 }
@@ -199,7 +224,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
     char title[SCENE_TEXT];
     snprintf(title, sizeof title, "tick %llu", (unsigned long long)tick->number);
     if (panel_width(&s->view) == 0) {
-        pen line = {.scene = s, .y = 4};
+        pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
         write_text(&line, 4, ROLE_TEXT, 1, title);
         line.y += LINE;
         write_events(&line, tick);
@@ -232,7 +257,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
 void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const finding *found)
 {
     if (panel_width(&s->view) == 0) {
-        pen line = {.scene = s, .y = 4};
+        pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
         write_left_out(&line);
         write_finding(&line, found);
         return;

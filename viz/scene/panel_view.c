@@ -47,6 +47,10 @@ static void write_budget(pen *p, const scene_tally *tally)
         snprintf(text, sizeof text, "1 point in %llu", (unsigned long long)tally->one_in);
         write_warning(p, tally->beyond ? "" : "budget", text);
     }
+    if (tally->arrows.thinned) {
+        snprintf(text, sizeof text, "1 arrow in %llu", (unsigned long long)tally->arrows.one_in);
+        write_warning(p, tally->beyond || tally->thinned ? "" : "budget", text);
+    }
 }
 
 static void write_folded(pen *p, const scene_tally *tally)
@@ -57,29 +61,50 @@ static void write_folded(pen *p, const scene_tally *tally)
     write_warning(p, "folded", text);
 }
 
+/* Nodes; and of what else the tick draws, and of velocities. */
+static void write_small(pen *p, const scene_tally *tally)
+{
+    const bool nodes = tally->small || tally->small_met;
+    const size_t arrows = tally->arrows.small;
+    char lod[NUMBER_WORDS];
+    number_text(p->scene->view.lod, 3, lod);
+    if (nodes)
+        write_row(p, "lod", "%zu below %s px", tally->small, lod);
+    if (tally->small_met)
+        write_row(p, "", "and %zu met", tally->small_met);
+    if (arrows && nodes)
+        write_row(p, "", "and %zu arrow%s", arrows, arrows == 1 ? "" : "s");
+    else if (arrows)
+        write_row(p, "lod", "%zu arrow%s < %s px", arrows, arrows == 1 ? "" : "s", lod);
+}
+
+/* What of the tree is there, where it is not all of it. */
+static void write_shown(pen *p, const scene_tally *tally)
+{
+    const view *v = &p->scene->view;
+    if (!filter_is_on(&v->filter) && !tally->small && !tally->beyond && !tally->thinned)
+        return;
+    write_filter(p, &v->filter);
+    if (view_shows(v, LAYER_NODES))
+        write_row(p, "shown", "%zu nodes", tally->nodes);
+    if (view_shows(v, LAYER_POINTS))
+        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
+}
+
 void write_left_out(pen *p)
 {
-    const scene *s = p->scene;
-    const scene_tally *tally = &s->tally;
-    const bool unlabelled = s->view.labels && tally->labels < tally->nodes;
-    char lod[NUMBER_WORDS];
-    const bool less = filter_is_on(&s->view.filter) || tally->small || tally->beyond || tally->thinned || unlabelled;
-    if (less || tally->folded)
-        p->y += LINE / 2;
+    const scene_tally *tally = &p->scene->tally;
+    const int before = p->y;
+    p->y += LINE / 2;
+    const int begin = p->y;
     if (tally->folded)
         write_folded(p, tally);
-    if (!less)
-        return;
-    write_filter(p, &s->view.filter);
-    if (view_shows(&s->view, LAYER_NODES))
-        write_row(p, "shown", "%zu nodes", tally->nodes);
-    if (view_shows(&s->view, LAYER_POINTS))
-        write_row(p, view_shows(&s->view, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
-    if (tally->small)
-        write_row(p, "lod", "%zu below %s px", tally->small, number_text(s->view.lod, 3, lod));
+    write_shown(p, tally);
+    write_small(p, tally);
     write_budget(p, tally);
-    if (unlabelled)
+    if (p->scene->view.labels && tally->labels < tally->nodes)
         write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
+    p->y = p->y == begin ? before : p->y; /* all is there */
 }
 
 /* One strip of a colour a step, from the ramp's first. */

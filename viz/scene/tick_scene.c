@@ -7,6 +7,7 @@
 #include "heat_layers.h"
 #include "panel.h"
 #include "tree_layers.h"
+#include "velocity_layer.h"
 #include "visit_layers.h"
 
 #include <string.h>
@@ -121,6 +122,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
     add_heat(s, tree, h);
     add_visits(s, game);
     add_changes(s, game);
+    add_velocities(s, game);
     add_answers(s, tick->answers, tick->answer_count);
     add_player(s, tick, session);
     add_collision(s, tick, session);

@@ -29,6 +29,7 @@
     X(MERGES, "merges")         /* nodes that ceased to be inner ones at this tick */                                  \
     X(SPLITS, "splits")         /* nodes that became inner ones */                                                     \
     X(POINTS, "points")                                                                                                \
+    X(VELOCITIES, "velocities") /* where points that move go on to */                                                  \
     X(RANGE, "range")                                                                                                  \
     X(RADIUS, "radius")                                                                                                \
     X(KNEAREST, "knearest")                                                                                            \

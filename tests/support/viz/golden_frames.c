@@ -48,6 +48,7 @@ const golden_frame golden_frames[] = {
     {"visit_heat", "iso", "nodes,visit-heat", 252, NULL, 0, 0},
     {"point_heat", "iso", "world,point-heat", 30, "clustered", 0, 0},
     {"broken", "iso", "default", 0, NULL, 640, 360},
+    {"velocities", "iso", "nodes,points,velocities,player", 3, "moving", 400, 225},
     {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
 };
 
@@ -117,6 +118,19 @@ static octree_session sampled_session(octree_sample_kind kind, const octree_quer
     return session;
 }
 
+/* Points at rest and points that move, some of which bounce soon. */
+static octree_session moving_session(octree_body *bodies)
+{
+    octree_session session = sampled_session(OCTREE_SAMPLE_UNIFORM, NULL, bodies, 30);
+    double velocities[30][3];
+    const octree_box speeds = {{-90, -90, -90}, {90, 90, 90}};
+    octree_sample(OCTREE_SAMPLE_UNIFORM, 9, &speeds, 30, velocities);
+    for (size_t i = 0; i < 24; i++)
+        memcpy(bodies[i].velocity, velocities[i], sizeof velocities[i]);
+    session.query_count = 0;
+    return session;
+}
+
 /* A step over one point and past another, which comes along the same way from above. */
 static octree_session swept_session(void)
 {
@@ -140,6 +154,8 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[M
         return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, MOST_BODIES);
     case 'k':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
+    case 'm':
+        return moving_session(bodies);
     case 'r':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, ball, bodies, 60);
     case 's':
