@@ -22,6 +22,7 @@ typedef enum swatch {
     SWATCH_DOT,
     SWATCH_SQUARE,
     SWATCH_ARROW,
+    SWATCH_CROSS,
 } swatch;
 
 typedef struct legend_entry {
@@ -46,7 +47,7 @@ static const legend_entry legend[] = {
     {.layer = LAYER_POINTS, .role = ROLE_POINT, .swatch = SWATCH_DOT, .text = "point", .plain = true},
     {.layer = LAYER_VELOCITIES, .role = ROLE_POINT, .swatch = SWATCH_ARROW},
     {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .swatch = SWATCH_SQUARE, .text = "player and its box", .plain = true},
-    {.layer = LAYER_BOX, .role = ROLE_COLLISION, .swatch = SWATCH_SQUARE, .text = "collision, crossed"},
+    {.layer = LAYER_BOX, .role = ROLE_COLLISION, .swatch = SWATCH_CROSS, .text = "collision, crossed"},
     {.layer = LAYER_BOX,
      .role = ROLE_COLLISION,
      .swatch = SWATCH_DASHES,
@@ -200,6 +201,11 @@ static void fill_swatch(pen *p, const legend_entry *entry)
         break;
     case SWATCH_SQUARE:
         fill_square(p, 5, entry->role);
+        break;
+    case SWATCH_CROSS:
+        for (int i = -4; i <= 4; i++)
+            for (int side = -1; side <= (i ? 1 : -1); side += 2)
+                fill(p, MARGIN + SWATCH / 2 + i, p->y + 4 + side * i, 1, 1, entry->role);
         break;
     case SWATCH_ARROW:
         fill(p, MARGIN, p->y + 4, SWATCH, 1, entry->role);

@@ -82,7 +82,16 @@ static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, s
         add_way(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, look);
 }
 
-/* The box that was tested, crossed out, and a cross on everything in it. */
+static void add_cross(scene *s, uint64_t id, const double at[3], scene_look look, uint8_t half)
+{
+    scene_marker marker = {.id = id, .look = look, .shape = SHAPE_CROSS};
+    marker.look.width = half;
+    memcpy(marker.at, at, sizeof marker.at);
+    scene_add_marker(s, marker);
+}
+
+/* The box that was tested, crossed out, and a cross on everything in it. A box that appears small is a blot, of which
+ * only the colour tells what it is: so a larger cross lies on it, whatever its size. */
 static void add_collision(scene *s, const octree_tick *tick, const octree_session *session)
 {
     if (tick->hit_count == 0)
@@ -95,12 +104,9 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
     add_crossed_faces(s, &box, look);
     if (tick->swept)
         add_swept_ways(s, tick, session->player.box_size, look);
-    for (size_t i = 0; i < tick->hit_count; i++) {
-        scene_marker marker = {.id = tick->hits[i].id, .look = look, .shape = SHAPE_CROSS};
-        marker.look.width = 6;
-        memcpy(marker.at, tick->hits[i].position, sizeof marker.at);
-        scene_add_marker(s, marker);
-    }
+    add_cross(s, session->player.id, tick->attempt, look, 28);
+    for (size_t i = 0; i < tick->hit_count; i++)
+        add_cross(s, tick->hits[i].id, tick->hits[i].position, look, 6);
 }
 
 /* The leaf that the player is in. */
