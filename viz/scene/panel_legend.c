@@ -42,6 +42,7 @@ static const legend_entry legend[] = {
     {.layer = LAYER_HIT, .role = ROLE_POINT, .swatch = SWATCH_FRAME},
     {.layer = LAYER_SPLITS, .role = ROLE_POINT, .swatch = SWATCH_PLUS},
     {.layer = LAYER_MERGES, .role = ROLE_POINT, .swatch = SWATCH_DASHED_PLUS},
+    {.layer = LAYER_ASKED, .role = ROLE_PLAYER, .swatch = SWATCH_BOLD},
     {.layer = LAYER_VISIT_HEAT, .swatch = SWATCH_HEAT, .text = "[] 1-512+ visits"},
     {.layer = LAYER_POINT_HEAT, .swatch = SWATCH_HEAT, .text = "<> 1-262144+ points"},
     {.layer = LAYER_POINTS, .role = ROLE_POINT, .swatch = SWATCH_DOT, .text = "point", .plain = true},
@@ -76,6 +77,7 @@ typedef struct legend_subject {
     bool swept;              /* the session is */
     const octree_tick *tick; /* null for a tree alone */
     unsigned velocity_ticks; /* whose way an arrow shows */
+    octree_address asked;    /* of a tree alone: the node, or 0 */
 } legend_subject;
 
 /* The layer of each kind of query. */
@@ -101,7 +103,7 @@ static bool has_movers(const octree_game *game)
 static unsigned layers_of(const octree_game *game)
 {
     const octree_session *session = octree_game_session(game);
-    unsigned asked = 1u << LAYER_NEAREST, others = VIEW_ALL_LAYERS;
+    unsigned asked = 1u << LAYER_NEAREST, others = VIEW_ALL_LAYERS & ~(1u << LAYER_ASKED);
     for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++)
         others &= ~(1u << query_layers[i]);
     for (size_t i = 0; i < session->query_count; i++)
@@ -117,13 +119,17 @@ static unsigned layers_of_tree(const tree_look *about)
     unsigned layers = 1u << LAYER_NODES | 1u << LAYER_POINTS;
     for (size_t i = 0; i < about->answer_count; i++)
         layers |= 1u << query_layers[about->answers[i].kind];
+    if (about->node)
+        layers |= 1u << LAYER_ASKED;
     return layers;
 }
 
-/* The colours of nodes are those of the diagram too. */
+/* The colours of nodes are those of the diagram too, and so is what tells how they were met. */
 static bool is_diagrams(const scene *s, const legend_entry *entry)
 {
-    return entry->layer == LAYER_NODES && view_shows(&s->view, LAYER_DIAGRAM);
+    return (entry->layer == LAYER_NODES && view_shows(&s->view, LAYER_DIAGRAM)) ||
+           (entry->layer == LAYER_VISITED && s->tally.marked_visited) ||
+           (entry->layer == LAYER_PRUNED && s->tally.marked_pruned);
 }
 
 static bool is_listed(const scene *s, const legend_entry *entry, const legend_subject *about)
@@ -249,7 +255,7 @@ static bool count_visits(char text[SCENE_TEXT], char rest[SCENE_TEXT], const oct
 static void count_in_words(char text[SCENE_TEXT], unsigned layer, const legend_subject *about)
 {
     const octree_tick *tick = about->tick;
-    char rest[SCENE_TEXT];
+    char rest[SCENE_TEXT], address[OCTREE_ADDRESS_TEXT];
     switch (layer) {
     case LAYER_VISITED:
         count_visits(text, rest, tick);
@@ -259,6 +265,9 @@ static void count_in_words(char text[SCENE_TEXT], unsigned layer, const legend_s
         break;
     case LAYER_HIT:
         snprintf(text, SCENE_TEXT, "%zu %s hit", tick->hit_leaf_count, tick->hit_leaf_count == 1 ? "leaf" : "leaves");
+        break;
+    case LAYER_ASKED:
+        snprintf(text, SCENE_TEXT, "node %.42s", octree_address_format(about->asked, address));
         break;
     case LAYER_VELOCITIES:
         snprintf(text, SCENE_TEXT, "velocity, %u tick%s", about->velocity_ticks, about->velocity_ticks == 1 ? "" : "s");
@@ -376,5 +385,7 @@ void write_tick_legend(pen *p, const octree_game *game)
 
 void write_tree_legend(pen *p, const octree *tree, const tree_look *about)
 {
-    write_legend(p, &(legend_subject){.layers = layers_of_tree(about), .max_depth = octree_definition(tree).max_depth});
+    write_legend(p, &(legend_subject){.layers = layers_of_tree(about),
+                                      .max_depth = octree_definition(tree).max_depth,
+                                      .asked = about->node});
 }

@@ -99,9 +99,10 @@ typedef struct scene_tally {
     size_t thinned;       /* points left out by the budget */
     uint64_t one_in;      /* what is left is about one point in so many */
     scene_arrows arrows;
-    size_t drawn, folded;            /* nodes in the diagram: one by one, and in its bars */
-    unsigned folded_from, folded_to; /* the depths that are bars */
-    size_t way;                      /* nodes on the way that it shows */
+    size_t drawn, folded;                 /* nodes in the diagram: one by one, and in its bars */
+    unsigned folded_from, folded_to;      /* the depths that are bars */
+    size_t way;                           /* nodes on the way that it shows */
+    size_t marked_visited, marked_pruned; /* nodes that it marks as met so by the tick */
 } scene_tally;
 
 typedef struct scene {

@@ -49,6 +49,8 @@ const golden_frame golden_frames[] = {
     {"point_heat", "iso", "world,point-heat", 30, "clustered", 0, 0},
     {"broken", "iso", "default", 0, NULL, 640, 360},
     {"velocities", "iso", "nodes,points,velocities,player", 3, "moving", 400, 225},
+    {"diagram_met", "iso", "default", 216, NULL, 640, 360},
+    {"asked", "top", "nodes,asked,points", 0, "clustered", 0, 0},
     {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
 };
 
@@ -69,6 +71,7 @@ static const struct {
     {"lod", {.lod = 12}},
     {"budget", {.budget = 100}},
     {"diagram", {.diagram = DIAGRAM_BESIDE}},
+    {"diagram_met", {.diagram = DIAGRAM_BESIDE}},
     {"diagram_folded", {.diagram = DIAGRAM_ONLY, .coloring = COLORING_OCCUPANCY}},
     {"left_out",
      {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
@@ -177,6 +180,17 @@ static void break_game(const octree_game *game)
     break_tree(octree_game_tree(game), first->position, octree_game_tick(game)->player);
 }
 
+/* One frame is of the tree alone, and of a node in it. */
+static bool build_scene(scene *s, const golden_frame *frame, const view *v, const octree_game *game, const heat *h)
+{
+    octree_address asked;
+    octree_node node;
+    if (strcmp(frame->name, "asked") != 0)
+        return tick_scene_build(s, v, game, h);
+    return octree_address_parse("6/0", &asked) && octree_node_at(octree_game_tree(game), asked, &node) == OCTREE_OK &&
+           look_scene_build(s, v, octree_game_tree(game), &(tree_look){.title = frame->name, .node = asked});
+}
+
 bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
 {
     octree_body bodies[MOST_BODIES];
@@ -198,7 +212,7 @@ bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
     }
     if (strcmp(frame->name, "broken") == 0)
         break_game(game);
-    ok = (ok && tick_scene_build(s, &v, game, &h)) || record_fail(error, "%s: there is no memory", frame->name);
+    ok = (ok && build_scene(s, frame, &v, game, &h)) || record_fail(error, "%s: there is no scene", frame->name);
     heat_release(&h);
     octree_game_destroy(game);
     return ok;
