@@ -158,7 +158,7 @@ static void without_text_or_world_there_are_none(void **state)
     }
 }
 
-static void an_axis_that_is_seen_end_on_has_no_numbers(void **state)
+static void an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter(void **state)
 {
     (void)state;
     static const struct {
@@ -171,6 +171,12 @@ static void an_axis_that_is_seen_end_on_has_no_numbers(void **state)
         scene s = scene_of_world(&world, &v);
         for (size_t j = 0; j < s.segments.count; j++)
             assert_true(s.segments.items[j].id / FIRST_ID != rows[i].axis + 1);
+        size_t letters = 0;
+        for (size_t j = 0; j < s.labels.count; j++) {
+            letters += s.labels.items[j].in_world;
+            assert_true(!s.labels.items[j].in_world || s.labels.items[j].id != rows[i].axis);
+        }
+        assert_int_equal(letters, 2);
         assert_true(count_numbers(&s) >= 6);
         scene_release(&s);
     }
@@ -228,7 +234,7 @@ int main(void)
         cmocka_unit_test(numbers_are_round_and_stand_at_their_ticks_and_apart),
         cmocka_unit_test(a_fitted_box_has_the_axes_and_not_the_world),
         cmocka_unit_test(without_text_or_world_there_are_none),
-        cmocka_unit_test(an_axis_that_is_seen_end_on_has_no_numbers),
+        cmocka_unit_test(an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter),
         cmocka_unit_test(an_orbit_keeps_its_ticks),
         cmocka_unit_test(worlds_without_room_for_numbers_have_none),
     };

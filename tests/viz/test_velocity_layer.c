@@ -228,9 +228,15 @@ static void arrows_that_appear_short_are_left_out_and_counted(void **state)
             out += small;
         }
         assert_int_equal(some.tally.arrows.small, out);
-        snprintf(text, sizeof text, "and %zu arrow%s", out, out == 1 ? "" : "s");
-        if (some.tally.small_met)
-            assert_int_equal(says(&some, text), out > 0);
+        v.layers &= ~(1u << LAYER_HIT | 1u << LAYER_PRUNED);
+        build_tick(&some, &v, game);
+        assert_int_equal(some.tally.arrows.small, out);
+        snprintf(text, sizeof text, "%zu arrows < %.3g", out, lod);
+        assert_int_equal(says(&some, text), out > 0);
+        v.layers = VIEW_DEFAULT_LAYERS;
+        build_tick(&some, &v, game);
+        snprintf(text, sizeof text, "and %zu arrows", out);
+        assert_int_equal(says(&some, text), out > 0 && (some.tally.small || some.tally.small_met));
         scene_release(&all);
         scene_release(&some);
     }

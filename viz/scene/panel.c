@@ -113,7 +113,7 @@ static void write_knearest(pen *p, const octree_answer *answer)
     octree_point first[MOST_IDS];
     for (size_t i = 0; i < answer->count && i < MOST_IDS; i++)
         first[i] = answer->neighbors[i].point;
-    write_ids(p, "nearest", first, answer->count);
+    write_ids(p, "k near", first, answer->count);
 }
 
 static void write_radius(pen *p, const octree_answer *answer)

@@ -61,21 +61,27 @@ static void write_folded(pen *p, const scene_tally *tally)
     write_warning(p, "folded", text);
 }
 
-/* Nodes; and of what else the tick draws, and of velocities. */
+/* "lod    12 below 2 px", and what follows in words that fit. */
 static void write_small(pen *p, const scene_tally *tally)
 {
-    const bool nodes = tally->small || tally->small_met;
-    const size_t arrows = tally->arrows.small;
+    const struct {
+        size_t count;
+        const char *what;
+    } kinds[] = {{tally->small, ""}, {tally->small_met, " met"}, {tally->arrows.small, " arrows"}};
     char lod[NUMBER_WORDS];
+    bool first = true;
     number_text(p->scene->view.lod, 3, lod);
-    if (nodes)
-        write_row(p, "lod", "%zu below %s px", tally->small, lod);
-    if (tally->small_met)
-        write_row(p, "", "and %zu met", tally->small_met);
-    if (arrows && nodes)
-        write_row(p, "", "and %zu arrow%s", arrows, arrows == 1 ? "" : "s");
-    else if (arrows)
-        write_row(p, "lod", "%zu arrow%s < %s px", arrows, arrows == 1 ? "" : "s", lod);
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        if (!kinds[i].count)
+            continue;
+        if (i == 0)
+            write_row(p, "lod", "%zu below %s px", kinds[i].count, lod);
+        else if (first)
+            write_row(p, "lod", "%zu%s < %s", kinds[i].count, kinds[i].what, lod);
+        else
+            write_row(p, "", "and %zu%s", kinds[i].count, kinds[i].what);
+        first = false;
+    }
 }
 
 /* What of the tree is there, where it is not all of it. */
