@@ -260,6 +260,7 @@ static int inspect_one(const arguments *a, const char *path, reading *so_far)
     }
     if (!a->has_world)
         def.world = inspect_world(&points);
+    progress_say(&so_far->bar, "building the tree of %zu points", points.count); /* at once: in parts it takes longer */
     ok = inspect_build(&points, &def, &made, &error);
     progress_end(&so_far->bar); /* what is said next has the line for itself */
     cloud_release(&points);
