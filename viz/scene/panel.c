@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define LETTERS 10 /* units from the top of a row to below its letters */
+
 /* On one line where it fits, else on three. */
 static void write_position(pen *p, const char *name, const double position[3])
 {
@@ -21,7 +23,7 @@ static void write_position(pen *p, const char *name, const double position[3])
         return;
     }
     for (int i = 0; i < 3; i++)
-        write_row(p, i ? "" : name, "%s", axes[i]);
+        write_row(p, i ? "" : name, "%s", number_text(position[i], 9, axes[i]));
 }
 
 static void write_world(pen *p, const octree_box *world)
@@ -211,6 +213,33 @@ static void write_title(pen *p, const char *text)
     p->y += 2 * LINE;
 }
 
+/* Rows that the picture is too low for are counted in the place of the first. */
+static void end_rows(pen *p)
+{
+    scene *s = p->scene;
+    const int last = s->view.height / s->unit - LETTERS; /* where the last row may begin */
+    size_t kept = 0, rows = 0;
+    double at = -1, first = 0;
+    char text[SCENE_TEXT];
+    if (p->y - LINE <= last)
+        return;
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label label = s->labels.items[i];
+        if (label.look.layer != LAYER_TEXT || label.at[1] <= (last - LINE) * s->unit) {
+            s->labels.items[kept++] = label;
+            continue;
+        }
+        first = rows ? first : label.at[1];
+        rows += label.at[1] != at;
+        at = label.at[1];
+    }
+    s->labels.count = kept;
+    p->y = (int)first / s->unit < last ? (int)first / s->unit : last;
+    snprintf(text, sizeof text, "and %zu more", rows);
+    write_text(p, MARGIN, ROLE_WARNING, 1, text);
+    p->y += LINE;
+}
+
 static pen begin_panel(scene *s)
 {
     pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT};
@@ -230,6 +259,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
         write_events(&line, tick);
         write_left_out(&line);
         write_finding(&line, found);
+        end_rows(&line);
         return;
     }
     pen p = begin_panel(s);
@@ -251,6 +281,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
     write_answers(&p, tick->answers, tick->answer_count);
     write_refusals(&p, tick);
     write_finding(&p, found);
+    end_rows(&p);
     write_tick_legend(&p, game);
 }
 
@@ -260,6 +291,7 @@ void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const 
         pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
         write_left_out(&line);
         write_finding(&line, found);
+        end_rows(&line);
         return;
     }
     pen p = begin_panel(s);
@@ -273,5 +305,6 @@ void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const 
         p.y += LINE / 2;
     write_answers(&p, about->answers, about->answer_count);
     write_finding(&p, found);
+    end_rows(&p);
     write_tree_legend(&p, tree, about);
 }

@@ -11,8 +11,9 @@
 
 /* What a line of the legend shows before its words. */
 typedef enum swatch {
-    SWATCH_NODES, /* the ramp of the colours of nodes */
-    SWATCH_HEAT,  /* the same ramp, growing */
+    SWATCH_NODES,   /* the ramp of the colours of nodes */
+    SWATCH_DIAGRAM, /* the lines of diagram_legend.h */
+    SWATCH_HEAT,    /* the same ramp, growing */
     SWATCH_LINE,
     SWATCH_DASHES,
     SWATCH_BOLD,
@@ -37,6 +38,7 @@ typedef struct legend_entry {
 
 static const legend_entry legend[] = {
     {.layer = LAYER_NODES, .swatch = SWATCH_NODES, .text = ""},
+    {.layer = LAYER_DIAGRAM, .swatch = SWATCH_DIAGRAM, .text = ""},
     {.layer = LAYER_VISITED, .role = ROLE_NODE + 2, .swatch = SWATCH_BOLD},
     {.layer = LAYER_PRUNED, .role = ROLE_NODE + 2, .swatch = SWATCH_DASHES},
     {.layer = LAYER_HIT, .role = ROLE_POINT, .swatch = SWATCH_FRAME},
@@ -127,7 +129,7 @@ static unsigned layers_of_tree(const tree_look *about)
 /* The colours of nodes are those of the diagram too, and so is what tells how they were met. */
 static bool is_diagrams(const scene *s, const legend_entry *entry)
 {
-    return (entry->layer == LAYER_NODES && view_shows(&s->view, LAYER_DIAGRAM)) ||
+    return entry->layer == LAYER_DIAGRAM || (entry->layer == LAYER_NODES && view_shows(&s->view, LAYER_DIAGRAM)) ||
            (entry->layer == LAYER_VISITED && s->tally.marked_visited) ||
            (entry->layer == LAYER_PRUNED && s->tally.marked_pruned);
 }
@@ -178,7 +180,8 @@ static void fill_swatch(pen *p, const legend_entry *entry)
 {
     switch (entry->swatch) {
     case SWATCH_NODES:
-        break; /* drawn with its words */
+    case SWATCH_DIAGRAM:
+        break; /* drawn with their words */
     case SWATCH_HEAT:
         for (int step = 0; step < THEME_NODE_DEPTHS; step++)
             fill(p, MARGIN + step * 2, p->y + 4 - step / 2, 2, step + 1, theme_node_role((unsigned)step));
@@ -286,6 +289,9 @@ static void write_entry(pen *p, const legend_entry *entry, const legend_subject 
     char text[SCENE_TEXT], rest[SCENE_TEXT];
     if (entry->swatch == SWATCH_NODES) {
         write_node_legend(p, about->max_depth);
+        return;
+    }
+    if (entry->swatch == SWATCH_DIAGRAM) {
         write_diagram_legend(p);
         return;
     }
@@ -300,12 +306,11 @@ static void write_entry(pen *p, const legend_entry *entry, const legend_subject 
     }
 }
 
-/* What the diagram shows is told with the colours of nodes. */
 static int lines_of(const scene *s, const legend_entry *entry, const legend_subject *about)
 {
     char text[SCENE_TEXT], rest[SCENE_TEXT];
-    if (entry->swatch == SWATCH_NODES)
-        return 1 + diagram_legend_lines(s);
+    if (entry->swatch == SWATCH_DIAGRAM)
+        return diagram_legend_lines(s);
     return entry->layer == LAYER_VISITED && count_visits(text, rest, about->tick) ? 2 : 1;
 }
 
@@ -331,19 +336,24 @@ static bool is_needed(const legend_list *l, const legend_entry *entry)
     return is_in_frame(l->scene, entry->layer) || is_diagrams(l->scene, entry);
 }
 
-/* What has nothing in the frame goes first, then what explains itself, then what is told beside its answer; and then
- * the last of the others. */
+/* What has nothing in the frame goes first, then what explains itself, then what is told beside its answer; and
+ * then those of the others that have no room below the first. */
 static void make_fit(legend_list *l)
 {
+    int lines = 0;
     for (size_t i = 0; count_lines(l) > l->room && i < LEGEND_ENTRIES; i++)
         l->has[i] = l->has[i] && is_needed(l, &legend[i]);
     for (size_t i = 0; count_lines(l) > l->room && i < LEGEND_ENTRIES; i++)
         l->has[i] = l->has[i] && !legend[i].plain;
     for (size_t i = 0; count_lines(l) > l->room && i < LEGEND_ENTRIES; i++)
         l->has[i] = l->has[i] && !legend[i].answer;
-    for (size_t i = LEGEND_ENTRIES; count_lines(l) > l->room && i-- > 0;) {
-        l->dropped += l->has[i];
-        l->has[i] = false;
+    if (count_lines(l) <= l->room)
+        return;
+    for (size_t i = 0; i < LEGEND_ENTRIES; i++) {
+        const int own = l->has[i] ? lines_of(l->scene, &legend[i], l->about) : 0;
+        l->has[i] = own && lines + own <= l->room - 1; /* but for the line that says how many more there are */
+        lines += l->has[i] ? own : 0;
+        l->dropped += l->has[i] ? 0 : (size_t)own;
     }
 }
 
