@@ -92,8 +92,10 @@ static void add_tick(axes *a, int axis, double at, uint64_t id)
     char text[NUMBER_WORDS];
     snprintf(number.text, sizeof number.text, "%s", number_text(at, DIGITS, text));
     scene_add_segment(s, line);
-    if (place_number(a, line.ends[1], &number))
+    if (place_number(a, line.ends[1], &number)) {
+        text_add_ground(s, &number, ROLE_BACKGROUND);
         scene_add_label(s, number);
+    }
 }
 
 /* An axis that is seen end on would have all of its numbers at one place. */

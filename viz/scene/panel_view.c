@@ -4,6 +4,7 @@
 #include "number_text.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* "from to to" of one axis of the region. */
 static void write_region_axis(pen *p, const char *name, const octree_box *region, int axis)
@@ -61,6 +62,14 @@ static void write_folded(pen *p, const scene_tally *tally)
     write_warning(p, "folded", text);
 }
 
+/* Whether "12 met < 2 px" has. */
+static bool has_room(size_t count, const char *what, const char *lod)
+{
+    char number[SCENE_TEXT];
+    snprintf(number, sizeof number, "%zu", count);
+    return strlen(number) + strlen(what) + strlen(" < ") + strlen(lod) + strlen(" px") <= text_room(VALUE, 1);
+}
+
 /* "lod    12 below 2 px", and what follows in words that fit. */
 static void write_small(pen *p, const scene_tally *tally)
 {
@@ -77,7 +86,8 @@ static void write_small(pen *p, const scene_tally *tally)
         if (i == 0)
             write_row(p, "lod", "%zu below %s px", kinds[i].count, lod);
         else if (first)
-            write_row(p, "lod", "%zu%s < %s", kinds[i].count, kinds[i].what, lod);
+            write_row(p, "lod", "%zu%s < %s%s", kinds[i].count, kinds[i].what, lod,
+                      has_room(kinds[i].count, kinds[i].what, lod) ? " px" : "");
         else
             write_row(p, "", "and %zu%s", kinds[i].count, kinds[i].what);
         first = false;
