@@ -157,6 +157,8 @@ octree_status game_finish_tick(octree_game *game)
         status = ask_all(game);
     if (status == OCTREE_OK)
         status = compare_node_sets(game);
+    if (status == OCTREE_OK)
+        status = game_note_movers(game);
     if (status != OCTREE_OK)
         return status;
     publish(game);

@@ -163,6 +163,9 @@ typedef struct octree_tick {
     size_t touched[OCTREE_TOUCH_KINDS]; /* how many of them were met in each way */
     const octree_address *hit_leaves;   /* the leaves that hold a hit or a point of an answer; in pre-order */
     size_t hit_leaf_count;
+    const octree_body *movers; /* bodies with a velocity: where they are, and how they go on, turned where they bounced;
+                                  in an order that is the same whenever the session is played */
+    size_t mover_count;
 } octree_tick;
 
 typedef struct octree_game octree_game;
