@@ -1,0 +1,42 @@
+/* filmed_scenes.h - what octreel-bench films: the scenes and the goals of its table. */
+#ifndef BENCH_FILMED_SCENES_H
+#define BENCH_FILMED_SCENES_H
+
+#include "octree/game.h"
+#include "view.h"
+
+typedef struct filmed_scene {
+    const char *name, *about;
+    size_t points; /* clustered, capacity 8; 0 is the default session */
+    view_camera camera;
+    double lod;         /* pixels */
+    uint64_t budget;    /* boxes and points a frame; 0 is any number */
+    double least_times; /* the goal in frames a second: so many times the naive way's; 0 is none */
+    double least_fps;   /* the same as a number */
+    bool small_start;   /* the goals for memory and for the first frame hold */
+    int shorter;        /* it is filmed for so many times fewer frames */
+    int naive_shorter;  /* and by the naive way for so many times fewer again */
+} filmed_scene;
+
+#define FILMED_SCENES 5
+extern const filmed_scene filmed_scenes[FILMED_SCENES];
+
+/* Goals of every scene that has small_start. */
+#define GOAL_MIB 200.0
+#define GOAL_FIRST_MS 300.0
+
+/* The view of a scene: 1280 x 720, text on. The naive way leaves nothing out. */
+view filmed_view(const filmed_scene *scene);
+view filmed_whole_view(const filmed_scene *scene);
+
+typedef struct filmed_session {
+    octree_session session;
+    octree_body *bodies;
+    char *keys;
+} filmed_session;
+
+/* A session of so many ticks, tick 0 included, in which the player flies. False when there is no memory. */
+bool filmed_session_make(filmed_session *made, const filmed_scene *scene, uint64_t ticks);
+void filmed_session_release(filmed_session *made);
+
+#endif

@@ -1,0 +1,245 @@
+/* filming.c - see filming.h. */
+#include "filming.h"
+#include "film.h"
+#include "frame_file.h"
+#include "naive.h"
+#include "take.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+static double read_clock(clockid_t clock)
+{
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+static double now(void)
+{
+    return read_clock(CLOCK_MONOTONIC);
+}
+
+/* What this process, which has one thread, has had of a processor: whatever else the machine does meanwhile. */
+static double worked(void)
+{
+    return read_clock(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+/* A filming under way, in its own process. */
+typedef struct work {
+    const filming_order *order;
+    filming *result;
+    double started; /* before there was this process */
+    double begun;   /* when the frames that are counted began */
+    uint64_t apart; /* frames that are start-up: one a process */
+    octree_session *session;
+} work;
+
+static bool fail(work *w, const char *why)
+{
+    snprintf(w->result->trouble, sizeof w->result->trouble, "%s", why);
+    return false;
+}
+
+/* After each frame. */
+static void note_frame(uint64_t done, uint64_t total, void *context)
+{
+    work *w = context;
+    (void)total;
+    if (done == 1)
+        w->result->first_ms = now() - w->started;
+    if (done == w->apart)
+        w->begun = now();
+}
+
+static void note_end(work *w)
+{
+    w->result->frame_ms = (now() - w->begun) / (double)(w->order->frames - w->apart);
+}
+
+/* ---- Octreel ------------------------------------------------------------------------------------------------ */
+
+static bool film_octreel(work *w)
+{
+    film_summary summary;
+    record_error error;
+    const film_options options = {.folder = w->order->folder,
+                                  .view = filmed_view(w->order->scene),
+                                  .every = 1,
+                                  .jobs = w->order->jobs,
+                                  .progress = note_frame,
+                                  .context = w};
+    w->apart = w->order->jobs;
+    if (!film_session(w->session, &options, &summary, &error))
+        return fail(w, error.text);
+    note_end(w);
+    return true;
+}
+
+/* One frame, and how long its parts take; the second encoding is that of pixels which somebody knows. */
+static bool film_part(work *w, take *t, const char *again, double spent[3])
+{
+    film_step step;
+    record_error error;
+    image_error unwritten;
+    const double start = worked();
+    if (!take_tick(t, &step, &error))
+        return fail(w, error.text);
+    const double drawn = worked();
+    if (!frame_write(w->order->folder, &t->picture, &(frame_origin){.tick = step.tick}, &error))
+        return fail(w, error.text);
+    const double written = worked();
+    if (!image_write_png(&t->picture.frame, again, NULL, 0, &unwritten))
+        return fail(w, unwritten.text);
+    spent[0] += drawn - start;
+    spent[1] += written - drawn;
+    spent[2] += worked() - written;
+    return true;
+}
+
+static bool film_in_parts(work *w, take *t)
+{
+    double spent[3] = {0};
+    record_error error;
+    char *again = folder_path(w->order->folder, "again.png");
+    bool ok = again || fail(w, "there is no memory");
+    for (uint64_t i = 0; ok && i < w->order->frames; i++) {
+        const double start = worked();
+        if (i > 0 && !take_advance(t, &error))
+            ok = fail(w, error.text);
+        spent[0] += worked() - start;
+        ok = ok && film_part(w, t, again, spent);
+        if (i == 0)
+            memset(spent, 0, sizeof spent); /* start-up */
+    }
+    const double frames = (double)(w->order->frames - 1);
+    w->result->draw_ms = spent[0] / frames;
+    w->result->encode_ms = spent[1] / frames;
+    w->result->floor_ms = spent[2] / frames;
+    free(again);
+    return ok;
+}
+
+static bool film_parts(work *w)
+{
+    take t;
+    record_error error;
+    const film_options options = {.folder = w->order->folder, .view = filmed_view(w->order->scene), .every = 1};
+    setenv("LP_NUM_THREADS", "0", 0); /* as in the processes of FILM_OCTREEL */
+    const bool open = folder_make(options.folder, &error) && take_open(&t, w->session, &options, FRAMES_SHOW, &error);
+    const bool ok = open ? film_in_parts(w, &t) : fail(w, error.text);
+    if (open)
+        take_close(&t);
+    return ok;
+}
+
+/* ---- The naive way ------------------------------------------------------------------------------------------ */
+
+static bool film_naive_tick(work *w, naive *n, octree_game *game, scene *s)
+{
+    const double start = worked();
+    const view v = filmed_whole_view(w->order->scene);
+    const uint64_t tick = octree_game_tick(game)->number;
+    char name[FRAME_NAME];
+    if (!tick_scene_build(s, &v, game, NULL) || !naive_draw(n, s))
+        return fail(w, "the naive way cannot draw");
+    const double drawn = worked();
+    char *path = folder_path(w->order->folder, frame_name(tick, name));
+    const bool written = path && naive_write(n, path);
+    free(path);
+    if (!written)
+        return fail(w, "the naive way cannot write");
+    w->result->draw_ms += drawn - start;
+    w->result->encode_ms += worked() - drawn;
+    note_frame(tick + 1, 0, w);
+    if (tick == 0)
+        w->result->draw_ms = w->result->encode_ms = 0; /* start-up */
+    return true;
+}
+
+static bool film_naive(work *w)
+{
+    const view v = filmed_whole_view(w->order->scene);
+    const char *why;
+    scene s = {0};
+    octree_game *game = NULL;
+    record_error error;
+    setenv("LP_NUM_THREADS", "0", 1);
+    w->apart = 1;
+    naive *n = naive_open(v.width, v.height, &why);
+    bool ok = n ? folder_make(w->order->folder, &error) || fail(w, error.text) : fail(w, why);
+    ok = ok && (octree_game_create(w->session, &game) == OCTREE_OK || fail(w, "the session cannot be played"));
+    for (uint64_t i = 0; ok && i < w->order->frames; i++) {
+        ok = i == 0 || octree_game_advance(game) == OCTREE_OK || fail(w, "the session cannot be played");
+        ok = ok && film_naive_tick(w, n, game, &s);
+    }
+    note_end(w);
+    w->result->draw_ms /= (double)(w->order->frames - 1);
+    w->result->encode_ms /= (double)(w->order->frames - 1);
+    octree_game_destroy(game);
+    scene_release(&s);
+    naive_close(n);
+    return ok;
+}
+
+/* ---- A process of its own ----------------------------------------------------------------------------------- */
+
+/* Linux counts both in kilobytes. */
+static double peak_mib(void)
+{
+    struct rusage own, children;
+    if (getrusage(RUSAGE_SELF, &own) != 0 || getrusage(RUSAGE_CHILDREN, &children) != 0)
+        return 0;
+    return (double)(own.ru_maxrss > children.ru_maxrss ? own.ru_maxrss : children.ru_maxrss) / 1024;
+}
+
+static void do_work(const filming_order *order, double started, int result_end)
+{
+    static bool (*const films[FILM_KINDS])(work *) = {
+        [FILM_NAIVE] = film_naive, [FILM_OCTREEL] = film_octreel, [FILM_PARTS] = film_parts};
+    filming result = {0};
+    filmed_session made;
+    work w = {.order = order, .result = &result, .started = started, .apart = 1};
+    bool ok = filmed_session_make(&made, order->scene, order->frames) || fail(&w, "there is no memory for the session");
+    w.session = &made.session;
+    ok = ok && films[order->who](&w);
+    result.mib = peak_mib();
+    _exit(ok + (write(result_end, &result, sizeof result) == sizeof result) == 2 ? EXIT_SUCCESS : EXIT_FAILURE);
+}
+
+static void remove_folder(const char *folder)
+{
+    const pid_t pid = fork();
+    if (pid == 0) {
+        execlp("rm", "rm", "-rf", "--", folder, (char *)NULL);
+        _exit(EXIT_FAILURE);
+    }
+    while (pid > 0 && waitpid(pid, NULL, 0) < 0 && errno == EINTR)
+        continue;
+}
+
+bool film_scene(const filming_order *order, filming *result)
+{
+    int ends[2], status = -1;
+    *result = (filming){.trouble = "the process that filmed has died"};
+    if (pipe(ends) != 0)
+        return false;
+    const double started = now();
+    const pid_t pid = fork();
+    if (pid == 0)
+        do_work(order, started, ends[1]);
+    close(ends[1]);
+    const bool told = read(ends[0], result, sizeof *result) == sizeof *result;
+    close(ends[0]);
+    while (pid > 0 && waitpid(pid, &status, 0) < 0 && errno == EINTR)
+        continue;
+    remove_folder(order->folder);
+    return told && status == 0;
+}

@@ -1,0 +1,312 @@
+/* octreel_bench.c - octreel-bench: its command line, and its table of frames a second beside the naive way's. */
+#include "filming.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { EXIT_DONE = 0, EXIT_TROUBLE = 2 };
+enum { ROUNDS_AT_MOST = 99, FRAMES_AT_LEAST = 6, FRAMES_AT_MOST = 100000, JOBS = 2, FOLDER_ROOM = 512 };
+
+typedef struct options {
+    bool scenes[FILMED_SCENES];
+    int rounds;
+    uint64_t frames;
+    const char *folder;
+    bool json;
+} options;
+
+static int trouble(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("octreel-bench: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+    return EXIT_TROUBLE;
+}
+
+static void print_help(void)
+{
+    printf(
+        "octreel-bench - how fast Octreel films, by %d processes, beside the naive way of doing it: the same scenes "
+        "by\n"
+        "OSMesa with GL_LINES for every box and libpng's defaults, in one thread. In turn, each time in processes of\n"
+        "their own, 1280 x 720, text on\n\n"
+        "usage: octreel-bench [OPTION ...]\n\n"
+        "      --scene LIST   with commas between (default all):\n",
+        JOBS);
+    for (int i = 0; i < FILMED_SCENES; i++)
+        printf("                       %-8s %s\n", filmed_scenes[i].name, filmed_scenes[i].about);
+    printf(
+        "      --frames N     film so many of S and M, and fewer of the others and the naive way (default 600; from "
+        "%d\n"
+        "                     to %d)\n"
+        "      --rounds N     film each N times and take the medians (default 3; at most %d)\n"
+        "      --folder DIR   where frames are written, and removed again (default: /dev/shm where there is one, else\n"
+        "                     the current folder; a disk is measured with them)\n"
+        "      --json         a line for each scene and who films it, for programs\n"
+        "  -h, --help\n\n"
+        "frames/s   by the clock on the wall, without the first frame of each process\n"
+        "times      so many times the naive way's; and, where others use the machine too, what their processor times "
+        "say\n"
+        "draw       processor milliseconds of a frame up to its pixels: tick, scene, digest, quads, GL\n"
+        "encode     the same of its file: pixel digest, PNG, rename\n"
+        "floor      the part of draw and encode that the encoder would take alone, for pixels that are known\n"
+        "Exit status: 0 done, whether or not goals were reached, 2 trouble.\n",
+        FRAMES_AT_LEAST, FRAMES_AT_MOST, ROUNDS_AT_MOST);
+}
+
+/* ---- Options ------------------------------------------------------------------------------------------------ */
+
+/* Takes the list apart, in place. */
+static bool take_scenes(options *o, char *list)
+{
+    for (char *entry = list; entry;) {
+        char *comma = strchr(entry, ',');
+        int i = 0;
+        if (comma)
+            *comma = 0;
+        while (i < FILMED_SCENES && strcmp(filmed_scenes[i].name, entry) != 0)
+            i++;
+        if (i == FILMED_SCENES) {
+            trouble("there is no scene \"%s\"; --help lists them", entry);
+            return false;
+        }
+        o->scenes[i] = true;
+        entry = comma ? comma + 1 : NULL;
+    }
+    return true;
+}
+
+static bool take_number(const char *name, const char *text, long least, long most, long *number)
+{
+    char *end;
+    errno = 0;
+    *number = strtol(text, &end, 10);
+    if (!errno && end != text && !*end && *number >= least && *number <= most)
+        return true;
+    trouble("%s takes a whole number from %ld to %ld, not \"%s\"", name, least, most, text);
+    return false;
+}
+
+static bool take_option(options *o, int name, char *value)
+{
+    long number = 0;
+    switch (name) {
+    case 's':
+        return take_scenes(o, value);
+    case 'n':
+        if (!take_number("--frames", value, FRAMES_AT_LEAST, FRAMES_AT_MOST, &number))
+            return false;
+        o->frames = (uint64_t)number;
+        return true;
+    case 'r':
+        if (!take_number("--rounds", value, 1, ROUNDS_AT_MOST, &number))
+            return false;
+        o->rounds = (int)number;
+        return true;
+    case 'f':
+        o->folder = value;
+        if (strlen(value) < FOLDER_ROOM - 64 && access(value, W_OK) == 0)
+            return true;
+        trouble("--folder takes a folder that can be written to, not \"%.100s\"", value);
+        return false;
+    case 'j':
+        o->json = true;
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* -1 to go on, or the exit status. */
+static int read_options(int argc, char **argv, options *o)
+{
+    static const struct option names[] = {
+        {"scene", required_argument, NULL, 's'},
+        {"frames", required_argument, NULL, 'n'},
+        {"rounds", required_argument, NULL, 'r'},
+        {"folder", required_argument, NULL, 'f'},
+        {"json", no_argument, NULL, 'j'},
+        {"help", no_argument, NULL, 'h'},
+        {NULL, 0, NULL, 0},
+    };
+    *o = (options){.rounds = 3, .frames = 600, .folder = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "."};
+    for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
+        if (name == 'h') {
+            print_help();
+            return EXIT_DONE;
+        }
+        if (!take_option(o, name, optarg))
+            return EXIT_TROUBLE;
+    }
+    if (optind < argc)
+        return trouble("there is no argument \"%s\"; try --help", argv[optind]);
+    const bool none[FILMED_SCENES] = {false};
+    if (memcmp(o->scenes, none, sizeof none) == 0)
+        memset(o->scenes, true, sizeof o->scenes);
+    return -1;
+}
+
+/* ---- Measuring ---------------------------------------------------------------------------------------------- */
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median_of(const filming *rounds, int count, size_t member)
+{
+    double values[ROUNDS_AT_MOST];
+    for (int i = 0; i < count; i++)
+        memcpy(&values[i], (const char *)&rounds[i] + member, sizeof values[i]);
+    qsort(values, (size_t)count, sizeof *values, by_value);
+    return (values[(count - 1) / 2] + values[count / 2]) / 2;
+}
+
+static filming median(const filming *rounds, int count)
+{
+    return (filming){
+        .first_ms = median_of(rounds, count, offsetof(filming, first_ms)),
+        .frame_ms = median_of(rounds, count, offsetof(filming, frame_ms)),
+        .draw_ms = median_of(rounds, count, offsetof(filming, draw_ms)),
+        .encode_ms = median_of(rounds, count, offsetof(filming, encode_ms)),
+        .floor_ms = median_of(rounds, count, offsetof(filming, floor_ms)),
+        .mib = median_of(rounds, count, offsetof(filming, mib)),
+    };
+}
+
+static uint64_t count_frames(const options *o, const filmed_scene *scene, filming_who who)
+{
+    uint64_t frames = o->frames / (uint64_t)scene->shorter;
+    if (who == FILM_NAIVE)
+        frames /= (uint64_t)scene->naive_shorter;
+    if (who == FILM_PARTS)
+        frames /= 5;
+    return frames < FRAMES_AT_LEAST - 2 ? FRAMES_AT_LEAST - 2 : frames;
+}
+
+/* All of them, round by round in turn. */
+static bool measure(const options *o, const filmed_scene *scene, filming result[FILM_KINDS])
+{
+    filming rounds[FILM_KINDS][ROUNDS_AT_MOST];
+    char folder[FOLDER_ROOM];
+    for (int round = 0; round < o->rounds; round++)
+        for (int who = 0; who < FILM_KINDS; who++) {
+            snprintf(folder, sizeof folder, "%s/octreel-bench-%ld", o->folder, (long)getpid());
+            const filming_order order = {scene, (filming_who)who, count_frames(o, scene, (filming_who)who), JOBS,
+                                         folder};
+            if (!film_scene(&order, &rounds[who][round])) {
+                trouble("%s", rounds[who][round].trouble);
+                return false;
+            }
+        }
+    for (int who = 0; who < FILM_KINDS; who++)
+        result[who] = median(rounds[who], o->rounds);
+    return true;
+}
+
+/* ---- Telling ------------------------------------------------------------------------------------------------ */
+
+static void print_heading(int rounds)
+{
+    printf("1280 x 720, %d processes beside one thread of the naive way, the median of %d round%s\n", JOBS, rounds,
+           rounds == 1 ? "" : "s");
+    printf("%-8s %-8s %9s %7s %6s %-14s %-21s %-19s %8s %9s %6s\n", "scene", "who", "frames/s", "times", "by CPU",
+           "goal", "first frame, goal", "memory, goal", "draw ms", "encode ms", "floor");
+}
+
+static const char *verdict(bool holds)
+{
+    return holds ? "holds" : "missed";
+}
+
+static void print_row(const filmed_scene *scene, const char *who, const filming *f)
+{
+    printf("%-8s %-8s %9.1f", scene->name, who, 1e3 / f->frame_ms);
+}
+
+static void print_naive(const filmed_scene *scene, const filming *f)
+{
+    print_row(scene, "naive", f);
+    printf(" %7.1f %6.1f %-14s %6.0f ms %11s %6.0f MiB %8s %8.1f %9.1f\n", 1.0, 1.0, "", f->first_ms, "", f->mib, "",
+           f->draw_ms, f->encode_ms);
+}
+
+static double floor_of(const filming *parts)
+{
+    return parts->floor_ms / (parts->draw_ms + parts->encode_ms);
+}
+
+/* Each process of a recording on a core of its own. */
+static double times_by_cpu(const filming result[FILM_KINDS])
+{
+    const filming *naive = &result[FILM_NAIVE], *parts = &result[FILM_PARTS];
+    return JOBS * (naive->draw_ms + naive->encode_ms) / (parts->draw_ms + parts->encode_ms);
+}
+
+static void print_octreel(const filmed_scene *scene, const filming result[FILM_KINDS])
+{
+    const filming *f = &result[FILM_OCTREEL], *parts = &result[FILM_PARTS];
+    const double times = result[FILM_NAIVE].frame_ms / f->frame_ms, fps = 1e3 / f->frame_ms;
+    char goal[32], first[32] = "", memory[32] = "";
+    if (scene->least_fps > 0)
+        snprintf(goal, sizeof goal, ">= %g/s %s", scene->least_fps, verdict(fps >= scene->least_fps));
+    else
+        snprintf(goal, sizeof goal, ">= %gx %s", scene->least_times, verdict(times >= scene->least_times));
+    if (scene->small_start) {
+        snprintf(first, sizeof first, "<%g %s", GOAL_FIRST_MS, verdict(f->first_ms < GOAL_FIRST_MS));
+        snprintf(memory, sizeof memory, "<%g %s", GOAL_MIB, verdict(f->mib < GOAL_MIB));
+    }
+    print_row(scene, "octreel", f);
+    printf(" %7.1f %6.1f %-14s %6.0f ms %-11s %5.0f MiB %-9s %8.1f %9.1f %5.0f%%\n", times, times_by_cpu(result), goal,
+           f->first_ms, first, f->mib, memory, parts->draw_ms, parts->encode_ms, 100 * floor_of(parts));
+}
+
+static void print_json(const filmed_scene *scene, const filming result[FILM_KINDS])
+{
+    static const char *const names[] = {[FILM_NAIVE] = "naive", [FILM_OCTREEL] = "octreel"};
+    for (int who = FILM_NAIVE; who <= FILM_OCTREEL; who++) {
+        const filming *f = &result[who], *parts = &result[who == FILM_NAIVE ? FILM_NAIVE : FILM_PARTS];
+        printf("{\"scene\":\"%s\",\"who\":\"%s\",\"fps\":%.2f,\"draw_ms\":%.3f,\"encode_ms\":%.3f,"
+               "\"times_naive\":%.3f,\"first_frame_ms\":%.1f,\"mib\":%.1f",
+               scene->name, names[who], 1e3 / f->frame_ms, parts->draw_ms, parts->encode_ms,
+               result[FILM_NAIVE].frame_ms / f->frame_ms, f->first_ms, f->mib);
+        if (who == FILM_OCTREEL)
+            printf(",\"times_naive_cpu\":%.3f,\"encoder_floor\":%.3f", times_by_cpu(result), floor_of(parts));
+        puts("}");
+    }
+}
+
+int main(int argc, char **argv)
+{
+    options o;
+    const int status = read_options(argc, argv, &o);
+    if (status >= 0)
+        return status;
+    if (!o.json)
+        print_heading(o.rounds);
+    for (int i = 0; i < FILMED_SCENES; i++) {
+        filming result[FILM_KINDS];
+        fflush(stdout); /* a child has a copy of what is not written */
+        if (o.scenes[i] && !measure(&o, &filmed_scenes[i], result))
+            return EXIT_TROUBLE;
+        if (o.scenes[i] && o.json)
+            print_json(&filmed_scenes[i], result);
+        else if (o.scenes[i]) {
+            print_naive(&filmed_scenes[i], &result[FILM_NAIVE]);
+            print_octreel(&filmed_scenes[i], result);
+        }
+    }
+    if (fflush(stdout) != 0 || ferror(stdout))
+        return trouble("the results cannot be written to standard output");
+    return EXIT_DONE;
+}
