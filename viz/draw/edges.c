@@ -1,55 +1,42 @@
-/* edges.c - see edges.h. A box has twelve edges; on a tree most of them are shared. Edges are sorted by the line that
- * they lie on, compared by the very doubles of the planes, and each line is swept once. */
+/* edges.c - see edges.h. A box has twelve edges; on a tree most of them are shared. They are gathered by the line that
+ * they lie on, compared by the very doubles of the planes, and each line is swept once. Most are not even gathered: a
+ * tree's boxes come from the root down, and what lies on an edge of a parent is covered by the stretch before it. */
 #include "edges.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* One edge of one box, or one end of it: on a line along `axis` at `u` and `v` on the two other axes. */
+/* One edge of one box, or one end of it, on its line. */
 typedef struct stretch {
-    double u, v, from, to;
+    double from, to;
     uint64_t id;
+    size_t line; /* its place in the set of lines */
     scene_look look;
-    uint8_t axis, depth;
+    uint8_t depth;
 } stretch;
 
-static stretch stretch_of(const scene_box *box, int axis, unsigned corner)
-{
-    const int second = (axis + 1) % 3, third = (axis + 2) % 3;
-    return (stretch){
-        .u = (corner & 1 ? box->box.max : box->box.min)[second],
-        .v = (corner & 2 ? box->box.max : box->box.min)[third],
-        .from = box->box.min[axis],
-        .to = box->box.max[axis],
-        .id = box->id,
-        .look = box->look,
-        .axis = (uint8_t)axis,
-        .depth = box->depth,
-    };
-}
+typedef struct stretch_list {
+    stretch *items;
+    size_t count, room;
+} stretch_list;
 
 static int compare_doubles(double a, double b)
 {
     return (a > b) - (a < b);
 }
 
-/* Everything but the colour: what is drawn alike on one line. */
-static int compare_lines(const stretch *a, const stretch *b)
+static int compare_lines(const void *a, const void *b)
 {
-    const int kinds[2] = {a->look.layer << 24 | a->look.style << 16 | a->look.width << 8 | a->axis,
-                          b->look.layer << 24 | b->look.style << 16 | b->look.width << 8 | b->axis};
-    if (kinds[0] != kinds[1])
-        return kinds[0] < kinds[1] ? -1 : 1;
-    const int u = compare_doubles(a->u, b->u);
-    return u ? u : compare_doubles(a->v, b->v);
+    const line *p = *(line *const *)a, *q = *(line *const *)b;
+    if (p->kind != q->kind)
+        return p->kind < q->kind ? -1 : 1;
+    const int u = compare_doubles(p->u, q->u);
+    return u ? u : compare_doubles(p->v, q->v);
 }
 
 static int compare_stretches(const void *a, const void *b)
 {
     const stretch *p = a, *q = b;
-    const int line = compare_lines(p, q);
-    if (line)
-        return line;
     const int from = compare_doubles(p->from, q->from);
     if (from)
         return from;
@@ -73,6 +60,7 @@ static edge *append_edge(edge_list *list)
 
 void edges_release(edge_list *list)
 {
+    lines_release(&list->lines);
     free(list->items);
     memset(list, 0, sizeof *list);
 }
@@ -82,13 +70,25 @@ static bool same_look(scene_look a, scene_look b)
     return a.layer == b.layer && a.role == b.role && a.style == b.style && a.width == b.width;
 }
 
+static uint32_t kind_of(scene_look look, unsigned axis)
+{
+    return (uint32_t)look.layer << 24 | (uint32_t)look.style << 16 | (uint32_t)look.width << 8 | axis;
+}
+
+static unsigned axis_of(const line *on)
+{
+    return on->kind & 0xff;
+}
+
 /* Add the stretch [from, to] with the look of `of`, to the last edge where it goes on from there on the same line. */
 static bool emit(edge_list *list, const stretch *of, double from, double to, bool same_line)
 {
+    const line *on = &list->lines.items[of->line];
+    const unsigned axis = axis_of(on);
     edge *last = list->count ? &list->items[list->count - 1] : NULL;
     if (same_line && last && last->depth == of->depth && same_look(last->look, of->look) &&
-        last->ends[1][of->axis] == from) {
-        last->ends[1][of->axis] = to;
+        last->ends[1][axis] == from) {
+        last->ends[1][axis] = to;
         return true;
     }
     edge *added = append_edge(list);
@@ -96,9 +96,9 @@ static bool emit(edge_list *list, const stretch *of, double from, double to, boo
         return false;
     *added = (edge){.id = of->id, .look = of->look, .depth = of->depth};
     for (int end = 0; end < 2; end++) {
-        added->ends[end][of->axis] = end ? to : from;
-        added->ends[end][(of->axis + 1) % 3] = of->u;
-        added->ends[end][(of->axis + 2) % 3] = of->v;
+        added->ends[end][axis] = end ? to : from;
+        added->ends[end][(axis + 1) % 3] = on->u;
+        added->ends[end][(axis + 2) % 3] = on->v;
     }
     return true;
 }
@@ -126,6 +126,7 @@ static double next_change(const stretch *line, size_t count, size_t begun, const
  * that a line costs little more than its length times the depth of the tree. */
 static bool sweep_line(edge_list *list, const stretch *line, size_t count)
 {
+    const unsigned axis = axis_of(&list->lines.items[line[0].line]);
     size_t first = 0;
     bool same_line = false;
     double at = line[0].from;
@@ -135,7 +136,7 @@ static bool sweep_line(edge_list *list, const stretch *line, size_t count)
             begun++;
         const stretch *now = shallowest(line + first, begun - first, at);
         if (!now) {
-            const bool covered = same_line && list->items[list->count - 1].ends[1][line->axis] == at;
+            const bool covered = same_line && list->items[list->count - 1].ends[1][axis] == at;
             if (!covered && !emit(list, &line[first], at, at, false))
                 return false; /* a box of no extent is a dot */
             same_line = true;
@@ -154,42 +155,113 @@ static bool sweep_line(edge_list *list, const stretch *line, size_t count)
     return true;
 }
 
-/* Edges along axes of no extent are dots on others, but for a box that is a dot itself. */
-static size_t collect_box(stretch *all, const scene_box *box)
+/* Whether a stretch that was put on the same line before leaves nothing of this one to be seen: what sweep_line() would
+ * find, known at once. */
+static bool is_covered(const stretch *it, const stretch *by)
 {
-    size_t count = 0;
-    for (int axis = 0; axis < 3; axis++)
-        for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
-            all[count++] = stretch_of(box, axis, corner);
-    if (count == 0)
-        all[count++] = stretch_of(box, 0, 0);
-    return count;
+    if (it->from < by->from || it->to > by->to || it->depth < by->depth)
+        return false;
+    return it->depth > by->depth || it->from > by->from || it->id >= by->id;
 }
 
-static size_t collect(stretch *all, const scene *s)
+static bool append_stretch(stretch_list *all, const stretch *it)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < s->boxes.count; i++)
-        count += collect_box(all + count, &s->boxes.items[i]);
-    return count;
+    if (all->count == all->room) {
+        const size_t room = all->room ? 2 * all->room : 1024;
+        stretch *items = room <= SIZE_MAX / sizeof *items ? realloc(all->items, room * sizeof *items) : NULL;
+        if (!items)
+            return false;
+        all->items = items;
+        all->room = room;
+    }
+    all->items[all->count++] = *it;
+    return true;
+}
+
+static bool collect_edge(stretch_list *all, line_set *lines, const scene_box *box, unsigned axis, unsigned corner)
+{
+    const unsigned second = (axis + 1) % 3, third = (axis + 2) % 3;
+    const size_t place = lines_find(lines, kind_of(box->look, axis), (corner & 1 ? box->box.max : box->box.min)[second],
+                                    (corner & 2 ? box->box.max : box->box.min)[third]);
+    if (place == SIZE_MAX)
+        return false;
+    line *on = &lines->items[place];
+    const stretch it = {.from = box->box.min[axis],
+                        .to = box->box.max[axis],
+                        .id = box->id,
+                        .line = place,
+                        .look = box->look,
+                        .depth = box->depth};
+    if (on->count && is_covered(&it, &all->items[on->last]))
+        return true;
+    on->last = all->count;
+    on->count++;
+    return append_stretch(all, &it);
+}
+
+/* Edges along axes of no extent are dots on others, but for a box that is a dot itself. */
+static bool collect_box(stretch_list *all, line_set *lines, const scene_box *box)
+{
+    bool ok = true, dot = true;
+    for (unsigned axis = 0; axis < 3; axis++)
+        for (unsigned corner = 0; ok && corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++) {
+            ok = collect_edge(all, lines, box, axis, corner);
+            dot = false;
+        }
+    return ok && (!dot || collect_edge(all, lines, box, 0, 0));
+}
+
+/* The lines in their order, by way of pointers. Null when there is no memory. */
+static line **sort_lines(line_set *lines)
+{
+    line **sorted = malloc(lines->count * sizeof *sorted);
+    for (size_t i = 0; sorted && i < lines->count; i++)
+        sorted[i] = &lines->items[i];
+    if (sorted)
+        qsort(sorted, lines->count, sizeof *sorted, compare_lines);
+    return sorted;
+}
+
+/* Stretches side by side with those of their line, line by line in their order. Null when there is no memory. */
+static stretch *gather(const stretch_list *all, line_set *lines, line *const *sorted)
+{
+    stretch *gathered = malloc(all->count * sizeof *gathered);
+    size_t next = 0;
+    for (size_t i = 0; i < lines->count; i++) {
+        sorted[i]->last = next; /* from here on: where its next stretch goes */
+        next += sorted[i]->count;
+    }
+    for (size_t i = 0; gathered && i < all->count; i++)
+        gathered[lines->items[all->items[i].line].last++] = all->items[i];
+    return gathered;
+}
+
+static bool sweep_lines(edge_list *list, stretch *gathered, line *const *sorted)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < list->lines.count; i++) {
+        const size_t count = sorted[i]->count;
+        if (count > 1)
+            qsort(gathered, count, sizeof *gathered, compare_stretches);
+        ok = sweep_line(list, gathered, count);
+        gathered += count;
+    }
+    return ok;
 }
 
 bool edges_merge(edge_list *list, const scene *s)
 {
-    list->count = 0;
-    if (s->boxes.count == 0)
-        return true;
-    stretch *all = s->boxes.count <= SIZE_MAX / (12 * sizeof *all) ? malloc(s->boxes.count * 12 * sizeof *all) : NULL;
-    if (!all)
-        return false;
-    const size_t count = collect(all, s);
-    qsort(all, count, sizeof *all, compare_stretches);
+    stretch_list all = {0};
     bool ok = true;
-    for (size_t start = 0, end = 0; ok && start < count; start = end) {
-        for (end = start + 1; end < count && compare_lines(&all[start], &all[end]) == 0; end++)
-            ;
-        ok = sweep_line(list, all + start, end - start);
-    }
-    free(all);
+    list->count = 0;
+    lines_clear(&list->lines);
+    for (size_t i = 0; ok && i < s->boxes.count; i++)
+        ok = collect_box(&all, &list->lines, &s->boxes.items[i]);
+    line **sorted = ok && all.count ? sort_lines(&list->lines) : NULL;
+    stretch *gathered = sorted ? gather(&all, &list->lines, sorted) : NULL;
+    ok = ok && (all.count == 0 || (gathered && sweep_lines(list, gathered, sorted)));
+    free(gathered);
+    free(sorted);
+    free(all.items);
     return ok;
 }

@@ -2,6 +2,7 @@
 #ifndef DRAW_EDGES_H
 #define DRAW_EDGES_H
 
+#include "lines.h"
 #include "scene.h"
 
 /* A stretch of a line of the world that has one colour. */
@@ -15,13 +16,14 @@ typedef struct edge {
 typedef struct edge_list {
     edge *items;
     size_t count, room;
+    line_set lines; /* while they are merged */
 } edge_list;
 
 void edges_release(edge_list *list);
 
 /* Fill a list with the edges of all boxes. Where boxes of one layer, style and width share a stretch, the shallowest
- * gives it its colour; stretches of one depth and colour that meet are one. False when there is no memory.
- * Cost: O(n log n) for n boxes. */
+ * gives it its colour; stretches of one depth and colour that meet are one. They come by layer, style, width and axis,
+ * and then by where their lines are. False when there is no memory. Cost: O(n log n) for n boxes. */
 bool edges_merge(edge_list *list, const scene *s);
 
 #endif

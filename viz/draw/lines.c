@@ -1,0 +1,66 @@
+/* lines.c - see lines.h: a hash table with open addressing, at most half full. */
+#include "lines.h"
+#include "octree/digest.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_SIZE 1024
+
+void lines_clear(line_set *set)
+{
+    set->count = 0;
+    if (set->size)
+        memset(set->table, 0, set->size * sizeof *set->table);
+}
+
+void lines_release(line_set *set)
+{
+    free(set->items);
+    free(set->table);
+    memset(set, 0, sizeof *set);
+}
+
+static size_t place_of(const line_set *set, uint32_t kind, double u, double v)
+{
+    return (size_t)octree_digest_double(octree_digest_double(kind, u), v) & (set->size - 1);
+}
+
+/* Twice the room, and every line in its new place. */
+static bool grow(line_set *set)
+{
+    const size_t size = set->size ? 2 * set->size : FIRST_SIZE, room = size / 2;
+    line *items = room <= UINT32_MAX / sizeof *items ? realloc(set->items, room * sizeof *items) : NULL;
+    if (!items)
+        return false;
+    set->items = items;
+    uint32_t *table = calloc(size, sizeof *table);
+    if (!table)
+        return false;
+    free(set->table);
+    set->table = table;
+    set->size = size;
+    set->room = room;
+    for (size_t i = 0; i < set->count; i++) {
+        size_t at = place_of(set, items[i].kind, items[i].u, items[i].v);
+        while (table[at])
+            at = (at + 1) & (size - 1);
+        table[at] = (uint32_t)(i + 1);
+    }
+    return true;
+}
+
+size_t lines_find(line_set *set, uint32_t kind, double u, double v)
+{
+    if (set->count == set->room && !grow(set))
+        return SIZE_MAX;
+    size_t at = place_of(set, kind, u, v);
+    for (; set->table[at]; at = (at + 1) & (set->size - 1)) {
+        const line *l = &set->items[set->table[at] - 1];
+        if (l->u == u && l->v == v && l->kind == kind)
+            return set->table[at] - 1;
+    }
+    set->items[set->count] = (line){.u = u, .v = v, .kind = kind};
+    set->table[at] = (uint32_t)(set->count + 1);
+    return set->count++;
+}
