@@ -5,6 +5,7 @@
  * back is exact in single precision: no CPU can round it differently, with FMA or without.
  */
 #include "draw.h"
+#include "canvas.h"
 #include "gl.h"
 #include "paint.h"
 #include "rasterise.h"
@@ -26,6 +27,7 @@ struct renderer {
     int width, height;
     int side; /* of the viewport */
     painter painter;
+    canvas canvas;
     size_t left_out;
     vertex vertices[BATCH * 4];
     GLuint indices[BATCH * 6];
@@ -87,7 +89,6 @@ static void set_state(renderer *r)
     gl->Disable(GL_MULTISAMPLE);
     gl->ShadeModel(GL_FLAT);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl->ClearColor(0, 0, 0, 0); /* index 0 is the background */
     gl->MatrixMode(GL_PROJECTION);
     gl->LoadIdentity();
     gl->MatrixMode(GL_MODELVIEW);
@@ -117,6 +118,7 @@ renderer *renderer_open(int width, int height, const renderer_choice *choice, dr
     }
     r->width = width;
     r->height = height;
+    r->canvas = (canvas){.width = width, .height = height};
     for (r->side = 1; r->side < width || r->side < height;)
         r->side *= 2;
     r->context = context_open(choice, error);
@@ -135,6 +137,7 @@ void renderer_close(renderer *r)
     if (!r)
         return;
     painter_release(&r->painter);
+    canvas_release(&r->canvas);
     if (r->context)
         r->context->close(r->context);
     free(r);
@@ -174,12 +177,14 @@ bool renderer_fits(const renderer *r, const scene *s, draw_error *error)
            fail(error, "the scene is not of the renderer's size");
 }
 
-bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw_box *part, uint8_t *bytes,
-                        draw_error *error)
+/* Draw quads on a ground of one byte. */
+static bool send_quads(renderer *r, const quad *quads, size_t count, uint8_t ground, const draw_box *part,
+                       uint8_t *bytes, draw_error *error)
 {
     if (!r->context->use(r->context))
         return fail(error, "the renderer's context cannot be made current");
     const gl *gl = &r->gl;
+    gl->ClearColor((float)ground / 255, 0, 0, 0);
     gl->Clear(GL_COLOR_BUFFER_BIT);
     for (size_t start = 0; start < count; start += BATCH) {
         const size_t size = count - start < BATCH ? count - start : BATCH;
@@ -193,15 +198,41 @@ bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw
     return failure == GL_NO_ERROR;
 }
 
+bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw_box *part, uint8_t *bytes,
+                        draw_error *error)
+{
+    return send_quads(r, quads, count, 0, part, bytes, error);
+}
+
+/* Who rasterises for the canvas, and why it failed. */
+typedef struct sender {
+    renderer *renderer;
+    draw_error *error;
+    bool failed;
+} sender;
+
+/* A rasteriser: see canvas.h. */
+static bool send_rows(void *context, const quad *quads, size_t count, uint8_t ground, int first, int end,
+                      uint8_t *indices)
+{
+    sender *to = context;
+    const int width = to->renderer->width;
+    const draw_box rows = {0, first, width, end - first};
+    to->failed =
+        !send_quads(to->renderer, quads, count, ground, &rows, indices + (size_t)first * (size_t)width, to->error);
+    return !to->failed;
+}
+
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error)
 {
+    sender to = {r, error, false};
     if (!renderer_fits(r, s, error))
         return false;
     if (!paint(&r->painter, s))
         return fail(error, "there is no memory for a frame");
     r->left_out = s->refused + r->painter.overflowed;
-    const draw_box all = {0, 0, r->width, r->height};
-    return renderer_rasterise(r, r->painter.quads.items, r->painter.quads.count, &all, indices, error);
+    return canvas_draw(&r->canvas, &r->painter.quads, send_rows, &to, indices) ||
+           (!to.failed && fail(error, "there is no memory for a frame"));
 }
 
 size_t renderer_left_out(const renderer *r)

@@ -1,0 +1,196 @@
+/* canvas.c - see canvas.h. */
+#include "canvas.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* To begin and to read once more costs a rasteriser about as much as so many lines, or so many small rectangles. */
+#define LINES_A_PASS 256
+#define RECTANGLES_A_PASS 2048
+
+/* The index of what is laid over another picture and shows it. */
+#define NOTHING 255
+_Static_assert(THEME_COLORS <= NOTHING, "an index is left over");
+
+/* A frame under way. */
+typedef struct drawing {
+    canvas *canvas;
+    const quad *quads;
+    rasteriser *rasterise;
+    void *context;
+    uint8_t *indices;
+    bool blank; /* nothing is in `indices` yet */
+} drawing;
+
+void canvas_release(canvas *c)
+{
+    free(c->over);
+    free(c->kept);
+    quads_release(&c->last);
+    memset(c, 0, sizeof *c);
+}
+
+static size_t count_pixels(const canvas *c)
+{
+    return (size_t)c->width * (size_t)c->height;
+}
+
+/* ---- Rectangles --------------------------------------------------------------------------------------------- */
+
+static bool is_rectangle(const quad *q)
+{
+    const int32_t *x = q->x, *y = q->y;
+    return (x[0] == x[3] && x[1] == x[2] && y[0] == y[1] && y[2] == y[3]) ||
+           (x[0] == x[1] && x[2] == x[3] && y[1] == y[2] && y[3] == y[0]);
+}
+
+/* The first pixel whose centre is not before a coordinate: 0 to `size`. */
+static int first_pixel(int32_t at, int size)
+{
+    const int32_t centre = QUAD_SUBPIXELS / 2;
+    if (at <= centre)
+        return 0;
+    const int32_t pixel = (at - centre + QUAD_SUBPIXELS - 1) / QUAD_SUBPIXELS;
+    return pixel < size ? pixel : size;
+}
+
+/* GL's rule: a pixel belongs to what its centre is in, and of two that meet on the centre to the one behind. */
+static void fill(drawing *d, const quad *q)
+{
+    const int32_t *x = q->x, *y = q->y;
+    const canvas *c = d->canvas;
+    const int left = first_pixel(x[0] < x[2] ? x[0] : x[2], c->width);
+    const int right = first_pixel(x[0] < x[2] ? x[2] : x[0], c->width);
+    const int top = first_pixel(y[0] < y[2] ? y[0] : y[2], c->height);
+    const int bottom = first_pixel(y[0] < y[2] ? y[2] : y[0], c->height);
+    uint8_t *row = d->indices + (size_t)top * (size_t)c->width + left;
+    for (int i = top; i < bottom && left < right; i++, row += c->width)
+        memset(row, q->color, (size_t)(right - left));
+}
+
+static void fill_all(drawing *d, size_t start, size_t end)
+{
+    if (d->blank)
+        memset(d->indices, 0, count_pixels(d->canvas));
+    d->blank = false;
+    for (size_t i = start; i < end; i++)
+        fill(d, &d->quads[i]);
+}
+
+/* ---- The rasteriser ----------------------------------------------------------------------------------------- */
+
+/* The rows that quads may light. */
+static void find_rows(const drawing *d, size_t start, size_t end, int *first, int *behind)
+{
+    int32_t least = INT32_MAX, most = INT32_MIN;
+    for (size_t i = start; i < end; i++)
+        for (int j = 0; j < 4; j++) {
+            const int32_t y = d->quads[i].y[j];
+            least = y < least ? y : least;
+            most = y > most ? y : most;
+        }
+    const int height = d->canvas->height, rows = most <= 0 ? 0 : (int)(most / QUAD_SUBPIXELS) + 1;
+    *first = least <= 0 ? 0 : (int)(least / QUAD_SUBPIXELS);
+    *behind = rows < height ? rows : height;
+}
+
+static bool lay_over(drawing *d, size_t start, size_t end)
+{
+    canvas *c = d->canvas;
+    int first, behind;
+    find_rows(d, start, end, &first, &behind);
+    if (first >= behind)
+        return true;
+    c->over = c->over ? c->over : malloc(count_pixels(c));
+    if (!c->over || !d->rasterise(d->context, d->quads + start, end - start, NOTHING, first, behind, c->over))
+        return false;
+    const size_t last = (size_t)behind * (size_t)c->width;
+    for (size_t i = (size_t)first * (size_t)c->width; i < last; i++)
+        d->indices[i] = c->over[i] == NOTHING ? d->indices[i] : c->over[i];
+    return true;
+}
+
+static bool rasterise_all(drawing *d, size_t start, size_t end)
+{
+    if (start == end)
+        return true;
+    if (!d->blank)
+        return lay_over(d, start, end);
+    d->blank = false;
+    return d->rasterise(d->context, d->quads + start, end - start, 0, 0, d->canvas->height, d->indices);
+}
+
+/* ---- A frame ------------------------------------------------------------------------------------------------ */
+
+/* Many rectangles in a row, and those that come last, are filled. */
+static bool draw_span(drawing *d, size_t start, size_t end)
+{
+    size_t begun = start;
+    for (size_t i = start, run; i < end; i = run + 1) {
+        for (run = i; run < end && is_rectangle(&d->quads[run]);)
+            run++;
+        if (run == i || (run < end && run - i < RECTANGLES_A_PASS))
+            continue;
+        if (!rasterise_all(d, begun, i))
+            return false;
+        fill_all(d, i, run);
+        begun = run;
+    }
+    return rasterise_all(d, begun, end);
+}
+
+static bool same_quad(const quad *a, const quad *b)
+{
+    return a->color == b->color && a->order == b->order && memcmp(a->x, b->x, sizeof a->x) == 0 &&
+           memcmp(a->y, b->y, sizeof a->y) == 0;
+}
+
+static size_t count_same(const quad_list *a, const quad_list *b)
+{
+    size_t same = 0;
+    while (same < a->count && same < b->count && same_quad(&a->items[same], &b->items[same]))
+        same++;
+    return same;
+}
+
+static bool remember(canvas *c, const quad_list *quads)
+{
+    c->last.count = 0;
+    for (size_t i = 0; i < quads->count; i++)
+        quads_add(&c->last, &quads->items[i]);
+    return !c->last.out_of_memory;
+}
+
+/* Draw on to a place up to which frames are alike, and keep that. */
+static bool keep(drawing *d, size_t start, size_t end)
+{
+    canvas *c = d->canvas;
+    c->kept = c->kept ? c->kept : malloc(count_pixels(c));
+    if (!c->kept || !draw_span(d, start, end))
+        return false;
+    memcpy(c->kept, d->indices, count_pixels(c));
+    c->kept_count = end;
+    return true;
+}
+
+bool canvas_draw(canvas *c, const quad_list *quads, rasteriser *rasterise, void *context, uint8_t *indices)
+{
+    drawing d = {c, quads->items, rasterise, context, indices, true};
+    const size_t same = count_same(&c->last, quads);
+    size_t start = c->kept_count <= same ? c->kept_count : 0;
+    if (start > 0) {
+        memcpy(indices, c->kept, count_pixels(c));
+        d.blank = false;
+    }
+    c->kept_count = start;
+    if (same - start >= LINES_A_PASS) {
+        if (!keep(&d, start, same))
+            return false;
+        start = same;
+    }
+    if (!draw_span(&d, start, quads->count))
+        return false;
+    if (d.blank)
+        memset(indices, 0, count_pixels(c));
+    return remember(c, quads);
+}
