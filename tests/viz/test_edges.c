@@ -106,7 +106,7 @@ static void every_stretch_is_covered_once_in_the_colour_of_the_shallowest_box(vo
     edge_list list = {0};
     for (uint64_t seed = 1; seed <= 25; seed++) {
         scene s = random_boxes(seed, 1 + seed % BOXES);
-        assert_true(edges_merge(&list, &s));
+        assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
         for (int stretch = 0; stretch < 3 * GRID * (GRID + 1) * (GRID + 1); stretch++) {
             const unit_stretch of = {stretch % 3, stretch / 3 % GRID, stretch / (3 * GRID) % (GRID + 1),
                                      stretch / (3 * GRID * (GRID + 1))};
@@ -137,7 +137,7 @@ static void no_two_edges_of_one_look_and_depth_meet_end_to_end(void **state)
     edge_list list = {0};
     for (uint64_t seed = 1; seed <= 100; seed++) {
         scene s = random_boxes(seed, BOXES);
-        assert_true(edges_merge(&list, &s));
+        assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
         assert_maximal(&list);
         scene_release(&s);
     }
@@ -150,7 +150,7 @@ static void ids_are_of_boxes_that_the_edge_belongs_to(void **state)
     edge_list list = {0};
     for (uint64_t seed = 1; seed <= 50; seed++) {
         scene s = random_boxes(seed, BOXES);
-        assert_true(edges_merge(&list, &s));
+        assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
         for (size_t i = 0; i < list.count; i++) {
             const edge *e = &list.items[i];
             const scene_box *box = &s.boxes.items[e->id - 1]; /* random_boxes numbers them so */
@@ -194,16 +194,84 @@ static void the_order_of_the_boxes_does_not_matter(void **state)
         scene s = random_boxes(seed, BOXES);
         for (size_t i = 0; i < s.boxes.count; i++) /* colours that do not follow from the depth */
             s.boxes.items[i].look.role = (uint8_t)(i % 3);
-        assert_true(edges_merge(&first, &s));
+        assert_true(edges_merge(&first, &s, 0, LAYER_DIAGRAM + 1));
         for (int round = 0; round < 10; round++) {
             shuffle(&s, &seed);
-            assert_true(edges_merge(&other, &s));
+            assert_true(edges_merge(&other, &s, 0, LAYER_DIAGRAM + 1));
             assert_same_edges(&first, &other);
         }
         scene_release(&s);
     }
     edges_release(&first);
     edges_release(&other);
+}
+
+/* Change one box a little, or none, or leave the last one out. */
+static void change_boxes(scene *s, uint64_t *random)
+{
+    scene_box *box = &s->boxes.items[random_below(random, s->boxes.count)];
+    switch (random_below(random, 8)) {
+    case 0:
+        box->id += 100;
+        break;
+    case 1:
+        box->depth ^= 1;
+        break;
+    case 2:
+        box->look.role++;
+        break;
+    case 3:
+        box->look = kinds[random_below(random, KINDS)];
+        break;
+    case 4:
+        box->box.max[random_below(random, 3)]++;
+        break;
+    case 5:
+        s->boxes.count--;
+        break;
+    default:
+        break;
+    }
+}
+
+static void what_was_merged_before_leaves_no_trace(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    edge_list used = {0};
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        scene s = random_boxes(seed, BOXES);
+        while (s.boxes.count > 4) {
+            edge_list fresh = {0};
+            assert_true(edges_merge(&used, &s, 0, LAYER_DIAGRAM + 1));
+            assert_true(edges_merge(&fresh, &s, 0, LAYER_DIAGRAM + 1));
+            assert_same_edges(&used, &fresh);
+            edges_release(&fresh);
+            change_boxes(&s, &random);
+        }
+        scene_release(&s);
+    }
+    edges_release(&used);
+}
+
+static void layers_one_by_one_have_the_edges_of_all_together(void **state)
+{
+    (void)state;
+    edge_list all = {0}, low = {0}, high = {0};
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        scene s = random_boxes(seed, BOXES);
+        assert_true(edges_merge(&all, &s, 0, LAYER_DIAGRAM + 1));
+        assert_true(edges_merge(&low, &s, 0, LAYER_NODES + 1));
+        assert_true(edges_merge(&high, &s, LAYER_NODES + 1, LAYER_DIAGRAM + 1));
+        const edge_list first = {.items = all.items, .count = low.count};
+        const edge_list rest = {.items = all.items + low.count, .count = all.count - low.count};
+        assert_same_edges(&first, &low);
+        assert_same_edges(&rest, &high);
+        scene_release(&s);
+    }
+    edges_release(&all);
+    edges_release(&low);
+    edges_release(&high);
 }
 
 static void add_nodes(scene *s, const octree_box *world, octree_address address, unsigned depth, unsigned deepest)
@@ -228,7 +296,7 @@ static void a_full_subdivision_has_one_edge_a_line_of_its_grid(void **state)
             scene s = {.view = view_default()};
             add_nodes(&s, &worlds[world], OCTREE_ROOT, 0, deepest);
             const size_t lines = ((size_t)1 << deepest) + 1;
-            assert_true(edges_merge(&list, &s));
+            assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
             assert_int_equal(list.count, 3 * lines * lines);
             for (size_t i = 0; i < list.count; i++) {
                 const int axis = axis_of(&list.items[i]);
@@ -248,7 +316,7 @@ static void a_gap_between_two_boxes_stays_a_gap(void **state)
     edge_list list = {0};
     scene_add_box(&s, (scene_box){.id = 1, .box = {{0, 0, 0}, {1, 1, 1}}});
     scene_add_box(&s, (scene_box){.id = 2, .box = {{2, 0, 0}, {3, 1, 1}}});
-    assert_true(edges_merge(&list, &s));
+    assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
     assert_int_equal(list.count, 24);
     scene_release(&s);
     edges_release(&list);
@@ -259,7 +327,7 @@ static void no_boxes_have_no_edges(void **state)
     (void)state;
     scene s = {.view = view_default()};
     edge_list list = {0};
-    assert_true(edges_merge(&list, &s));
+    assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
     assert_int_equal(list.count, 0);
     edges_release(&list);
 }
@@ -275,7 +343,7 @@ static void a_box_without_extent_keeps_an_edge(void **state)
         for (int axis = 0; axis < 3; axis++)
             box.max[axis] = flat >> axis & 1 ? box.min[axis] : box.max[axis];
         scene_add_box(&s, (scene_box){.id = 1, .box = box});
-        assert_true(edges_merge(&list, &s));
+        assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
         assert_true(list.count >= 1);
         scene_release(&s);
     }
@@ -289,6 +357,8 @@ int main(void)
         cmocka_unit_test(no_two_edges_of_one_look_and_depth_meet_end_to_end),
         cmocka_unit_test(ids_are_of_boxes_that_the_edge_belongs_to),
         cmocka_unit_test(the_order_of_the_boxes_does_not_matter),
+        cmocka_unit_test(what_was_merged_before_leaves_no_trace),
+        cmocka_unit_test(layers_one_by_one_have_the_edges_of_all_together),
         cmocka_unit_test(a_full_subdivision_has_one_edge_a_line_of_its_grid),
         cmocka_unit_test(a_gap_between_two_boxes_stays_a_gap),
         cmocka_unit_test(no_boxes_have_no_edges),

@@ -61,6 +61,7 @@ static edge *append_edge(edge_list *list)
 void edges_release(edge_list *list)
 {
     lines_release(&list->lines);
+    free(list->boxes);
     free(list->items);
     memset(list, 0, sizeof *list);
 }
@@ -249,14 +250,14 @@ static bool sweep_lines(edge_list *list, stretch *gathered, line *const *sorted)
     return ok;
 }
 
-bool edges_merge(edge_list *list, const scene *s)
+static bool merge_boxes(edge_list *list)
 {
     stretch_list all = {0};
     bool ok = true;
     list->count = 0;
     lines_clear(&list->lines);
-    for (size_t i = 0; ok && i < s->boxes.count; i++)
-        ok = collect_box(&all, &list->lines, &s->boxes.items[i]);
+    for (size_t i = 0; ok && i < list->box_count; i++)
+        ok = collect_box(&all, &list->lines, &list->boxes[i]);
     line **sorted = ok && all.count ? sort_lines(&list->lines) : NULL;
     stretch *gathered = sorted ? gather(&all, &list->lines, sorted) : NULL;
     ok = ok && (all.count == 0 || (gathered && sweep_lines(list, gathered, sorted)));
@@ -264,4 +265,55 @@ bool edges_merge(edge_list *list, const scene *s)
     free(sorted);
     free(all.items);
     return ok;
+}
+
+static bool same_box(const scene_box *a, const scene_box *b)
+{
+    return a->id == b->id && a->depth == b->depth && same_look(a->look, b->look) &&
+           memcmp(&a->box, &b->box, sizeof a->box) == 0;
+}
+
+static bool keep_box(edge_list *list, size_t at, const scene_box *box)
+{
+    if (at == list->box_room) {
+        const size_t room = at ? 2 * at : 64;
+        scene_box *boxes = room <= SIZE_MAX / sizeof *boxes ? realloc(list->boxes, room * sizeof *boxes) : NULL;
+        if (!boxes)
+            return false;
+        list->boxes = boxes;
+        list->box_room = room;
+    }
+    list->boxes[at] = *box;
+    return true;
+}
+
+/* Keep the boxes of these layers; *same tells whether they are those that are kept already. */
+static bool keep_boxes(edge_list *list, const scene *s, unsigned first, unsigned behind, bool *same)
+{
+    size_t count = 0;
+    bool ok = true;
+    *same = true;
+    for (size_t i = 0; ok && i < s->boxes.count; i++) {
+        const scene_box *box = &s->boxes.items[i];
+        if (box->look.layer < first || box->look.layer >= behind)
+            continue;
+        if (count >= list->box_count || !same_box(&list->boxes[count], box)) {
+            *same = false;
+            ok = keep_box(list, count, box);
+        }
+        count += ok;
+    }
+    *same = *same && count == list->box_count;
+    list->box_count = count;
+    return ok;
+}
+
+bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned behind)
+{
+    bool same;
+    if (keep_boxes(list, s, first, behind, &same) && (same || merge_boxes(list)))
+        return true;
+    list->box_count = 0; /* what is there is not theirs */
+    list->count = 0;
+    return false;
 }

@@ -11,8 +11,10 @@
 void painter_release(painter *p)
 {
     quads_release(&p->quads);
+    edges_release(&p->tree);
     edges_release(&p->edges);
     free(p->nearest);
+    free(p->places);
     memset(p, 0, sizeof *p);
 }
 
@@ -61,10 +63,10 @@ static void paint_segments(painter *p, const scene *s, bool in_picture)
 
 static bool paint_boxes(painter *p, const scene *s)
 {
-    if (!edges_merge(&p->edges, s))
+    if (!edges_merge(&p->tree, s, 0, LAYER_NODES + 1) || !edges_merge(&p->edges, s, LAYER_NODES + 1, LAYER_DIAGRAM + 1))
         return false;
-    for (size_t i = 0; i < p->edges.count; i++) {
-        const edge *e = &p->edges.items[i];
+    for (size_t i = 0; i < paint_edge_count(p); i++) {
+        const edge *e = paint_edge_at(p, i);
         quads_begin(&p->quads, DRAW_BOX, i);
         paint_segment(p, s, e->ends[0], e->ends[1], e->look, e->depth);
     }
@@ -73,12 +75,12 @@ static bool paint_boxes(painter *p, const scene *s)
 
 size_t paint_edge_count(const painter *p)
 {
-    return p->edges.count;
+    return p->tree.count + p->edges.count;
 }
 
 const edge *paint_edge_at(const painter *p, size_t index)
 {
-    return &p->edges.items[index];
+    return index < p->tree.count ? &p->tree.items[index] : &p->edges.items[index - p->tree.count];
 }
 
 static void paint_marker(painter *p, const scene *s, const scene_marker *marker)
@@ -108,8 +110,24 @@ bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place
     return true;
 }
 
-/* Points on one pixel are one quad: the nearest band's, which would cover the others. */
-static bool paint_points(painter *p, const scene *s)
+/* Where a point is drawn. */
+typedef struct point_place {
+    uint32_t pixel; /* its place among all of them */
+    uint8_t band;
+    bool seen; /* it is a point, and in the picture */
+} point_place;
+
+static point_place place_point(const scene *s, const scene_marker *marker)
+{
+    size_t pixel;
+    unsigned band;
+    if (!paint_point_pixel(s, marker, &pixel, &band))
+        return (point_place){0};
+    return (point_place){(uint32_t)pixel, (uint8_t)band, true};
+}
+
+/* A byte a pixel, all 0, and a place a marker. */
+static bool make_room_for_points(painter *p, const scene *s)
 {
     const size_t pixels = (size_t)s->view.width * (size_t)s->view.height;
     if (p->pixels != pixels) {
@@ -117,24 +135,39 @@ static bool paint_points(painter *p, const scene *s)
         p->nearest = malloc(pixels);
         p->pixels = p->nearest ? pixels : 0;
     }
-    if (!p->nearest)
+    if (p->place_room < s->markers.count) {
+        free(p->places);
+        p->places = malloc(s->markers.room * sizeof *p->places);
+        p->place_room = p->places ? s->markers.room : 0;
+    }
+    if (!p->nearest || p->place_room < s->markers.count)
         return false;
     memset(p->nearest, 0, pixels);
-    unsigned band;
-    size_t place;
+    return true;
+}
+
+/* Points on one pixel are one quad: the nearest band's, which would cover the others. */
+static bool paint_points(painter *p, const scene *s)
+{
+    if (!make_room_for_points(p, s))
+        return false;
     for (size_t i = 0; i < s->markers.count; i++) {
-        if (!paint_point_pixel(s, &s->markers.items[i], &place, &band))
-            continue;
-        uint8_t *at = &p->nearest[place];
-        if (*at == 0 || *at > band + 1)
-            *at = (uint8_t)(band + 1);
+        const point_place at = p->places[i] = place_point(s, &s->markers.items[i]);
+        uint8_t *nearest = &p->nearest[at.pixel];
+        if (at.seen && (*nearest == 0 || *nearest > at.band + 1))
+            *nearest = (uint8_t)(at.band + 1);
     }
     for (size_t i = 0; i < s->markers.count; i++) {
-        if (!paint_point_pixel(s, &s->markers.items[i], &place, &band) || p->nearest[place] != band + 1)
+        const point_place at = p->places[i];
+        const scene_marker *marker = &s->markers.items[i];
+        if (!at.seen || p->nearest[at.pixel] != at.band + 1)
             continue;
+        const pencil with = pencil_make(s, marker->look, 0);
+        const uint32_t width = (uint32_t)s->view.width;
         quads_begin(&p->quads, DRAW_MARKER, i);
-        paint_marker(p, s, &s->markers.items[i]);
-        p->nearest[place] = UINT8_MAX; /* painted */
+        stroke_marker(&p->quads, &with, (scene_shape)marker->shape,
+                      (const double[2]){at.pixel % width, (double)(at.pixel / width)}, at.band);
+        p->nearest[at.pixel] = UINT8_MAX; /* painted */
     }
     return true;
 }

@@ -8,9 +8,11 @@
 /* What is reused from frame to frame. A zeroed painter is an empty one. */
 typedef struct painter {
     quad_list quads;
-    edge_list edges;
-    uint8_t *nearest; /* a byte a sample: 1 + the nearest band of a point there, while points are folded */
+    edge_list tree, edges; /* of the world and its nodes, which are the same for many ticks; and of all else */
+    uint8_t *nearest;      /* a byte a sample: 1 + the nearest band of a point there, while points are folded */
     size_t pixels;
+    struct point_place *places; /* where each point is, meanwhile */
+    size_t place_room;
     size_t overflowed; /* elements of the last scene that are too far off for doubles: counted, not drawn */
 } painter;
 
