@@ -21,18 +21,26 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
     return NULL;
 }
 
+static bool is_inside(const octree *tree, const double position[3])
+{
+    bool inside = true; /* NaN is not */
+    for (int i = 0; i < 3; i++)
+        inside &= tree->axes[i].min <= position[i] && position[i] <= tree->axes[i].max;
+    return inside;
+}
+
 static const char *check_leaf(const octree *tree, const node *n, cell c)
 {
+    const octree_address own = cell_address(c);
     if (n->count > tree->def.leaf_capacity && may_split(tree, c))
         return "a leaf that could split is over its capacity";
     if (n->count > tree->def.leaf_capacity && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
     for (uint32_t i = 0; i < n->count; i++) {
         const octree_point *point = &leaf_points(n)[i];
-        if (check_position(tree, point->position) != OCTREE_OK)
+        if (!is_inside(tree, point->position))
             return "a point is outside the world";
-        const cell own = path_cell(morton_code(tree->axes, point->position), c.depth);
-        if (own.low[0] != c.low[0] || own.low[1] != c.low[1] || own.low[2] != c.low[2])
+        if (morton_address(morton_code(tree->axes, point->position), c.depth) != own)
             return "a point is not in its leaf's cell";
         if (leaf_find(n, point->position, point->id) != i)
             return "a pair of position and id is stored twice";
@@ -62,27 +70,33 @@ const char *octree_check(const octree *tree, octree_address *where)
     return NULL;
 }
 
-/* Nodes and points are summed, so that the order in which they are met does not count. */
-static octree_walk_order digest_node(const octree_node *seen, void *context)
+static uint64_t digest_node(const node *n, octree_address address)
 {
-    uint64_t *sum = context;
-    *sum += octree_digest_word(octree_digest_word(OCTREE_DIGEST_START, seen->address), seen->leaf);
-    for (size_t i = 0; seen->leaf && i < seen->count; i++) {
-        uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, seen->points[i].id);
+    uint64_t sum = octree_digest_word(octree_digest_word(OCTREE_DIGEST_START, address), n->octants == 0);
+    for (size_t i = 0; n->octants == 0 && i < n->count; i++) {
+        const octree_point *point = &leaf_points(n)[i];
+        uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, point->id);
         for (int j = 0; j < 3; j++)
-            digest = octree_digest_double(digest, seen->points[i].position[j]);
-        *sum += digest;
+            digest = octree_digest_double(digest, point->position[j]);
+        sum += digest;
     }
-    return OCTREE_WALK_ON;
+    return sum;
 }
 
+/* Nodes and points are summed, so that the order in which they are met does not count. */
 uint64_t octree_digest(const octree *tree)
 {
-    if (!tree)
+    if (!tree || !float_mode_is_default())
         return 0;
     uint64_t sum = 0;
-    if (octree_walk(tree, digest_node, &sum) != OCTREE_OK)
-        return 0;
+    node_stack stack = {.size = 0};
+    stack_push(&stack, &tree->root, root_cell());
+    while (stack.size > 0) {
+        const stacked next = stack_pop(&stack);
+        sum += digest_node(next.node, cell_address(next.cell));
+        if (next.node->octants)
+            stack_push_children(&stack, next);
+    }
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, sum);
     digest = octree_digest_word(digest, tree->def.leaf_capacity);
     digest = octree_digest_word(digest, tree->def.max_depth);

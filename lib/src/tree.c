@@ -161,12 +161,15 @@ cell path_cell(uint64_t code, unsigned depth)
     return c;
 }
 
+/* A large tree does not fit the caches: what is below each child is on its way before the child's turn comes. */
 void stack_push_children(node_stack *stack, stacked parent)
 {
     const node *child = children_of(parent.node) + bits_count8(parent.node->octants);
     for (unsigned octant = 8; octant-- > 0;)
-        if (parent.node->octants >> octant & 1)
+        if (parent.node->octants >> octant & 1) {
             stack_push(stack, --child, cell_child(parent.cell, octant));
+            prefetch(child->below);
+        }
 }
 
 void node_release(octree *tree, node *n)

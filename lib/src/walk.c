@@ -69,24 +69,32 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
     return OCTREE_OK;
 }
 
-static octree_walk_order count_node(const octree_node *seen, void *context)
+static void count_node(octree_stats *stats, const node *n, unsigned depth)
 {
-    octree_stats *stats = context;
     stats->nodes++;
-    stats->nodes_at_depth[seen->depth]++;
-    stats->depth = seen->depth > stats->depth ? seen->depth : stats->depth;
-    if (seen->leaf) {
+    stats->nodes_at_depth[depth]++;
+    stats->depth = depth > stats->depth ? depth : stats->depth;
+    if (n->octants == 0) {
         stats->leaves++;
-        stats->leaves_at_depth[seen->depth]++;
-        stats->largest_leaf = seen->count > stats->largest_leaf ? seen->count : stats->largest_leaf;
+        stats->leaves_at_depth[depth]++;
+        stats->largest_leaf = n->count > stats->largest_leaf ? n->count : stats->largest_leaf;
     }
-    return OCTREE_WALK_ON;
 }
 
 octree_status octree_statistics(const octree *tree, octree_stats *stats)
 {
     if (!tree || !stats)
         return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
     *stats = (octree_stats){.points = tree->root.count, .memory = tree->memory.bytes};
-    return octree_walk(tree, count_node, stats);
+    node_stack stack = {.size = 0};
+    stack_push(&stack, &tree->root, root_cell());
+    while (stack.size > 0) {
+        const stacked next = stack_pop(&stack);
+        count_node(stats, next.node, next.cell.depth);
+        if (next.node->octants)
+            stack_push_children(&stack, next);
+    }
+    return OCTREE_OK;
 }

@@ -6,7 +6,7 @@
 
 /* To begin and to read once more costs a rasteriser about as much as so many lines, or so many small rectangles. */
 #define LINES_A_PASS 256
-#define RECTANGLES_A_PASS 2048
+#define RECTANGLES_A_PASS 1024
 
 /* The index of what is laid over another picture and shows it. */
 #define NOTHING 255

@@ -56,20 +56,37 @@ static void add_point(tree_walk *w, const octree_point *point)
         thin_points(w);
 }
 
+/* Few, and often in order already. */
+static void sort_few(octree_point *points, size_t count)
+{
+    for (size_t i = 1; i < count; i++) {
+        const octree_point it = points[i];
+        size_t at = i;
+        for (; at > 0 && octree_compare_points(&points[at - 1], &it) > 0; at--)
+            points[at] = points[at - 1];
+        points[at] = it;
+    }
+}
+
 /* A leaf's points come in no stated order: sort them, so that a scene does not depend on the tree's history. */
 static void add_points(tree_walk *w, const octree_node *leaf)
 {
-    octree_point *sorted = malloc(leaf->count * sizeof *sorted);
+    enum { FEW = 32 };
+    octree_point few[FEW], *sorted = leaf->count <= FEW ? few : malloc(leaf->count * sizeof *sorted);
     if (!sorted) {
         w->scene->out_of_memory = true;
         return;
     }
     memcpy(sorted, leaf->points, leaf->count * sizeof *sorted);
-    qsort(sorted, leaf->count, sizeof *sorted, octree_compare_points);
+    if (sorted == few)
+        sort_few(few, leaf->count);
+    else
+        qsort(sorted, leaf->count, sizeof *sorted, octree_compare_points);
     for (size_t i = 0; i < leaf->count; i++)
         if (filter_shows_point(&w->scene->view.filter, sorted[i].position))
             add_point(w, &sorted[i]);
-    free(sorted);
+    if (sorted != few)
+        free(sorted);
 }
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
