@@ -237,13 +237,29 @@ static stretch *gather(const stretch_list *all, line_set *lines, line *const *so
     return gathered;
 }
 
+/* Most lines have few, and these nearly in order. */
+static void sort_stretches(stretch *line, size_t count)
+{
+    enum { FEW = 24 };
+    if (count > FEW) {
+        qsort(line, count, sizeof *line, compare_stretches);
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        const stretch it = line[i];
+        size_t at = i;
+        for (; at > 0 && compare_stretches(&line[at - 1], &it) > 0; at--)
+            line[at] = line[at - 1];
+        line[at] = it;
+    }
+}
+
 static bool sweep_lines(edge_list *list, stretch *gathered, line *const *sorted)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < list->lines.count; i++) {
         const size_t count = sorted[i]->count;
-        if (count > 1)
-            qsort(gathered, count, sizeof *gathered, compare_stretches);
+        sort_stretches(gathered, count);
         ok = sweep_line(list, gathered, count);
         gathered += count;
     }

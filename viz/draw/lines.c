@@ -1,7 +1,5 @@
 /* lines.c - see lines.h: a hash table with open addressing, at most half full. */
 #include "lines.h"
-#include "octree/digest.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,9 +19,20 @@ void lines_release(line_set *set)
     memset(set, 0, sizeof *set);
 }
 
+/* Planes of a tree have few bits, and those at the top: they are brought down before they are mixed. */
+static uint64_t fold(double value)
+{
+    uint64_t bits;
+    const double canonical = value + 0.0; /* of the two zeros one */
+    memcpy(&bits, &canonical, sizeof bits);
+    return bits ^ bits >> 32;
+}
+
 static size_t place_of(const line_set *set, uint32_t kind, double u, double v)
 {
-    return (size_t)octree_digest_double(octree_digest_double(kind, u), v) & (set->size - 1);
+    const uint64_t mixed =
+        (fold(u) + kind) * UINT64_C(0x9e3779b97f4a7c15) ^ (fold(v) + kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
+    return (size_t)((mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32) & (set->size - 1);
 }
 
 /* Twice the room, and every line in its new place. */
