@@ -91,6 +91,44 @@ static void random_bits_round_trip(void **state)
     }
 }
 
+/* The definition: printf and strtod themselves, digit by digit more. */
+static void assert_prints_as_printf(double value)
+{
+    char text[NUMBER_TEXT], expected[64];
+    for (int precision = 15; precision <= 17; precision++) {
+        snprintf(expected, sizeof expected, "%.*g", precision, value);
+        if (strtod(expected, NULL) == value)
+            break;
+    }
+    number_print(value, text);
+    assert_string_equal(text, expected);
+}
+
+static void numbers_are_printed_as_printf_prints_the_shortest(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    for (int i = 0; i < 30000; i++) {
+        const uint64_t bits = next_random(&random);
+        const double value = double_of(bits), unit = (double)(bits >> 11) * 0x1p-53;
+        if (isfinite(value))
+            assert_prints_as_printf(value);
+        assert_prints_as_printf(unit * 2000 - 1000);
+        assert_prints_as_printf((double)(bits % 2000001) / 1000 - 1000);              /* few digits */
+        assert_prints_as_printf(((double)(bits % 20000001) + 0.5) * 0x1p-20);         /* ties of decimal digits */
+        assert_prints_as_printf(ldexp((double)(bits >> 40), (int)(bits % 160) - 80)); /* exact in many digits */
+    }
+    for (int e = -330; e <= 308; e++) {
+        char text[16];
+        snprintf(text, sizeof text, "1e%d", e);
+        const double power = strtod(text, NULL);
+        assert_prints_as_printf(power);
+        assert_prints_as_printf(-nextafter(power, 0));
+        assert_prints_as_printf(nextafter(power, INFINITY));
+        assert_prints_as_printf(ldexp(1, e));
+    }
+}
+
 static void powers_of_ten_and_two_round_trip(void **state)
 {
     (void)state;
@@ -316,6 +354,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_bits_round_trip),
+        cmocka_unit_test(numbers_are_printed_as_printf_prints_the_shortest),
         cmocka_unit_test(powers_of_ten_and_two_round_trip),
         cmocka_unit_test(subnormals_and_limits_round_trip),
         cmocka_unit_test(random_decimals_parse_as_strtod_does),

@@ -186,16 +186,94 @@ static size_t restore_point(char *text)
     return strlen(text);
 }
 
+/* The digits of a number, "d.ddd..." times a power of ten. */
+typedef struct printed {
+    char digits[DBL_DECIMAL_DIG];
+    int count, exponent;
+    bool negative;
+} printed;
+
+static printed print_digits(double value)
+{
+    char text[NUMBER_TEXT];
+    snprintf(text, sizeof text, "%.*e", DBL_DECIMAL_DIG - 1, value);
+    printed d = {.negative = text[0] == '-'};
+    const char *at = text;
+    for (; *at != 'e'; at++)
+        if (*at >= '0' && *at <= '9' && d.count < DBL_DECIMAL_DIG)
+            d.digits[d.count++] = *at;
+    d.exponent = (int)strtol(at + 1, NULL, 10);
+    return d;
+}
+
+/* Round to fewer digits, as from all that the number has. False where those that are known cannot tell up from down. */
+static bool round_digits(const printed *all, int count, printed *rounded)
+{
+    *rounded = *all;
+    rounded->count = count;
+    bool tie = all->digits[count] == '5';
+    for (int i = count + 1; i < all->count; i++)
+        tie &= all->digits[i] == '0';
+    if (tie)
+        return false;
+    int at = count - 1;
+    if (all->digits[count] < '5')
+        return true;
+    for (; at >= 0 && rounded->digits[at] == '9'; at--)
+        rounded->digits[at] = '0';
+    if (at >= 0) {
+        rounded->digits[at]++;
+        return true;
+    }
+    rounded->digits[0] = '1'; /* 9.99 became 10.0 */
+    rounded->exponent++;
+    return true;
+}
+
+/* As %g of this many digits does. */
+static size_t write_digits(const printed *d, char text[NUMBER_TEXT])
+{
+    int count = d->count;
+    char *to = text;
+    while (count > 1 && d->digits[count - 1] == '0')
+        count--;
+    const bool plain = d->exponent >= -4 && d->exponent < d->count;
+    const int before = !plain ? 1 : d->exponent < 0 ? 0 : d->exponent + 1;
+    if (d->negative)
+        *to++ = '-';
+    if (before == 0)
+        *to++ = '0';
+    for (int i = 0; i < before; i++)
+        *to++ = i < count ? d->digits[i] : '0';
+    if (count > before)
+        *to++ = '.';
+    for (int i = -1; before == 0 && i > d->exponent; i--)
+        *to++ = '0';
+    for (int i = before; i < count; i++)
+        *to++ = d->digits[i];
+    *to = 0;
+    if (!plain)
+        to += snprintf(to, 8, "e%c%02d", d->exponent < 0 ? '-' : '+', d->exponent < 0 ? -d->exponent : d->exponent);
+    return (size_t)(to - text);
+}
+
+/* printf is asked once, for all digits; seldom again, where they end in what may be a tie. */
 size_t number_print(double value, char text[NUMBER_TEXT])
 {
-    size_t length = 0;
-    for (int precision = 15; precision <= DBL_DECIMAL_DIG; precision++) {
+    const printed all = print_digits(value);
+    for (int precision = 15; precision < DBL_DECIMAL_DIG; precision++) {
         const char *end;
         double again;
-        snprintf(text, NUMBER_TEXT, "%.*g", precision, value);
-        length = restore_point(text);
+        printed rounded;
+        size_t length;
+        if (round_digits(&all, precision, &rounded)) {
+            length = write_digits(&rounded, text);
+        } else {
+            snprintf(text, NUMBER_TEXT, "%.*g", precision, value);
+            length = restore_point(text);
+        }
         if (number_parse(text, text + length, &end, &again) && again == value)
-            break;
+            return length;
     }
-    return length;
+    return write_digits(&all, text);
 }
