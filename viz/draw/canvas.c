@@ -153,24 +153,24 @@ static size_t count_same(const quad_list *a, const quad_list *b)
     return same;
 }
 
-static bool remember(canvas *c, const quad_list *quads)
+/* Without memory for it the next frame is drawn from its beginning. */
+static void remember(canvas *c, const quad_list *quads)
 {
     c->last.count = 0;
     for (size_t i = 0; i < quads->count; i++)
         quads_add(&c->last, &quads->items[i]);
-    return !c->last.out_of_memory;
+    if (c->last.out_of_memory)
+        c->last.count = 0;
+    c->last.out_of_memory = false;
 }
 
-/* Draw on to a place up to which frames are alike, and keep that. */
-static bool keep(drawing *d, size_t start, size_t end)
+/* Whether it pays to keep what is alike up to `same`, where `start` quads are drawn, and there is room for it. */
+static bool is_worth_keeping(canvas *c, size_t start, size_t same)
 {
-    canvas *c = d->canvas;
-    c->kept = c->kept ? c->kept : malloc(count_pixels(c));
-    if (!c->kept || !draw_span(d, start, end))
+    if (same - start < LINES_A_PASS)
         return false;
-    memcpy(c->kept, d->indices, count_pixels(c));
-    c->kept_count = end;
-    return true;
+    c->kept = c->kept ? c->kept : malloc(count_pixels(c));
+    return c->kept != NULL;
 }
 
 bool canvas_draw(canvas *c, const quad_list *quads, rasteriser *rasterise, void *context, uint8_t *indices)
@@ -183,14 +183,16 @@ bool canvas_draw(canvas *c, const quad_list *quads, rasteriser *rasterise, void 
         d.blank = false;
     }
     c->kept_count = start;
-    if (same - start >= LINES_A_PASS) {
-        if (!keep(&d, start, same))
+    if (is_worth_keeping(c, start, same)) {
+        if (!draw_span(&d, start, same))
             return false;
-        start = same;
+        memcpy(c->kept, indices, count_pixels(c));
+        c->kept_count = start = same;
     }
     if (!draw_span(&d, start, quads->count))
         return false;
     if (d.blank)
         memset(indices, 0, count_pixels(c));
-    return remember(c, quads);
+    remember(c, quads);
+    return true;
 }
