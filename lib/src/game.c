@@ -17,15 +17,28 @@ static octree_status load_bodies(octree_game *game)
     return OCTREE_OK;
 }
 
+/* Halves first: no world overflows. */
+static octree_status place_player(octree_game *game)
+{
+    const octree_player *player = &game->session->player;
+    const octree_box *world = &game->session->tree.world;
+    for (int i = 0; i < 3; i++)
+        game->tick.player[i] = world->min[i] / 2 + world->max[i] / 2;
+    if (player->kind != OCTREE_PLAYER_KEYS)
+        return OCTREE_OK;
+    memcpy(game->tick.player, player->position, sizeof game->tick.player);
+    return octree_insert(game->tree, player->position, player->id);
+}
+
 static octree_status start(octree_game *game)
 {
     const octree_session *session = game->session;
     octree_status status = game_check_session(session, game->tree);
     if (status == OCTREE_OK)
-        status = octree_insert(game->tree, session->player.position, session->player.id);
-    memcpy(game->tick.player, session->player.position, sizeof game->tick.player);
+        status = place_player(game);
     if (status == OCTREE_OK)
         status = load_bodies(game);
+    game_find_player(game);
     if (status == OCTREE_OK)
         status = game_finish_tick(game);
     return status;

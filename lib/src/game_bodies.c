@@ -35,7 +35,7 @@ static uint64_t origin_tick(const octree_game *game)
 octree_status game_add_body(octree_game *game, const octree_body *body)
 {
     octree_status status = OCTREE_OK;
-    if (body->id == game->session->player.id || bodies_find(&game->bodies, body->id))
+    if (game_is_players(game, body->id) || bodies_find(&game->bodies, body->id))
         status = OCTREE_DUPLICATE;
     else if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->velocity[2]))
         status = OCTREE_NOT_FINITE;

@@ -6,6 +6,12 @@
 
 static octree_status check_player(const octree_player *player, const octree *tree)
 {
+    if ((unsigned)player->kind > OCTREE_PLAYER_NONE)
+        return OCTREE_BAD_OPTION;
+    if (player->kind == OCTREE_PLAYER_NONE)
+        return OCTREE_OK;
+    if (player->kind == OCTREE_PLAYER_BODY)
+        return !isfinite(player->box_size) ? OCTREE_NOT_FINITE : player->box_size < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
     if (!isfinite(player->step) || !isfinite(player->box_size))
         return OCTREE_NOT_FINITE;
     if (player->step < 0 || player->box_size < 0)

@@ -42,6 +42,12 @@ octree_status game_move_bodies(octree_game *game);
 /* The player's step and the collision test that decides it. */
 octree_status game_step_player(octree_game *game);
 
+/* Whether an id is that of a player who is no body. */
+bool game_is_players(const octree_game *game, uint64_t id);
+
+/* Note where the player is, and was before the tick: of a body, what edits and motion have made of it. */
+void game_find_player(octree_game *game);
+
 /* The queries, the node sets, and the tick's arrays. At tick 0 the collision test too. */
 octree_status game_finish_tick(octree_game *game);
 

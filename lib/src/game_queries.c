@@ -66,11 +66,14 @@ static octree_status find_neighbors(octree_game *game, octree_answer *answer, bo
 
 static octree_status ask(octree_game *game, const octree_query *query, bool by_key)
 {
+    if (query->at_player && !game->tick.has_player)
+        return OCTREE_OK;
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return OCTREE_NO_MEMORY;
     *answer = pose(query, game->tick.player);
     answer->by_key = by_key;
+    game->tick.asked |= 1u << query->kind;
     if (finds_points(answer->kind))
         return find_points(game, answer);
     return find_neighbors(game, answer, query->at_player);
@@ -139,7 +142,7 @@ static void publish(octree_game *game)
     publish_answers(game);
     tick->hits = game->hits.items;
     tick->hit_count = game->hits.count;
-    tick->hit_from = game->hit_from.items;
+    tick->hit_from = tick->swept ? game->hit_from.items : NULL;
     tick->refusals = game->refusals.items;
     tick->refusal_count = game->refusals.count;
     tick->splits = game->splits.items;
@@ -151,7 +154,7 @@ static void publish(octree_game *game)
 octree_status game_finish_tick(octree_game *game)
 {
     octree_status status = OCTREE_OK;
-    if (game->tick.number == 0)
+    if (game->tick.number == 0 && game->tick.has_player)
         status = game_collide(game, game->tick.player);
     if (status == OCTREE_OK)
         status = ask_all(game);

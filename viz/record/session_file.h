@@ -5,13 +5,16 @@
  *    "world": {"min": [-1000, -1000, -1000], "max": [1000, 1000, 1000]},
  *    "tree": {"capacity": 8, "depth": 21, "full": "refuse" or "grow"},
  *    "player": {"id": 0, "position": [0, 0, 0], "step": 50, "box_size": 30, "sweep": false},
+ *              or {"id": 7, "body": true, "box_size": 30, "sweep": false}, or null,
  *    "points": a list of [x, y, z], [x, y, z, id] and {"id": 7, "position": [x, y, z], "velocity": [vx, vy, vz]},
  *              or {"file": "cloud.pcd"}, or {"sample": "clustered", "count": 2000, "seed": 1},
  *    "velocities": [[id, vx, vy, vz], ...], or {"speed": 5, "seed": 1} for random ones within +-speed on each axis,
  *    "keys": "wwdn.", "ticks": 100, "queries": asked at every tick}
  * What is shown for world, tree and player is what they have when they are left out; but position is the world's
  * centre, step a fortieth of its longest side, and box_size three fifths of step. With "sweep": true collisions are
- * tested all the way from tick to tick, and not at the end of the step alone.
+ * tested all the way from tick to tick, and not at the end of the step alone. With "body": true the player is the point
+ * with its id, whenever there is one: edits and velocity move it, and keys do not. With null there is nobody, and
+ * nothing collides.
  *
  * Then, where there are any, the ticks in ascending order:
  *   {"tick": 3, "edits": [{"insert": {"id": 9, "position": [x, y, z], "velocity": [vx, vy, vz]}}, {"remove": 9},
@@ -24,9 +27,9 @@
  *   {"knearest": 8, "at": [x, y, z]}           the 8 nearest points
  * and "player" may stand for [x, y, z]: neighbours are then others than the player itself.
  *
- * A point without an id has its place in the list for an id, counted from 1 and passing over the player's. Ids are
- * unique, the player's included. "velocities" replace those of the points. Points may lie outside the world: the game
- * refuses them at tick 0.
+ * A point without an id has its place in the list for an id, counted from 1 and passing over that of a player who is no
+ * body. Ids are unique, that player's included. "velocities" replace those of the points. Points may lie outside the
+ * world: the game refuses them at tick 0.
  */
 #ifndef OCTREEL_SESSION_FILE_H
 #define OCTREEL_SESSION_FILE_H

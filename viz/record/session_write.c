@@ -24,20 +24,37 @@ static void write_tree(json_writer *writer, const octree_def *def)
     json_write_end_object(writer);
 }
 
-static void write_player(json_writer *writer, const octree_player *player)
+static void write_true(json_writer *writer, const char *key)
 {
-    json_write_key(writer, "player");
-    json_write_begin_object(writer);
-    write_whole(writer, "id", player->id);
+    json_write_key(writer, key);
+    json_write_bool(writer, true);
+}
+
+/* Where a player who is no body begins, and how it moves. */
+static void write_walk(json_writer *writer, const octree_player *player)
+{
     json_member_vector(writer, "position", player->position);
     json_write_key(writer, "step");
     json_write_number(writer, player->step);
+}
+
+static void write_player(json_writer *writer, const octree_player *player)
+{
+    json_write_key(writer, "player");
+    if (player->kind == OCTREE_PLAYER_NONE) {
+        json_write_null(writer);
+        return;
+    }
+    json_write_begin_object(writer);
+    write_whole(writer, "id", player->id);
+    if (player->kind == OCTREE_PLAYER_BODY)
+        write_true(writer, "body");
+    else
+        write_walk(writer, player);
     json_write_key(writer, "box_size");
     json_write_number(writer, player->box_size);
-    if (player->sweep) {
-        json_write_key(writer, "sweep");
-        json_write_bool(writer, true);
-    }
+    if (player->sweep)
+        write_true(writer, "sweep");
     json_write_end_object(writer);
 }
 

@@ -193,6 +193,16 @@ static pen begin_panel(scene *s)
     return p;
 }
 
+/* Where there may be one. */
+static void write_player(pen *p, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    if (tick->has_player)
+        write_position(p, "player", tick->player);
+    else if (octree_game_session(game)->player.kind != OCTREE_PLAYER_NONE)
+        write_row(p, "player", "away");
+}
+
 void add_tick_panel(scene *s, const octree_game *game, const finding *found)
 {
     const octree_tick *tick = octree_game_tick(game);
@@ -214,7 +224,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
     if (tick->key)
         write_row(&p, "key", "%c  %s", tick->key, key_meaning(tick->key));
     write_keys(&p, game);
-    write_position(&p, "player", tick->player);
+    write_player(&p, game);
     if (tick->swept)
         write_row(&p, "tested", "the whole way");
     p.y += LINE / 2;

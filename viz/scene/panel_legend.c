@@ -70,14 +70,22 @@ static const view_layer query_layers[OCTREE_QUERY_KINDS] = {
     [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
 };
 
-/* Of a session, those of queries that it never asks are left out. The nearest point is asked for by a key too. */
-static unsigned layers_of(const octree_session *session)
+/* Of a session that keys play, those of queries that it never asks are left out; the nearest point is asked for by a
+ * key too. What else a session will ask may not be known yet: then those of queries that it has not asked so far. */
+static unsigned layers_of(const octree_game *game)
 {
-    unsigned asked = 1u << LAYER_NEAREST, others = VIEW_ALL_LAYERS;
-    for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++)
+    const octree_session *session = octree_game_session(game);
+    const bool known = session->player.kind == OCTREE_PLAYER_KEYS;
+    unsigned asked = known ? 1u << LAYER_NEAREST : 0, others = VIEW_ALL_LAYERS;
+    for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++) {
         others &= ~(1u << query_layers[i]);
-    for (size_t i = 0; i < session->query_count; i++)
+        if (octree_game_tick(game)->asked >> i & 1)
+            asked |= 1u << query_layers[i];
+    }
+    for (size_t i = 0; known && i < session->query_count; i++)
         asked |= 1u << query_layers[session->queries[i].kind];
+    if (session->player.kind == OCTREE_PLAYER_NONE)
+        others &= ~(1u << LAYER_PLAYER | 1u << LAYER_BOX);
     return asked | others;
 }
 
@@ -256,7 +264,7 @@ static void write_legend(pen *p, const legend_subject *about)
 void write_tick_legend(pen *p, const octree_game *game)
 {
     const octree_session *session = octree_game_session(game);
-    write_legend(p, &(legend_subject){.layers = layers_of(session),
+    write_legend(p, &(legend_subject){.layers = layers_of(game),
                                       .max_depth = session->tree.max_depth,
                                       .swept = session->player.sweep,
                                       .tick = octree_game_tick(game)});

@@ -122,10 +122,11 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
     add_visits(s, game);
     add_changes(s, game);
     add_answers(s, tick->answers, tick->answer_count);
-    add_player(s, tick, session);
+    if (tick->has_player)
+        add_player(s, tick, session);
     add_collision(s, tick, session);
     add_broken(s, &session->tree.world, &found);
-    add_diagram(s, tree, leaf_of(tree, tick->player));
+    add_diagram(s, tree, tick->has_player ? leaf_of(tree, tick->player) : 0);
     add_tick_panel(s, game, &found);
     return !s->out_of_memory;
 }

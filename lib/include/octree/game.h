@@ -29,8 +29,16 @@ typedef struct octree_body {
     double velocity[3];
 } octree_body;
 
-/* The player is a point of the tree like the others, inserted first. */
+/* Who the player is. */
+typedef enum octree_player_kind {
+    OCTREE_PLAYER_KEYS, /* a point of the tree like the others, inserted first, which the keys move */
+    OCTREE_PLAYER_BODY, /* the body with its id, while there is one: edits and its velocity move it, keys do not, and
+                           nothing is taken back. Its position and step are not read */
+    OCTREE_PLAYER_NONE, /* nobody: nothing collides, keys do nothing, and the rest of the player is not read */
+} octree_player_kind;
+
 typedef struct octree_player {
+    octree_player_kind kind;
     uint64_t id;
     double position[3];
     double step;     /* distance of one key, >= 0 */
@@ -62,7 +70,7 @@ const char *octree_query_name(octree_query_kind kind);
 #define OCTREE_EVERY_TICK UINT64_MAX
 
 /* A question asked at the end of a tick. The player is no neighbour of itself; boxes and balls have it as they have
- * every other point. */
+ * every other point. What is asked at the player is not asked in a tick without one. */
 typedef struct octree_query {
     uint64_t tick; /* or OCTREE_EVERY_TICK */
     octree_query_kind kind;
@@ -140,12 +148,13 @@ typedef struct octree_visit {
 /* One tick. The arrays are owned by the game and valid until its next step. */
 typedef struct octree_tick {
     uint64_t number;
-    char key;                 /* 0 at tick 0 */
-    unsigned events;          /* bits of octree_event */
-    double player[3];         /* after the tick */
-    double attempt[3];        /* where the collision test was made: the step's end, taken back or not */
-    bool swept;               /* the test was made all the way from `from` to `attempt` */
-    double from[3];           /* where the player was before the tick */
+    char key;          /* 0 at tick 0 */
+    unsigned events;   /* bits of octree_event */
+    bool has_player;   /* false: the next three places are those where one was last, or else the world's middle */
+    double player[3];  /* after the tick */
+    double attempt[3]; /* where the collision test was made: the step's end, taken back or not */
+    bool swept;        /* the test was made all the way from `from` to `attempt` */
+    double from[3];    /* where the player was before the tick; a body that was inserted, where it was put */
     const octree_point *hits; /* what the collision test found, by id */
     size_t hit_count;
     const double (*hit_from)[3];    /* swept: where each hit was before the tick; else null */
@@ -158,6 +167,7 @@ typedef struct octree_tick {
     size_t merge_count;
     const octree_answer *answers; /* n first, then the session's queries in their order */
     size_t answer_count;
+    unsigned asked;             /* bits 1 << octree_query_kind: what was asked up to this tick */
     const octree_visit *visits; /* each node once, in pre-order */
     size_t visit_count;
     size_t touched[OCTREE_TOUCH_KINDS]; /* how many of them were met in each way */
