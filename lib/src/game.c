@@ -6,6 +6,35 @@
 
 #include <string.h>
 
+/* What the session has for its next tick, which is then behind it. */
+static octree_input own_input(octree_game *game, char key)
+{
+    const octree_session *session = game->session;
+    const uint64_t tick = key ? game->tick.number + 1 : 0;
+    octree_input input = {.key = key};
+    const size_t edit = game->next_edit;
+    while (game->next_edit < session->edit_count && session->edits[game->next_edit].tick <= tick)
+        game->next_edit++;
+    input.edits = session->edits ? session->edits + edit : NULL;
+    input.edit_count = game->next_edit - edit;
+    while (game->next_query < game->standing && session->queries[game->next_query].tick < tick)
+        game->next_query++;
+    const size_t query = game->next_query;
+    while (game->next_query < game->standing && session->queries[game->next_query].tick == tick)
+        game->next_query++;
+    input.queries = session->queries ? session->queries + query : NULL;
+    input.query_count = game->next_query - query;
+    return input;
+}
+
+static size_t first_standing(const octree_session *session)
+{
+    size_t first = session->query_count;
+    while (first > 0 && session->queries[first - 1].tick == OCTREE_EVERY_TICK)
+        first--;
+    return first;
+}
+
 static octree_status load_bodies(octree_game *game)
 {
     const octree_session *session = game->session;
@@ -39,8 +68,9 @@ static octree_status start(octree_game *game)
     if (status == OCTREE_OK)
         status = load_bodies(game);
     game_find_player(game);
+    const octree_input input = own_input(game, 0);
     if (status == OCTREE_OK)
-        status = game_finish_tick(game);
+        status = game_finish_tick(game, &input);
     return status;
 }
 
@@ -64,6 +94,7 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
     }
     *made = (octree_game){.session = session, .tree = tree, .memory = memory};
     made->bodies.memory = &made->memory;
+    made->standing = first_standing(session);
     status = start(made);
     if (status == OCTREE_OK)
         *game = made;
@@ -105,10 +136,9 @@ static void begin_tick(octree_game *game, char key)
     game->tick.events = 0;
 }
 
-octree_status octree_game_step(octree_game *game, char key)
+/* `given` is null where the session has what happens. */
+static octree_status step(octree_game *game, char key, const octree_input *given)
 {
-    if (!game)
-        return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
     if (key == 'q') {
@@ -117,15 +147,29 @@ octree_status octree_game_step(octree_game *game, char key)
     }
     if (!game_is_key(key))
         return OCTREE_BAD_KEY;
+    const octree_input own = own_input(game, key), *input = given ? given : &own;
     begin_tick(game, key);
-    octree_status status = game_apply_edits(game);
+    octree_status status = game_apply_edits(game, input);
     if (status == OCTREE_OK)
         status = game_move_bodies(game);
     if (status == OCTREE_OK)
         status = game_step_player(game);
     if (status == OCTREE_OK)
-        status = game_finish_tick(game);
+        status = game_finish_tick(game, input);
     return status;
+}
+
+octree_status octree_game_step(octree_game *game, char key)
+{
+    return game ? step(game, key, NULL) : OCTREE_NULL_ARGUMENT;
+}
+
+octree_status octree_game_play(octree_game *game, const octree_input *input)
+{
+    if (!game || !input)
+        return OCTREE_NULL_ARGUMENT;
+    const octree_status status = game_check_input(input);
+    return status == OCTREE_OK ? step(game, input->key, input) : status;
 }
 
 uint64_t octree_session_length(const octree_session *session)

@@ -27,10 +27,15 @@ static octree_status check_keys(const octree_session *session)
     return OCTREE_OK;
 }
 
+static bool is_edit(const octree_edit *edit)
+{
+    return (unsigned)edit->kind <= OCTREE_EDIT_MOVE;
+}
+
 static octree_status check_edits(const octree_session *session)
 {
     for (size_t i = 0; i < session->edit_count; i++) {
-        if ((unsigned)session->edits[i].kind > OCTREE_EDIT_MOVE)
+        if (!is_edit(&session->edits[i]))
             return OCTREE_BAD_OPTION;
         if (session->edits[i].tick == 0 || (i > 0 && session->edits[i].tick < session->edits[i - 1].tick))
             return OCTREE_BAD_ORDER;
@@ -60,6 +65,19 @@ static octree_status check_queries(const octree_session *session)
         if (i > 0 && session->queries[i].tick < session->queries[i - 1].tick)
             status = OCTREE_BAD_ORDER;
     }
+    return status;
+}
+
+octree_status game_check_input(const octree_input *input)
+{
+    if ((!input->edits && input->edit_count) || (!input->queries && input->query_count))
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = OCTREE_OK;
+    for (size_t i = 0; i < input->edit_count; i++)
+        if (!is_edit(&input->edits[i]))
+            return OCTREE_BAD_OPTION;
+    for (size_t i = 0; status == OCTREE_OK && i < input->query_count; i++)
+        status = check_query(&input->queries[i]);
     return status;
 }
 

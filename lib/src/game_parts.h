@@ -12,6 +12,7 @@ struct octree_game {
     int64_t steps[3]; /* the player's net steps on each axis: its place is computed from them */
     size_t next_edit; /* the first edit that is still to come */
     size_t next_query;
+    size_t standing; /* the first query of every tick */
     bool quit;
     uint64_t set_version; /* the tree's version that `inner` was filled from */
     bool has_set;
@@ -36,7 +37,10 @@ octree_status game_check_session(const octree_session *session, const octree *tr
 /* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
 octree_status game_add_body(octree_game *game, const octree_body *body);
 
-octree_status game_apply_edits(octree_game *game);
+/* The same for what a tick is given. */
+octree_status game_check_input(const octree_input *input);
+
+octree_status game_apply_edits(octree_game *game, const octree_input *input);
 octree_status game_move_bodies(octree_game *game);
 
 /* The player's step and the collision test that decides it. */
@@ -49,7 +53,7 @@ bool game_is_players(const octree_game *game, uint64_t id);
 void game_find_player(octree_game *game);
 
 /* The queries, the node sets, and the tick's arrays. At tick 0 the collision test too. */
-octree_status game_finish_tick(octree_game *game);
+octree_status game_finish_tick(octree_game *game, const octree_input *input);
 
 /* Note that the tree did not take a body. NO_MEMORY, or OK. */
 octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);

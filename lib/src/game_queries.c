@@ -79,17 +79,16 @@ static octree_status ask(octree_game *game, const octree_query *query, bool by_k
     return find_neighbors(game, answer, query->at_player);
 }
 
-static octree_status ask_all(octree_game *game)
+static octree_status ask_all(octree_game *game, const octree_input *input)
 {
     const octree_session *session = game->session;
     octree_status status = OCTREE_OK;
     if (game->tick.key == 'n')
         status = ask(game, &(octree_query){.kind = OCTREE_QUERY_NEAREST, .at_player = true}, true);
-    while (game->next_query < session->query_count && session->queries[game->next_query].tick < game->tick.number)
-        game->next_query++;
-    for (size_t i = game->next_query; status == OCTREE_OK && i < session->query_count; i++)
-        if (session->queries[i].tick == game->tick.number || session->queries[i].tick == OCTREE_EVERY_TICK)
-            status = ask(game, &session->queries[i], false);
+    for (size_t i = 0; status == OCTREE_OK && i < input->query_count; i++)
+        status = ask(game, &input->queries[i], false);
+    for (size_t i = game->standing; status == OCTREE_OK && i < session->query_count; i++)
+        status = ask(game, &session->queries[i], false);
     return status;
 }
 
@@ -151,13 +150,13 @@ static void publish(octree_game *game)
     tick->merge_count = game->merges.count;
 }
 
-octree_status game_finish_tick(octree_game *game)
+octree_status game_finish_tick(octree_game *game, const octree_input *input)
 {
     octree_status status = OCTREE_OK;
     if (game->tick.number == 0 && game->tick.has_player)
         status = game_collide(game, game->tick.player);
     if (status == OCTREE_OK)
-        status = ask_all(game);
+        status = ask_all(game, input);
     if (status == OCTREE_OK)
         status = compare_node_sets(game);
     if (status != OCTREE_OK)

@@ -1,7 +1,7 @@
 /* test_game_player.c - games without a player, and games whose player is a body that edits move. */
 #include "fixture.h"
 
-#include <string.h>
+#include <math.h>
 
 #include "brute.h"
 #include "game_fixture.h"
@@ -199,7 +199,7 @@ static void a_player_of_no_kind_or_of_a_bad_size_is_refused(void **state)
     assert_int_equal(octree_game_create(&session, &game), OCTREE_BAD_OPTION);
     session.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .box_size = -1};
     assert_int_equal(octree_game_create(&session, &game), OCTREE_BAD_SIZE);
-    session.player.box_size = 1e308 * 10;
+    session.player.box_size = INFINITY;
     assert_int_equal(octree_game_create(&session, &game), OCTREE_NOT_FINITE);
 }
 

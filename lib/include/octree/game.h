@@ -189,6 +189,20 @@ void octree_game_destroy(octree_game *game);
  * when swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
 
+/* What happens in a tick: for games whose session is being made. The ticks that edits and queries name are not read. */
+typedef struct octree_input {
+    char key;                 /* '.' waits */
+    const octree_edit *edits; /* in the order in which they are made */
+    size_t edit_count;
+    const octree_query *queries;
+    size_t query_count;
+} octree_input;
+
+/* Play one tick with this, whatever the session says of it; what the session asks at every tick is asked behind it. The
+ * arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
+ * octree_game_step; BAD_OPTION, and for a query those of octree_game_create: no tick is then played. */
+octree_status octree_game_play(octree_game *game, const octree_input *input);
+
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */
 octree_status octree_game_advance(octree_game *game);
 
