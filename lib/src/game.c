@@ -6,33 +6,46 @@
 
 #include <string.h>
 
-/* What the session has for its next tick, which is then behind it. */
+/* Edits, queries and shapes begin with their tick. */
+static uint64_t tick_of(const void *items, size_t size, size_t i)
+{
+    uint64_t tick;
+    memcpy(&tick, (const char *)items + i * size, sizeof tick);
+    return tick;
+}
+
+/* The items of a tick, which are then behind *next; their number into *count. */
+static const void *take_items(const void *items, size_t size, size_t end, uint64_t tick, size_t *next, size_t *count)
+{
+    while (*next < end && tick_of(items, size, *next) < tick)
+        ++*next;
+    const size_t first = *next;
+    while (*next < end && tick_of(items, size, *next) == tick)
+        ++*next;
+    *count = *next - first;
+    return *count ? (const char *)items + first * size : NULL;
+}
+
+/* What the session has for its next tick; 0 is the key of the first. */
 static octree_input own_input(octree_game *game, char key)
 {
-    const octree_session *session = game->session;
+    const octree_session *s = game->session;
     const uint64_t tick = key ? game->tick.number + 1 : 0;
     octree_input input = {.key = key};
-    const size_t edit = game->next_edit;
-    while (game->next_edit < session->edit_count && session->edits[game->next_edit].tick <= tick)
-        game->next_edit++;
-    input.edits = session->edits ? session->edits + edit : NULL;
-    input.edit_count = game->next_edit - edit;
-    while (game->next_query < game->standing && session->queries[game->next_query].tick < tick)
-        game->next_query++;
-    const size_t query = game->next_query;
-    while (game->next_query < game->standing && session->queries[game->next_query].tick == tick)
-        game->next_query++;
-    input.queries = session->queries ? session->queries + query : NULL;
-    input.query_count = game->next_query - query;
+    input.edits = take_items(s->edits, sizeof *s->edits, s->edit_count, tick, &game->next_edit, &input.edit_count);
+    input.queries =
+        take_items(s->queries, sizeof *s->queries, game->standing, tick, &game->next_query, &input.query_count);
+    input.shapes =
+        take_items(s->shapes, sizeof *s->shapes, game->standing_shapes, tick, &game->next_shape, &input.shape_count);
     return input;
 }
 
-static size_t first_standing(const octree_session *session)
+/* The first of those of every tick, which come last. */
+static size_t first_standing(const void *items, size_t size, size_t count)
 {
-    size_t first = session->query_count;
-    while (first > 0 && session->queries[first - 1].tick == OCTREE_EVERY_TICK)
-        first--;
-    return first;
+    while (count > 0 && tick_of(items, size, count - 1) == OCTREE_EVERY_TICK)
+        count--;
+    return count;
 }
 
 static octree_status load_bodies(octree_game *game)
@@ -80,7 +93,7 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
         return OCTREE_NULL_ARGUMENT;
     *game = NULL;
     if (!session || (!session->bodies && session->body_count) || (!session->edits && session->edit_count) ||
-        (!session->queries && session->query_count))
+        (!session->queries && session->query_count) || (!session->shapes && session->shape_count))
         return OCTREE_NULL_ARGUMENT;
     octree *tree;
     octree_status status = octree_create(&session->tree, &tree);
@@ -94,7 +107,8 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
     }
     *made = (octree_game){.session = session, .tree = tree, .memory = memory};
     made->bodies.memory = &made->memory;
-    made->standing = first_standing(session);
+    made->standing = first_standing(session->queries, sizeof *session->queries, session->query_count);
+    made->standing_shapes = first_standing(session->shapes, sizeof *session->shapes, session->shape_count);
     status = start(made);
     if (status == OCTREE_OK)
         *game = made;
@@ -122,6 +136,7 @@ void octree_game_destroy(octree_game *game)
     list_release(&memory, &game->merges, sizeof(octree_address));
     list_release(&memory, &game->visits, sizeof(octree_visit));
     list_release(&memory, &game->hit_leaves, sizeof(octree_address));
+    list_release(&memory, &game->shapes, sizeof(octree_shape));
     arena_give(&memory, game, sizeof *game);
 }
 

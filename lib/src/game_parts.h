@@ -12,7 +12,8 @@ struct octree_game {
     int64_t steps[3]; /* the player's net steps on each axis: its place is computed from them */
     size_t next_edit; /* the first edit that is still to come */
     size_t next_query;
-    size_t standing; /* the first query of every tick */
+    size_t next_shape;
+    size_t standing, standing_shapes; /* the first query, and the first shape, of every tick */
     bool quit;
     uint64_t set_version; /* the tree's version that `inner` was filled from */
     bool has_set;
@@ -26,6 +27,7 @@ struct octree_game {
     list inner, inner_before, splits, merges; /* octree_address */
     list visits;                              /* octree_visit: as they come, until game_finish_visits */
     list hit_leaves;                          /* octree_address: the same */
+    list shapes;                              /* octree_shape */
     bool lost_visits;                         /* there was no memory for one of them */
 };
 
@@ -54,6 +56,9 @@ void game_find_player(octree_game *game);
 
 /* The queries, the node sets, and the tick's arrays. At tick 0 the collision test too. */
 octree_status game_finish_tick(octree_game *game, const octree_input *input);
+
+/* Let the tick show its shapes and those of every tick. */
+octree_status game_show_shapes(octree_game *game, const octree_input *input);
 
 /* Note that the tree did not take a body. NO_MEMORY, or OK. */
 octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);

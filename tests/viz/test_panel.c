@@ -109,6 +109,7 @@ static const struct legend_row {
     {LAYER_RADIUS, ROLE_RADIUS, false, "radius query"},
     {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"},
     {LAYER_NEAREST, ROLE_NEAREST, false, "nearest point"},
+    {LAYER_SHAPES, ROLE_SHAPE, false, "4 shapes"},
     {LAYER_PLAYER, ROLE_PLAYER, false, "player and its box"},
     {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
 };

@@ -97,6 +97,9 @@ static void assert_same_session(const octree_session *a, const octree_session *b
     assert_int_equal(a->query_count, b->query_count);
     for (size_t i = 0; i < a->query_count; i++)
         assert_same_query(&a->queries[i], &b->queries[i]);
+    assert_int_equal(a->shape_count, b->shape_count);
+    for (size_t i = 0; i < a->shape_count; i++)
+        assert_memory_equal(&a->shapes[i], &b->shapes[i], sizeof a->shapes[i]);
 }
 
 static void assert_round_trip(const octree_session *session)
@@ -116,6 +119,32 @@ static void default_session_survives_the_round_trip(void **state)
     const octree_session session = octree_session_default();
     (void)state;
     assert_round_trip(&session);
+}
+
+static void shapes_survive_the_round_trip(void **state)
+{
+    static const octree_shape shapes[] = {
+        {0, OCTREE_SHAPE_BOX, {-1, -0.0, 5e-324}, {1e300, 0, 1}, ""},
+        {0, OCTREE_SHAPE_LABEL, {1, 2, 3}, {0}, "1234567890123456789012345678901234567890123456"},
+        {3, OCTREE_SHAPE_SEGMENT, {0.1, 0.2, 0.3}, {-0.1, -0.2, -0.3}, ""},
+        {7, OCTREE_SHAPE_POINT, {1e15, -1e15, 0}, {0}, ""},
+        {OCTREE_EVERY_TICK, OCTREE_SHAPE_LABEL, {9, 9, 9}, {0}, "\"quoted\\ ~"},
+        {OCTREE_EVERY_TICK, OCTREE_SHAPE_BOX, {1, 1, 1}, {1, 1, 1}, ""},
+    };
+    octree_session session = octree_session_default();
+    session_error error;
+    session_file copy;
+    (void)state;
+    for (int asks = 0; asks < 2; asks++) {
+        session.shapes = shapes;
+        session.shape_count = sizeof shapes / sizeof shapes[0];
+        assert_round_trip(&session);
+        assert_true(session_copy(&session, &copy, &error));
+        assert_same_session(&session, &copy.session);
+        assert_true(copy.session.shapes != shapes);
+        session_release(&copy);
+        session.query_count = 0;
+    }
 }
 
 static void players_of_every_kind_survive_the_round_trip(void **state)
@@ -311,6 +340,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_beyond_what_a_tree_holds_are_written_clamped),
         cmocka_unit_test(default_session_survives_the_round_trip),
+        cmocka_unit_test(shapes_survive_the_round_trip),
         cmocka_unit_test(players_of_every_kind_survive_the_round_trip),
         cmocka_unit_test(random_sessions_survive_the_round_trip),
         cmocka_unit_test(every_bit_of_a_number_survives_the_round_trip),

@@ -204,6 +204,7 @@ bool session_read_header(session_reader *reader, json_t *header)
         {"keys", read_keys, 0, false},
         {"ticks", read_ticks, offsetof(octree_session, ticks), false},
         {"queries", session_read_queries, 0, false},
+        {"shapes", session_read_shapes, 0, false},
         {0},
     };
     *reader->session = default_header();

@@ -30,6 +30,7 @@ typedef struct session_reader {
     char *keys;
     session_list edits, queries;
     session_list standing; /* queries of every tick */
+    session_list shapes, standing_shapes;
     session_error *error;
 } session_reader;
 
@@ -68,8 +69,8 @@ session_value_reader session_read_id;       /* into uint64_t; seeds too */
 bool session_read_header(session_reader *reader, json_t *header);
 bool session_read_tick(session_reader *reader, json_t *object);
 
-/* Into the reader's lists: points, their velocities, and the queries of the reader's tick. */
-session_value_reader session_read_points, session_read_velocities, session_read_queries;
+/* Into the reader's lists: points, their velocities, and the queries and shapes of the reader's tick. */
+session_value_reader session_read_points, session_read_velocities, session_read_queries, session_read_shapes;
 
 /* False with the reason when a key is none that the game knows. */
 #define SESSION_KEYS_REASON 96

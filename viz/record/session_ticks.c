@@ -161,6 +161,7 @@ bool session_read_tick(session_reader *reader, json_t *object)
         {"tick", read_number_of_tick, 0, true},
         {"edits", read_edits, 0, false},
         {"queries", session_read_queries, 0, false},
+        {"shapes", session_read_shapes, 0, false},
         {0},
     };
     if (json_object_get(object, "octreel"))

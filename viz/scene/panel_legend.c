@@ -50,6 +50,7 @@ static const legend_entry legend[] = {
     {.layer = LAYER_RADIUS, .role = ROLE_RADIUS, .swatch = SWATCH_LINE, .text = "radius query, round"},
     {.layer = LAYER_KNEAREST, .role = ROLE_KNEAREST, .swatch = SWATCH_LINE, .text = "k nearest, numbered"},
     {.layer = LAYER_NEAREST, .role = ROLE_NEAREST, .swatch = SWATCH_DASHES, .text = "nearest point, dashed"},
+    {.layer = LAYER_SHAPES, .role = ROLE_SHAPE, .swatch = SWATCH_BOLD},
 };
 
 #define LEGEND_ENTRIES (sizeof legend / sizeof legend[0])
@@ -84,6 +85,8 @@ static unsigned layers_of(const octree_game *game)
     }
     for (size_t i = 0; known && i < session->query_count; i++)
         asked |= 1u << query_layers[session->queries[i].kind];
+    if (octree_game_tick(game)->shape_count == 0)
+        others &= ~(1u << LAYER_SHAPES);
     if (session->player.kind == OCTREE_PLAYER_NONE)
         others &= ~(1u << LAYER_PLAYER | 1u << LAYER_BOX);
     return asked | others;
@@ -207,6 +210,9 @@ static void count_in_words(char text[SCENE_TEXT], unsigned layer, const octree_t
         break;
     case LAYER_HIT:
         snprintf(text, SCENE_TEXT, "%zu %s hit", tick->hit_leaf_count, tick->hit_leaf_count == 1 ? "leaf" : "leaves");
+        break;
+    case LAYER_SHAPES:
+        snprintf(text, SCENE_TEXT, "%zu shape%s", tick->shape_count, tick->shape_count == 1 ? "" : "s");
         break;
     case LAYER_SPLITS:
         count_changes(text, "split", tick->splits, tick->split_count);

@@ -6,6 +6,7 @@
 #include "diagram.h"
 #include "heat_layers.h"
 #include "panel.h"
+#include "shape_layer.h"
 #include "tree_layers.h"
 #include "visit_layers.h"
 
@@ -125,6 +126,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
     if (tick->has_player)
         add_player(s, tick, session);
     add_collision(s, tick, session);
+    add_shapes(s, tick);
     add_broken(s, &session->tree.world, &found);
     add_diagram(s, tree, tick->has_player ? leaf_of(tree, tick->player) : 0);
     add_tick_panel(s, game, &found);

@@ -81,6 +81,29 @@ typedef struct octree_query {
     double radius;    /* of the closed ball, >= 0 */
 } octree_query;
 
+typedef enum octree_shape_kind {
+    OCTREE_SHAPE_BOX,
+    OCTREE_SHAPE_SEGMENT,
+    OCTREE_SHAPE_POINT,
+    OCTREE_SHAPE_LABEL,
+    OCTREE_SHAPE_KINDS
+} octree_shape_kind;
+
+/* "box", "segment", "point", "label". Null from OCTREE_SHAPE_KINDS on. */
+const char *octree_shape_name(octree_shape_kind kind);
+
+#define OCTREE_SHAPE_TEXT 47
+
+/* Something that is shown at a tick beside the points. It is in no tree, no question meets it, and it may lie outside
+ * the world: what is not the game's own, such as walls, goals, or somebody else's tree. */
+typedef struct octree_shape {
+    uint64_t tick; /* or OCTREE_EVERY_TICK */
+    octree_shape_kind kind;
+    double at[3];                 /* the place of a point or label, a segment's beginning, a box's lowest corner */
+    double to[3];                 /* a segment's end, a box's highest corner; else not read */
+    char text[OCTREE_SHAPE_TEXT]; /* of a label: printable ASCII, with its final zero; else not read */
+} octree_shape;
+
 /* All that is needed to play. The arrays are borrowed: they must outlive the game. */
 typedef struct octree_session {
     octree_def tree;
@@ -93,6 +116,8 @@ typedef struct octree_session {
     size_t edit_count;
     const octree_query *queries; /* ascending by tick, OCTREE_EVERY_TICK last */
     size_t query_count;
+    const octree_shape *shapes; /* ascending by tick, OCTREE_EVERY_TICK last */
+    size_t shape_count;
 } octree_session;
 
 /* The paper's session: world [-1000, 1000]^3, capacity 2, depth 5, eleven points, the player at the origin with step
@@ -173,6 +198,8 @@ typedef struct octree_tick {
     size_t touched[OCTREE_TOUCH_KINDS]; /* how many of them were met in each way */
     const octree_address *hit_leaves;   /* the leaves that hold a hit or a point of an answer; in pre-order */
     size_t hit_leaf_count;
+    const octree_shape *shapes; /* of this tick, and then those of every tick */
+    size_t shape_count;
 } octree_tick;
 
 typedef struct octree_game octree_game;
@@ -180,7 +207,8 @@ typedef struct octree_game octree_game;
 /* Start a session and play tick 0. Bodies that the tree refuses are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
  * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
- * BAD_RANGE, BAD_SIZE; NO_MEMORY. *game is then null. Cost: one insertion a body. */
+ * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; NO_MEMORY. *game is then null. Cost: one insertion
+ * a body. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
@@ -189,18 +217,21 @@ void octree_game_destroy(octree_game *game);
  * when swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
 
-/* What happens in a tick: for games whose session is being made. The ticks that edits and queries name are not read. */
+/* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not
+ * read. */
 typedef struct octree_input {
     char key;                 /* '.' waits */
     const octree_edit *edits; /* in the order in which they are made */
     size_t edit_count;
     const octree_query *queries;
     size_t query_count;
+    const octree_shape *shapes;
+    size_t shape_count;
 } octree_input;
 
-/* Play one tick with this, whatever the session says of it; what the session asks at every tick is asked behind it. The
- * arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
- * octree_game_step; BAD_OPTION, and for a query those of octree_game_create: no tick is then played. */
+/* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes behind
+ * it. The arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
+ * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create: no tick is then played. */
 octree_status octree_game_play(octree_game *game, const octree_input *input);
 
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */
