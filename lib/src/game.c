@@ -183,7 +183,7 @@ octree_status octree_game_play(octree_game *game, const octree_input *input)
 {
     if (!game || !input)
         return OCTREE_NULL_ARGUMENT;
-    const octree_status status = game_check_input(input);
+    const octree_status status = octree_input_check(input);
     return status == OCTREE_OK ? step(game, input->key, input) : status;
 }
 

@@ -103,9 +103,9 @@ static octree_status check_queries(const octree_session *session)
     return status;
 }
 
-octree_status game_check_input(const octree_input *input)
+octree_status octree_input_check(const octree_input *input)
 {
-    if ((!input->edits && input->edit_count) || (!input->queries && input->query_count) ||
+    if (!input || (!input->edits && input->edit_count) || (!input->queries && input->query_count) ||
         (!input->shapes && input->shape_count))
         return OCTREE_NULL_ARGUMENT;
     octree_status status = OCTREE_OK;

@@ -39,9 +39,6 @@ octree_status game_check_session(const octree_session *session, const octree *tr
 /* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
 octree_status game_add_body(octree_game *game, const octree_body *body);
 
-/* The same for what a tick is given. */
-octree_status game_check_input(const octree_input *input);
-
 octree_status game_apply_edits(octree_game *game, const octree_input *input);
 octree_status game_move_bodies(octree_game *game);
 

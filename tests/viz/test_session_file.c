@@ -163,6 +163,20 @@ static void ticks_become_edits_and_queries_in_order(void **state)
     session_release(&file);
 }
 
+static void a_session_that_does_not_say_when_it_ends_goes_on_to_its_last_tick(void **state)
+{
+    (void)state;
+    session_file file = parse(HEADER "}\n{\"tick\":3}\n{\"tick\":17,\"edits\":[]}");
+    assert_int_equal(octree_session_length(&file.session), 17);
+    session_release(&file);
+    file = parse(HEADER ",\"ticks\":2}\n{\"tick\":3}");
+    assert_int_equal(octree_session_length(&file.session), 2);
+    session_release(&file);
+    file = parse(HEADER ",\"keys\":\"wwq\"}\n{\"tick\":3}");
+    assert_int_equal(octree_session_length(&file.session), 2);
+    session_release(&file);
+}
+
 static void queries_are_read_in_each_form(void **state)
 {
     session_file file = parse(HEADER ",\"queries\":[{\"knearest\":8,\"at\":[1,2,3]},{\"at\":\"player\",\"knearest\":0},"
@@ -250,6 +264,7 @@ int main(void)
         cmocka_unit_test(points_are_read_in_each_form),
         cmocka_unit_test(velocities_are_listed_by_id_or_random),
         cmocka_unit_test(ticks_become_edits_and_queries_in_order),
+        cmocka_unit_test(a_session_that_does_not_say_when_it_ends_goes_on_to_its_last_tick),
         cmocka_unit_test(queries_are_read_in_each_form),
         cmocka_unit_test(sample_is_that_of_the_library),
         cmocka_unit_test_setup_teardown(cloud_is_found_in_the_folder_of_the_session, temp_folder_make,

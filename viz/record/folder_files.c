@@ -6,8 +6,10 @@
 #include "view_file.h"
 #include "whole_file.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A stream into memory that becomes a file of the folder. */
 typedef struct memory_file {
@@ -55,6 +57,35 @@ bool write_session_file(const folder_place *place, const octree_session *session
     fflush(file.stream);
     *digest = octree_digest_bytes(OCTREE_DIGEST_START, file.bytes, file.size);
     return end_file(&file, place, "session.json", "is another session, or was changed by hand", error);
+}
+
+/* That of octree_digest_bytes(), piece by piece: a session may be large. */
+static uint64_t digest_stream(FILE *in)
+{
+    unsigned char bytes[1 << 13];
+    uint64_t digest = OCTREE_DIGEST_START, size = 0;
+    size_t got;
+    while ((got = fread(bytes, 1, sizeof bytes, in)) > 0) {
+        size += got;
+        for (size_t i = 0; i < got; i += 8) {
+            uint64_t word = 0;
+            for (size_t j = 0; j < 8 && i + j < got; j++)
+                word |= (uint64_t)bytes[i + j] << (8 * j);
+            digest = octree_digest_word(digest, word);
+        }
+    }
+    return octree_digest_word(digest, size);
+}
+
+bool digest_session_file(const char *path, uint64_t *digest, record_error *error)
+{
+    FILE *in = fopen(path, "rb");
+    if (!in)
+        return record_fail(error, "%s: cannot be opened: %s", path, strerror(errno));
+    *digest = digest_stream(in);
+    const bool ok = !ferror(in);
+    fclose(in);
+    return ok || record_fail(error, "%s: cannot be read", path);
 }
 
 bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error)

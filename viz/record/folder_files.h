@@ -17,6 +17,9 @@ typedef struct folder_place {
 bool write_session_file(const folder_place *place, const octree_session *session, uint64_t *digest,
                         record_error *error);
 
+/* The same digest, of a file that is there. */
+bool digest_session_file(const char *path, uint64_t *digest, record_error *error);
+
 /* Read it back; the caller releases *file. */
 bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error);
 

@@ -10,11 +10,11 @@
  *              or {"file": "cloud.pcd"}, or {"sample": "clustered", "count": 2000, "seed": 1},
  *    "velocities": [[id, vx, vy, vz], ...], or {"speed": 5, "seed": 1} for random ones within +-speed on each axis,
  *    "keys": "wwdn.", "ticks": 100, "queries": asked at every tick, "shapes": shown at every tick}
- * What is shown for world, tree and player is what they have when they are left out; but position is the world's
- * centre, step a fortieth of its longest side, and box_size three fifths of step. With "sweep": true collisions are
- * tested all the way from tick to tick, and not at the end of the step alone. With "body": true the player is the point
- * with its id, whenever there is one: edits and velocity move it, and keys do not. With null there is nobody, and
- * nothing collides.
+ * Without "ticks" the session goes on to the last tick that has an object of its own. What is shown for world, tree and
+ * player is what they have when they are left out; but position is the world's centre, step a fortieth of its longest
+ * side, and box_size three fifths of step. With "sweep": true collisions are tested all the way from tick to tick, and
+ * not at the end of the step alone. With "body": true the player is the point with its id, whenever there is one: edits
+ * and velocity move it, and keys do not. With null there is nobody, and nothing collides.
  *
  * Then, where there are any, the ticks in ascending order:
  *   {"tick": 3, "edits": [{"insert": {"id": 9, "position": [x, y, z], "velocity": [vx, vy, vz]}}, {"remove": 9},
@@ -89,6 +89,9 @@ void session_release(session_file *file);
  * session makes the same bytes. The session must be one that a game accepts, with ids below SESSION_ID_LIMIT, finite
  * numbers and no tick beyond SESSION_LAST_TICK. The stream is flushed; false on an I/O error. Cost: O(size). */
 bool session_write(const octree_session *session, FILE *out);
+
+/* The ticks of a session whose end is not known yet: its header says nothing of them. */
+#define SESSION_ENDLESS UINT64_MAX
 
 /* The parts of that, for a session that is being made: its header, and the object of one tick; nothing for a tick in
  * which nothing happens. Errors stay with the stream. */

@@ -177,6 +177,7 @@ static bool read_keys(session_reader *reader, json_t *value, const json_place *a
 
 static bool read_ticks(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
+    reader->ends = true;
     return session_read_whole(reader, value, at, 0, SESSION_LAST_TICK, into);
 }
 

@@ -25,6 +25,7 @@ typedef struct session_reader {
     const char *object, *limit; /* the text of the object at hand, which may end before limit */
     size_t line;                /* where the object begins */
     uint64_t tick;              /* that the object is about; OCTREE_EVERY_TICK in the header */
+    bool ends;                  /* the header says after how many ticks */
     octree_session *session;
     octree_body *bodies;
     char *keys;

@@ -152,6 +152,8 @@ static bool read_number_of_tick(session_reader *reader, json_t *value, const jso
         return session_fail(reader, at, "tick %" PRIu64 " comes after tick %" PRIu64 "; ticks must ascend", tick,
                             reader->tick);
     reader->tick = tick;
+    if (!reader->ends)
+        reader->session->ticks = tick;
     return true;
 }
 

@@ -280,8 +280,10 @@ void session_write_header(const octree_session *session, FILE *out)
         json_write_key(writer, "keys");
         json_write_string(writer, session->keys);
     }
-    json_write_newline(writer);
-    write_whole(writer, "ticks", session->ticks);
+    if (session->ticks != SESSION_ENDLESS) {
+        json_write_newline(writer);
+        write_whole(writer, "ticks", session->ticks);
+    }
     write_standing(writer, session);
     write_points(writer, session);
     json_write_end_object(writer);

@@ -234,6 +234,9 @@ typedef struct octree_input {
  * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create: no tick is then played. */
 octree_status octree_game_play(octree_game *game, const octree_input *input);
 
+/* What octree_game_play would say of this input, its key apart. Cost: O(edits + queries + shapes). */
+octree_status octree_input_check(const octree_input *input);
+
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */
 octree_status octree_game_advance(octree_game *game);
 
