@@ -2,7 +2,7 @@
  *
  * Where leaves grow any order will do. Where a full leaf refuses points, one that comes must not come before one that
  * goes: moves that find no room are tried again behind the others, and what is left then (points that change places)
- * is taken out and put back in. Private to this folder.
+ * is taken out and put back in; a player that is such a point is swept from where it is put. Private to this folder.
  */
 #ifndef EMBED_EDIT_ORDER_H
 #define EMBED_EDIT_ORDER_H

@@ -95,7 +95,8 @@ typedef struct octreel_recorder_def {
     size_t queue_ticks;   /* ticks that may wait for the worker, at least 1 */
     size_t queue_bytes;   /* and what they may take together; one tick alone may take more */
     bool never_wait;      /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker */
-    size_t ring;          /* keep this many of the last ticks, and film them when asked to; 0: film every tick */
+    size_t ring;          /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
+                            Beside the points of the first it holds what changed in the others */
 } octreel_recorder_def;
 
 /* No player, 1280 x 720, "iso", the default layers, 16 ticks or 64 MiB in the queue, no ring. */
