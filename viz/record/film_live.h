@@ -2,7 +2,8 @@
  * what it is like is written last. The recording is that of film_session() with the session that came out.
  *
  * While it goes on, what is known of the session is in session.json.live, a session file too: when the process dies,
- * nothing but the tick in hand is lost. One thread films, from open to close.
+ * nothing but the tick in hand is lost, and octreel record --resume makes a recording of the others. One thread films,
+ * from open to close.
  */
 #ifndef RECORD_FILM_LIVE_H
 #define RECORD_FILM_LIVE_H

@@ -105,6 +105,24 @@ bool read_session_file(const char *folder, session_file *file, uint64_t *digest,
     return ok;
 }
 
+bool read_live_session(const char *folder, session_file *file, record_error *error)
+{
+    char reason[WHOLE_FILE_REASON], *bytes, *path = folder_path(folder, "session.json.live");
+    session_error unread;
+    size_t size;
+    if (!path)
+        return record_fail(error, "there is no memory");
+    bool ok = whole_file_read(path, &bytes, &size, reason) || record_fail(error, "%s: %s", path, reason);
+    if (ok) {
+        while (size > 0 && bytes[size - 1] != '\n')
+            size--;
+        ok = session_parse(path, folder, bytes, size, file, &unread) || record_fail(error, "%s", unread.text);
+        free(bytes);
+    }
+    free(path);
+    return ok;
+}
+
 static void write_text(json_writer *w, const char *key, const char *text)
 {
     json_write_newline(w);

@@ -24,8 +24,8 @@
  *     last one that was taken. After OCTREEL_BROKEN there are no further ticks; what was filmed is whole.
  *   - A null recorder is one that is off: every function takes it, does nothing, and returns OCTREEL_OK.
  *   - n is the number of points.
- *   - While it is recorded the session is in FOLDER/session.json.live, a tick a line: after a crash of the program,
- *     "octreel record FOLDER/session.json.live -o again" films it anew.
+ *   - While it is recorded the session is in FOLDER/session.json.live, a tick a line. After a crash of the program
+ *     "octreel record --resume -o FOLDER" makes a recording of it: what was in the queue alone is lost.
  */
 #ifndef OCTREEL_RECORDER_H
 #define OCTREEL_RECORDER_H
