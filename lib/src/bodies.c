@@ -52,7 +52,7 @@ static bool make_slots(bodies *b, size_t count)
     return true;
 }
 
-static bool is_moving(const double velocity[3])
+bool is_moving(const double velocity[3])
 {
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
@@ -109,26 +109,48 @@ void body_store(moving_body *body, const double to[3], uint64_t tick)
 }
 
 /* Fold a straight path into an interval: a triangle wave of period 2 * (max - min). Quarters where that overflows; a
- * path that overflows all the same stays at its origin. */
-static double reflect(double origin, double velocity, double ticks, double min, double max)
+ * path that overflows all the same stays at its origin. *direction: 1 as the velocity says, -1 turned, 0 at rest. */
+static double reflect(double origin, double velocity, double ticks, double min, double max, int *direction)
 {
     const double straight = origin + velocity * ticks;
+    *direction = 1;
     if (min <= straight && straight <= max)
         return straight;
     const double unit = isfinite(2 * (max - min)) ? 1 : 0.25;
     const double width = max * unit - min * unit;
     double phase = fmod((origin * unit - min * unit) + velocity * unit * ticks, 2 * width);
-    if (!isfinite(phase))
+    if (!isfinite(phase)) {
+        *direction = 0;
         return origin;
+    }
     phase = phase < 0 ? phase + 2 * width : phase;
+    *direction = phase > width ? -1 : 1;
     const double folded = min * unit + (phase > width ? 2 * width - phase : phase);
     const double position = folded / unit;
     return position < min ? min : position > max ? max : position;
 }
 
+static double ticks_since(const moving_body *body, uint64_t tick)
+{
+    return (double)(tick - body->since);
+}
+
 void body_position(const moving_body *body, const octree_box *world, uint64_t tick, double position[3])
 {
-    const double ticks = (double)(tick - body->since);
+    int direction;
     for (int i = 0; i < 3; i++)
-        position[i] = reflect(body->origin[i], body->velocity[i], ticks, world->min[i], world->max[i]);
+        position[i] = reflect(body->origin[i], body->velocity[i], ticks_since(body, tick), world->min[i], world->max[i],
+                              &direction);
+}
+
+void body_velocity(const moving_body *body, const octree_box *world, uint64_t tick, double velocity[3])
+{
+    int direction;
+    for (int i = 0; i < 3; i++) {
+        const double at = reflect(body->origin[i], body->velocity[i], ticks_since(body, tick), world->min[i],
+                                  world->max[i], &direction);
+        const double now = body->velocity[i] * direction;
+        const bool leaves = (at == world->max[i] && now > 0) || (at == world->min[i] && now < 0);
+        velocity[i] = (leaves ? -now : now) + 0.0; /* no minus zero */
+    }
 }

@@ -31,6 +31,9 @@ static inline moving_body *bodies_items(const bodies *b)
     return b->items.items;
 }
 
+/* Whether a velocity is one. */
+bool is_moving(const double velocity[3]);
+
 /* The body with this id, or null. */
 moving_body *bodies_find(const bodies *b, uint64_t id);
 
@@ -45,5 +48,8 @@ void body_store(moving_body *body, const double to[3], uint64_t tick);
 
 /* Where the body is at a tick: reflected at the world's faces as often as it must be. */
 void body_position(const moving_body *body, const octree_box *world, uint64_t tick, double position[3]);
+
+/* The velocity with which it goes on from there: turned on an axis where it has bounced, and where it is about to. */
+void body_velocity(const moving_body *body, const octree_box *world, uint64_t tick, double velocity[3]);
 
 #endif

@@ -137,6 +137,7 @@ void octree_game_destroy(octree_game *game)
     list_release(&memory, &game->visits, sizeof(octree_visit));
     list_release(&memory, &game->hit_leaves, sizeof(octree_address));
     list_release(&memory, &game->shapes, sizeof(octree_shape));
+    list_release(&memory, &game->movers, sizeof(octree_body));
     arena_give(&memory, game, sizeof *game);
 }
 
@@ -145,7 +146,7 @@ static void begin_tick(octree_game *game, char key)
     game->hits.count = game->found.count = game->near.count = 0;
     game->refusals.count = game->answers.count = 0;
     game->splits.count = game->merges.count = 0;
-    game->visits.count = game->hit_leaves.count = 0;
+    game->visits.count = game->hit_leaves.count = game->movers.count = 0;
     game->tick.number++;
     game->tick.key = key;
     game->tick.events = 0;

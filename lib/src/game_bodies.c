@@ -110,3 +110,25 @@ octree_status game_move_bodies(octree_game *game)
     }
     return OCTREE_OK;
 }
+
+octree_status game_note_movers(octree_game *game)
+{
+    const bodies *all = &game->bodies;
+    for (size_t i = 0; all->movers && i < all->items.count; i++) {
+        const moving_body *body = &bodies_items(all)[i];
+        octree_body now = {.id = body->id};
+        if (!is_moving(body->velocity))
+            continue;
+        memcpy(now.position, body->position, sizeof now.position);
+        body_velocity(body, &game->session->tree.world, game->tick.number, now.velocity);
+        if (!is_moving(now.velocity))
+            continue; /* it is so fast that it stays where it is */
+        octree_body *mover = list_append(&game->memory, &game->movers, sizeof *mover);
+        if (!mover)
+            return OCTREE_NO_MEMORY;
+        *mover = now;
+    }
+    game->tick.movers = game->movers.items;
+    game->tick.mover_count = game->movers.count;
+    return OCTREE_OK;
+}

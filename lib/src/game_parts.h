@@ -28,6 +28,7 @@ struct octree_game {
     list visits;                              /* octree_visit: as they come, until game_finish_visits */
     list hit_leaves;                          /* octree_address: the same */
     list shapes;                              /* octree_shape */
+    list movers;                              /* octree_body */
     bool lost_visits;                         /* there was no memory for one of them */
 };
 
@@ -41,6 +42,9 @@ octree_status game_add_body(octree_game *game, const octree_body *body);
 
 octree_status game_apply_edits(octree_game *game, const octree_input *input);
 octree_status game_move_bodies(octree_game *game);
+
+/* The bodies that have a velocity, as they are after the tick, which are published. */
+octree_status game_note_movers(octree_game *game);
 
 /* The player's step and the collision test that decides it. */
 octree_status game_step_player(octree_game *game);

@@ -161,6 +161,8 @@ octree_status game_finish_tick(octree_game *game, const octree_input *input)
         status = compare_node_sets(game);
     if (status == OCTREE_OK)
         status = game_show_shapes(game, input);
+    if (status == OCTREE_OK)
+        status = game_note_movers(game);
     if (status != OCTREE_OK)
         return status;
     publish(game);

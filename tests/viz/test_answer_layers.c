@@ -243,6 +243,27 @@ static void answers_of_a_tree_are_drawn_as_those_of_a_tick(void **state)
     octree_game_destroy(game);
 }
 
+/* A few are easy to see; of many none hides the others. */
+static void marks_are_smaller_where_there_are_many(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {1, 50, 51, 500, 501, 2000};
+    static octree_point points[2000];
+    const octree_box world = cube(-10, 10);
+    unsigned before = UINT8_MAX;
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        const octree_answer answer = {.kind = OCTREE_QUERY_RADIUS, .radius = 5, .points = points, .count = counts[i]};
+        const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
+        scene s = empty_scene(&v, &world);
+        add_answers(&s, &answer, 1);
+        assert_int_equal(s.markers.count, counts[i]);
+        const unsigned width = s.markers.items[0].look.width;
+        assert_true(width > 0 && (i % 2 ? width == before : width < before));
+        before = width;
+        scene_release(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -251,6 +272,7 @@ int main(void)
         cmocka_unit_test(a_number_never_covers_that_of_a_nearer_one),
         cmocka_unit_test(a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn),
         cmocka_unit_test(answers_of_a_tree_are_drawn_as_those_of_a_tick),
+        cmocka_unit_test(marks_are_smaller_where_there_are_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,6 +77,30 @@ static void check_numbers(const scene *s, const octree_box *box)
     }
 }
 
+/* Behind each number, and nowhere else, is a ground that holds its letters. */
+static void check_grounds(const scene *s)
+{
+    size_t numbers = 0, grounds = 0;
+    for (size_t i = 0; i < s->panels.count; i++)
+        grounds += s->panels.items[i].look.layer == LAYER_WORLD;
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label *label = &s->labels.items[i];
+        if (!is_number(label))
+            continue;
+        const int width = (int)strlen(label->text) * 6 * s->unit;
+        bool has = false;
+        for (size_t j = 0; j < s->panels.count; j++) {
+            const scene_panel *p = &s->panels.items[j];
+            has = has || (p->look.layer == LAYER_WORLD && p->id == label->id && p->look.role == ROLE_BACKGROUND &&
+                          p->x <= label->at[0] && p->y <= label->at[1] && p->x + p->width >= label->at[0] + width &&
+                          p->y + p->height >= label->at[1] + 8 * s->unit);
+        }
+        assert_true(has);
+        numbers++;
+    }
+    assert_int_equal(numbers, grounds);
+}
+
 /* By the room that their letters take in pixels. */
 static bool overlap(const scene *s, const scene_label *a, const scene_label *b)
 {
@@ -88,6 +112,7 @@ static bool overlap(const scene *s, const scene_label *a, const scene_label *b)
 
 static void check_apart(const scene *s)
 {
+    check_grounds(s);
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *a = &s->labels.items[i];
         for (size_t j = 0; is_number(a) && j < i; j++)
@@ -158,7 +183,7 @@ static void without_text_or_world_there_are_none(void **state)
     }
 }
 
-static void an_axis_that_is_seen_end_on_has_no_numbers(void **state)
+static void an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter(void **state)
 {
     (void)state;
     static const struct {
@@ -171,6 +196,12 @@ static void an_axis_that_is_seen_end_on_has_no_numbers(void **state)
         scene s = scene_of_world(&world, &v);
         for (size_t j = 0; j < s.segments.count; j++)
             assert_true(s.segments.items[j].id / FIRST_ID != rows[i].axis + 1);
+        size_t letters = 0;
+        for (size_t j = 0; j < s.labels.count; j++) {
+            letters += s.labels.items[j].in_world;
+            assert_true(!s.labels.items[j].in_world || s.labels.items[j].id != rows[i].axis);
+        }
+        assert_int_equal(letters, 2);
         assert_true(count_numbers(&s) >= 6);
         scene_release(&s);
     }
@@ -228,7 +259,7 @@ int main(void)
         cmocka_unit_test(numbers_are_round_and_stand_at_their_ticks_and_apart),
         cmocka_unit_test(a_fitted_box_has_the_axes_and_not_the_world),
         cmocka_unit_test(without_text_or_world_there_are_none),
-        cmocka_unit_test(an_axis_that_is_seen_end_on_has_no_numbers),
+        cmocka_unit_test(an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter),
         cmocka_unit_test(an_orbit_keeps_its_ticks),
         cmocka_unit_test(worlds_without_room_for_numbers_have_none),
     };

@@ -68,10 +68,47 @@ static void a_bold_line_is_two_pixels_wide_in_a_small_picture(void **state)
     scene_release(&s);
 }
 
+/* Pixels lit in a column of the picture. */
+static size_t lit_in_column(const uint8_t *frame, int x)
+{
+    size_t lit = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        lit += frame[y * WIDTH + x] != 0;
+    return lit;
+}
+
+/* Wider before its second end, and nowhere else; one that is too short for a head is a line. */
+static void an_arrow_has_its_head_at_its_second_end(void **state)
+{
+    (void)state;
+    for (int length = 1; length < 120; length += 7) {
+        scene s = blank_scene(CAMERA_TOP);
+        scene_segment line = line_of(-length, 0, 0, length, 0, 0);
+        double ends[2][2];
+        size_t wide = 0;
+        line.look.style = STYLE_ARROW;
+        pixel_of(&s, line.ends[0], ends[0]);
+        pixel_of(&s, line.ends[1], ends[1]);
+        scene_add_segment(&s, line);
+        uint8_t *frame = draw_once(&s);
+        for (int x = 0; x < WIDTH; x++) {
+            const size_t lit = lit_in_column(frame, x);
+            wide += lit > 1;
+            assert_true(lit <= 1 || (x + 0.5 < ends[1][0] && x + 0.5 > (ends[0][0] + ends[1][0]) / 2 - 1));
+            assert_true(lit <= 3); /* the shaft and both sides of the head */
+        }
+        assert_true(wide == 0 || wide <= 5);
+        assert_int_equal(wide > 0, ends[1][0] - ends[0][0] >= 4);
+        free(frame);
+        scene_release(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cut_line_leaves_nothing_of_the_one_beneath),
+        cmocka_unit_test(an_arrow_has_its_head_at_its_second_end),
         cmocka_unit_test(a_bold_line_is_two_pixels_wide_in_a_small_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,9 +31,11 @@ static void check_place(const scene *s)
     }
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
+        if (panel->look.layer != LAYER_TEXT)
+            continue;
         assert_true(panel->x >= 0 && panel->width > 0 && panel->height > 0 && panel->x + panel->width <= width);
         for (size_t j = 0; j < i; j++)
-            assert_true(s->panels.items[j].id != panel->id);
+            assert_true(s->panels.items[j].look.layer != LAYER_TEXT || s->panels.items[j].id != panel->id);
     }
 }
 
@@ -105,6 +107,7 @@ static const struct legend_row {
     {LAYER_VISIT_HEAT, ROLE_NODE + 9, true, "+ visits"},
     {LAYER_POINT_HEAT, ROLE_NODE + 9, true, "+ points"},
     {LAYER_POINTS, ROLE_POINT, true, "point"},
+    {LAYER_VELOCITIES, ROLE_POINT, true, "velocity, "},
     {LAYER_RANGE, ROLE_RANGE, false, "range query"},
     {LAYER_RADIUS, ROLE_RADIUS, false, "radius query"},
     {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"},
@@ -156,37 +159,54 @@ static void the_legend_has_the_layers_that_are_shown(void **state)
     scene_release(&s);
 }
 
-/* What has nothing in the frame goes first, then what explains itself; all others stay, or there is no legend. */
+/* How soon a row goes when there is no room: what has nothing in the frame, what explains itself, what is told beside
+ * its answer, all others. */
+static unsigned worth_of(const scene *s, const struct legend_row *row)
+{
+    static const unsigned answers = 1u << LAYER_RANGE | 1u << LAYER_RADIUS | 1u << LAYER_KNEAREST | 1u << LAYER_NEAREST;
+    const layer_counts found = count_layer(s, row->layer);
+    if (found.boxes + found.segments + found.markers == 0)
+        return 0;
+    return row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER ? 1 : answers >> row->layer & 1 ? 2 : 3;
+}
+
+/* Of each worth all rows are there, or some of less worth are not; of the last the first ones, and how many more. */
 static void the_legend_leaves_out_what_is_needed_least(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
     octree_game *game = start_game(&session);
     scene s = {0};
-    size_t whole = 0, partial = 0, none = 0;
-    for (int height = 200; height <= 1440; height += 10) {
+    size_t whole = 0, partial = 0, cut = 0, none = 0;
+    for (int height = 100; height <= 1440; height += 10) {
         const view v = view_of(1280, height, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
-        size_t explained = 0, empty_left = 0, plain_left = 0, needed = 0, needed_left = 0;
+        size_t there[4] = {0}, missing[4] = {0};
+        char more[SCENE_TEXT];
         build_tick(&s, &v, game);
         check_place(&s);
         for (size_t i = 0; i < LEGEND_ROWS; i++) {
-            const struct legend_row *row = &legend_rows[i];
-            const layer_counts found = count_layer(&s, row->layer);
-            const bool there = is_explained(&s, row), plain = row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER;
-            const bool empty = found.boxes + found.segments + found.markers == 0;
-            explained += there;
-            empty_left += there && empty;
-            plain_left += there && !empty && plain;
-            needed += !empty && !plain;
-            needed_left += there && !empty && !plain;
+            const unsigned worth = worth_of(&s, &legend_rows[i]);
+            const bool listed = is_explained(&s, &legend_rows[i]);
+            if (!(v.layers >> legend_rows[i].layer & 1))
+                continue;
+            assert_true(!listed || worth < 3 || missing[3] == 0);
+            there[worth] += listed;
+            missing[worth] += !listed;
         }
-        assert_true(explained == 0 || needed_left == needed);
-        assert_true(plain_left == 2 || empty_left == 0);
-        whole += explained == LEGEND_ROWS - 2;
-        partial += explained > 0 && explained < LEGEND_ROWS - 2;
-        none += explained == 0;
+        for (unsigned worth = 1; worth < 4; worth++)
+            assert_true(missing[worth] == 0 || there[worth - 1] == 0);
+        const size_t all = there[0] + there[1] + there[2] + there[3];
+        snprintf(more, sizeof more, "and %zu more", missing[3]);
+        bool told = false;
+        for (size_t i = 0; i < s.labels.count; i++)
+            told = told || (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].at[0] == 34 * s.unit);
+        assert_int_equal(told, all > 0 && missing[3] > 0);
+        whole += missing[0] == 0;
+        partial += missing[3] == 0 && missing[0] > 0;
+        cut += all > 0 && missing[3] > 0;
+        none += all == 0;
     }
-    assert_true(whole > 0 && partial > 0 && none > 0);
+    assert_true(whole > 0 && partial > 0 && cut > 0 && none > 0);
     octree_game_destroy(game);
     scene_release(&s);
 }
@@ -283,10 +303,106 @@ static void answers_are_told_in_words(void **state)
     scene s = {0};
     build_tick(&s, &v, game);
     check_place(&s);
-    assert_true(says(&s, "2: 42 41") && says(&s, "5: 100 42 41 .."));
+    assert_true(says(&s, "2: 42 41") && says(&s, "5: 100 42 41 +2"));
     assert_true(says(&s, "2 within 4.25") && says(&s, "0 within 0.5"));
     octree_game_destroy(game);
     scene_release(&s);
+}
+
+/* Rows of the column by where they begin, whatever is written on them. */
+static size_t count_rows(const scene *s, int below)
+{
+    size_t rows = 0;
+    double at = -1;
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label *label = &s->labels.items[i];
+        if (label->look.layer != LAYER_TEXT || label->at[1] == at)
+            continue;
+        at = label->at[1];
+        rows += at <= below;
+    }
+    return rows;
+}
+
+/* Nothing is written below the picture; what would be is counted in its last row. */
+static void rows_that_have_no_room_are_counted(void **state)
+{
+    (void)state;
+    const octree_session session = asking_session();
+    octree_game *game = start_game(&session);
+    size_t cut = 0;
+    for (int width = 250; width <= 640; width += 390) { /* without the column, and with it */
+        view v = view_of(width, 4000, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+        scene tall = {0};
+        build_tick(&tall, &v, game);
+        const size_t all = count_rows(&tall, 2000); /* the legend stands below */
+        for (v.height = 40; v.height < 400; v.height++) {
+            scene s = {0};
+            char more[SCENE_TEXT];
+            build_tick(&s, &v, game);
+            assert_int_equal(count_rows(&s, v.height - 10 * s.unit), count_rows(&s, 10000));
+            size_t told = 0, legend = 0;
+            for (size_t i = 0; i < s.labels.count; i++)
+                legend += s.labels.items[i].look.layer == LAYER_TEXT && s.labels.items[i].at[0] == 34 * s.unit;
+            for (size_t n = 1; n < all; n++) {
+                snprintf(more, sizeof more, "and %zu more", n);
+                for (size_t i = 0; i < s.labels.count; i++)
+                    if (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].look.role == ROLE_WARNING)
+                        told = n;
+            }
+            const size_t shown = count_rows(&s, 10000) - legend - (told > 0);
+            assert_true(shown + told == all);
+            cut += told > 0;
+            scene_release(&s);
+        }
+        scene_release(&tall);
+    }
+    assert_true(cut > 50);
+    octree_game_destroy(game);
+}
+
+/* A list of ids is cut between two of them, whatever their length, and says how many more there are. */
+static void ids_that_have_no_room_are_counted(void **state)
+{
+    (void)state;
+    static const struct {
+        uint64_t first;
+        size_t count;
+        const char *text;
+    } cases[] = {{1, 0, "0"},
+                 {7, 1, "1: 7"},
+                 {7, 3, "3: 7 8 9"},
+                 {7, 5, "5: 7 8 9 +2"},
+                 {100007, 4, "4: 100007 +3"},
+                 {100007, 2, "2: 100007 100008"},
+                 {1000007, 2, "2: 1000007 +1"},
+                 {12345678901, 12, "12: 12345678901 +11"},
+                 {1234567890, 12, "12: 1234567890 +11"},
+                 {UINT64_MAX - 20, 12, "12"}};
+    const view v = view_default();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        octree_body bodies[12];
+        for (size_t j = 0; j < cases[i].count; j++)
+            bodies[j] = (octree_body){.id = cases[i].first + j, .position = {5, 5, 5 + (double)j / 8}};
+        const octree_query query = {
+            .tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{4, 4, 4}, {10, 10, 10}}};
+        octree_session session = small_session(bodies, cases[i].count);
+        session.tree.full_leaf = OCTREE_GROW;
+        session.queries = &query;
+        session.query_count = 1;
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        bool told = false;
+        build_tick(&s, &v, game);
+        for (size_t j = 0; j < s.labels.count; j++)
+            told = told || strcmp(s.labels.items[j].text, cases[i].text) == 0;
+        const bool fits = strlen(cases[i].text) <= 17; /* letters beside a name */
+        assert_int_equal(told, fits);
+        if (!fits)
+            assert_true(says(&s, "12") && !says(&s, "12:"));
+        scene_release(&s);
+        octree_game_destroy(game);
+    }
 }
 
 static void the_legend_has_what_the_diagram_shows(void **state)
@@ -382,6 +498,8 @@ int main(void)
         cmocka_unit_test(the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_where_none_is),
         cmocka_unit_test(a_sweep_is_told),
         cmocka_unit_test(answers_are_told_in_words),
+        cmocka_unit_test(rows_that_have_no_room_are_counted),
+        cmocka_unit_test(ids_that_have_no_room_are_counted),
         cmocka_unit_test(the_legend_has_what_the_diagram_shows),
         cmocka_unit_test(the_column_never_takes_more_than_half_the_picture),
         cmocka_unit_test(a_picture_too_small_for_the_column_has_its_facts_all_the_same),

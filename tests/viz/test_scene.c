@@ -95,13 +95,14 @@ static size_t ways_shown(const scene *s, const octree_tick *tick, double size)
 static void check_collision(const scene *s, const octree_tick *tick, const octree_player *player)
 {
     const layer_counts found = count_layer(s, LAYER_BOX);
-    assert_int_equal(found.markers, tick->hit_count);
+    assert_int_equal(found.markers, tick->hit_count ? tick->hit_count + 1 : 0);
     assert_int_equal(found.boxes, tick->hit_count ? 2 : 1);
     assert_int_equal(found.segments, tick->hit_count ? 12 + ways_shown(s, tick, player->box_size) : 0);
     for (size_t i = 0; i < tick->hit_count; i++)
         assert_int_equal(markers_at(s, LAYER_BOX, tick->hits[i].id, tick->hits[i].position), 1);
     if (tick->hit_count == 0)
         return;
+    assert_int_equal(markers_at(s, LAYER_BOX, player->id, tick->attempt), 1);
     const scene_box *box = only_box(s, LAYER_BOX, UINT64_MAX);
     assert_int_equal(box->look.role, ROLE_COLLISION);
     check_box_about(&box->box, tick->attempt, player->box_size);
@@ -211,7 +212,7 @@ static void a_layer_that_is_off_is_absent_and_the_others_stay_as_they_are(void *
     octree_game *game = start_game(&session);
     scene all = {0};
     heat h = {0};
-    bool shown[LAYER_COUNT] = {[LAYER_BROKEN] = true}; /* test_change_layers.c has a tree that is */
+    bool shown[LAYER_COUNT] = {[LAYER_BROKEN] = true, [LAYER_ASKED] = true}; /* those have tests of their own */
     while (!octree_game_over(game)) {
         play_tick(game);
         assert_true(heat_add_tick(&h, game));

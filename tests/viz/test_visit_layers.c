@@ -28,21 +28,28 @@ static octree_node node_or_cell(const octree *tree, octree_address address)
     return node;
 }
 
-/* Whether a view shows a node that a tick names: its filter does, and it is not too small beside those above it. */
-static bool is_shown(const scene *s, const octree *tree, const octree_node *node)
+/* Whether a node that a tick names is too small beside those above it. */
+static bool is_small(const scene *s, const octree_node *node)
 {
     const view *v = &s->view;
-    const octree_box world = octree_definition(tree).world;
     const unsigned first = v->filter.by_depth ? v->filter.min_depth : 0;
     const bool below_another = node->depth > first && !v->filter.leaves;
-    return filter_shows_node(&v->filter, &world, node) &&
-           !(below_another && camera_box_pixels(&s->camera, &node->box) < v->lod);
+    return below_another && camera_box_pixels(&s->camera, &node->box) < v->lod;
 }
 
-static void check_box(const scene *s, const octree *tree, octree_address address, scene_look look, size_t *due)
+/* What is due in a scene, and what is too small for it. */
+typedef struct dues {
+    size_t boxes[LAYER_COUNT], small;
+} dues;
+
+static void check_box(const scene *s, const octree *tree, octree_address address, scene_look look, dues *due)
 {
     const octree_node node = node_or_cell(tree, address);
-    if (!is_shown(s, tree, &node))
+    const octree_box world = octree_definition(tree).world;
+    if (!filter_shows_node(&s->view.filter, &world, &node))
+        return;
+    due->small += is_small(s, &node);
+    if (is_small(s, &node))
         return;
     const scene_box *box = only_box(s, look.layer, address);
     assert_true(same_box(&box->box, &node.box));
@@ -50,7 +57,15 @@ static void check_box(const scene *s, const octree *tree, octree_address address
     assert_int_equal(box->look.role, look.role ? look.role : theme_node_role(node.depth));
     assert_int_equal(box->look.style, look.style);
     assert_int_equal(box->look.width, look.width);
-    *due += 1;
+    due->boxes[look.layer]++;
+}
+
+static bool says(const scene *s, const char *text)
+{
+    for (size_t i = 0; i < s->labels.count; i++)
+        if (strcmp(s->labels.items[i].text, text) == 0)
+            return true;
+    return false;
 }
 
 /* Each node that was met is in the layer of its touch, each leaf of what was found in another, and nothing else is. */
@@ -62,26 +77,26 @@ static void check_visits(const scene *s, const recount *met, const octree *tree)
         [OCTREE_TOUCH_PRUNED] = {LAYER_PRUNED, 0, STYLE_CUT, 1},
     };
     static const scene_look hit = {LAYER_HIT, ROLE_POINT, STYLE_SOLID, 2};
-    size_t due[LAYER_COUNT] = {0};
+    dues due = {{0}, 0};
+    char text[SCENE_TEXT];
     for (size_t i = 0; i < met->count; i++)
-        check_box(s, tree, met->visits[i].node, looks[met->visits[i].touch], &due[looks[met->visits[i].touch].layer]);
+        check_box(s, tree, met->visits[i].node, looks[met->visits[i].touch], &due);
     for (size_t i = 0; i < met->leaf_count; i++)
-        check_box(s, tree, met->leaves[i], hit, &due[LAYER_HIT]);
+        check_box(s, tree, met->leaves[i], hit, &due);
     for (unsigned layer = 0; layer < LAYER_COUNT; layer++) {
         const layer_counts found = count_layer(s, layer);
         if (!(VISIT_LAYERS >> layer & 1))
             continue;
-        assert_int_equal(found.boxes, due[layer]);
+        assert_int_equal(found.boxes, due.boxes[layer]);
         assert_int_equal(found.segments + found.markers + found.labels + found.panels, 0);
     }
-}
-
-static bool says(const scene *s, const char *text)
-{
-    for (size_t i = 0; i < s->labels.count; i++)
-        if (strcmp(s->labels.items[i].text, text) == 0)
-            return true;
-    return false;
+    if (s->tally.small)
+        snprintf(text, sizeof text, "and %zu met", due.small);
+    else
+        snprintf(text, sizeof text, "%zu met < %g px", due.small, s->view.lod);
+    text[strlen(text) > 17 ? strlen(text) - 3 : strlen(text)] = 0; /* "px" has no room */
+    assert_int_equal(s->tally.small_met, due.small);
+    assert_int_equal(says(s, text), due.small > 0);
 }
 
 /* The words of the legend, as a recount has them. */

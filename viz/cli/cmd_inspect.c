@@ -21,7 +21,7 @@ static const char help[] =
     "      --depth N         deepest level, 0 to 21 (default 21)\n"
     "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
     "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"
-    "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points\n"
+    "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points; a picture marks it\n"
     "      --nodes FILE.csv  write all nodes; for several clouds into a folder\n"
     "      --nearest X,Y,Z[,K]        print and draw the point nearest to a place, or the K nearest\n"
     "      --radius X,Y,Z,R           and the points within R of a place\n"
@@ -260,6 +260,7 @@ static int inspect_one(const arguments *a, const char *path, reading *so_far)
     }
     if (!a->has_world)
         def.world = inspect_world(&points);
+    progress_say(&so_far->bar, "building the tree of %zu points", points.count); /* at once: in parts it takes longer */
     ok = inspect_build(&points, &def, &made, &error);
     progress_end(&so_far->bar); /* what is said next has the line for itself */
     cloud_release(&points);

@@ -78,12 +78,16 @@ void print_renderer_options(FILE *out);
 typedef struct progress {
     const char *unit;
     double started, shown; /* seconds of the monotonic clock; 0: not yet */
+    double part;           /* that was shown last, 0 to 1 */
     bool visible;
 } progress;
 
 progress progress_start(const char *unit);
 void progress_show(progress *p, uint64_t done, uint64_t total);
 void progress_end(progress *p);
+
+/* Beside the bar, which stays where it is: what is done now, for a work that cannot be counted. */
+void progress_say(progress *p, const char *format, ...);
 
 /* Seconds since it was started. */
 double progress_seconds(const progress *p);

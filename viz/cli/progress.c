@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <inttypes.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -27,20 +28,40 @@ double progress_seconds(const progress *p)
     return now() - p->started;
 }
 
+static void print_bar(const progress *p)
+{
+    char bar[BAR + 1];
+    memset(bar, '.', BAR);
+    memset(bar, '#', (size_t)(p->part * BAR));
+    bar[BAR] = 0;
+    fprintf(stderr, "\r[%s] ", bar);
+}
+
 void progress_show(progress *p, uint64_t done, uint64_t total)
 {
     const double time = now();
     if (!p->visible || total == 0 || (done < total && time - p->shown < SECONDS_BETWEEN))
         return;
     p->shown = time;
+    p->part = (double)done / (double)total;
     const double elapsed = time - p->started, rate = elapsed > 0 ? (double)done / elapsed : 0;
     const double left = rate > 0 ? (double)(total - done) / rate : 0;
-    char bar[BAR + 1];
-    const int full = (int)((double)done / (double)total * BAR);
-    memset(bar, '.', BAR);
-    memset(bar, '#', (size_t)full);
-    bar[BAR] = 0;
-    fprintf(stderr, "\r[%s] %" PRIu64 "/%" PRIu64 " %s  %.0f/s  %.0f s left ", bar, done, total, p->unit, rate, left);
+    print_bar(p);
+    fprintf(stderr, "%" PRIu64 "/%" PRIu64 " %s  %.0f/s  %.0f s left \033[K", done, total, p->unit, rate, left);
+    fflush(stderr);
+}
+
+void progress_say(progress *p, const char *format, ...)
+{
+    va_list arguments;
+    if (!p->visible)
+        return;
+    p->shown = now();
+    print_bar(p);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputs("\033[K", stderr);
     fflush(stderr);
 }
 

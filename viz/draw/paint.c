@@ -18,8 +18,11 @@ void painter_release(painter *p)
 
 static void stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_look look, unsigned depth)
 {
-    static void (*const strokes[])(quad_list *, const pencil *, const piece *, unsigned) = {
-        [STYLE_SOLID] = stroke_solid, [STYLE_DASHED] = stroke_dashed, [STYLE_CUT] = stroke_cut};
+    static void (*const strokes[])(quad_list *, const pencil *, const piece *,
+                                   unsigned) = {[STYLE_SOLID] = stroke_solid,
+                                                [STYLE_DASHED] = stroke_dashed,
+                                                [STYLE_CUT] = stroke_cut,
+                                                [STYLE_ARROW] = stroke_arrow};
     const pencil with = pencil_make(s, look, depth);
     strokes[look.style](&p->quads, &with, pieces, count);
 }

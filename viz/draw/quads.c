@@ -14,7 +14,7 @@ uint16_t quad_order(unsigned layer, unsigned band, unsigned depth)
 
 uint16_t quad_order_of_text(unsigned layer)
 {
-    return quad_order(layer == LAYER_NODES ? LAYER_POINTS : layer, 0, 0);
+    return quad_order(layer == LAYER_WORLD ? LAYER_POINTS : layer == LAYER_NODES ? LAYER_VELOCITIES : layer, 0, 0);
 }
 
 void quads_release(quad_list *list)

@@ -46,7 +46,7 @@ uint16_t quad_order(unsigned layer, unsigned band, unsigned depth);
 #define QUAD_BANDS THEME_SHADES
 
 /* The order of letters and of rectangles of the picture, which have no depth: the last of their layer; but what is
- * written on nodes lies on their points too. */
+ * written on axes lies on nodes and points, and what is written on nodes lies on that, on points and velocities. */
 uint16_t quad_order_of_text(unsigned layer);
 
 #endif

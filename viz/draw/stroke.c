@@ -8,6 +8,10 @@
 #define DASH 6
 #define GAP 4
 
+/* And the head of an arrow: how far back it reaches, and to either side. */
+#define HEAD 8
+#define HEAD_SIDE 4
+
 /* Pixels. A line that is to be bold is so in the smallest picture too. */
 static int line_width(const scene *s, unsigned wanted)
 {
@@ -28,8 +32,11 @@ pencil pencil_make(const scene *s, scene_look look, unsigned depth)
 /* What the tick is about fades less than the tree around it: the last bands would drown it. */
 static unsigned shade_of(const pencil *with, unsigned band)
 {
-    static const bool fades[LAYER_DIAGRAM + 1] = {
-        [LAYER_WORLD] = true, [LAYER_NODES] = true, [LAYER_PRUNED] = true, [LAYER_POINTS] = true};
+    static const bool fades[LAYER_DIAGRAM + 1] = {[LAYER_WORLD] = true,
+                                                  [LAYER_NODES] = true,
+                                                  [LAYER_PRUNED] = true,
+                                                  [LAYER_POINTS] = true,
+                                                  [LAYER_VELOCITIES] = true};
     if (with->look.role == ROLE_BACKGROUND)
         return 0;
     return fades[with->look.layer] ? band : band / 3;
@@ -129,6 +136,26 @@ void stroke_cut(quad_list *list, const pencil *with, const piece *pieces, unsign
     ground.look.role = ROLE_BACKGROUND;
     stroke_solid(list, &ground, pieces, count);
     stroke_dashed(list, with, pieces, count);
+}
+
+/* A head is no longer than half of its arrow, and is left out where it would be a blot. */
+void stroke_arrow(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+{
+    stroke_solid(list, with, pieces, count);
+    if (count == 0)
+        return;
+    const piece *last = &pieces[count - 1];
+    const double half_unit = with->unit * with->samples / 2.0;
+    const double dx = last->to[0] - pieces[0].from[0], dy = last->to[1] - pieces[0].from[1];
+    const double length = sqrt(dx * dx + dy * dy), most = HEAD * half_unit;
+    const double back = length / 2 < most ? length / 2 : most, side = back * HEAD_SIDE / HEAD;
+    if (side < with->samples)
+        return;
+    for (int way = -1; way <= 1; way += 2) {
+        const double end[2] = {last->to[0] - (dx * back + dy * side * way) / length,
+                               last->to[1] - (dy * back - dx * side * way) / length};
+        add_line(list, with, last->band, last->to, end);
+    }
 }
 
 static void add_frame(quad_list *list, quad q, int left, int top, int side, int line)

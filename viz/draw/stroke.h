@@ -20,6 +20,7 @@ pencil pencil_make(const scene *s, scene_look look, unsigned depth);
 void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 void stroke_cut(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
+void stroke_arrow(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
 void stroke_panel(quad_list *list, const scene_panel *panel, int samples);

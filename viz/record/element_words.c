@@ -5,6 +5,7 @@
 #include "crossed_box.h"
 #include "diagram.h"
 #include "number.h"
+#include "velocity_layer.h"
 
 #include <inttypes.h>
 #include <stdarg.h>
@@ -243,6 +244,20 @@ static void say_tree_line(teller *t, const scene_segment *line)
     say_node(t, line->id);
 }
 
+static void say_velocity(teller *t, uint64_t id)
+{
+    for (size_t i = 0; i < t->tick->mover_count; i++) {
+        const octree_body *body = &t->tick->movers[i];
+        if (body->id != id)
+            continue;
+        say(t, "the velocity of ");
+        say_point(t, id, body->position);
+        say(t, ": ");
+        say_place(t, body->velocity);
+        say(t, " a tick, drawn for %u", velocity_ticks(octree_game_session(t->game)));
+    }
+}
+
 static void segment_words(teller *t, const scene_segment *line)
 {
     switch (line->look.layer) {
@@ -254,6 +269,9 @@ static void segment_words(teller *t, const scene_segment *line)
         break;
     case LAYER_MERGES:
         say_change(t, line->id, "merged");
+        break;
+    case LAYER_VELOCITIES:
+        say_velocity(t, line->id);
         break;
     case LAYER_RADIUS:
         say_ball(t, line->id >> 32);
@@ -311,6 +329,10 @@ static void marker_words(teller *t, const scene_marker *mark)
         say_shape(t, mark->id);
         return;
     }
+    if (mark->look.layer == LAYER_BOX && mark->id == octree_game_session(t->game)->player.id) {
+        say(t, "a cross that crosses the collision out"); /* the player is none of its own hits */
+        return;
+    }
     if (mark->look.layer == LAYER_PLAYER)
         say(t, "the player, ");
     say_point(t, mark->id, mark->at);
@@ -339,6 +361,8 @@ static void panel_words(teller *t, const scene_panel *panel)
     } else if (panel->look.layer == LAYER_NODES) {
         say(t, "the ground of the path on ");
         say_node(t, panel->id);
+    } else if (panel->look.layer == LAYER_WORLD) {
+        say(t, "the ground of a number of an axis");
     } else {
         say(t, panel->look.role == ROLE_PANEL ? "the panel that the text is on" : "a sign in the panel");
     }

@@ -5,6 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#define FEW_MARKS 50
+#define MANY_MARKS 500
+
 /* Of the answer at `place`, the part at `part`. */
 static uint64_t part_id(size_t place, size_t part)
 {
@@ -28,10 +31,12 @@ static void mark(scene *s, const octree_point *point, scene_look look, scene_sha
     scene_add_marker(s, marker);
 }
 
+/* Smaller where there are many: they would hide each other, and what they lie on. */
 static void mark_points(scene *s, const octree_answer *answer, scene_look look, scene_shape shape, uint8_t half)
 {
+    const uint8_t size = answer->count <= FEW_MARKS ? half : answer->count <= MANY_MARKS ? half / 2 : 1;
     for (size_t i = 0; i < answer->count; i++)
-        mark(s, &answer->points[i], look, shape, half);
+        mark(s, &answer->points[i], look, shape, size);
 }
 
 static void add_range(scene *s, const octree_answer *answer, size_t place)

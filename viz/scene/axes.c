@@ -92,8 +92,10 @@ static void add_tick(axes *a, int axis, double at, uint64_t id)
     char text[NUMBER_WORDS];
     snprintf(number.text, sizeof number.text, "%s", number_text(at, DIGITS, text));
     scene_add_segment(s, line);
-    if (place_number(a, line.ends[1], &number))
+    if (place_number(a, line.ends[1], &number)) {
+        text_add_ground(s, &number, ROLE_BACKGROUND);
         scene_add_label(s, number);
+    }
 }
 
 /* An axis that is seen end on would have all of its numbers at one place. */
@@ -118,9 +120,11 @@ static void add_ticks(axes *a, int axis)
         add_tick(a, axis, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
-/* The letter at the end of an axis. Numbers keep away from it. */
+/* The letter at the end of an axis, whose way must be seen to be named. Numbers keep away from it. */
 static void add_letter(axes *a, int axis)
 {
+    if (is_end_on(a, axis))
+        return;
     scene_label letter = {.id = (uint64_t)axis, .in_world = true, .look = axis_look, .text = {(char)('x' + axis), 0}};
     double pixel[2], corner[2];
     memcpy(letter.at, a->box->min, sizeof letter.at);

@@ -9,9 +9,45 @@
 
 #define RING 2 /* units that the ring around a node on the way is larger than what is in it, both sides together */
 
-static scene_look line_look(theme_role role, unsigned width)
+static scene_look line_look(theme_role role, scene_style style, unsigned width)
 {
-    return (scene_look){.layer = LAYER_DIAGRAM, .role = (uint8_t)role, .width = (uint8_t)width};
+    return (scene_look){
+        .layer = LAYER_DIAGRAM, .role = (uint8_t)role, .style = (uint8_t)style, .width = (uint8_t)width};
+}
+
+/* The order of a walk: the root first, and each node before its children. */
+static int compare_nodes(octree_address a, octree_address b)
+{
+    const unsigned depth_a = octree_address_depth(a), depth_b = octree_address_depth(b);
+    const octree_address p = depth_a < depth_b ? a << 3 * (depth_b - depth_a) : a;
+    const octree_address q = depth_b < depth_a ? b << 3 * (depth_a - depth_b) : b;
+    return p != q ? (p < q ? -1 : 1) : (depth_a > depth_b) - (depth_a < depth_b);
+}
+
+/* How the tick met a node; null where it did not. */
+static const octree_visit *find_visit(const diagram_marks *marks, octree_address node)
+{
+    size_t low = 0, high = marks->visit_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const int order = compare_nodes(marks->visits[middle].node, node);
+        if (order == 0)
+            return &marks->visits[middle];
+        low = order < 0 ? middle + 1 : low;
+        high = order < 0 ? high : middle;
+    }
+    return NULL;
+}
+
+/* The line to a node from above: bold where it was looked into, dashed where it was left out. */
+static scene_look look_of(const diagram_place *p, const diagram_marks *marks, octree_address node, theme_role role)
+{
+    const octree_visit *visit = find_visit(marks, node);
+    const bool pruned = visit && marks->pruned && visit->touch == OCTREE_TOUCH_PRUNED;
+    const bool visited = visit && marks->visited && visit->touch != OCTREE_TOUCH_PRUNED;
+    p->scene->tally.marked_visited += visited;
+    p->scene->tally.marked_pruned += pruned;
+    return line_look(role, pruned ? STYLE_DASHED : STYLE_SOLID, visited ? 2 : 1);
 }
 
 /* As high as the row allows, and as wide as the slot: a leaf is half as large as an inner node. */
@@ -60,7 +96,7 @@ static void add_node(diagram_place *p, const diagram_node *node, double x, const
 }
 
 /* The nodes that have room, and the lines between them; or those on the way, which are to lie on top. */
-static void add_nodes(diagram_place *p, const octree_box *world, bool on_way)
+static void add_nodes(diagram_place *p, const octree_box *world, const diagram_marks *marks, bool on_way)
 {
     diagram_stop stops[OCTREE_MAX_DEPTH + 1]; /* of the ancestors: parents come before their children */
     for (size_t i = 0; i < p->slots.count; i++) {
@@ -74,7 +110,8 @@ static void add_nodes(diagram_place *p, const octree_box *world, bool on_way)
         if (on_way)
             p->stops[depth] = stops[depth];
         else if (depth)
-            add_line(p, node->address, &stops[depth - 1], &stops[depth], line_look((theme_role)role, 1));
+            add_line(p, node->address, &stops[depth - 1], &stops[depth],
+                     look_of(p, marks, node->address, (theme_role)role));
         add_node(p, node, stops[depth].x, size, role);
     }
 }
@@ -86,7 +123,7 @@ static void add_way(const diagram_place *p)
     for (unsigned depth = 0; depth <= deep; depth++) {
         const diagram_stop *at = &p->stops[depth];
         if (depth)
-            add_line(p, p->way >> 3 * (deep - depth), at - 1, at, line_look(ROLE_PLAYER, 2));
+            add_line(p, p->way >> 3 * (deep - depth), at - 1, at, line_look(ROLE_PLAYER, STYLE_SOLID, 2));
         if (depth > p->slots.deepest)
             diagram_fill(p, DIAGRAM_WAY_ID | depth, at->x, diagram_row(p, depth), RING * p->scene->unit,
                          at->foot - at->head, ROLE_PLAYER);
@@ -106,7 +143,7 @@ static void add_ground(scene *s)
                                      .look = {.layer = LAYER_DIAGRAM, .role = ROLE_BACKGROUND}});
 }
 
-void add_diagram(scene *s, const octree *tree, octree_address way)
+void add_diagram(scene *s, const octree *tree, const diagram_marks *marks)
 {
     const octree_box world = octree_definition(tree).world;
     diagram_place p;
@@ -116,10 +153,10 @@ void add_diagram(scene *s, const octree *tree, octree_address way)
     add_ground(s);
     if (!diagram_place_make(&p, s, tree))
         return;
-    p.way = way && octree_node_at(tree, way, &end) == OCTREE_OK ? way : 0;
+    p.way = marks->way && octree_node_at(tree, marks->way, &end) == OCTREE_OK ? marks->way : 0;
     add_diagram_bars(&p, tree);
-    add_nodes(&p, &world, false);
-    add_nodes(&p, &world, true);
+    add_nodes(&p, &world, marks, false);
+    add_nodes(&p, &world, marks, true);
     if (p.way)
         add_way(&p);
     if (p.words)

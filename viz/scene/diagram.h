@@ -8,6 +8,7 @@
 #ifndef SCENE_DIAGRAM_H
 #define SCENE_DIAGRAM_H
 
+#include "octree/game.h"
 #include "scene.h"
 
 /* The ids of what is no node: their highest bit is that of no address. */
@@ -15,7 +16,15 @@
 #define DIAGRAM_WAY_ID (UINT64_C(1) << 62)    /* and the depth: what marks the nodes on the way */
 #define DIAGRAM_RING_ID (DIAGRAM_WAY_ID | 32) /* and the depth: what keeps mark and node apart */
 
-/* Add the diagram where the view shows one; `way` is the node to which the way from the root is shown, 0 for none. */
-void add_diagram(scene *s, const octree *tree, octree_address way);
+/* What the diagram shows beside the tree. */
+typedef struct diagram_marks {
+    octree_address way;         /* the node to which the way from the root is shown; 0 for none */
+    const octree_visit *visits; /* in pre-order: nodes whose lines are bold or dashed, as in the space view, */
+    size_t visit_count;
+    bool visited, pruned; /* as far as they were looked into, or left out */
+} diagram_marks;
+
+/* Add the diagram where the view shows one. */
+void add_diagram(scene *s, const octree *tree, const diagram_marks *marks);
 
 #endif

@@ -14,18 +14,6 @@ static bool fits_box(const scene *s, const scene_box *box, const char *text)
     return camera_box_pixels(&s->camera, &box->box) >= (double)(strlen(text) + 1) * TEXT_LETTER * s->unit;
 }
 
-/* What is behind the letters: lines would make them hard to read. */
-static void add_ground(scene *s, const scene_label *label)
-{
-    const int unit = s->unit, letters = (int)strlen(label->text);
-    scene_add_panel(s, (scene_panel){.id = label->id,
-                                     .x = (int)label->at[0] - unit,
-                                     .y = (int)label->at[1] - unit,
-                                     .width = (letters * TEXT_LETTER + 1) * unit,
-                                     .height = (TEXT_HEIGHT + 1) * unit,
-                                     .look = {.layer = LAYER_NODES, .role = ROLE_PANEL}});
-}
-
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
     scene_label label = {.id = box->id, .look = label_look};
@@ -37,7 +25,7 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
     if (!text_place(s, middle, pixel) || !fits_box(s, box, label.text) ||
         !text_space_take(words, s, label.text, pixel, label.at))
         return false;
-    add_ground(s, &label);
+    text_add_ground(s, &label, ROLE_PANEL);
     scene_add_label(s, label);
     return true;
 }

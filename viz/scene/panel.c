@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define LETTERS 10 /* units from the top of a row to below its letters */
+
 /* On one line where it fits, else on three. */
 static void write_position(pen *p, const char *name, const double position[3])
 {
@@ -21,7 +23,7 @@ static void write_position(pen *p, const char *name, const double position[3])
         return;
     }
     for (int i = 0; i < 3; i++)
-        write_row(p, i ? "" : name, "%s", axes[i]);
+        write_row(p, i ? "" : name, "%s", number_text(position[i], 9, axes[i]));
 }
 
 static void write_world(pen *p, const octree_box *world)
@@ -89,24 +91,39 @@ static void write_events(pen *p, const octree_game *game)
 /* A row names no more ids than these. */
 #define MOST_IDS 3
 
-/* "name  count: first, second ..." of ids. */
+/* "count: first second +more" of the ids that have room: none is cut. */
 static void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
 {
-    char text[SCENE_TEXT];
-    size_t used = (size_t)snprintf(text, sizeof text, "%zu%s", count, count ? ":" : "");
-    for (size_t i = 0; i < count && i < MOST_IDS && used < sizeof text; i++)
-        used += (size_t)snprintf(text + used, sizeof text - used, " %llu", (unsigned long long)points[i].id);
-    write_row(p, name, "%s%s", text, count > MOST_IDS ? " .." : "");
+    char text[SCENE_TEXT] = "", more[SCENE_TEXT] = "", id[SCENE_TEXT], rest[SCENE_TEXT] = "", number[SCENE_TEXT];
+    size_t told = 0, room = text_room(VALUE, 1);
+    snprintf(number, sizeof number, "%zu", count);
+    for (; told < count && told < MOST_IDS; told++) {
+        snprintf(id, sizeof id, " %llu", (unsigned long long)points[told].id);
+        if (told + 1 < count)
+            snprintf(rest, sizeof rest, " +%zu", count - told - 1);
+        else
+            rest[0] = 0;
+        if (strlen(number) + 1 + strlen(text) + strlen(id) + strlen(rest) > room)
+            break;
+        strcat(text, id);
+        strcpy(more, rest);
+    }
+    write_row(p, name, "%s%s%s%s", number, told ? ":" : "", text, more);
 }
 
 static void write_nearest(pen *p, const octree_answer *answer)
 {
-    char distance[32];
-    if (answer->count)
-        write_row(p, "nearest", "%llu at %s", (unsigned long long)answer->neighbors[0].point.id,
-                  number_text(answer->neighbors[0].distance, 6, distance));
-    else
+    char id[32], distance[32];
+    if (answer->count == 0) {
         write_row(p, "nearest", "none");
+        return;
+    }
+    number_text(answer->neighbors[0].distance, 6, distance);
+    snprintf(id, sizeof id, "%llu", (unsigned long long)answer->neighbors[0].point.id);
+    const bool fits = strlen(id) + strlen(" at ") + strlen(distance) <= text_room(VALUE, 1);
+    write_row(p, "nearest", "%s%s%s", id, fits ? " at " : "", fits ? distance : "");
+    if (!fits)
+        write_row(p, "", "at %s", distance);
 }
 
 static void write_knearest(pen *p, const octree_answer *answer)
@@ -114,7 +131,7 @@ static void write_knearest(pen *p, const octree_answer *answer)
     octree_point first[MOST_IDS];
     for (size_t i = 0; i < answer->count && i < MOST_IDS; i++)
         first[i] = answer->neighbors[i].point;
-    write_ids(p, "nearest", first, answer->count);
+    write_ids(p, "k near", first, answer->count);
 }
 
 static void write_radius(pen *p, const octree_answer *answer)
@@ -128,16 +145,25 @@ static void write_range(pen *p, const octree_answer *answer)
     write_ids(p, "range", answer->points, answer->count);
 }
 
+/* In the colours of what is drawn of them. */
 static void write_answers(pen *p, const octree_answer *answers, size_t count)
 {
-    static void (*const writers[OCTREE_QUERY_KINDS])(pen *, const octree_answer *) = {
-        [OCTREE_QUERY_RANGE] = write_range,
-        [OCTREE_QUERY_NEAREST] = write_nearest,
-        [OCTREE_QUERY_KNEAREST] = write_knearest,
-        [OCTREE_QUERY_RADIUS] = write_radius,
+    static const struct {
+        void (*write)(pen *, const octree_answer *);
+        view_layer layer;
+        theme_role role;
+    } kinds[OCTREE_QUERY_KINDS] = {
+        [OCTREE_QUERY_RANGE] = {write_range, LAYER_RANGE, ROLE_RANGE},
+        [OCTREE_QUERY_NEAREST] = {write_nearest, LAYER_NEAREST, ROLE_NEAREST},
+        [OCTREE_QUERY_KNEAREST] = {write_knearest, LAYER_KNEAREST, ROLE_KNEAREST},
+        [OCTREE_QUERY_RADIUS] = {write_radius, LAYER_RADIUS, ROLE_RADIUS},
     };
-    for (size_t i = 0; i < count; i++)
-        writers[answers[i].kind](p, &answers[i]);
+    for (size_t i = 0; i < count; i++) {
+        const octree_query_kind kind = answers[i].kind;
+        p->name = view_shows(&p->scene->view, kinds[kind].layer) ? kinds[kind].role : ROLE_FAINT;
+        kinds[kind].write(p, &answers[i]);
+    }
+    p->name = ROLE_FAINT;
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
@@ -161,6 +187,7 @@ static void write_keys(pen *p, const octree_game *game)
         used +=
             (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ", session->keys[tick - 1]);
     if (used) {
+        text[used - 1] = 0; /* the last blank */
         write_text(p, MARGIN, ROLE_FAINT, 1, text);
         p->y += LINE;
     }
@@ -202,9 +229,36 @@ static void write_title(pen *p, const char *text)
     p->y += 2 * LINE;
 }
 
+/* Rows that the picture is too low for are counted in the place of the first. */
+static void end_rows(pen *p)
+{
+    scene *s = p->scene;
+    const int last = s->view.height / s->unit - LETTERS; /* where the last row may begin */
+    size_t kept = 0, rows = 0;
+    double at = -1, first = 0;
+    char text[SCENE_TEXT];
+    if (p->y - LINE <= last)
+        return;
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label label = s->labels.items[i];
+        if (label.look.layer != LAYER_TEXT || label.at[1] <= (last - LINE) * s->unit) {
+            s->labels.items[kept++] = label;
+            continue;
+        }
+        first = rows ? first : label.at[1];
+        rows += label.at[1] != at;
+        at = label.at[1];
+    }
+    s->labels.count = kept;
+    p->y = (int)first / s->unit < last ? (int)first / s->unit : last;
+    snprintf(text, sizeof text, "and %zu more", rows);
+    write_text(p, MARGIN, ROLE_WARNING, 1, text);
+    p->y += LINE;
+}
+
 static pen begin_panel(scene *s)
 {
-    pen p = {.scene = s, .y = MARGIN};
+    pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT};
     fill(&p, 0, 0, COLUMN, s->view.height / s->unit + 1, ROLE_PANEL);
     return p;
 }
@@ -225,12 +279,13 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
     char title[SCENE_TEXT];
     snprintf(title, sizeof title, "tick %llu", (unsigned long long)tick->number);
     if (panel_width(&s->view) == 0) {
-        pen line = {.scene = s, .y = 4};
+        pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
         write_text(&line, 4, ROLE_TEXT, 1, title);
         line.y += LINE;
         write_events(&line, game);
         write_left_out(&line);
         write_finding(&line, found);
+        end_rows(&line);
         return;
     }
     pen p = begin_panel(s);
@@ -252,15 +307,17 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
     write_answers(&p, tick->answers, tick->answer_count);
     write_refusals(&p, tick);
     write_finding(&p, found);
+    end_rows(&p);
     write_tick_legend(&p, game);
 }
 
 void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const finding *found)
 {
     if (panel_width(&s->view) == 0) {
-        pen line = {.scene = s, .y = 4};
+        pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
         write_left_out(&line);
         write_finding(&line, found);
+        end_rows(&line);
         return;
     }
     pen p = begin_panel(s);
@@ -274,5 +331,6 @@ void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const 
         p.y += LINE / 2;
     write_answers(&p, about->answers, about->answer_count);
     write_finding(&p, found);
+    end_rows(&p);
     write_tree_legend(&p, tree, about);
 }

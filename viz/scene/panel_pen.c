@@ -5,6 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+size_t text_room(int x, int size)
+{
+    const size_t fits = (size_t)((COLUMN - x) / (LETTER * size));
+    return fits < SCENE_TEXT ? fits : SCENE_TEXT - 1;
+}
+
 void write_text(pen *p, int x, theme_role role, int size, const char *text)
 {
     const scene *s = p->scene;
@@ -12,12 +18,13 @@ void write_text(pen *p, int x, theme_role role, int size, const char *text)
                          .look = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
     label.at[0] = x * s->unit;
     label.at[1] = p->y * s->unit;
-    const int fits = (COLUMN - x) / (LETTER * size) < SCENE_TEXT ? (COLUMN - x) / (LETTER * size) : SCENE_TEXT - 1;
+    const int fits = (int)text_room(x, size);
     snprintf(label.text, SCENE_TEXT, "%.*s", fits, text);
+    if (strlen(text) > (size_t)fits)
+        memcpy(label.text + fits - 2, "..", 2);
     scene_add_label(p->scene, label);
 }
 
-/* A line of a faint name and a value. */
 void write_row(pen *p, const char *name, const char *format, ...)
 {
     char value[SCENE_TEXT];
@@ -25,7 +32,7 @@ void write_row(pen *p, const char *name, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
-    write_text(p, MARGIN, ROLE_FAINT, 1, name);
+    write_text(p, MARGIN, p->name, 1, name);
     write_text(p, VALUE, ROLE_TEXT, 1, value);
     p->y += LINE;
 }

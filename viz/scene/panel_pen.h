@@ -17,12 +17,17 @@
 typedef struct pen {
     scene *scene;
     int y;
+    theme_role name; /* the colour of names of rows */
     uint64_t next_id;
 } pen;
 
+/* Letters from `x` to the end of the column. */
+size_t text_room(int x, int size);
+
+/* One that is longer than its room is cut, and ends in two dots. */
 void write_text(pen *p, int x, theme_role role, int size, const char *text);
 
-/* A line of a faint name and a value. */
+/* A line of a name and a value. */
 void write_row(pen *p, const char *name, const char *format, ...);
 
 /* A rectangle. */

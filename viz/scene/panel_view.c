@@ -4,6 +4,7 @@
 #include "number_text.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* "from to to" of one axis of the region. */
 static void write_region_axis(pen *p, const char *name, const octree_box *region, int axis)
@@ -47,6 +48,10 @@ static void write_budget(pen *p, const scene_tally *tally)
         snprintf(text, sizeof text, "1 point in %llu", (unsigned long long)tally->one_in);
         write_warning(p, tally->beyond ? "" : "budget", text);
     }
+    if (tally->arrows.thinned) {
+        snprintf(text, sizeof text, "1 arrow in %llu", (unsigned long long)tally->arrows.one_in);
+        write_warning(p, tally->beyond || tally->thinned ? "" : "budget", text);
+    }
 }
 
 static void write_folded(pen *p, const scene_tally *tally)
@@ -57,29 +62,65 @@ static void write_folded(pen *p, const scene_tally *tally)
     write_warning(p, "folded", text);
 }
 
+/* Whether "12 met < 2 px" has. */
+static bool has_room(size_t count, const char *what, const char *lod)
+{
+    char number[SCENE_TEXT];
+    snprintf(number, sizeof number, "%zu", count);
+    return strlen(number) + strlen(what) + strlen(" < ") + strlen(lod) + strlen(" px") <= text_room(VALUE, 1);
+}
+
+/* "lod    12 below 2 px", and what follows in words that fit. */
+static void write_small(pen *p, const scene_tally *tally)
+{
+    const struct {
+        size_t count;
+        const char *what;
+    } kinds[] = {{tally->small, ""}, {tally->small_met, " met"}, {tally->arrows.small, " arrows"}};
+    char lod[NUMBER_WORDS];
+    bool first = true;
+    number_text(p->scene->view.lod, 3, lod);
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        if (!kinds[i].count)
+            continue;
+        if (i == 0)
+            write_row(p, "lod", "%zu below %s px", kinds[i].count, lod);
+        else if (first)
+            write_row(p, "lod", "%zu%s < %s%s", kinds[i].count, kinds[i].what, lod,
+                      has_room(kinds[i].count, kinds[i].what, lod) ? " px" : "");
+        else
+            write_row(p, "", "and %zu%s", kinds[i].count, kinds[i].what);
+        first = false;
+    }
+}
+
+/* What of the tree is there, where it is not all of it. */
+static void write_shown(pen *p, const scene_tally *tally)
+{
+    const view *v = &p->scene->view;
+    if (!filter_is_on(&v->filter) && !tally->small && !tally->beyond && !tally->thinned)
+        return;
+    write_filter(p, &v->filter);
+    if (view_shows(v, LAYER_NODES))
+        write_row(p, "shown", "%zu nodes", tally->nodes);
+    if (view_shows(v, LAYER_POINTS))
+        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
+}
+
 void write_left_out(pen *p)
 {
-    const scene *s = p->scene;
-    const scene_tally *tally = &s->tally;
-    const bool unlabelled = s->view.labels && tally->labels < tally->nodes;
-    char lod[NUMBER_WORDS];
-    const bool less = filter_is_on(&s->view.filter) || tally->small || tally->beyond || tally->thinned || unlabelled;
-    if (less || tally->folded)
-        p->y += LINE / 2;
+    const scene_tally *tally = &p->scene->tally;
+    const int before = p->y;
+    p->y += LINE / 2;
+    const int begin = p->y;
     if (tally->folded)
         write_folded(p, tally);
-    if (!less)
-        return;
-    write_filter(p, &s->view.filter);
-    if (view_shows(&s->view, LAYER_NODES))
-        write_row(p, "shown", "%zu nodes", tally->nodes);
-    if (view_shows(&s->view, LAYER_POINTS))
-        write_row(p, view_shows(&s->view, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
-    if (tally->small)
-        write_row(p, "lod", "%zu below %s px", tally->small, number_text(s->view.lod, 3, lod));
+    write_shown(p, tally);
+    write_small(p, tally);
     write_budget(p, tally);
-    if (unlabelled)
+    if (p->scene->view.labels && tally->labels < tally->nodes)
         write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
+    p->y = p->y == begin ? before : p->y; /* all is there */
 }
 
 /* One strip of a colour a step, from the ramp's first. */

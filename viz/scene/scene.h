@@ -15,7 +15,8 @@
 typedef enum scene_style {
     STYLE_SOLID,
     STYLE_DASHED,
-    STYLE_CUT, /* dashed, and in its gaps nothing is seen of the lines beneath: what was solid there is dashed now */
+    STYLE_CUT,   /* dashed, and in its gaps nothing is seen of the lines beneath: what was solid there is dashed now */
+    STYLE_ARROW, /* solid, with a head at its second end where it is long enough to be seen */
 } scene_style;
 
 /* How an element looks. Width is in half units of the frame (view_unit): at 1280 x 720 a pixel. */
@@ -80,18 +81,28 @@ typedef struct scene_panel {
         size_t count, room;                                                                                            \
     }
 
+/* Velocities that are not in a scene. */
+typedef struct scene_arrows {
+    size_t thinned;  /* left out by the view's budget */
+    uint64_t one_in; /* what is left is about one in so many */
+    size_t small;    /* of those left out by the view's lod */
+} scene_arrows;
+
 /* How much of a tree is in a scene. */
 typedef struct scene_tally {
-    size_t nodes, points;            /* shown */
-    size_t labels;                   /* nodes with their path on them */
-    size_t small;                    /* nodes left out by the view's lod */
-    size_t beyond;                   /* nodes left out by its budget: all below `deepest` */
-    int deepest;                     /* the depth that nodes are shown to where the budget bites */
-    size_t thinned;                  /* points left out by the budget */
-    uint64_t one_in;                 /* what is left is about one point in so many */
-    size_t drawn, folded;            /* nodes in the diagram: one by one, and in its bars */
-    unsigned folded_from, folded_to; /* the depths that are bars */
-    size_t way;                      /* nodes on the way that it shows */
+    size_t nodes, points; /* shown */
+    size_t labels;        /* nodes with their path on them */
+    size_t small;         /* nodes left out by the view's lod */
+    size_t small_met;     /* and boxes and planes of nodes that the tick met, split or merged */
+    size_t beyond;        /* nodes left out by its budget: all below `deepest` */
+    int deepest;          /* the depth that nodes are shown to where the budget bites */
+    size_t thinned;       /* points left out by the budget */
+    uint64_t one_in;      /* what is left is about one point in so many */
+    scene_arrows arrows;
+    size_t drawn, folded;                 /* nodes in the diagram: one by one, and in its bars */
+    unsigned folded_from, folded_to;      /* the depths that are bars */
+    size_t way;                           /* nodes on the way that it shows */
+    size_t marked_visited, marked_pruned; /* nodes that it marks as met so by the tick */
 } scene_tally;
 
 typedef struct scene {

@@ -38,3 +38,14 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
     corner[1] = top;
     return true;
 }
+
+void text_add_ground(scene *s, const scene_label *label, theme_role role)
+{
+    const int unit = s->unit, letters = (int)strlen(label->text);
+    scene_add_panel(s, (scene_panel){.id = label->id,
+                                     .x = (int)label->at[0] - unit,
+                                     .y = (int)label->at[1] - unit,
+                                     .width = (letters * TEXT_LETTER + 1) * unit,
+                                     .height = (TEXT_HEIGHT + 1) * unit,
+                                     .look = {.layer = label->look.layer, .role = (uint8_t)role}});
+}

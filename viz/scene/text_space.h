@@ -18,6 +18,10 @@ typedef struct text_space {
  * part of the picture that the world is drawn in, or cover another. */
 bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2]);
 
+/* What is behind the letters of a label that has its room: lines and points would make them hard to read. It has the
+ * label's id and layer. */
+void text_add_ground(scene *s, const scene_label *label, theme_role role);
+
 /* The pixel of a position; false when it is not before the camera. */
 bool text_place(const scene *s, const double position[3], double pixel[2]);
 

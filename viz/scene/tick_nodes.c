@@ -8,7 +8,7 @@ static bool lies_in_a_shown_one(const view_filter *f, unsigned depth)
     return !f->leaves && depth > (f->by_depth ? f->min_depth : 0);
 }
 
-bool tick_node_shown(const scene *s, const octree *tree, octree_address address, octree_node *node)
+bool tick_node_shown(scene *s, const octree *tree, octree_address address, octree_node *node)
 {
     const view_filter *f = &s->view.filter;
     const octree_box world = octree_definition(tree).world;
@@ -19,7 +19,9 @@ bool tick_node_shown(const scene *s, const octree *tree, octree_address address,
                               .box = octree_cell_box(&world, address)};
     if (!filter_shows_node(f, &world, node))
         return false;
-    return !lies_in_a_shown_one(f, node->depth) || camera_box_pixels(&s->camera, &node->box) >= s->view.lod;
+    const bool small = lies_in_a_shown_one(f, node->depth) && camera_box_pixels(&s->camera, &node->box) < s->view.lod;
+    s->tally.small_met += small;
+    return !small;
 }
 
 void add_node_box(scene *s, const octree_node *node, scene_look look)

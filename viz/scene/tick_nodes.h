@@ -6,8 +6,8 @@
 #include "scene.h"
 
 /* The node at an address, or its empty cell where the tree has no node there any more. False when the view's filter
- * leaves it out, or it is smaller than the view's lod and lies in one that is shown. */
-bool tick_node_shown(const scene *s, const octree *tree, octree_address address, octree_node *node);
+ * leaves it out; or where it is smaller than the view's lod and lies in one that is shown, which is counted. */
+bool tick_node_shown(scene *s, const octree *tree, octree_address address, octree_node *node);
 
 /* A node's box, with its address as id. */
 void add_node_box(scene *s, const octree_node *node, scene_look look);

@@ -7,10 +7,14 @@
 #include "heat_layers.h"
 #include "panel.h"
 #include "shape_layer.h"
+#include "tick_nodes.h"
 #include "tree_layers.h"
+#include "velocity_layer.h"
 #include "visit_layers.h"
 
 #include <string.h>
+
+#define ASKED_MARK 12 /* half units: half the size of the mark on a node that is asked for */
 
 static octree_box box_about(const double center[3], double size)
 {
@@ -82,7 +86,16 @@ static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, s
         add_way(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, look);
 }
 
-/* The box that was tested, crossed out, and a cross on everything in it. */
+static void add_cross(scene *s, uint64_t id, const double at[3], scene_look look, uint8_t half)
+{
+    scene_marker marker = {.id = id, .look = look, .shape = SHAPE_CROSS};
+    marker.look.width = half;
+    memcpy(marker.at, at, sizeof marker.at);
+    scene_add_marker(s, marker);
+}
+
+/* The box that was tested, crossed out, and a cross on everything in it. A box that appears small is a blot, of which
+ * only the colour tells what it is: so a larger cross lies on it, whatever its size. */
 static void add_collision(scene *s, const octree_tick *tick, const octree_session *session)
 {
     if (tick->hit_count == 0)
@@ -95,12 +108,9 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
     add_crossed_faces(s, &box, look);
     if (tick->swept)
         add_swept_ways(s, tick, session->player.box_size, look);
-    for (size_t i = 0; i < tick->hit_count; i++) {
-        scene_marker marker = {.id = tick->hits[i].id, .look = look, .shape = SHAPE_CROSS};
-        marker.look.width = 6;
-        memcpy(marker.at, tick->hits[i].position, sizeof marker.at);
-        scene_add_marker(s, marker);
-    }
+    add_cross(s, session->player.id, tick->attempt, look, 28);
+    for (size_t i = 0; i < tick->hit_count; i++)
+        add_cross(s, tick->hits[i].id, tick->hits[i].position, look, 6);
 }
 
 /* The leaf that the player is in. */
@@ -122,15 +132,38 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
     add_heat(s, tree, h);
     add_visits(s, game);
     add_changes(s, game);
+    add_velocities(s, game);
     add_answers(s, tick->answers, tick->answer_count);
     if (tick->has_player)
         add_player(s, tick, session);
     add_collision(s, tick, session);
     add_shapes(s, tick);
     add_broken(s, &session->tree.world, &found);
-    add_diagram(s, tree, tick->has_player ? leaf_of(tree, tick->player) : 0);
+    add_diagram(s, tree,
+                &(diagram_marks){.way = tick->has_player ? leaf_of(tree, tick->player) : 0,
+                                 .visits = tick->visits,
+                                 .visit_count = tick->visit_count,
+                                 .visited = view_shows(v, LAYER_VISITED),
+                                 .pruned = view_shows(v, LAYER_PRUNED)});
     add_tick_panel(s, game, &found);
     return !s->out_of_memory;
+}
+
+/* Bold, in the colour of the way to it in the diagram; and where it appears small, a mark that is seen. */
+static void add_asked(scene *s, const octree *tree, octree_address address)
+{
+    octree_node node;
+    const scene_look look = {.layer = LAYER_ASKED, .role = ROLE_PLAYER, .width = 2};
+    if (!address || octree_node_at(tree, address, &node) != OCTREE_OK)
+        return;
+    add_node_box(s, &node, look);
+    if (camera_box_pixels(&s->camera, &node.box) > 2 * ASKED_MARK * s->unit)
+        return;
+    scene_marker mark = {.id = address, .look = look, .shape = SHAPE_LOZENGE};
+    mark.look.width = ASKED_MARK;
+    for (int i = 0; i < 3; i++)
+        mark.at[i] = node.box.min[i] / 2 + node.box.max[i] / 2;
+    scene_add_marker(s, mark);
 }
 
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title)
@@ -149,9 +182,10 @@ bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_lo
     begin_scene(s, v, &world, center, 0);
     add_world(s, &world);
     add_tree(s, tree, octree_count(tree));
+    add_asked(s, tree, about->node);
     add_answers(s, about->answers, about->answer_count);
     add_broken(s, &world, &found);
-    add_diagram(s, tree, about->node);
+    add_diagram(s, tree, &(diagram_marks){.way = about->node});
     add_tree_panel(s, tree, about, &found);
     return !s->out_of_memory;
 }

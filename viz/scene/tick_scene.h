@@ -16,7 +16,7 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *t
 /* What is said of a tree. */
 typedef struct tree_look {
     const char *title;
-    octree_address node; /* the diagram shows the way to it; 0: to none */
+    octree_address node; /* it is marked, and the diagram shows the way to it; 0: none */
     const octree_answer *answers;
     size_t answer_count;
 } tree_look;

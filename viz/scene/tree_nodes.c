@@ -3,7 +3,7 @@
 #include "camera.h"
 #include "filter.h"
 #include "node_labels.h"
-#include "octree/digest.h"
+#include "thinning.h"
 #include "tree_layers.h"
 
 #include <stdlib.h>
@@ -23,21 +23,15 @@ typedef struct tree_walk {
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* By the id alone, so that a point that moves does not come and go. */
-static bool is_thinned(const tree_walk *w, uint64_t id)
-{
-    return octree_digest_word(OCTREE_DIGEST_START, id) & w->sieve;
-}
-
 /* Leave out about every other one of the points that are in the scene. */
 static void thin_points(tree_walk *w)
 {
     scene *s = w->scene;
     size_t kept = 0;
-    w->sieve = w->sieve << 1 | 1;
+    w->sieve = thinning_finer(w->sieve);
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *marker = &s->markers.items[i];
-        const bool out = marker->look.layer == LAYER_POINTS && is_thinned(w, marker->id);
+        const bool out = marker->look.layer == LAYER_POINTS && thinning_drops(w->sieve, marker->id);
         s->tally.points -= out;
         s->tally.thinned += out;
         if (!out)
@@ -49,7 +43,7 @@ static void thin_points(tree_walk *w)
 static void add_point(tree_walk *w, const octree_point *point)
 {
     scene *s = w->scene;
-    if (is_thinned(w, point->id)) {
+    if (thinning_drops(w->sieve, point->id)) {
         s->tally.thinned++;
         return;
     }

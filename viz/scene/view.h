@@ -28,7 +28,9 @@
     X(HIT, "hit")               /* leaves that hold what they found */                                                 \
     X(MERGES, "merges")         /* nodes that ceased to be inner ones at this tick */                                  \
     X(SPLITS, "splits")         /* nodes that became inner ones */                                                     \
+    X(ASKED, "asked")           /* the node that inspect is asked for */                                               \
     X(POINTS, "points")                                                                                                \
+    X(VELOCITIES, "velocities") /* where points that move go on to */                                                  \
     X(RANGE, "range")                                                                                                  \
     X(RADIUS, "radius")                                                                                                \
     X(KNEAREST, "knearest")                                                                                            \

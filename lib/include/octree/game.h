@@ -200,6 +200,9 @@ typedef struct octree_tick {
     size_t hit_leaf_count;
     const octree_shape *shapes; /* of this tick, and then those of every tick */
     size_t shape_count;
+    const octree_body *movers; /* bodies with a velocity: where they are, and how they go on, turned where they bounced;
+                                  in an order that is the same whenever the session is played */
+    size_t mover_count;
 } octree_tick;
 
 typedef struct octree_game octree_game;

@@ -48,6 +48,9 @@ const golden_frame golden_frames[] = {
     {"visit_heat", "iso", "nodes,visit-heat", 252, NULL, 0, 0},
     {"point_heat", "iso", "world,point-heat", 30, "clustered", 0, 0},
     {"broken", "iso", "default", 0, NULL, 640, 360},
+    {"velocities", "iso", "nodes,points,velocities,player", 3, "moving", 400, 225},
+    {"diagram_met", "iso", "default", 216, NULL, 640, 360},
+    {"asked", "top", "nodes,asked,points", 0, "clustered", 0, 0},
     {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
 };
 
@@ -68,6 +71,7 @@ static const struct {
     {"lod", {.lod = 12}},
     {"budget", {.budget = 100}},
     {"diagram", {.diagram = DIAGRAM_BESIDE}},
+    {"diagram_met", {.diagram = DIAGRAM_BESIDE}},
     {"diagram_folded", {.diagram = DIAGRAM_ONLY, .coloring = COLORING_OCCUPANCY}},
     {"left_out",
      {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
@@ -117,6 +121,19 @@ static octree_session sampled_session(octree_sample_kind kind, const octree_quer
     return session;
 }
 
+/* Points at rest and points that move, some of which bounce soon. */
+static octree_session moving_session(octree_body *bodies)
+{
+    octree_session session = sampled_session(OCTREE_SAMPLE_UNIFORM, NULL, bodies, 30);
+    double velocities[30][3];
+    const octree_box speeds = {{-90, -90, -90}, {90, 90, 90}};
+    octree_sample(OCTREE_SAMPLE_UNIFORM, 9, &speeds, 30, velocities);
+    for (size_t i = 0; i < 24; i++)
+        memcpy(bodies[i].velocity, velocities[i], sizeof velocities[i]);
+    session.query_count = 0;
+    return session;
+}
+
 /* A step over one point and past another, which comes along the same way from above. */
 static octree_session swept_session(void)
 {
@@ -140,6 +157,8 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[M
         return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, MOST_BODIES);
     case 'k':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
+    case 'm':
+        return moving_session(bodies);
     case 'r':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, ball, bodies, 60);
     case 's':
@@ -159,6 +178,17 @@ static void break_game(const octree_game *game)
 {
     const octree_body *first = octree_game_session(game)->bodies;
     break_tree(octree_game_tree(game), first->position, octree_game_tick(game)->player);
+}
+
+/* One frame is of the tree alone, and of a node in it. */
+static bool build_scene(scene *s, const golden_frame *frame, const view *v, const octree_game *game, const heat *h)
+{
+    octree_address asked;
+    octree_node node;
+    if (strcmp(frame->name, "asked") != 0)
+        return tick_scene_build(s, v, game, h);
+    return octree_address_parse("6/0", &asked) && octree_node_at(octree_game_tree(game), asked, &node) == OCTREE_OK &&
+           look_scene_build(s, v, octree_game_tree(game), &(tree_look){.title = frame->name, .node = asked});
 }
 
 bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
@@ -182,7 +212,7 @@ bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
     }
     if (strcmp(frame->name, "broken") == 0)
         break_game(game);
-    ok = (ok && tick_scene_build(s, &v, game, &h)) || record_fail(error, "%s: there is no memory", frame->name);
+    ok = (ok && build_scene(s, frame, &v, game, &h)) || record_fail(error, "%s: there is no scene", frame->name);
     heat_release(&h);
     octree_game_destroy(game);
     return ok;

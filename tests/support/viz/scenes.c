@@ -26,12 +26,18 @@ static const octree_shape all_shapes[] = {
     {OCTREE_EVERY_TICK, OCTREE_SHAPE_LABEL, {300, -300, 300}, {0}, "goal"},
 };
 
-/* The default session's queries, which are ranges at ticks 212 to 223, and two at every tick. */
+/* The default session's queries, which are ranges at ticks 212 to 223, and two at every tick; and one more body, which
+ * crosses the world where the player does not come. */
 octree_session asking_session(void)
 {
     static octree_query queries[32];
+    static octree_body bodies[32];
     octree_session session = octree_session_default();
     size_t count = session.query_count;
+    assert_true(session.body_count < sizeof bodies / sizeof bodies[0]);
+    memcpy(bodies, session.bodies, session.body_count * sizeof *bodies);
+    bodies[session.body_count++] = (octree_body){.id = 700, .position = {-900, 700, -600}, .velocity = {3, -2.5, 0.25}};
+    session.bodies = bodies;
     assert_true(count + 2 <= sizeof queries / sizeof queries[0]);
     memcpy(queries, session.queries, count * sizeof *queries);
     queries[count++] =

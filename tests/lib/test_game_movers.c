@@ -1,0 +1,168 @@
+/* test_game_movers.c - the bodies that a tick says move: which, where from, and how they go on. */
+#include "fixture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "game_fixture.h"
+
+/* The one mover with this id, or null. */
+static const octree_body *find_mover(const octree_game *game, uint64_t id)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const octree_body *found = NULL;
+    for (size_t i = 0; i < tick->mover_count; i++) {
+        if (tick->movers[i].id != id)
+            continue;
+        assert_null(found);
+        found = &tick->movers[i];
+    }
+    return found;
+}
+
+static void assert_moves(const octree_game *game, uint64_t id, double at, double velocity)
+{
+    const octree_body *body = find_mover(game, id);
+    assert_non_null(body);
+    assert_true(body->position[0] == at && body->velocity[0] == velocity);
+    assert_true(octree_contains(octree_game_tree(game), body->position, id));
+}
+
+/* In a world from -10 to 10. On the face itself a body is about to turn. */
+static void a_bounce_turns_the_velocity(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 1, .position = {9, 4, 4}, .velocity = {2, 0, 0}},
+                                         {.id = 2, .position = {9, 5, 5}, .velocity = {1, 0, 0}},
+                                         {.id = 3, .position = {-10, 6, 6}, .velocity = {-3, 0, 0}},
+                                         {.id = 4, .position = {7, 7, 7}, .velocity = {39, 0, 0}}};
+    static const double at[4][3] = {{9, 9, 7}, {9, 10, 9}, {-10, -7, -4}, {7, 6, 5}};
+    static const double velocity[4][3] = {{2, -2, -2}, {1, -1, -1}, {3, 3, 3}, {39, 39, 39}};
+    octree_session session = small_session(bodies, 4);
+    octree_game *game = start_game(&session);
+    for (int tick = 0; tick < 3; tick++) {
+        if (tick)
+            play_key(game, '.');
+        assert_int_equal(octree_game_tick(game)->mover_count, 4);
+        for (int i = 0; i < 4; i++)
+            assert_moves(game, (uint64_t)i + 1, at[i][tick], velocity[i][tick]);
+    }
+    octree_game_destroy(game);
+}
+
+/* A mirror at both ends, for numbers that need no rounding. */
+static double mirrored(double x, double min, double max)
+{
+    while (x < min || x > max)
+        x = x > max ? 2 * max - x : 2 * min - x;
+    return x;
+}
+
+enum { BODIES = 40 };
+
+static void a_mover_is_next_where_its_velocity_takes_it(void **state)
+{
+    (void)state;
+    octree_body bodies[BODIES];
+    uint64_t random = 11;
+    for (size_t i = 0; i < BODIES; i++) {
+        bodies[i] = (octree_body){.id = i + 1};
+        for (int axis = 0; axis < 3; axis++) {
+            bodies[i].position[axis] = floor(random_between(&random, -40, 40)) / 4;
+            bodies[i].velocity[axis] = i % 4 ? floor(random_between(&random, -200, 200)) / 4 : 0;
+        }
+    }
+    octree_session session = small_session(bodies, BODIES);
+    session.tree.full_leaf = OCTREE_GROW;
+    octree_game *game = start_game(&session);
+    for (int tick = 0; tick < 60; tick++) {
+        octree_body before[BODIES];
+        const size_t count = octree_game_tick(game)->mover_count;
+        assert_int_equal(count, BODIES / 4 * 3);
+        memcpy(before, octree_game_tick(game)->movers, count * sizeof *before);
+        play_key(game, '.');
+        for (size_t i = 0; i < count; i++) {
+            double next[3];
+            for (int axis = 0; axis < 3; axis++)
+                next[axis] = mirrored(before[i].position[axis] + before[i].velocity[axis], -10, 10);
+            assert_true(same_position(find_mover(game, before[i].id)->position, next));
+        }
+    }
+    octree_game_destroy(game);
+}
+
+static void bodies_at_rest_and_the_player_do_not_move(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}},
+                                         {.id = 2, .position = {6, 5, 5}, .velocity = {-0.0, 0, 0}}};
+    octree_session session = small_session(bodies, 2);
+    octree_game *game = start_game(&session);
+    assert_int_equal(octree_game_tick(game)->mover_count, 0);
+    assert_int_equal(play_key(game, 'd')->mover_count, 0);
+    octree_game_destroy(game);
+}
+
+/* From the second tick on its way is more than a double holds: it stays where it began. */
+static void a_body_too_fast_to_follow_is_at_rest(void **state)
+{
+    (void)state;
+    static const octree_body body[] = {{.id = 3, .position = {7, 5, 5}, .velocity = {0, 1.7e308, 0}}};
+    octree_session session = small_session(body, 1);
+    octree_game *game = start_game(&session);
+    assert_non_null(find_mover(game, 3));
+    play_key(game, '.');
+    assert_int_equal(play_key(game, '.')->mover_count, 0);
+    assert_true(octree_contains(octree_game_tree(game), body->position, 3));
+    octree_game_destroy(game);
+}
+
+static void edits_begin_and_end_motion(void **state)
+{
+    (void)state;
+    static const octree_edit edits[] = {
+        {1, OCTREE_EDIT_INSERT, {.id = 7, .position = {-5, 5, 5}, .velocity = {0.5, 0, 0}}},
+        {2, OCTREE_EDIT_MOVE, {.id = 7, .position = {2, 2, 2}}},
+        {3, OCTREE_EDIT_REMOVE, {.id = 7}},
+    };
+    octree_session session = small_session(NULL, 0);
+    session.edits = edits;
+    session.edit_count = 3;
+    octree_game *game = start_game(&session);
+    assert_int_equal(octree_game_tick(game)->mover_count, 0);
+    play_key(game, '.');
+    assert_moves(game, 7, -4.5, 0.5);
+    play_key(game, '.');
+    assert_moves(game, 7, 2.5, 0.5);
+    play_key(game, '.');
+    assert_int_equal(octree_game_tick(game)->mover_count, 0);
+    octree_game_destroy(game);
+}
+
+static void a_body_that_its_leaf_refuses_is_told_where_it_stays(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 1, .position = {9, 9, 9}},
+                                         {.id = 2, .position = {9, 9, 8}},
+                                         {.id = 3, .position = {-1, 9, 9}, .velocity = {2, 0, 0}}};
+    octree_session session = small_session(bodies, 3);
+    session.tree.max_depth = 1;
+    session.player.position[2] = -5;
+    octree_game *game = start_game(&session);
+    assert_int_equal(play_key(game, '.')->refusal_count, 1);
+    assert_moves(game, 3, -1, 2);
+    octree_game_destroy(game);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_bounce_turns_the_velocity),
+        cmocka_unit_test(a_mover_is_next_where_its_velocity_takes_it),
+        cmocka_unit_test(bodies_at_rest_and_the_player_do_not_move),
+        cmocka_unit_test(a_body_too_fast_to_follow_is_at_rest),
+        cmocka_unit_test(edits_begin_and_end_motion),
+        cmocka_unit_test(a_body_that_its_leaf_refuses_is_told_where_it_stays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,319 @@
+/* test_velocity_layer.c - arrows of points that move: those and nothing else, each along its point's velocity, and
+ * what is left out is told. */
+#include "scenes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "draw_list.h"
+#include "octree/sample.h"
+#include "velocity_layer.h"
+
+/* Every arrow whatever its size. */
+static view every_arrow(view_camera camera)
+{
+    view v = view_of(1280, 1440, camera, VIEW_DEFAULT_LAYERS);
+    v.lod = 0;
+    v.budget = 0;
+    return v;
+}
+
+static const scene_segment *find_arrow(const scene *s, uint64_t id)
+{
+    const scene_segment *found = NULL;
+    for (size_t i = 0; i < s->segments.count; i++) {
+        const scene_segment *segment = &s->segments.items[i];
+        if (segment->look.layer != LAYER_VELOCITIES || segment->id != id)
+            continue;
+        assert_null(found);
+        found = segment;
+    }
+    return found;
+}
+
+static bool says(const scene *s, const char *text)
+{
+    for (size_t i = 0; i < s->labels.count; i++)
+        if (strcmp(s->labels.items[i].text, text) == 0)
+            return true;
+    return false;
+}
+
+/* From the point along its velocity for so many ticks; or as far as a face that it would pass by then. */
+static void check_arrow(const scene_segment *arrow, const octree_body *body, const octree_box *world, double ticks)
+{
+    const double *end = arrow->ends[1];
+    double part = 1;
+    bool on_face = false;
+    assert_true(same_position(arrow->ends[0], body->position) && !arrow->in_picture);
+    assert_true(arrow->look.style == STYLE_ARROW && arrow->look.role == ROLE_POINT);
+    for (int i = 0; i < 3; i++) {
+        const double whole = body->velocity[i] * ticks;
+        assert_true(end[i] >= world->min[i] && end[i] <= world->max[i]);
+        if (whole != 0 && (end[i] - body->position[i]) / whole < part)
+            part = (end[i] - body->position[i]) / whole;
+        on_face = on_face || (whole > 0 && end[i] == world->max[i] && body->position[i] + whole >= world->max[i]) ||
+                  (whole < 0 && end[i] == world->min[i] && body->position[i] + whole <= world->min[i]);
+    }
+    assert_true(part > 0);
+    for (int i = 0; i < 3; i++) {
+        const double extent = world->max[i] - world->min[i];
+        assert_true(fabs(end[i] - (body->position[i] + body->velocity[i] * ticks * part)) < 1e-9 * extent);
+    }
+    assert_true(on_face || part > 1 - 1e-9);
+}
+
+/* The arrows of a tick are those of its movers, which the tree holds where they begin. */
+static void check_tick(const scene *s, const octree_game *game, double ticks)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const layer_counts found = count_layer(s, LAYER_VELOCITIES);
+    for (size_t i = 0; i < tick->mover_count; i++) {
+        const octree_body *body = &tick->movers[i];
+        const scene_segment *arrow = find_arrow(s, body->id);
+        assert_non_null(arrow);
+        assert_true(octree_contains(octree_game_tree(game), arrow->ends[0], body->id));
+        check_arrow(arrow, body, &octree_game_session(game)->tree.world, ticks);
+    }
+    assert_int_equal(found.segments, tick->mover_count);
+    assert_int_equal(found.boxes + found.markers + found.labels + found.panels, 0);
+}
+
+/* Some at rest, some fast enough to cross the world in a tick. */
+static octree_session moving_session(octree_body *bodies, size_t count, double speed)
+{
+    uint64_t random = 3;
+    for (size_t i = 0; i < count; i++) {
+        bodies[i] = (octree_body){.id = i + 1000};
+        for (int axis = 0; axis < 3; axis++) {
+            bodies[i].position[axis] = random_between(&random, -10, 10);
+            bodies[i].velocity[axis] = i % 5 ? random_between(&random, -speed, speed) : 0;
+        }
+    }
+    octree_session session = small_session(bodies, count);
+    session.tree.full_leaf = OCTREE_GROW;
+    session.ticks = 12;
+    return session;
+}
+
+enum { BODIES = 40 };
+
+static void each_mover_has_its_arrow_and_nothing_else_has(void **state)
+{
+    (void)state;
+    static const double speeds[] = {0.01, 0.4, 3, 17, 60};
+    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++) {
+        octree_body bodies[BODIES];
+        const octree_session session = moving_session(bodies, BODIES, speeds[i]);
+        const view v = every_arrow((view_camera)(i % CAMERA_COUNT));
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        for (;; play_tick(game)) {
+            build_tick(&s, &v, game);
+            assert_int_equal(octree_game_tick(game)->mover_count, BODIES / 5 * 4);
+            check_tick(&s, game, velocity_ticks(&session));
+            if (octree_game_over(game))
+                break;
+        }
+        scene_release(&s);
+        octree_game_destroy(game);
+    }
+}
+
+/* 20 units wide: the fastest arrow is at most 2 long, or a tick. */
+static void an_arrow_shows_so_many_ticks_that_it_can_be_seen(void **state)
+{
+    (void)state;
+    static const struct {
+        double speed;
+        unsigned ticks;
+        const char *text;
+    } cases[] = {
+        {0.001, 1000, "velocity, 1000 ticks"}, {1e-9, 1000, "velocity, 1000 ticks"}, {0.1, 20, "velocity, 20 ticks"},
+        {0.125, 10, "velocity, 10 ticks"},     {0.2, 10, "velocity, 10 ticks"},      {0.21, 5, "velocity, 5 ticks"},
+        {0.6, 2, "velocity, 2 ticks"},         {1.25, 1, "velocity, 1 tick"},        {5, 1, "velocity, 1 tick"},
+        {1e300, 1, "velocity, 1 tick"}};
+    const view v = every_arrow(CAMERA_ISO);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const octree_body bodies[] = {{.id = 1, .position = {1, 2, 3}, .velocity = {0, -cases[i].speed, 0}},
+                                      {.id = 2, .position = {1, 2, 4}, .velocity = {cases[i].speed / 4, 0, 0}}};
+        const octree_session session = small_session(bodies, 2);
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        build_tick(&s, &v, game);
+        assert_int_equal(velocity_ticks(&session), cases[i].ticks);
+        assert_true(says(&s, cases[i].text));
+        check_tick(&s, game, cases[i].ticks);
+        scene_release(&s);
+        octree_game_destroy(game);
+    }
+}
+
+static void where_nothing_moves_there_is_neither_arrow_nor_legend(void **state)
+{
+    (void)state;
+    const octree_session still = octree_session_default();
+    const octree_session moving = asking_session();
+    for (int i = 0; i < 3; i++) {
+        octree_game *game = start_game(i ? &moving : &still);
+        view v = every_arrow(CAMERA_FOLLOW);
+        scene s = {0};
+        v.layers &= i == 2 ? ~(1u << LAYER_VELOCITIES) : VIEW_ALL_LAYERS;
+        build_tick(&s, &v, game);
+        assert_int_equal(count_layer(&s, LAYER_VELOCITIES).segments, i == 1);
+        bool told = false;
+        for (size_t j = 0; j < s.labels.count; j++)
+            told = told || strstr(s.labels.items[j].text, "velocity");
+        assert_int_equal(told, i == 1);
+        scene_release(&s);
+        octree_game_destroy(game);
+    }
+}
+
+static void a_point_that_the_filter_leaves_out_has_no_arrow(void **state)
+{
+    (void)state;
+    octree_body bodies[BODIES];
+    const octree_session session = moving_session(bodies, BODIES, 1);
+    octree_game *game = start_game(&session);
+    static const view_filter filters[] = {{.by_region = true, .region = {{-4, -9, -9}, {9, 9, 6}}},
+                                          {.slice = 'z', .slice_at = 2.5},
+                                          {.by_depth = true, .min_depth = 3, .max_depth = 21}};
+    for (size_t f = 0; f < sizeof filters / sizeof filters[0]; f++) {
+        view v = every_arrow(CAMERA_TOP);
+        scene s = {0};
+        size_t shown = 0;
+        v.filter = filters[f];
+        build_tick(&s, &v, game);
+        for (size_t i = 0; i < BODIES; i++) {
+            const bool point = markers_at(&s, LAYER_POINTS, bodies[i].id, bodies[i].position) == 1;
+            assert_int_equal(find_arrow(&s, bodies[i].id) != NULL, point && i % 5 != 0);
+            shown += point;
+        }
+        assert_true(shown > 3 && shown < BODIES);
+        scene_release(&s);
+    }
+    octree_game_destroy(game);
+}
+
+/* How long an arrow is in the picture, along the longer side. */
+static double pixels_of(const scene *s, const scene_segment *arrow)
+{
+    double a[2], b[2];
+    pixel_of(s, arrow->ends[0], a);
+    pixel_of(s, arrow->ends[1], b);
+    return fmax(fabs(a[0] - b[0]), fabs(a[1] - b[1]));
+}
+
+static void arrows_that_appear_short_are_left_out_and_counted(void **state)
+{
+    (void)state;
+    octree_body bodies[BODIES];
+    const octree_session session = moving_session(bodies, BODIES, 0.4);
+    octree_game *game = start_game(&session);
+    for (double lod = 2; lod < 200; lod *= 1.5) {
+        view v = every_arrow(CAMERA_ISO);
+        scene all = {0}, some = {0};
+        char text[SCENE_TEXT];
+        size_t out = 0;
+        v.layers &= ~(1u << LAYER_NODES | 1u << LAYER_VISITED);
+        build_tick(&all, &v, game);
+        v.lod = lod;
+        build_tick(&some, &v, game);
+        for (size_t i = 0; i < BODIES; i++) {
+            const scene_segment *arrow = find_arrow(&all, bodies[i].id);
+            const bool small = arrow && pixels_of(&all, arrow) < lod;
+            assert_int_equal(find_arrow(&some, bodies[i].id) != NULL, arrow && !small);
+            out += small;
+        }
+        assert_int_equal(some.tally.arrows.small, out);
+        v.layers &= ~(1u << LAYER_HIT | 1u << LAYER_PRUNED);
+        build_tick(&some, &v, game);
+        assert_int_equal(some.tally.arrows.small, out);
+        snprintf(text, sizeof text, "%zu arrows < %.3g px", out, lod);
+        text[strlen(text) > 17 ? strlen(text) - 3 : strlen(text)] = 0; /* "px" has no room */
+        assert_int_equal(says(&some, text), out > 0);
+        v.layers = VIEW_DEFAULT_LAYERS;
+        build_tick(&some, &v, game);
+        snprintf(text, sizeof text, "and %zu arrows", out);
+        assert_int_equal(says(&some, text), out > 0 && (some.tally.small || some.tally.small_met));
+        scene_release(&all);
+        scene_release(&some);
+    }
+    octree_game_destroy(game);
+}
+
+enum { MANY = 100000 };
+
+/* Each shows about as many as its budget allows; a smaller one shows a part of what a larger one shows. */
+static void of_a_hundred_thousand_the_budget_shows_some_and_says_so(void **state)
+{
+    (void)state;
+    static octree_body bodies[MANY];
+    static double positions[MANY][3], velocities[MANY][3];
+    octree_session session = small_session(bodies, MANY);
+    session.tree = define(cube(-10, 10), 64, OCTREE_MAX_DEPTH, OCTREE_GROW);
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &session.tree.world, MANY, positions), OCTREE_OK);
+    const octree_box slow = cube(-0.1, 0.1);
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 2, &slow, MANY, velocities), OCTREE_OK);
+    for (size_t i = 0; i < MANY; i++) {
+        bodies[i] = (octree_body){.id = i + 1000};
+        memcpy(bodies[i].position, positions[i], sizeof positions[i]);
+        memcpy(bodies[i].velocity, velocities[i], sizeof velocities[i]);
+    }
+    octree_game *game = start_game(&session);
+    scene last = {0};
+    for (uint64_t budget = view_default().budget; budget > 20000; budget /= 3) {
+        view v = view_of(1280, 1440, CAMERA_ISO, VIEW_DEFAULT_LAYERS & ~(1u << LAYER_NODES | 1u << LAYER_POINTS));
+        scene s = {0};
+        char text[SCENE_TEXT];
+        v.budget = budget;
+        build_tick(&s, &v, game);
+        const size_t shown = count_layer(&s, LAYER_VELOCITIES).segments;
+        assert_int_equal(shown + s.tally.arrows.thinned, MANY);
+        assert_true(shown <= budget / 1000 + 1 && shown > budget / 1000 / 4);
+        snprintf(text, sizeof text, "1 arrow in %d", (int)s.tally.arrows.one_in);
+        assert_true(says(&s, text));
+        assert_true(fabs((double)MANY / (double)shown / (double)s.tally.arrows.one_in - 1) < 0.6);
+        for (size_t i = 0; last.view.width && i < MANY; i += 7)
+            assert_true(!find_arrow(&s, bodies[i].id) || find_arrow(&last, bodies[i].id));
+        scene_release(&last);
+        last = s;
+    }
+    scene_release(&last);
+    octree_game_destroy(game);
+}
+
+/* An arrow without its point would begin nowhere. */
+static void points_that_the_budget_leaves_out_have_no_arrow(void **state)
+{
+    (void)state;
+    octree_body bodies[BODIES];
+    const octree_session session = moving_session(bodies, BODIES, 1);
+    octree_game *game = start_game(&session);
+    view v = every_arrow(CAMERA_ISO);
+    scene s = {0};
+    v.budget = 25;
+    build_tick(&s, &v, game);
+    for (size_t i = 0; i < BODIES; i++)
+        assert_true(!find_arrow(&s, bodies[i].id) ||
+                    markers_at(&s, LAYER_POINTS, bodies[i].id, bodies[i].position) == 1);
+    assert_true(s.tally.thinned > 0 && count_layer(&s, LAYER_VELOCITIES).segments <= 1);
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_mover_has_its_arrow_and_nothing_else_has),
+        cmocka_unit_test(an_arrow_shows_so_many_ticks_that_it_can_be_seen),
+        cmocka_unit_test(where_nothing_moves_there_is_neither_arrow_nor_legend),
+        cmocka_unit_test(a_point_that_the_filter_leaves_out_has_no_arrow),
+        cmocka_unit_test(arrows_that_appear_short_are_left_out_and_counted),
+        cmocka_unit_test(of_a_hundred_thousand_the_budget_shows_some_and_says_so),
+        cmocka_unit_test(points_that_the_budget_leaves_out_have_no_arrow),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,129 @@
+/* velocity_layer.c - see velocity_layer.h. */
+#include "velocity_layer.h"
+#include "filter.h"
+#include "thinning.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PART 10      /* of the world's longest side: the fastest arrow */
+#define CROWD 1000.0 /* boxes and points for which there is one arrow: some hundreds can be told apart */
+
+static double fastest(const octree_session *session)
+{
+    double speed = 0;
+    for (size_t i = 0; i < session->body_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            speed = fmax(speed, fabs(session->bodies[i].velocity[axis]));
+    return speed;
+}
+
+unsigned velocity_ticks(const octree_session *session)
+{
+    static const unsigned choices[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000};
+    const octree_box *world = &session->tree.world;
+    const double speed = fastest(session);
+    double half = 0; /* of the longest side, which may be more than a double holds */
+    unsigned ticks = 1;
+    for (int axis = 0; axis < 3; axis++)
+        half = fmax(half, world->max[axis] / 2 - world->min[axis] / 2);
+    for (size_t i = 0; speed > 0 && i < sizeof choices / sizeof choices[0]; i++)
+        if (speed * choices[i] <= half * 2 / PART)
+            ticks = choices[i];
+    return ticks;
+}
+
+/* Where it comes to in so many ticks, or meets the bounds before. */
+static void go_on(const octree_body *body, const octree_box *world, double ticks, double end[3])
+{
+    int stops = -1; /* the axis whose bound it meets */
+    for (int i = 0; i < 3; i++) {
+        const double bound = body->velocity[i] > 0 ? world->max[i] : world->min[i];
+        const double room = body->velocity[i] != 0 ? (bound - body->position[i]) / body->velocity[i] : ticks;
+        stops = room < ticks ? i : stops;
+        ticks = fmin(ticks, room);
+    }
+    for (int i = 0; i < 3; i++)
+        end[i] = fmin(fmax(body->position[i] + body->velocity[i] * ticks, world->min[i]), world->max[i]);
+    if (stops >= 0)
+        end[stops] = body->velocity[stops] > 0 ? world->max[stops] : world->min[stops];
+}
+
+/* Whether the view shows the point: its leaf, and its place. */
+static bool is_shown(const scene *s, const octree *tree, const octree_box *world, const double position[3])
+{
+    const view_filter *f = &s->view.filter;
+    octree_node leaf;
+    return !filter_is_on(f) || (filter_shows_point(f, position) && octree_locate(tree, position, &leaf) == OCTREE_OK &&
+                                filter_shows_points_of(f, world, &leaf));
+}
+
+/* Shorter than the view's lod, as it appears. */
+static bool is_small(const scene *s, double ends[2][3])
+{
+    const camera *c = &s->camera;
+    double seen[3], pixels[2][2];
+    for (int i = 0; s->view.lod > 0 && i < 2; i++) {
+        camera_transform(c, ends[i], seen);
+        if (c->perspective && !(seen[2] >= c->near))
+            return false; /* behind the eye */
+        camera_project(c, seen, pixels[i]);
+    }
+    return s->view.lod > 0 && fmax(fabs(pixels[1][0] - pixels[0][0]), fabs(pixels[1][1] - pixels[0][1])) < s->view.lod;
+}
+
+/* The arrow of a body; false when it has none, or the view does not show the body. */
+static bool make_arrow(const scene *s, const octree_game *game, const octree_body *body, double ticks,
+                       scene_segment *arrow)
+{
+    const octree_box *world = &octree_game_session(game)->tree.world;
+    *arrow = (scene_segment){
+        .id = body->id,
+        .look = {.layer = LAYER_VELOCITIES, .role = ROLE_POINT, .style = STYLE_ARROW, .width = 1},
+    };
+    memcpy(arrow->ends[0], body->position, sizeof arrow->ends[0]);
+    go_on(body, world, ticks, arrow->ends[1]);
+    return memcmp(arrow->ends[0], arrow->ends[1], sizeof arrow->ends[0]) != 0 &&
+           is_shown(s, octree_game_tree(game), world, body->position);
+}
+
+/* The arrows that pass a sieve. */
+static size_t count_arrows(const scene *s, const octree_game *game, double ticks, uint64_t sieve)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    scene_segment arrow;
+    size_t count = 0;
+    for (size_t i = 0; i < tick->mover_count; i++)
+        count += !thinning_drops(sieve, tick->movers[i].id) && make_arrow(s, game, &tick->movers[i], ticks, &arrow);
+    return count;
+}
+
+/* None is too few to say anything. */
+static size_t most_arrows(const view *v)
+{
+    return v->budget ? (size_t)ceil((double)v->budget / CROWD) : SIZE_MAX;
+}
+
+void add_velocities(scene *s, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    const double ticks = velocity_ticks(octree_game_session(game));
+    uint64_t sieve = s->tally.one_in - 1; /* those of points that are left out are left out with them */
+    if (!view_shows(&s->view, LAYER_VELOCITIES) || tick->mover_count == 0)
+        return;
+    const size_t all = count_arrows(s, game, ticks, 0);
+    size_t left = count_arrows(s, game, ticks, sieve);
+    for (; left > most_arrows(&s->view); left = count_arrows(s, game, ticks, sieve))
+        sieve = thinning_finer(sieve);
+    for (size_t i = 0; i < tick->mover_count; i++) {
+        scene_segment arrow;
+        if (thinning_drops(sieve, tick->movers[i].id) || !make_arrow(s, game, &tick->movers[i], ticks, &arrow))
+            continue;
+        if (is_small(s, arrow.ends))
+            s->tally.arrows.small++;
+        else
+            scene_add_segment(s, arrow);
+    }
+    s->tally.arrows.thinned = all - left;
+    s->tally.arrows.one_in = sieve + 1;
+}
