@@ -35,7 +35,7 @@ static uint64_t origin_tick(const octree_game *game)
 octree_status game_add_body(octree_game *game, const octree_body *body)
 {
     octree_status status = OCTREE_OK;
-    if (body->id == game->session->player.id || bodies_find(&game->bodies, body->id))
+    if (game_is_players(game, body->id) || bodies_find(&game->bodies, body->id))
         status = OCTREE_DUPLICATE;
     else if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->velocity[2]))
         status = OCTREE_NOT_FINITE;
@@ -84,11 +84,10 @@ static octree_status apply_edit(octree_game *game, const octree_edit *edit)
     }
 }
 
-octree_status game_apply_edits(octree_game *game)
+octree_status game_apply_edits(octree_game *game, const octree_input *input)
 {
-    const octree_session *session = game->session;
-    while (game->next_edit < session->edit_count && session->edits[game->next_edit].tick <= game->tick.number)
-        if (apply_edit(game, &session->edits[game->next_edit++]) == OCTREE_NO_MEMORY)
+    for (size_t i = 0; i < input->edit_count; i++)
+        if (apply_edit(game, &input->edits[i]) == OCTREE_NO_MEMORY)
             return OCTREE_NO_MEMORY;
     return OCTREE_OK;
 }

@@ -41,7 +41,7 @@ static octree_status collide_moved(octree_game *game)
     point_collector hits = {&game->memory, &game->hits, false};
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
-        if (!was_moved(game, body))
+        if (!was_moved(game, body) || body->id == game->session->player.id)
             continue;
         game->tick.hit_cost.points++;
         if (!sweep_touches(&box, body->before, body->position))
@@ -89,9 +89,7 @@ octree_status game_collide(octree_game *game, const double to[3])
     octree_tick *tick = &game->tick;
     octree_point self = {.id = game->session->player.id};
     memcpy(self.position, tick->player, sizeof self.position);
-    memcpy(tick->from, tick->player, sizeof tick->from);
     memcpy(tick->attempt, to, sizeof tick->attempt);
-    tick->swept = game->session->player.sweep;
     tick->hit_cost = (octree_cost){0};
     game->hits.count = game->visits.count = 0;
     octree_status status = tick->swept ? collide_on_the_way(game, &self) : collide_at_end(game, &self);

@@ -12,6 +12,8 @@ struct octree_game {
     int64_t steps[3]; /* the player's net steps on each axis: its place is computed from them */
     size_t next_edit; /* the first edit that is still to come */
     size_t next_query;
+    size_t next_shape;
+    size_t standing, standing_shapes; /* the first query, and the first shape, of every tick */
     bool quit;
     uint64_t set_version; /* the tree's version that `inner` was filled from */
     bool has_set;
@@ -25,6 +27,7 @@ struct octree_game {
     list inner, inner_before, splits, merges; /* octree_address */
     list visits;                              /* octree_visit: as they come, until game_finish_visits */
     list hit_leaves;                          /* octree_address: the same */
+    list shapes;                              /* octree_shape */
     list movers;                              /* octree_body */
     bool lost_visits;                         /* there was no memory for one of them */
 };
@@ -37,7 +40,7 @@ octree_status game_check_session(const octree_session *session, const octree *tr
 /* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
 octree_status game_add_body(octree_game *game, const octree_body *body);
 
-octree_status game_apply_edits(octree_game *game);
+octree_status game_apply_edits(octree_game *game, const octree_input *input);
 octree_status game_move_bodies(octree_game *game);
 
 /* The bodies that have a velocity, as they are after the tick, which are published. */
@@ -46,8 +49,17 @@ octree_status game_note_movers(octree_game *game);
 /* The player's step and the collision test that decides it. */
 octree_status game_step_player(octree_game *game);
 
+/* Whether an id is that of a player who is no body. */
+bool game_is_players(const octree_game *game, uint64_t id);
+
+/* Note where the player is, and was before the tick: of a body, what edits and motion have made of it. */
+void game_find_player(octree_game *game);
+
 /* The queries, the node sets, and the tick's arrays. At tick 0 the collision test too. */
-octree_status game_finish_tick(octree_game *game);
+octree_status game_finish_tick(octree_game *game, const octree_input *input);
+
+/* Let the tick show its shapes and those of every tick. */
+octree_status game_show_shapes(octree_game *game, const octree_input *input);
 
 /* Note that the tree did not take a body. NO_MEMORY, or OK. */
 octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);

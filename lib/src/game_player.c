@@ -1,4 +1,4 @@
-/* game_player.c - the player's step, and the collision test that may take it back.
+/* game_player.c - who the player is; its step, and the collision test that may take it back.
  *
  * The test asks the tree before the step is made, about the step's end and without the player's own point: what it
  * finds is what a step that is made and taken back would have met, and nothing has to be undone.
@@ -61,10 +61,32 @@ static octree_status make_step(octree_game *game, const int64_t steps[3], const 
     return OCTREE_OK;
 }
 
+bool game_is_players(const octree_game *game, uint64_t id)
+{
+    return game->session->player.kind == OCTREE_PLAYER_KEYS && id == game->session->player.id;
+}
+
+void game_find_player(octree_game *game)
+{
+    octree_tick *tick = &game->tick;
+    const octree_player *player = &game->session->player;
+    const moving_body *body = player->kind == OCTREE_PLAYER_BODY ? bodies_find(&game->bodies, player->id) : NULL;
+    if (body)
+        memcpy(tick->player, body->position, sizeof tick->player);
+    tick->has_player = body || player->kind == OCTREE_PLAYER_KEYS;
+    memcpy(tick->from, body && body->moved == tick->number ? body->before : tick->player, sizeof tick->from);
+    memcpy(tick->attempt, tick->player, sizeof tick->attempt);
+    tick->swept = tick->has_player && player->sweep;
+    tick->hit_cost = (octree_cost){0};
+}
+
 octree_status game_step_player(octree_game *game)
 {
+    game_find_player(game);
+    if (!game->tick.has_player)
+        return OCTREE_OK;
     const size_t key = key_index(game->tick.key);
-    if (keys[key].axis < 0)
+    if (keys[key].axis < 0 || game->session->player.kind != OCTREE_PLAYER_KEYS)
         return game_collide(game, game->tick.player);
     int64_t steps[3];
     memcpy(steps, game->steps, sizeof steps);

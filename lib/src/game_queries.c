@@ -66,27 +66,29 @@ static octree_status find_neighbors(octree_game *game, octree_answer *answer, bo
 
 static octree_status ask(octree_game *game, const octree_query *query, bool by_key)
 {
+    if (query->at_player && !game->tick.has_player)
+        return OCTREE_OK;
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return OCTREE_NO_MEMORY;
     *answer = pose(query, game->tick.player);
     answer->by_key = by_key;
+    game->tick.asked |= 1u << query->kind;
     if (finds_points(answer->kind))
         return find_points(game, answer);
     return find_neighbors(game, answer, query->at_player);
 }
 
-static octree_status ask_all(octree_game *game)
+static octree_status ask_all(octree_game *game, const octree_input *input)
 {
     const octree_session *session = game->session;
     octree_status status = OCTREE_OK;
     if (game->tick.key == 'n')
         status = ask(game, &(octree_query){.kind = OCTREE_QUERY_NEAREST, .at_player = true}, true);
-    while (game->next_query < session->query_count && session->queries[game->next_query].tick < game->tick.number)
-        game->next_query++;
-    for (size_t i = game->next_query; status == OCTREE_OK && i < session->query_count; i++)
-        if (session->queries[i].tick == game->tick.number || session->queries[i].tick == OCTREE_EVERY_TICK)
-            status = ask(game, &session->queries[i], false);
+    for (size_t i = 0; status == OCTREE_OK && i < input->query_count; i++)
+        status = ask(game, &input->queries[i], false);
+    for (size_t i = game->standing; status == OCTREE_OK && i < session->query_count; i++)
+        status = ask(game, &session->queries[i], false);
     return status;
 }
 
@@ -139,7 +141,7 @@ static void publish(octree_game *game)
     publish_answers(game);
     tick->hits = game->hits.items;
     tick->hit_count = game->hits.count;
-    tick->hit_from = game->hit_from.items;
+    tick->hit_from = tick->swept ? game->hit_from.items : NULL;
     tick->refusals = game->refusals.items;
     tick->refusal_count = game->refusals.count;
     tick->splits = game->splits.items;
@@ -148,15 +150,17 @@ static void publish(octree_game *game)
     tick->merge_count = game->merges.count;
 }
 
-octree_status game_finish_tick(octree_game *game)
+octree_status game_finish_tick(octree_game *game, const octree_input *input)
 {
     octree_status status = OCTREE_OK;
-    if (game->tick.number == 0)
+    if (game->tick.number == 0 && game->tick.has_player)
         status = game_collide(game, game->tick.player);
     if (status == OCTREE_OK)
-        status = ask_all(game);
+        status = ask_all(game, input);
     if (status == OCTREE_OK)
         status = compare_node_sets(game);
+    if (status == OCTREE_OK)
+        status = game_show_shapes(game, input);
     if (status == OCTREE_OK)
         status = game_note_movers(game);
     if (status != OCTREE_OK)

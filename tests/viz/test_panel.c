@@ -112,6 +112,7 @@ static const struct legend_row {
     {LAYER_RADIUS, ROLE_RADIUS, false, "radius query"},
     {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"},
     {LAYER_NEAREST, ROLE_NEAREST, false, "nearest point"},
+    {LAYER_SHAPES, ROLE_SHAPE, false, "4 shapes"},
     {LAYER_PLAYER, ROLE_PLAYER, false, "player and its box"},
     {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
 };
@@ -228,6 +229,35 @@ static void the_legend_leaves_out_queries_that_the_session_never_asks(void **sta
         octree_game_destroy(game);
     }
     scene_release(&s);
+}
+
+/* What a program asks next is not known while its session is made. */
+static void the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_where_none_is(void **state)
+{
+    (void)state;
+    const view v = view_default();
+    const octree_query late = {.tick = 2, .kind = OCTREE_QUERY_RADIUS, .target = {1, 1, 1}, .radius = 1};
+    for (octree_player_kind kind = OCTREE_PLAYER_BODY; kind <= OCTREE_PLAYER_NONE; kind++) {
+        octree_session session = small_session(NULL, 0);
+        session.player.kind = kind;
+        session.queries = &late;
+        session.query_count = 1;
+        session.ticks = 3;
+        octree_game *game = start_game(&session);
+        scene s = {0};
+        for (int tick = 0; tick < 4; tick++) {
+            build_tick(&s, &v, game);
+            assert_int_equal(has_swatch(&s, ROLE_RADIUS), tick >= 2);
+            assert_false(has_swatch(&s, ROLE_NEAREST));
+            assert_int_equal(has_swatch(&s, ROLE_PLAYER), kind == OCTREE_PLAYER_BODY);
+            assert_int_equal(count_layer(&s, LAYER_PLAYER).markers, 0);
+            assert_int_equal(find_text(&s, "away") != NULL, kind == OCTREE_PLAYER_BODY);
+            if (tick < 3)
+                play_tick(game);
+        }
+        octree_game_destroy(game);
+        scene_release(&s);
+    }
 }
 
 /* The word, and the line of the legend that a sweep needs. */
@@ -465,6 +495,7 @@ int main(void)
         cmocka_unit_test(the_legend_has_the_layers_that_are_shown),
         cmocka_unit_test(the_legend_leaves_out_what_is_needed_least),
         cmocka_unit_test(the_legend_leaves_out_queries_that_the_session_never_asks),
+        cmocka_unit_test(the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_where_none_is),
         cmocka_unit_test(a_sweep_is_told),
         cmocka_unit_test(answers_are_told_in_words),
         cmocka_unit_test(rows_that_have_no_room_are_counted),

@@ -114,7 +114,7 @@ static void outside_the_worlds_outline_is_background(void **state)
     }
 }
 
-#define ALL_NODE_ROLES ((UINT64_C(1) << ROLE_COUNT) - (UINT64_C(1) << ROLE_NODE))
+#define ALL_NODE_ROLES ((UINT64_C(1) << (ROLE_NODE + THEME_NODE_DEPTHS)) - (UINT64_C(1) << ROLE_NODE))
 
 /* The roles that a layer may light, as bits. */
 static uint64_t roles_of(unsigned layer)
@@ -143,6 +143,8 @@ static uint64_t roles_of(unsigned layer)
         return one << ROLE_KNEAREST;
     case LAYER_NEAREST:
         return one << ROLE_NEAREST;
+    case LAYER_SHAPES:
+        return one << ROLE_SHAPE;
     case LAYER_PLAYER:
         return one << ROLE_PLAYER | one << ROLE_FAINT;
     case LAYER_BOX:

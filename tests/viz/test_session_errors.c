@@ -72,6 +72,28 @@ static void nul_bytes_are_refused(void **state)
     assert_refuses(text, sizeof text - 1, "3: holds a NUL byte, so it is no text");
 }
 
+static void shapes_that_are_none_are_refused(void **state)
+{
+    static const refusal rows[] = {
+        {HEADER "\"shapes\":{}}", "2: shapes: expected a list of shapes, found an object"},
+        {HEADER "\"shapes\":[{\"ball\":1}]}", "2: shapes[0]: expected {\"box\": ...}, {\"segment\": ...}, "
+                                              "{\"point\": ...} or {\"label\": ...}"},
+        {HEADER "\"shapes\":[{\"point\":[1,2]}]}", "2: shapes[0].point: expected"},
+        {HEADER "\"shapes\":[{\"segment\":[1,2,3]}]}",
+         "2: shapes[0].segment: expected two places [[x, y, z], [x, y, z]], found a list of 3"},
+        {HEADER "\"shapes\":[{\"box\":{\"min\":[0,0,5],\"max\":[0,0,4]}}]}",
+         "2: shapes[0].box: min must not be above max, and is on z"},
+        {HEADER "\"shapes\":[{\"label\":\"a\"}]}", "2: shapes[0]: the member \"at\" is missing"},
+        {HEADER "\"shapes\":[{\"label\":5,\"at\":[0,0,0]}]}", "2: shapes[0].label: expected a text, found 5"},
+        {HEADER "\"shapes\":[{\"label\":\"\\u00e9\",\"at\":[0,0,0]}]}",
+         "2: shapes[0].label: a label is of printable ASCII characters, and byte 1 is none"},
+        {HEADER "\"shapes\":[{\"label\":\"12345678901234567890123456789012345678901234567\",\"at\":[0,0,0]}]}",
+         "2: shapes[0].label: a label has at most 46 characters, not 47"},
+    };
+    (void)state;
+    assert_refuses_each(rows, sizeof rows / sizeof *rows);
+}
+
 static void every_beginning_of_a_session_is_refused(void **state)
 {
     static const char text[] = HEADER "\"points\":[[1,2,3,4],{\"id\":5,\"position\":[1,1,1]}],\"keys\":\"w\","
@@ -105,7 +127,7 @@ static void header_with_bad_members_is_refused(void **state)
         {"{\"octreel\":\"session\"}", "1: the member \"version\" is missing"},
         {"{\"octreel\":\"session\",\n\"version\":2}", "2: version: expected 1, the only version there is, found 2"},
         {HEADER "\"keyz\":1}", "2: unknown member \"keyz\"; known: octreel, version, world, tree, player, points, "
-                               "velocities, keys, ticks, queries"},
+                               "velocities, keys, ticks, queries, shapes"},
         {HEADER "\"\\u001b[0m\":1}", "1: unknown member \"?[0m\"; known: octreel"},
         {HEADER "\"world\":5}", "2: world: expected an object, found 5"},
         {HEADER "\"world\":{\"min\":[0,0,0]}}", "2: world: the member \"max\" is missing"},
@@ -123,7 +145,7 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"tree\":{\"full\":\"maybe\"}}", "2: tree.full: expected \"refuse\" or \"grow\", found \"maybe\""},
         {HEADER "\"tree\":{\"full\":true}}", "2: tree.full: expected \"refuse\" or \"grow\", found true"},
         {HEADER "\"player\":{\"stepp\":0}}",
-         "2: player: unknown member \"stepp\"; known: id, position, step, box_size, sweep"},
+         "2: player: unknown member \"stepp\"; known: id, body, position, step, box_size, sweep"},
         {HEADER "\"player\":{\"step\":-1}}", "2: player.step: expected a number that is not negative, found -1"},
         {HEADER "\"player\":{\"sweep\":1}}", "2: player.sweep: expected true or false, found 1"},
         {HEADER "\"player\":{\"box_size\":\"big\"}}", "2: player.box_size: expected a number that is not negative, "
@@ -201,7 +223,7 @@ static void bad_ticks_are_refused(void **state)
         {START "{\"tick\":1}\n{\"tick\":1}", "4: tick: tick 1 comes after tick 1; ticks must ascend"},
         {START "{\"tick\":4}{\"tick\":\n3}", "4: tick: tick 3 comes after tick 4; ticks must ascend"},
         {START "{\"tick\":1000000001}", "3: tick: expected a whole number from 0 to 1000000000"},
-        {START "{\"tick\":1,\"points\":[]}", "3: unknown member \"points\"; known: tick, edits, queries"},
+        {START "{\"tick\":1,\"points\":[]}", "3: unknown member \"points\"; known: tick, edits, queries, shapes"},
         {START "{\"tick\":0,\"edits\":[{\"remove\":1}]}", "3: edits: edits begin at tick 1"},
         {START "{\"tick\":1,\"edits\":{\"remove\":1}}", "3: edits: expected a list of edits, found an object"},
         {START "{\"tick\":1,\"edits\":[\n{}]}",
@@ -273,6 +295,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_that_is_no_stream_of_objects_is_refused),
         cmocka_unit_test(nul_bytes_are_refused),
+        cmocka_unit_test(shapes_that_are_none_are_refused),
         cmocka_unit_test(every_beginning_of_a_session_is_refused),
         cmocka_unit_test(nesting_is_bounded),
         cmocka_unit_test(header_with_bad_members_is_refused),

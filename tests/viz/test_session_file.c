@@ -67,6 +67,21 @@ static void player_follows_the_world_and_the_box_the_step(void **state)
     session_release(&file);
 }
 
+static void player_may_be_a_body_or_nobody(void **state)
+{
+    (void)state;
+    session_file file =
+        parse(HEADER ",\"player\":{\"id\":2,\"body\":true,\"box_size\":3},\"points\":[[1,1,1],[2,2,2]]}");
+    assert_int_equal(file.session.player.kind, OCTREE_PLAYER_BODY);
+    assert_true(file.session.player.id == 2 && file.session.player.box_size == 3);
+    assert_true(file.session.bodies[0].id == 1 && file.session.bodies[1].id == 2); /* which is the player */
+    session_release(&file);
+    file = parse(HEADER ",\"player\":null,\"points\":[[1,1,1,0]]}");
+    assert_int_equal(file.session.player.kind, OCTREE_PLAYER_NONE);
+    assert_true(file.session.bodies[0].id == 0);
+    session_release(&file);
+}
+
 static void extreme_worlds_have_a_player_inside(void **state)
 {
     static const char *const worlds[] = {
@@ -145,6 +160,20 @@ static void ticks_become_edits_and_queries_in_order(void **state)
     assert_true(session->queries[1].at_player && session->queries[1].kind == OCTREE_QUERY_RANGE);
     assert_vector(session->queries[1].box.max, 1, 2, 3);
     assert_true(session->queries[2].tick == OCTREE_EVERY_TICK && session->queries[2].at_player);
+    session_release(&file);
+}
+
+static void a_session_that_does_not_say_when_it_ends_goes_on_to_its_last_tick(void **state)
+{
+    (void)state;
+    session_file file = parse(HEADER "}\n{\"tick\":3}\n{\"tick\":17,\"edits\":[]}");
+    assert_int_equal(octree_session_length(&file.session), 17);
+    session_release(&file);
+    file = parse(HEADER ",\"ticks\":2}\n{\"tick\":3}");
+    assert_int_equal(octree_session_length(&file.session), 2);
+    session_release(&file);
+    file = parse(HEADER ",\"keys\":\"wwq\"}\n{\"tick\":3}");
+    assert_int_equal(octree_session_length(&file.session), 2);
     session_release(&file);
 }
 
@@ -230,10 +259,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(header_alone_is_the_default_world),
         cmocka_unit_test(player_follows_the_world_and_the_box_the_step),
+        cmocka_unit_test(player_may_be_a_body_or_nobody),
         cmocka_unit_test(extreme_worlds_have_a_player_inside),
         cmocka_unit_test(points_are_read_in_each_form),
         cmocka_unit_test(velocities_are_listed_by_id_or_random),
         cmocka_unit_test(ticks_become_edits_and_queries_in_order),
+        cmocka_unit_test(a_session_that_does_not_say_when_it_ends_goes_on_to_its_last_tick),
         cmocka_unit_test(queries_are_read_in_each_form),
         cmocka_unit_test(sample_is_that_of_the_library),
         cmocka_unit_test_setup_teardown(cloud_is_found_in_the_folder_of_the_session, temp_folder_make,

@@ -31,17 +31,28 @@ static char *write_session(const octree_session *session)
     return text;
 }
 
+/* In all that is read of a player of its kind. */
+static void assert_same_player(const octree_player *a, const octree_player *b)
+{
+    assert_int_equal(a->kind, b->kind);
+    if (a->kind == OCTREE_PLAYER_NONE)
+        return;
+    assert_int_equal(a->id, b->id);
+    assert_memory_equal(&a->box_size, &b->box_size, sizeof a->box_size);
+    assert_int_equal(a->sweep, b->sweep);
+    if (a->kind == OCTREE_PLAYER_BODY)
+        return;
+    assert_memory_equal(a->position, b->position, sizeof a->position);
+    assert_memory_equal(&a->step, &b->step, sizeof a->step);
+}
+
 static void assert_same_start(const octree_session *a, const octree_session *b)
 {
     assert_memory_equal(&a->tree.world, &b->tree.world, sizeof a->tree.world);
     assert_int_equal(a->tree.leaf_capacity, b->tree.leaf_capacity);
     assert_int_equal(a->tree.max_depth, b->tree.max_depth);
     assert_int_equal(a->tree.full_leaf, b->tree.full_leaf);
-    assert_int_equal(a->player.id, b->player.id);
-    assert_memory_equal(a->player.position, b->player.position, sizeof a->player.position);
-    assert_memory_equal(&a->player.step, &b->player.step, sizeof a->player.step);
-    assert_memory_equal(&a->player.box_size, &b->player.box_size, sizeof a->player.box_size);
-    assert_int_equal(a->player.sweep, b->player.sweep);
+    assert_same_player(&a->player, &b->player);
     assert_int_equal(a->ticks, b->ticks);
     assert_int_equal(a->keys != NULL, b->keys != NULL);
     if (a->keys)
@@ -86,6 +97,9 @@ static void assert_same_session(const octree_session *a, const octree_session *b
     assert_int_equal(a->query_count, b->query_count);
     for (size_t i = 0; i < a->query_count; i++)
         assert_same_query(&a->queries[i], &b->queries[i]);
+    assert_int_equal(a->shape_count, b->shape_count);
+    for (size_t i = 0; i < a->shape_count; i++)
+        assert_memory_equal(&a->shapes[i], &b->shapes[i], sizeof a->shapes[i]);
 }
 
 static void assert_round_trip(const octree_session *session)
@@ -104,6 +118,42 @@ static void default_session_survives_the_round_trip(void **state)
 {
     const octree_session session = octree_session_default();
     (void)state;
+    assert_round_trip(&session);
+}
+
+static void shapes_survive_the_round_trip(void **state)
+{
+    static const octree_shape shapes[] = {
+        {0, OCTREE_SHAPE_BOX, {-1, -0.0, 5e-324}, {1e300, 0, 1}, ""},
+        {0, OCTREE_SHAPE_LABEL, {1, 2, 3}, {0}, "1234567890123456789012345678901234567890123456"},
+        {3, OCTREE_SHAPE_SEGMENT, {0.1, 0.2, 0.3}, {-0.1, -0.2, -0.3}, ""},
+        {7, OCTREE_SHAPE_POINT, {1e15, -1e15, 0}, {0}, ""},
+        {OCTREE_EVERY_TICK, OCTREE_SHAPE_LABEL, {9, 9, 9}, {0}, "\"quoted\\ ~"},
+        {OCTREE_EVERY_TICK, OCTREE_SHAPE_BOX, {1, 1, 1}, {1, 1, 1}, ""},
+    };
+    octree_session session = octree_session_default();
+    session_error error;
+    session_file copy;
+    (void)state;
+    for (int asks = 0; asks < 2; asks++) {
+        session.shapes = shapes;
+        session.shape_count = sizeof shapes / sizeof shapes[0];
+        assert_round_trip(&session);
+        assert_true(session_copy(&session, &copy, &error));
+        assert_same_session(&session, &copy.session);
+        assert_true(copy.session.shapes != shapes);
+        session_release(&copy);
+        session.query_count = 0;
+    }
+}
+
+static void players_of_every_kind_survive_the_round_trip(void **state)
+{
+    octree_session session = octree_session_default();
+    (void)state;
+    session.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .id = 3, .box_size = 0.1, .sweep = true};
+    assert_round_trip(&session);
+    session.player = (octree_player){.kind = OCTREE_PLAYER_NONE};
     assert_round_trip(&session);
 }
 
@@ -290,6 +340,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_beyond_what_a_tree_holds_are_written_clamped),
         cmocka_unit_test(default_session_survives_the_round_trip),
+        cmocka_unit_test(shapes_survive_the_round_trip),
+        cmocka_unit_test(players_of_every_kind_survive_the_round_trip),
         cmocka_unit_test(random_sessions_survive_the_round_trip),
         cmocka_unit_test(every_bit_of_a_number_survives_the_round_trip),
         cmocka_unit_test(options_that_the_tree_clamps_are_written_clamped),

@@ -94,6 +94,7 @@ static void line_is_exactly_this(void **state)
     const octree_tick tick = {.number = 3,
                               .key = 'w',
                               .events = OCTREE_EVENT_MOVED | OCTREE_EVENT_SPLIT,
+                              .has_player = true,
                               .player = {0.1, -0.0, 1e300},
                               .attempt = {0.1, 50, 1e300},
                               .hits = hits,
@@ -132,12 +133,20 @@ static void tick_without_a_frame_has_neither_frame_nor_scene(void **state)
     free(text);
 }
 
+static void tick_without_a_player_has_null_for_its_places(void **state)
+{
+    octree *tree = make_tree(cube(-1, 1), 2, 5, OCTREE_REFUSE);
+    (void)state;
+    assert_told(&(octree_tick){.number = 1, .key = '.', .player = {1, 2, 3}, .attempt = {1, 2, 3}}, tree);
+    octree_destroy(tree);
+}
+
 static void every_set_of_events_is_told(void **state)
 {
     octree *tree = make_tree(cube(-1, 1), 2, 5, OCTREE_REFUSE);
     (void)state;
     for (unsigned events = 0; events < 1u << OCTREE_EVENT_KINDS; events++) {
-        const octree_tick tick = {.number = events, .key = '.', .events = events};
+        const octree_tick tick = {.number = events, .has_player = true, .key = '.', .events = events};
         assert_told(&tick, tree);
     }
     octree_destroy(tree);
@@ -153,11 +162,11 @@ static void every_double_is_told_to_the_bit(void **state)
     uint64_t random = 9;
     (void)state;
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
-        const octree_tick tick = {.key = 'n', .player = {values[i], -values[i], values[i] / 3}};
+        const octree_tick tick = {.key = 'n', .has_player = true, .player = {values[i], -values[i], values[i] / 3}};
         assert_told(&tick, tree);
     }
     for (int i = 0; i < 2000; i++) {
-        octree_tick tick = {.key = 'n'};
+        octree_tick tick = {.key = 'n', .has_player = true};
         for (int axis = 0; axis < 3; axis++) {
             const uint64_t bits = octree_random(&random);
             memcpy(&tick.player[axis], &bits, sizeof bits);
@@ -196,6 +205,7 @@ int main(void)
         cmocka_unit_test(every_tick_of_random_sessions_is_told),
         cmocka_unit_test(line_is_exactly_this),
         cmocka_unit_test(tick_without_a_frame_has_neither_frame_nor_scene),
+        cmocka_unit_test(tick_without_a_player_has_null_for_its_places),
         cmocka_unit_test(every_set_of_events_is_told),
         cmocka_unit_test(every_double_is_told_to_the_bit),
         cmocka_unit_test(digest_is_sixteen_hexadecimal_digits),

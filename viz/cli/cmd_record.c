@@ -150,6 +150,8 @@ static bool read_session(const arguments *a, session_file *file, record_error *e
     const octree_session paper = octree_session_default();
     if (!a->session && a->film.resume && has_file(a->film.folder, "session.json"))
         return read_session_file(a->film.folder, file, &digest, error);
+    if (!a->session && a->film.resume && has_file(a->film.folder, "session.json.live"))
+        return read_live_session(a->film.folder, file, error);
     const bool ok = a->session ? session_read(a->session, file, &unread) : session_copy(&paper, file, &unread);
     return ok || record_fail(error, "%s", unread.text);
 }

@@ -109,6 +109,10 @@ bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, 
  * there is none or the file cannot be read that far. The pixels are not decoded. */
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size);
 
+/* Put another text of the same length in place of that; nothing else of the file changes. The file is whole before and
+ * after, whatever ends the process. False when the file cannot be read or written, or has no such text. */
+bool image_replace_text(const char *path, const char *keyword, const char *text);
+
 /* Fill an RGB image from an indexed one whose sides are `factor` times (1 to 16) as long: each pixel is the mean of
  * factor * factor, rounded to the nearest. False, and nothing done, when the two do not fit together so. */
 bool image_shrink(const image *from, int factor, image *small);

@@ -175,6 +175,20 @@ static void say_own_box(teller *t, const scene_box *box)
     say_box(t, &box->box);
 }
 
+/* What the session shows beside its points. */
+static void say_shape(teller *t, uint64_t place)
+{
+    const octree_shape *shape = &t->tick->shapes[place];
+    say(t, "shape %" PRIu64 " of the session, %s ", place, octree_shape_name(shape->kind));
+    if (shape->kind == OCTREE_SHAPE_LABEL)
+        say(t, "at ");
+    say_place(t, shape->at);
+    if (shape->kind == OCTREE_SHAPE_BOX || shape->kind == OCTREE_SHAPE_SEGMENT) {
+        say(t, " to ");
+        say_place(t, shape->to);
+    }
+}
+
 static void say_collision_box(teller *t, const scene_box *box)
 {
     say(t, box->id == UINT64_MAX ? "the collision box where the step met something, " : "the player's collision box, ");
@@ -198,6 +212,9 @@ static void box_words(teller *t, const scene_box *box)
         break;
     case LAYER_BOX:
         say_collision_box(t, box);
+        break;
+    case LAYER_SHAPES:
+        say_shape(t, box->id);
         break;
     default:
         say_node(t, box->id);
@@ -274,6 +291,9 @@ static void segment_words(teller *t, const scene_segment *line)
     case LAYER_BROKEN:
         say(t, "a line that crosses out where an invariant is broken");
         break;
+    case LAYER_SHAPES:
+        say_shape(t, line->id);
+        break;
     case LAYER_DIAGRAM:
         say_tree_line(t, line);
         break;
@@ -303,6 +323,10 @@ static void marker_words(teller *t, const scene_marker *mark)
     };
     if (mark->look.layer == LAYER_VISIT_HEAT || mark->look.layer == LAYER_POINT_HEAT) {
         say_heat(t, mark);
+        return;
+    }
+    if (mark->look.layer == LAYER_SHAPES) {
+        say_shape(t, mark->id);
         return;
     }
     if (mark->look.layer == LAYER_BOX && mark->id == octree_game_session(t->game)->player.id) {
@@ -357,6 +381,10 @@ static void label_words(teller *t, const scene_label *label)
         break;
     case LAYER_KNEAREST:
         say(t, ", the rank of a neighbour");
+        break;
+    case LAYER_SHAPES:
+        say(t, ", ");
+        say_shape(t, label->id);
         break;
     case LAYER_DIAGRAM:
         say(t, " of the diagram");

@@ -6,8 +6,10 @@
 #include "view_file.h"
 #include "whole_file.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A stream into memory that becomes a file of the folder. */
 typedef struct memory_file {
@@ -57,6 +59,35 @@ bool write_session_file(const folder_place *place, const octree_session *session
     return end_file(&file, place, "session.json", "is another session, or was changed by hand", error);
 }
 
+/* That of octree_digest_bytes(), piece by piece: a session may be large. */
+static uint64_t digest_stream(FILE *in)
+{
+    unsigned char bytes[1 << 13];
+    uint64_t digest = OCTREE_DIGEST_START, size = 0;
+    size_t got;
+    while ((got = fread(bytes, 1, sizeof bytes, in)) > 0) {
+        size += got;
+        for (size_t i = 0; i < got; i += 8) {
+            uint64_t word = 0;
+            for (size_t j = 0; j < 8 && i + j < got; j++)
+                word |= (uint64_t)bytes[i + j] << (8 * j);
+            digest = octree_digest_word(digest, word);
+        }
+    }
+    return octree_digest_word(digest, size);
+}
+
+bool digest_session_file(const char *path, uint64_t *digest, record_error *error)
+{
+    FILE *in = fopen(path, "rb");
+    if (!in)
+        return record_fail(error, "%s: cannot be opened: %s", path, strerror(errno));
+    *digest = digest_stream(in);
+    const bool ok = !ferror(in);
+    fclose(in);
+    return ok || record_fail(error, "%s: cannot be read", path);
+}
+
 bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error)
 {
     char reason[WHOLE_FILE_REASON], *bytes, *path = folder_path(folder, "session.json");
@@ -67,6 +98,24 @@ bool read_session_file(const char *folder, session_file *file, uint64_t *digest,
     bool ok = whole_file_read(path, &bytes, &size, reason) || record_fail(error, "%s: %s", path, reason);
     if (ok) {
         *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
+        ok = session_parse(path, folder, bytes, size, file, &unread) || record_fail(error, "%s", unread.text);
+        free(bytes);
+    }
+    free(path);
+    return ok;
+}
+
+bool read_live_session(const char *folder, session_file *file, record_error *error)
+{
+    char reason[WHOLE_FILE_REASON], *bytes, *path = folder_path(folder, "session.json.live");
+    session_error unread;
+    size_t size;
+    if (!path)
+        return record_fail(error, "there is no memory");
+    bool ok = whole_file_read(path, &bytes, &size, reason) || record_fail(error, "%s: %s", path, reason);
+    if (ok) {
+        while (size > 0 && bytes[size - 1] != '\n')
+            size--;
         ok = session_parse(path, folder, bytes, size, file, &unread) || record_fail(error, "%s", unread.text);
         free(bytes);
     }

@@ -17,8 +17,14 @@ typedef struct folder_place {
 bool write_session_file(const folder_place *place, const octree_session *session, uint64_t *digest,
                         record_error *error);
 
+/* The same digest, of a file that is there. */
+bool digest_session_file(const char *path, uint64_t *digest, record_error *error);
+
 /* Read it back; the caller releases *file. */
 bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error);
+
+/* The session that a program was making when it died: session.json.live, but for a line that it did not end. */
+bool read_live_session(const char *folder, session_file *file, record_error *error);
 
 /* recording.json: format version and view. */
 bool write_recording_file(const folder_place *place, const view *v, uint64_t every, record_error *error);

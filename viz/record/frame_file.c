@@ -156,6 +156,15 @@ bool frame_read_origin(const char *path, frame_origin *origin)
            read_digest(path, pixels_keyword, &origin->pixels);
 }
 
+bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, record_error *error)
+{
+    char text[DIGEST_TEXT], *path = frame_path(folder, tick, error);
+    const bool ok = path && (image_replace_text(path, session_keyword, digest_print(session, text)) ||
+                             record_fail(error, "%s: cannot be written", path));
+    free(path);
+    return ok;
+}
+
 bool frame_check(const char *folder, frame_origin *origin, record_error *error)
 {
     char *path = frame_path(folder, origin->tick, error);

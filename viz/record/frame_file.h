@@ -38,6 +38,9 @@ bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene);
  * where something of it is missing. */
 bool frame_read_origin(const char *path, frame_origin *origin);
 
+/* Let the frame of a tick say that it is of another session: what one is like may be known at its end alone. */
+bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, record_error *error);
+
 /* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
  * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
 bool frame_check(const char *folder, frame_origin *origin, record_error *error);

@@ -16,8 +16,9 @@ static bool write_files(const recording *r, const char *writer, const octree_ses
                         const renderer_info *info, uint64_t *digest, record_error *error)
 {
     const folder_place place = {r->options->folder, writer};
+    *digest = 0;
     return write_recording_file(&place, v, r->options->every, error) &&
-           write_session_file(&place, session, digest, error) && write_renderer_file(&place, info, error);
+           (!session || write_session_file(&place, session, digest, error)) && write_renderer_file(&place, info, error);
 }
 
 static bool open_log(recording *r, record_error *error)

@@ -14,7 +14,8 @@ typedef struct recording {
 } recording;
 
 /* Make the folder and write what is known before the first tick. `v` is the view that is filmed, fitted to tick 0.
- * *digest becomes that of session.json. Where it fails nothing is left but what was there. */
+ * *digest becomes that of session.json. A null session is not known yet, and is not written; *digest is then 0. Where
+ * it fails nothing is left but what was there. */
 bool recording_begin(recording *r, const octree_session *session, const view *v, const renderer_info *info,
                      uint64_t *digest, record_error *error);
 

@@ -24,14 +24,16 @@ static bool duplicate(const void **items, size_t count, size_t item_size)
 
 bool session_copy(const octree_session *from, session_file *out, session_error *error)
 {
-    const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries;
+    const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries, *shapes = from->shapes;
     bool whole = duplicate(&bodies, from->body_count, sizeof *from->bodies);
     whole = duplicate(&edits, from->edit_count, sizeof *from->edits) && whole;
     whole = duplicate(&queries, from->query_count, sizeof *from->queries) && whole;
+    whole = duplicate(&shapes, from->shape_count, sizeof *from->shapes) && whole;
     out->session = *from;
     out->session.bodies = bodies;
     out->session.edits = edits;
     out->session.queries = queries;
+    out->session.shapes = shapes;
     out->session.keys = NULL;
     bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_memory(error);
     if (!done)
@@ -60,5 +62,6 @@ void session_release(session_file *file)
     free((char *)file->session.keys);
     free((octree_edit *)file->session.edits);
     free((octree_query *)file->session.queries);
+    free((octree_shape *)file->session.shapes);
     *file = (session_file){0};
 }

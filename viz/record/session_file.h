@@ -5,17 +5,20 @@
  *    "world": {"min": [-1000, -1000, -1000], "max": [1000, 1000, 1000]},
  *    "tree": {"capacity": 8, "depth": 21, "full": "refuse" or "grow"},
  *    "player": {"id": 0, "position": [0, 0, 0], "step": 50, "box_size": 30, "sweep": false},
+ *              or {"id": 7, "body": true, "box_size": 30, "sweep": false}, or null,
  *    "points": a list of [x, y, z], [x, y, z, id] and {"id": 7, "position": [x, y, z], "velocity": [vx, vy, vz]},
  *              or {"file": "cloud.pcd"}, or {"sample": "clustered", "count": 2000, "seed": 1},
  *    "velocities": [[id, vx, vy, vz], ...], or {"speed": 5, "seed": 1} for random ones within +-speed on each axis,
- *    "keys": "wwdn.", "ticks": 100, "queries": asked at every tick}
- * What is shown for world, tree and player is what they have when they are left out; but position is the world's
- * centre, step a fortieth of its longest side, and box_size three fifths of step. With "sweep": true collisions are
- * tested all the way from tick to tick, and not at the end of the step alone.
+ *    "keys": "wwdn.", "ticks": 100, "queries": asked at every tick, "shapes": shown at every tick}
+ * Without "ticks" the session goes on to the last tick that has an object of its own. What is shown for world, tree and
+ * player is what they have when they are left out; but position is the world's centre, step a fortieth of its longest
+ * side, and box_size three fifths of step. With "sweep": true collisions are tested all the way from tick to tick, and
+ * not at the end of the step alone. With "body": true the player is the point with its id, whenever there is one: edits
+ * and velocity move it, and keys do not. With null there is nobody, and nothing collides.
  *
  * Then, where there are any, the ticks in ascending order:
  *   {"tick": 3, "edits": [{"insert": {"id": 9, "position": [x, y, z], "velocity": [vx, vy, vz]}}, {"remove": 9},
- *                         {"move": {"id": 9, "position": [x, y, z]}}], "queries": [...]}
+ *                         {"move": {"id": 9, "position": [x, y, z]}}], "queries": [...], "shapes": [...]}
  *
  * A query is one of
  *   {"range": {"min": [...], "max": [...]}}    the points in a box; with "at": "player" it is relative to the player
@@ -24,9 +27,13 @@
  *   {"knearest": 8, "at": [x, y, z]}           the 8 nearest points
  * and "player" may stand for [x, y, z]: neighbours are then others than the player itself.
  *
- * A point without an id has its place in the list for an id, counted from 1 and passing over the player's. Ids are
- * unique, the player's included. "velocities" replace those of the points. Points may lie outside the world: the game
- * refuses them at tick 0.
+ * A shape is shown, and is nothing else to the game; it is one of
+ *   {"box": {"min": [...], "max": [...]}}, {"segment": [[x, y, z], [x, y, z]]}, {"point": [x, y, z]} and
+ *   {"label": "up to 46 printable ASCII characters", "at": [x, y, z]}
+ *
+ * A point without an id has its place in the list for an id, counted from 1 and passing over that of a player who is no
+ * body. Ids are unique, that player's included. "velocities" replace those of the points. Points may lie outside the
+ * world: the game refuses them at tick 0.
  */
 #ifndef OCTREEL_SESSION_FILE_H
 #define OCTREEL_SESSION_FILE_H
@@ -82,5 +89,13 @@ void session_release(session_file *file);
  * session makes the same bytes. The session must be one that a game accepts, with ids below SESSION_ID_LIMIT, finite
  * numbers and no tick beyond SESSION_LAST_TICK. The stream is flushed; false on an I/O error. Cost: O(size). */
 bool session_write(const octree_session *session, FILE *out);
+
+/* The ticks of a session whose end is not known yet: its header says nothing of them. */
+#define SESSION_ENDLESS UINT64_MAX
+
+/* The parts of that, for a session that is being made: its header, and the object of one tick; nothing for a tick in
+ * which nothing happens. Errors stay with the stream. */
+void session_write_header(const octree_session *session, FILE *out);
+void session_write_tick(uint64_t tick, const octree_input *input, FILE *out);
 
 #endif

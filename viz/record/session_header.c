@@ -118,16 +118,31 @@ static bool read_step(session_reader *reader, json_t *value, const json_place *a
     return true;
 }
 
+static bool read_is_body(session_reader *reader, json_t *value, const json_place *at, void *into)
+{
+    octree_player *player = into;
+    bool is_body;
+    if (!session_read_bool(reader, value, at, &is_body))
+        return false;
+    player->kind = is_body ? OCTREE_PLAYER_BODY : OCTREE_PLAYER_KEYS;
+    return true;
+}
+
 static bool read_player(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     static const session_member members[] = {
         {"id", session_read_id, offsetof(octree_player, id), false},
+        {"body", read_is_body, 0, false},
         {"position", read_player_position, offsetof(octree_player, position), false},
         {"step", read_step, 0, false},
         {"box_size", session_read_positive, offsetof(octree_player, box_size), false},
         {"sweep", session_read_bool, offsetof(octree_player, sweep), false},
         {0},
     };
+    if (json_is_null(value)) {
+        *(octree_player *)into = (octree_player){.kind = OCTREE_PLAYER_NONE};
+        return true;
+    }
     return session_read_members(reader, value, at, members, into);
 }
 
@@ -162,6 +177,7 @@ static bool read_keys(session_reader *reader, json_t *value, const json_place *a
 
 static bool read_ticks(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
+    reader->ends = true;
     return session_read_whole(reader, value, at, 0, SESSION_LAST_TICK, into);
 }
 
@@ -189,6 +205,7 @@ bool session_read_header(session_reader *reader, json_t *header)
         {"keys", read_keys, 0, false},
         {"ticks", read_ticks, offsetof(octree_session, ticks), false},
         {"queries", session_read_queries, 0, false},
+        {"shapes", session_read_shapes, 0, false},
         {0},
     };
     *reader->session = default_header();

@@ -8,11 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Whether the player has an id that no point may have. */
+static bool is_apart(const octree_player *player)
+{
+    return player->kind == OCTREE_PLAYER_KEYS;
+}
+
 /* The id of a point that is given none: its place counted from 1, passing over the player's id. */
 static uint64_t default_id(const session_reader *reader, size_t place)
 {
     uint64_t id = (uint64_t)place + 1, player = reader->session->player.id;
-    return player != 0 && id >= player ? id + 1 : id;
+    return is_apart(&reader->session->player) && player != 0 && id >= player ? id + 1 : id;
 }
 
 /* Make room for all points. */
@@ -74,13 +80,14 @@ static bool check_ids(session_reader *reader, const json_place *at)
     if (!ids)
         return session_fail(reader, at, "out of memory for %zu points", count);
     size_t repeated = session_ids_repeated(ids, count, &earlier);
-    const session_id *player = session_ids_find(ids, count, reader->session->player.id);
+    const octree_player *apart = &reader->session->player;
+    const session_id *player = is_apart(apart) ? session_ids_find(ids, count, apart->id) : NULL;
     size_t clash = player ? player->place : count;
     free(ids);
     if (repeated < count)
         return fail_repeated(reader, at, repeated, earlier);
-    return clash == count || session_fail(reader, &(json_place){at, NULL, clash}, "id %" PRIu64 " is the player's",
-                                          reader->session->player.id);
+    return clash == count ||
+           session_fail(reader, &(json_place){at, NULL, clash}, "id %" PRIu64 " is the player's", apart->id);
 }
 
 static bool read_list(session_reader *reader, json_t *list, const json_place *at)

@@ -75,17 +75,22 @@ static bool read_stream(session_reader *reader)
 
 /* ---- The session -------------------------------------------------------------------------------------------- */
 
-/* Queries of every tick come last in a session, though they are the first in its file. */
-static bool append_standing(session_reader *reader)
+/* What is of every tick comes last in a session, though it is the first in its file. */
+static bool append_standing(session_reader *reader, session_list *list, const session_list *standing, size_t size)
 {
-    const octree_query *standing = reader->standing.items;
-    for (size_t i = 0; i < reader->standing.count; i++) {
-        octree_query *query = session_append(reader, NULL, &reader->queries, sizeof *query);
-        if (!query)
+    for (size_t i = 0; i < standing->count; i++) {
+        void *item = session_append(reader, NULL, list, size);
+        if (!item)
             return false;
-        *query = standing[i];
+        memcpy(item, (const char *)standing->items + i * size, size);
     }
     return true;
+}
+
+static bool append_all_standing(session_reader *reader)
+{
+    return append_standing(reader, &reader->queries, &reader->standing, sizeof(octree_query)) &&
+           append_standing(reader, &reader->shapes, &reader->standing_shapes, sizeof(octree_shape));
 }
 
 /* Hand the reader's arrays over to the session. */
@@ -98,6 +103,8 @@ static void adopt_arrays(session_reader *reader)
     session->edit_count = reader->edits.count;
     session->queries = reader->queries.items;
     session->query_count = reader->queries.count;
+    session->shapes = reader->shapes.items;
+    session->shape_count = reader->shapes.count;
 }
 
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
@@ -111,9 +118,10 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
                              .session = &out->session,
                              .error = error};
     *out = (session_file){0};
-    bool done = read_stream(&reader) && append_standing(&reader);
+    bool done = read_stream(&reader) && append_all_standing(&reader);
     adopt_arrays(&reader);
     free(reader.standing.items);
+    free(reader.standing_shapes.items);
     if (!done)
         session_release(out);
     return done;

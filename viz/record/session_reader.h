@@ -25,11 +25,13 @@ typedef struct session_reader {
     const char *object, *limit; /* the text of the object at hand, which may end before limit */
     size_t line;                /* where the object begins */
     uint64_t tick;              /* that the object is about; OCTREE_EVERY_TICK in the header */
+    bool ends;                  /* the header says after how many ticks */
     octree_session *session;
     octree_body *bodies;
     char *keys;
     session_list edits, queries;
     session_list standing; /* queries of every tick */
+    session_list shapes, standing_shapes;
     session_error *error;
 } session_reader;
 
@@ -68,8 +70,8 @@ session_value_reader session_read_id;       /* into uint64_t; seeds too */
 bool session_read_header(session_reader *reader, json_t *header);
 bool session_read_tick(session_reader *reader, json_t *object);
 
-/* Into the reader's lists: points, their velocities, and the queries of the reader's tick. */
-session_value_reader session_read_points, session_read_velocities, session_read_queries;
+/* Into the reader's lists: points, their velocities, and the queries and shapes of the reader's tick. */
+session_value_reader session_read_points, session_read_velocities, session_read_queries, session_read_shapes;
 
 /* False with the reason when a key is none that the game knows. */
 #define SESSION_KEYS_REASON 96

@@ -152,6 +152,8 @@ static bool read_number_of_tick(session_reader *reader, json_t *value, const jso
         return session_fail(reader, at, "tick %" PRIu64 " comes after tick %" PRIu64 "; ticks must ascend", tick,
                             reader->tick);
     reader->tick = tick;
+    if (!reader->ends)
+        reader->session->ticks = tick;
     return true;
 }
 
@@ -161,6 +163,7 @@ bool session_read_tick(session_reader *reader, json_t *object)
         {"tick", read_number_of_tick, 0, true},
         {"edits", read_edits, 0, false},
         {"queries", session_read_queries, 0, false},
+        {"shapes", session_read_shapes, 0, false},
         {0},
     };
     if (json_object_get(object, "octreel"))

@@ -100,11 +100,21 @@ bool take_tick(take *t, film_step *step, record_error *error)
     return (!step->filmed || take_frame(t, step, error)) && take_line(t, step, error);
 }
 
-bool take_advance(take *t, record_error *error)
+/* What becomes of a tick that was played, or was not. */
+static bool finish_step(take *t, octree_status status, record_error *error)
 {
-    const octree_status status = octree_game_advance(t->game);
     if (status != OCTREE_OK)
         return record_fail(error, "tick %" PRIu64 " cannot be played: %s", octree_game_tick(t->game)->number,
                            octree_status_text(status));
     return grow_hot(t, error);
+}
+
+bool take_advance(take *t, record_error *error)
+{
+    return finish_step(t, octree_game_advance(t->game), error);
+}
+
+bool take_play(take *t, const octree_input *input, record_error *error)
+{
+    return finish_step(t, octree_game_play(t->game, input), error);
 }

@@ -54,8 +54,9 @@ bool take_scene(take *t, record_error *error);
 /* Take that tick: its scene and its frame, where it has one, and its line. */
 bool take_tick(take *t, film_step *step, record_error *error);
 
-/* Play the next tick. */
+/* Play the next tick; and one that is not in the session. */
 bool take_advance(take *t, record_error *error);
+bool take_play(take *t, const octree_input *input, record_error *error);
 
 /* The ticks [first, last) of a session; where a count is given, of each `count` frames, with the ticks up to the next
  * one, only that of this index. */

@@ -17,6 +17,17 @@ static void write_digest(json_writer *w, const char *key, uint64_t digest)
     json_write_string(w, digest_print(digest, text));
 }
 
+/* A place of the player, or null where there is none. */
+static void write_place(json_writer *w, const char *key, const octree_tick *tick, const double place[3])
+{
+    if (tick->has_player) {
+        json_member_vector(w, key, place);
+        return;
+    }
+    json_write_key(w, key);
+    json_write_null(w);
+}
+
 static void write_events(json_writer *w, unsigned events)
 {
     json_write_key(w, "events");
@@ -183,11 +194,11 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
         json_write_string(w, key);
     else
         json_write_null(w);
-    json_member_vector(w, "player", tick->player);
+    write_place(w, "player", tick, tick->player);
     write_events(w, tick->events);
     if (tick->swept)
         json_member_vector(w, "from", tick->from);
-    json_member_vector(w, "attempt", tick->attempt);
+    write_place(w, "attempt", tick, tick->attempt);
     write_ids(w, "hits", tick->hits, tick->hit_count);
     write_cost(w, "hit_cost", &tick->hit_cost);
     write_answers(w, tick);

@@ -47,6 +47,12 @@ static void write_statistics(pen *p, const octree *tree)
     write_row(p, "leaf", "up to %zu", octree_definition(tree).leaf_capacity);
 }
 
+/* Whether there is somebody whom keys move. */
+static bool has_keys(const octree_game *game)
+{
+    return octree_game_session(game)->player.kind == OCTREE_PLAYER_KEYS;
+}
+
 static const char *key_meaning(char key)
 {
     static const char *const meanings[] = {"w+y", "s-y", "d+x", "a-x", "e+z", "f-z", "nnearest", ".wait"};
@@ -56,9 +62,19 @@ static const char *key_meaning(char key)
     return "";
 }
 
-/* What the tick did, in words; the most urgent gives the colour. */
-static void write_events(pen *p, const octree_tick *tick)
+/* What is said of a tick without events. */
+static const char *quiet_word(const octree_game *game)
 {
+    const octree_tick *tick = octree_game_tick(game);
+    if (tick->key == 'n')
+        return "asked";
+    return !tick->number ? "start" : has_keys(game) ? "waited" : "no event";
+}
+
+/* What the tick did, in words; the most urgent gives the colour. */
+static void write_events(pen *p, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
     char words[SCENE_TEXT] = "";
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
         if (tick->events >> i & 1) {
@@ -68,7 +84,7 @@ static void write_events(pen *p, const octree_tick *tick)
     }
     const bool stopped = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL);
     const theme_role role = tick->hit_count ? ROLE_COLLISION : stopped ? ROLE_WARNING : ROLE_TEXT;
-    write_text(p, MARGIN, role, 1, words[0] ? words : tick->key == 'n' ? "asked" : tick->number ? "waited" : "start");
+    write_text(p, MARGIN, role, 1, words[0] ? words : quiet_word(game));
     p->y += LINE;
 }
 
@@ -247,6 +263,16 @@ static pen begin_panel(scene *s)
     return p;
 }
 
+/* Where there may be one. */
+static void write_player(pen *p, const octree_game *game)
+{
+    const octree_tick *tick = octree_game_tick(game);
+    if (tick->has_player)
+        write_position(p, "player", tick->player);
+    else if (octree_game_session(game)->player.kind != OCTREE_PLAYER_NONE)
+        write_row(p, "player", "away");
+}
+
 void add_tick_panel(scene *s, const octree_game *game, const finding *found)
 {
     const octree_tick *tick = octree_game_tick(game);
@@ -256,7 +282,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
         pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
         write_text(&line, 4, ROLE_TEXT, 1, title);
         line.y += LINE;
-        write_events(&line, tick);
+        write_events(&line, game);
         write_left_out(&line);
         write_finding(&line, found);
         end_rows(&line);
@@ -264,12 +290,12 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
     }
     pen p = begin_panel(s);
     write_title(&p, title);
-    write_events(&p, tick);
+    write_events(&p, game);
     p.y += LINE / 2;
-    if (tick->key)
+    if (tick->key && (has_keys(game) || tick->key == 'n'))
         write_row(&p, "key", "%c  %s", tick->key, key_meaning(tick->key));
     write_keys(&p, game);
-    write_position(&p, "player", tick->player);
+    write_player(&p, game);
     if (tick->swept)
         write_row(&p, "tested", "the whole way");
     p.y += LINE / 2;

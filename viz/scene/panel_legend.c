@@ -68,6 +68,7 @@ static const legend_entry legend[] = {
      .swatch = SWATCH_DASHES,
      .text = "nearest point, dashed",
      .answer = true},
+    {.layer = LAYER_SHAPES, .role = ROLE_SHAPE, .swatch = SWATCH_BOLD},
 };
 
 #define LEGEND_ENTRIES (sizeof legend / sizeof legend[0])
@@ -100,16 +101,24 @@ static bool has_movers(const octree_game *game)
     return moves;
 }
 
-/* Of a session, those of queries that it never asks are left out, and velocities where nothing moves. The nearest point
- * is asked for by a key too. */
+/* Of a session that keys play, those of queries that it never asks are left out; the nearest point is asked for by a
+ * key too. What else a session will ask may not be known yet: then those of queries that it has not asked so far. */
 static unsigned layers_of(const octree_game *game)
 {
     const octree_session *session = octree_game_session(game);
-    unsigned asked = 1u << LAYER_NEAREST, others = VIEW_ALL_LAYERS & ~(1u << LAYER_ASKED);
-    for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++)
+    const bool known = session->player.kind == OCTREE_PLAYER_KEYS;
+    unsigned asked = known ? 1u << LAYER_NEAREST : 0, others = VIEW_ALL_LAYERS & ~(1u << LAYER_ASKED);
+    for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++) {
         others &= ~(1u << query_layers[i]);
-    for (size_t i = 0; i < session->query_count; i++)
+        if (octree_game_tick(game)->asked >> i & 1)
+            asked |= 1u << query_layers[i];
+    }
+    for (size_t i = 0; known && i < session->query_count; i++)
         asked |= 1u << query_layers[session->queries[i].kind];
+    if (octree_game_tick(game)->shape_count == 0)
+        others &= ~(1u << LAYER_SHAPES);
+    if (session->player.kind == OCTREE_PLAYER_NONE)
+        others &= ~(1u << LAYER_PLAYER | 1u << LAYER_BOX);
     if (!has_movers(game))
         others &= ~(1u << LAYER_VELOCITIES);
     return asked | others;
@@ -268,6 +277,9 @@ static void count_in_words(char text[SCENE_TEXT], unsigned layer, const legend_s
         break;
     case LAYER_HIT:
         snprintf(text, SCENE_TEXT, "%zu %s hit", tick->hit_leaf_count, tick->hit_leaf_count == 1 ? "leaf" : "leaves");
+        break;
+    case LAYER_SHAPES:
+        snprintf(text, SCENE_TEXT, "%zu shape%s", tick->shape_count, tick->shape_count == 1 ? "" : "s");
         break;
     case LAYER_ASKED:
         snprintf(text, SCENE_TEXT, "node %.42s", octree_address_format(about->asked, address));

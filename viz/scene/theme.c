@@ -12,7 +12,7 @@ static const theme_color roles[ROLE_COUNT] = {
     [ROLE_WARNING] = {240, 190, 90},   [ROLE_NODE + 0] = {84, 98, 150},   [ROLE_NODE + 1] = {74, 110, 168},
     [ROLE_NODE + 2] = {62, 122, 176},  [ROLE_NODE + 3] = {54, 136, 176},  [ROLE_NODE + 4] = {58, 150, 168},
     [ROLE_NODE + 5] = {78, 164, 152},  [ROLE_NODE + 6] = {106, 174, 128}, [ROLE_NODE + 7] = {142, 186, 112},
-    [ROLE_NODE + 8] = {178, 196, 104}, [ROLE_NODE + 9] = {212, 206, 116},
+    [ROLE_NODE + 8] = {178, 196, 104}, [ROLE_NODE + 9] = {212, 206, 116}, [ROLE_SHAPE] = {90, 200, 255},
 };
 
 const char *theme_name(void)

@@ -27,7 +27,8 @@ typedef enum theme_role {
     ROLE_NEAREST,
     ROLE_WARNING, /* refused, full: seen beside its word */
     ROLE_NODE,    /* and the THEME_NODE_DEPTHS - 1 roles after it, by depth */
-    ROLE_COUNT = ROLE_NODE + THEME_NODE_DEPTHS
+    ROLE_SHAPE = ROLE_NODE + THEME_NODE_DEPTHS,
+    ROLE_COUNT
 } theme_role;
 
 typedef struct theme_color {

@@ -6,6 +6,7 @@
 #include "diagram.h"
 #include "heat_layers.h"
 #include "panel.h"
+#include "shape_layer.h"
 #include "tick_nodes.h"
 #include "tree_layers.h"
 #include "velocity_layer.h"
@@ -133,11 +134,13 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
     add_changes(s, game);
     add_velocities(s, game);
     add_answers(s, tick->answers, tick->answer_count);
-    add_player(s, tick, session);
+    if (tick->has_player)
+        add_player(s, tick, session);
     add_collision(s, tick, session);
+    add_shapes(s, tick);
     add_broken(s, &session->tree.world, &found);
     add_diagram(s, tree,
-                &(diagram_marks){.way = leaf_of(tree, tick->player),
+                &(diagram_marks){.way = tick->has_player ? leaf_of(tree, tick->player) : 0,
                                  .visits = tick->visits,
                                  .visit_count = tick->visit_count,
                                  .visited = view_shows(v, LAYER_VISITED),

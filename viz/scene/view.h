@@ -37,6 +37,7 @@
     X(NEAREST, "nearest")                                                                                              \
     X(PLAYER, "player")                                                                                                \
     X(BOX, "box")       /* the player's collision box, and what is in it */                                            \
+    X(SHAPES, "shapes") /* what the session shows beside the points */                                                 \
     X(BROKEN, "broken") /* the node at which the validator finds an invariant broken */                                \
     X(TEXT, "text")
 

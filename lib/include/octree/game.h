@@ -29,8 +29,16 @@ typedef struct octree_body {
     double velocity[3];
 } octree_body;
 
-/* The player is a point of the tree like the others, inserted first. */
+/* Who the player is. */
+typedef enum octree_player_kind {
+    OCTREE_PLAYER_KEYS, /* a point of the tree like the others, inserted first, which the keys move */
+    OCTREE_PLAYER_BODY, /* the body with its id, while there is one: edits and its velocity move it, keys do not, and
+                           nothing is taken back. Its position and step are not read */
+    OCTREE_PLAYER_NONE, /* nobody: nothing collides, keys do nothing, and the rest of the player is not read */
+} octree_player_kind;
+
 typedef struct octree_player {
+    octree_player_kind kind;
     uint64_t id;
     double position[3];
     double step;     /* distance of one key, >= 0 */
@@ -62,7 +70,7 @@ const char *octree_query_name(octree_query_kind kind);
 #define OCTREE_EVERY_TICK UINT64_MAX
 
 /* A question asked at the end of a tick. The player is no neighbour of itself; boxes and balls have it as they have
- * every other point. */
+ * every other point. What is asked at the player is not asked in a tick without one. */
 typedef struct octree_query {
     uint64_t tick; /* or OCTREE_EVERY_TICK */
     octree_query_kind kind;
@@ -72,6 +80,29 @@ typedef struct octree_query {
     size_t k;         /* k nearest: how many; where there are fewer, all */
     double radius;    /* of the closed ball, >= 0 */
 } octree_query;
+
+typedef enum octree_shape_kind {
+    OCTREE_SHAPE_BOX,
+    OCTREE_SHAPE_SEGMENT,
+    OCTREE_SHAPE_POINT,
+    OCTREE_SHAPE_LABEL,
+    OCTREE_SHAPE_KINDS
+} octree_shape_kind;
+
+/* "box", "segment", "point", "label". Null from OCTREE_SHAPE_KINDS on. */
+const char *octree_shape_name(octree_shape_kind kind);
+
+#define OCTREE_SHAPE_TEXT 47
+
+/* Something that is shown at a tick beside the points. It is in no tree, no question meets it, and it may lie outside
+ * the world: what is not the game's own, such as walls, goals, or somebody else's tree. */
+typedef struct octree_shape {
+    uint64_t tick; /* or OCTREE_EVERY_TICK */
+    octree_shape_kind kind;
+    double at[3];                 /* the place of a point or label, a segment's beginning, a box's lowest corner */
+    double to[3];                 /* a segment's end, a box's highest corner; else not read */
+    char text[OCTREE_SHAPE_TEXT]; /* of a label: printable ASCII, with its final zero; else not read */
+} octree_shape;
 
 /* All that is needed to play. The arrays are borrowed: they must outlive the game. */
 typedef struct octree_session {
@@ -85,6 +116,8 @@ typedef struct octree_session {
     size_t edit_count;
     const octree_query *queries; /* ascending by tick, OCTREE_EVERY_TICK last */
     size_t query_count;
+    const octree_shape *shapes; /* ascending by tick, OCTREE_EVERY_TICK last */
+    size_t shape_count;
 } octree_session;
 
 /* The paper's session: world [-1000, 1000]^3, capacity 2, depth 5, eleven points, the player at the origin with step
@@ -140,12 +173,13 @@ typedef struct octree_visit {
 /* One tick. The arrays are owned by the game and valid until its next step. */
 typedef struct octree_tick {
     uint64_t number;
-    char key;                 /* 0 at tick 0 */
-    unsigned events;          /* bits of octree_event */
-    double player[3];         /* after the tick */
-    double attempt[3];        /* where the collision test was made: the step's end, taken back or not */
-    bool swept;               /* the test was made all the way from `from` to `attempt` */
-    double from[3];           /* where the player was before the tick */
+    char key;          /* 0 at tick 0 */
+    unsigned events;   /* bits of octree_event */
+    bool has_player;   /* false: the next three places are those where one was last, or else the world's middle */
+    double player[3];  /* after the tick */
+    double attempt[3]; /* where the collision test was made: the step's end, taken back or not */
+    bool swept;        /* the test was made all the way from `from` to `attempt` */
+    double from[3];    /* where the player was before the tick; a body that was inserted, where it was put */
     const octree_point *hits; /* what the collision test found, by id */
     size_t hit_count;
     const double (*hit_from)[3];    /* swept: where each hit was before the tick; else null */
@@ -158,11 +192,14 @@ typedef struct octree_tick {
     size_t merge_count;
     const octree_answer *answers; /* n first, then the session's queries in their order */
     size_t answer_count;
+    unsigned asked;             /* bits 1 << octree_query_kind: what was asked up to this tick */
     const octree_visit *visits; /* each node once, in pre-order */
     size_t visit_count;
     size_t touched[OCTREE_TOUCH_KINDS]; /* how many of them were met in each way */
     const octree_address *hit_leaves;   /* the leaves that hold a hit or a point of an answer; in pre-order */
     size_t hit_leaf_count;
+    const octree_shape *shapes; /* of this tick, and then those of every tick */
+    size_t shape_count;
     const octree_body *movers; /* bodies with a velocity: where they are, and how they go on, turned where they bounced;
                                   in an order that is the same whenever the session is played */
     size_t mover_count;
@@ -173,7 +210,8 @@ typedef struct octree_game octree_game;
 /* Start a session and play tick 0. Bodies that the tree refuses are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
  * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
- * BAD_RANGE, BAD_SIZE; NO_MEMORY. *game is then null. Cost: one insertion a body. */
+ * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; NO_MEMORY. *game is then null. Cost: one insertion
+ * a body. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
@@ -181,6 +219,26 @@ void octree_game_destroy(octree_game *game);
  * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries + v log v for v visits; all bodies,
  * when swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
+
+/* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not
+ * read. */
+typedef struct octree_input {
+    char key;                 /* '.' waits */
+    const octree_edit *edits; /* in the order in which they are made */
+    size_t edit_count;
+    const octree_query *queries;
+    size_t query_count;
+    const octree_shape *shapes;
+    size_t shape_count;
+} octree_input;
+
+/* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes behind
+ * it. The arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
+ * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create: no tick is then played. */
+octree_status octree_game_play(octree_game *game, const octree_input *input);
+
+/* What octree_game_play would say of this input, its key apart. Cost: O(edits + queries + shapes). */
+octree_status octree_input_check(const octree_input *input);
 
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */
 octree_status octree_game_advance(octree_game *game);

@@ -46,7 +46,8 @@ extern "C" {
     X(BAD_SIZE, "bad_size", "a size must not be negative")                                                             \
     X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
     X(BAD_OPTION, "bad_option", "an enumeration has a value that is not listed in the header")                         \
-    X(BAD_ORDER, "bad_order", "edits and queries must be in ascending order of their ticks")                           \
+    X(BAD_TEXT, "bad_text", "a text must be printable ASCII that ends within its room")                                \
+    X(BAD_ORDER, "bad_order", "edits, queries and shapes must be in ascending order of their ticks")                   \
     X(FLOAT_MODE, "float_mode", "the thread's floating-point mode is not the default: nearest rounding, subnormals")   \
     X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
     X(TOO_MANY, "too_many", "the tree holds 4294967295 points, which is its limit")

@@ -18,6 +18,14 @@ scene empty_scene(const view *v, const octree_box *world)
     return s;
 }
 
+/* One of each kind, within the world of the default session. */
+static const octree_shape all_shapes[] = {
+    {OCTREE_EVERY_TICK, OCTREE_SHAPE_BOX, {-400, 100, -300}, {-100, 300, 0}, ""},
+    {OCTREE_EVERY_TICK, OCTREE_SHAPE_SEGMENT, {-900, -900, 0}, {900, 900, 0}, ""},
+    {OCTREE_EVERY_TICK, OCTREE_SHAPE_POINT, {300, -300, 300}, {0}, ""},
+    {OCTREE_EVERY_TICK, OCTREE_SHAPE_LABEL, {300, -300, 300}, {0}, "goal"},
+};
+
 /* The default session's queries, which are ranges at ticks 212 to 223, and two at every tick; and one more body, which
  * crosses the world where the player does not come. */
 octree_session asking_session(void)
@@ -38,6 +46,8 @@ octree_session asking_session(void)
         (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 450};
     session.queries = queries;
     session.query_count = count;
+    session.shapes = all_shapes;
+    session.shape_count = sizeof all_shapes / sizeof all_shapes[0];
     return session;
 }
 

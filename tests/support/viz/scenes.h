@@ -13,8 +13,8 @@ view view_of(int width, int height, view_camera camera, unsigned layers);
 /* An empty scene of a world, without a panel; the camera that follows looks at the world's centre. */
 scene empty_scene(const view *v, const octree_box *world);
 
-/* The default session, which asks for k nearest and for a ball at every tick too, and in which a body moves: it shows
- * every layer. */
+/* The default session, which asks for k nearest and for a ball at every tick too, in which a body moves, and which has
+ * a shape of each kind: it shows every layer. */
 octree_session asking_session(void);
 
 /* The default session with every coordinate and length times `scale`, then moved by `offset`. It must stay where it

@@ -65,6 +65,15 @@ static void assert_position(const json_t *object, const char *name, const double
         assert_number(json_array_get(list, i), expected[i]);
 }
 
+/* A place of the player. */
+static void assert_place(const json_t *line, const char *name, const octree_tick *tick, const double place[3])
+{
+    if (tick->has_player)
+        assert_position(line, name, place);
+    else
+        assert_true(json_is_null(json_member(line, name)));
+}
+
 static void assert_ids(const json_t *list, const octree_point *points, size_t count)
 {
     assert_true(json_is_array(list));
@@ -243,8 +252,8 @@ void assert_line_tells(const json_t *line, const octree_tick *tick, const octree
         assert_position(line, "from", tick->from);
     assert_whole_number(json_member(line, "tick"), tick->number);
     assert_key(json_member(line, "key"), tick->key);
-    assert_position(line, "player", tick->player);
-    assert_position(line, "attempt", tick->attempt);
+    assert_place(line, "player", tick, tick->player);
+    assert_place(line, "attempt", tick, tick->attempt);
     assert_events(json_member(line, "events"), tick->events);
     assert_ids(json_member(line, "hits"), tick->hits, tick->hit_count);
     assert_cost(line, "hit_cost", &tick->hit_cost);

@@ -1,0 +1,66 @@
+/* film_again.c - see film_again.h. */
+#include "film_again.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+
+#include "fixture.h"
+#include "recordings.h"
+#include "session_file.h"
+#include "tick_lines.h"
+#include "verified.h"
+#include "view_file.h"
+
+static void film_session_of(const place *folder, const place *again)
+{
+    const place path = place_below(folder->path, "session.json");
+    film_options options = {.folder = again->path};
+    record_error error = {""};
+    session_error unread = {""};
+    session_file file;
+    if (!view_read_recording(folder->path, &options.view, &options.every, &error))
+        fail_msg("%s", error.text);
+    if (!session_read(path.path, &file, &unread))
+        fail_msg("%s", unread.text);
+    assert_filmed(&file.session, &options);
+    session_release(&file);
+}
+
+static uint64_t frames_of(const place *folder, uint64_t ticks)
+{
+    record_error error;
+    uint64_t every;
+    view ignored;
+    assert_true(view_read_recording(folder->path, &ignored, &every, &error));
+    return (ticks - 1) / every + 1;
+}
+
+void assert_films_again(const place *folder, const place *again, uint64_t ticks)
+{
+    assert_identical(folder, ticks, frames_of(folder, ticks));
+    film_session_of(folder, again);
+    assert_same_folders(folder->path, again->path, NULL);
+}
+
+typedef struct digest_list {
+    uint64_t *digests;
+    size_t room, count;
+} digest_list;
+
+static void take_digest(const char *line, size_t number, void *context)
+{
+    digest_list *list = context;
+    json_t *tick = json_read(line);
+    assert_true(number < list->room);
+    assert_int_equal(json_array_size(json_member(tick, "refusals")), 0);
+    list->digests[list->count++] =
+        strtoull(json_string_value(json_member(json_member(tick, "tree"), "digest")), NULL, 16);
+    json_decref(tick);
+}
+
+size_t tree_digests(const char *folder, uint64_t *digests, size_t room)
+{
+    digest_list list = {digests, room, 0};
+    for_each_line(folder, take_digest, &list);
+    return list.count;
+}

@@ -1,0 +1,157 @@
+/* moving_tree.c - see moving_tree.h. */
+#include "moving_tree.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "fixture.h"
+
+enum { REACH = 8 };
+
+static void random_place(moving_tree *m, double position[3])
+{
+    for (int i = 0; i < 3; i++)
+        position[i] = (double)random_below(&m->random, 2 * REACH + 1) - REACH;
+}
+
+static void come(moving_tree *m)
+{
+    octree_point *point = &m->points[m->count];
+    if (m->count == MOVING_TREE_MOST)
+        return;
+    point->id = random_below(&m->random, 1000) * 1000003; /* of more than one byte */
+    for (size_t i = 0; i < m->count; i++)
+        if (m->points[i].id == point->id)
+            return;
+    random_place(m, point->position);
+    m->count += octree_insert(m->tree, point->position, point->id) == OCTREE_OK;
+}
+
+static void leave(moving_tree *m)
+{
+    if (m->count == 0)
+        return;
+    octree_point *point = &m->points[random_below(&m->random, m->count)];
+    assert_int_equal(octree_remove(m->tree, point->position, point->id), OCTREE_OK);
+    *point = m->points[--m->count];
+}
+
+static void move(moving_tree *m)
+{
+    double to[3];
+    if (m->count == 0)
+        return;
+    octree_point *point = &m->points[random_below(&m->random, m->count)];
+    random_place(m, to);
+    if (octree_move(m->tree, point->position, point->id, to) == OCTREE_OK)
+        memcpy(point->position, to, sizeof to);
+}
+
+/* Two points, both of which may be in full leaves. */
+static void change_places(moving_tree *m)
+{
+    if (m->count < 2)
+        return;
+    octree_point *a = &m->points[random_below(&m->random, m->count)], *b = &m->points[m->count - 1];
+    double there[3];
+    assert_int_equal(octree_remove(m->tree, a->position, a->id), OCTREE_OK);
+    if (a != b)
+        assert_int_equal(octree_remove(m->tree, b->position, b->id), OCTREE_OK);
+    memcpy(there, a->position, sizeof there);
+    memcpy(a->position, b->position, sizeof there);
+    memcpy(b->position, there, sizeof there);
+    assert_int_equal(octree_insert(m->tree, a->position, a->id), OCTREE_OK);
+    if (a != b)
+        assert_int_equal(octree_insert(m->tree, b->position, b->id), OCTREE_OK);
+}
+
+/* The ticks that queries and shapes name are none of the recorder's business: here they are nonsense. */
+static void ask(moving_tree *m)
+{
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
+        octree_query *query = &m->queries[kind];
+        *query = (octree_query){.tick = 77, .kind = (octree_query_kind)kind, .k = 3, .radius = 4};
+        random_place(m, query->target);
+        for (int i = 0; i < 3; i++)
+            query->box.max[i] = (query->box.min[i] = query->target[i]) + 3;
+    }
+    m->about.query_count = random_below(&m->random, MOVING_TREE_QUERIES + 1);
+}
+
+static void show(moving_tree *m)
+{
+    for (int kind = 0; kind < OCTREE_SHAPE_KINDS; kind++) {
+        octree_shape *shape = &m->shapes[kind];
+        *shape = (octree_shape){.tick = 5, .kind = (octree_shape_kind)kind};
+        random_place(m, shape->at);
+        for (int i = 0; i < 3; i++)
+            shape->to[i] = shape->at[i] + 2;
+        snprintf(shape->text, sizeof shape->text, "label %d", (int)random_below(&m->random, 100));
+    }
+    m->about.shape_count = random_below(&m->random, MOVING_TREE_SHAPES + 1);
+}
+
+void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed)
+{
+    *m = (moving_tree){.random = seed, .tree = make_tree(cube(-REACH, REACH), 1, 2, full_leaf)};
+    m->about.queries = m->queries;
+    m->about.shapes = m->shapes;
+    for (int i = 0; i < 30; i++)
+        come(m);
+    ask(m);
+    show(m);
+}
+
+void moving_tree_release(moving_tree *m)
+{
+    octree_destroy(m->tree);
+}
+
+void moving_tree_step(moving_tree *m)
+{
+    static void (*const changes[])(moving_tree *) = {come, leave, move, move, change_places, change_places};
+    for (uint64_t left = random_below(&m->random, 12); left > 0; left--)
+        changes[random_below(&m->random, sizeof changes / sizeof changes[0])](m);
+    ask(m);
+    show(m);
+}
+
+octreel_recorder_def small_recorder(const moving_tree *m, const char *folder)
+{
+    octreel_recorder_def def = octreel_recorder_def_default();
+    def.folder = folder;
+    def.tree = octree_definition(m->tree);
+    def.width = 160;
+    def.height = 90;
+    return def;
+}
+
+void assert_recorded(octreel_recorder *recorder, const moving_tree *m)
+{
+    if (octreel_recorder_tick(recorder, m->tree, &m->about) != OCTREEL_OK)
+        fail_msg("%s", octreel_recorder_error(recorder));
+}
+
+void record_steps(octreel_recorder *recorder, moving_tree *m, int ticks)
+{
+    for (int i = 0; i < ticks; i++) {
+        moving_tree_step(m);
+        assert_recorded(recorder, m);
+    }
+}
+
+octreel_recorder *open_recorder(const octreel_recorder_def *def)
+{
+    octreel_recorder *recorder;
+    octreel_error error = {""};
+    if (octreel_recorder_open(def, &recorder, &error) != OCTREEL_OK)
+        fail_msg("%s", error.text);
+    return recorder;
+}
+
+void close_recorder(octreel_recorder *recorder)
+{
+    if (octreel_recorder_close(recorder) != OCTREEL_OK)
+        fail_msg("%s", octreel_recorder_error(recorder));
+    octreel_recorder_destroy(recorder);
+}

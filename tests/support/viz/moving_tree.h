@@ -1,0 +1,46 @@
+/* moving_tree.h - a program with a tree of its own, for tests of what records it: points come, move, change places and
+ * go, and it asks and shows something at every tick.
+ */
+#ifndef MOVING_TREE_H
+#define MOVING_TREE_H
+
+#include "octreel/recorder.h"
+
+#define MOVING_TREE_MOST 40
+#define MOVING_TREE_QUERIES 4
+#define MOVING_TREE_SHAPES 4
+
+typedef struct moving_tree {
+    octree *tree;
+    uint64_t random;
+    octree_point points[MOVING_TREE_MOST]; /* by no order */
+    size_t count;
+    octree_query queries[MOVING_TREE_QUERIES];
+    octree_shape shapes[MOVING_TREE_SHAPES];
+    octreel_tick about;
+} moving_tree;
+
+/* A tree in [-8, 8]^3 of few points to a leaf and of little depth, so that leaves are often full; the same for the same
+ * seed. It must stay where it was made. */
+void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed);
+void moving_tree_release(moving_tree *m);
+
+/* Let some points come, go, move to where there is room, or change places with another. */
+void moving_tree_step(moving_tree *m);
+
+/* Small frames of such a tree. */
+octreel_recorder_def small_recorder(const moving_tree *m, const char *folder);
+
+/* Hand it over; the test fails, with the sentence, when that is refused. */
+void assert_recorded(octreel_recorder *recorder, const moving_tree *m);
+
+/* Step and record so many times. */
+void record_steps(octreel_recorder *recorder, moving_tree *m, int ticks);
+
+/* Open; the test fails, with the sentence, when it is not done. */
+octreel_recorder *open_recorder(const octreel_recorder_def *def);
+
+/* Close and destroy; the test fails, with the sentence, when that fails. */
+void close_recorder(octreel_recorder *recorder);
+
+#endif

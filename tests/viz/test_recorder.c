@@ -1,0 +1,212 @@
+/* test_recorder.c - a program records itself: what comes out is the recording of what its tree was. */
+#include "fixture.h"
+
+#include <jansson.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "film_again.h"
+#include "moving_tree.h"
+#include "recordings.h"
+#include "session_file.h"
+#include "tick_lines.h"
+
+enum { TICKS = 40 };
+
+/* The trees that were handed over are those that the recording tells of. */
+static void record_and_compare(void **state, const octreel_recorder_def *def, moving_tree *m)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    uint64_t expected[TICKS], told[TICKS];
+    octreel_recorder *recorder = open_recorder(def);
+    for (int tick = 0; tick < TICKS; tick++) {
+        assert_recorded(recorder, m);
+        expected[tick] = octree_digest(m->tree);
+        moving_tree_step(m);
+    }
+    close_recorder(recorder);
+    assert_int_equal(tree_digests(folder.path, told, TICKS), TICKS);
+    assert_memory_equal(told, expected, sizeof told);
+    assert_films_again(&folder, &again, TICKS);
+}
+
+static void what_is_recorded_is_what_the_tree_was_and_films_again_to_the_same_bytes(void **state)
+{
+    const place folder = place_in(*state, "film");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    record_and_compare(state, &def, &m);
+    moving_tree_release(&m);
+}
+
+/* Leaves hold one point and do not split far: most moves meet a full one, and points change places. */
+static void what_full_leaves_refuse_is_recorded_in_an_order_that_they_take(void **state)
+{
+    const place folder = place_in(*state, "film");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_REFUSE, 2);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    record_and_compare(state, &def, &m);
+    moving_tree_release(&m);
+}
+
+static void views_and_frames_are_those_that_were_asked_for(void **state)
+{
+    const place folder = place_in(*state, "film");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 3);
+    octreel_recorder_def def = small_recorder(&m, folder.path);
+    def.camera = "orbit";
+    def.layers = "all";
+    def.color_by = "occupancy";
+    def.diagram = "beside";
+    def.labels = true;
+    def.lod = 0;
+    def.aa = 2;
+    def.every = 7;
+    def.queue_ticks = 1;
+    def.queue_bytes = 0;
+    record_and_compare(state, &def, &m);
+    moving_tree_release(&m);
+}
+
+static size_t count_in_lines(const char *folder, const char *text)
+{
+    char *lines = file_read(place_below(folder, "ticks.jsonl").path, NULL);
+    size_t count = 0;
+    for (const char *at = lines; (at = strstr(at, text)); at++)
+        count++;
+    free(lines);
+    return count;
+}
+
+/* The player is one of the points, whenever it is there; the others are what it may collide with. */
+static void a_player_is_the_point_with_its_id_while_there_is_one(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    octree *tree = make_tree(cube(-8, 8), 1, 4, OCTREE_GROW);
+    const double rest[3] = {4, 4, 4}, away[3] = {-4, -4, -4}, near[3] = {4, 4, 4.5};
+    const octree_query about = {.kind = OCTREE_QUERY_NEAREST, .at_player = true};
+    const octreel_tick asked = {.queries = &about, .query_count = 1};
+    octreel_recorder_def def = octreel_recorder_def_default();
+    def.folder = folder.path;
+    def.tree = octree_definition(tree);
+    def.width = 160;
+    def.height = 90;
+    def.camera = "follow";
+    def.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .id = 9, .box_size = 1};
+    octreel_recorder *recorder = open_recorder(&def);
+    assert_int_equal(octree_insert(tree, rest, 1), OCTREE_OK);
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 0: not there */
+    assert_int_equal(octree_insert(tree, away, 9), OCTREE_OK);
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 1: far off */
+    assert_int_equal(octree_move(tree, away, 9, near), OCTREE_OK);
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 2: a hit */
+    assert_int_equal(octree_remove(tree, near, 9), OCTREE_OK);
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 3: gone */
+    close_recorder(recorder);
+    octree_destroy(tree);
+    assert_int_equal(count_in_lines(folder.path, "\"player\": null"), 2);
+    assert_int_equal(count_in_lines(folder.path, "\"collided\""), 1);
+    assert_int_equal(count_in_lines(folder.path, "{\"nearest\": {\"target\""), 2);
+    assert_films_again(&folder, &again, 4);
+}
+
+/* Somebody else's tree: nothing but boxes. */
+static void shapes_alone_are_recorded_without_a_tree(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    const octree_shape shapes[] = {{0, OCTREE_SHAPE_BOX, {-8, -8, -8}, {0, 0, 0}, ""},
+                                   {0, OCTREE_SHAPE_LABEL, {0, 0, 0}, {0}, "theirs"}};
+    octreel_recorder_def def = octreel_recorder_def_default();
+    def.folder = folder.path;
+    def.width = 160;
+    def.height = 90;
+    octreel_recorder *recorder = open_recorder(&def);
+    for (size_t tick = 0; tick < 3; tick++) {
+        const octreel_tick about = {.shapes = shapes, .shape_count = tick};
+        assert_int_equal(octreel_recorder_tick(recorder, NULL, &about), OCTREEL_OK);
+    }
+    close_recorder(recorder);
+    assert_films_again(&folder, &again, 3);
+}
+
+static void a_recorder_that_is_off_does_nothing(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 1, 4, OCTREE_GROW);
+    assert_int_equal(octreel_recorder_tick(NULL, tree, NULL), OCTREEL_OK);
+    assert_int_equal(octreel_recorder_write(NULL, NULL, NULL), OCTREEL_OK);
+    assert_int_equal(octreel_recorder_close(NULL), OCTREEL_OK);
+    assert_string_equal(octreel_recorder_error(NULL), "");
+    octreel_recorder_destroy(NULL);
+    octree_destroy(tree);
+}
+
+/* The program comes faster than its frames are drawn: what is refused is not recorded, and nothing of it is lost. */
+static void a_full_queue_is_told_where_nobody_waits(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    static uint64_t expected[2000], told[2000];
+    size_t taken = 0, busy = 0;
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 5);
+    octreel_recorder_def def = small_recorder(&m, folder.path);
+    def.never_wait = true;
+    def.queue_ticks = 1;
+    octreel_recorder *recorder = open_recorder(&def);
+    for (int i = 0; busy < 20 && i < 2000; i++) {
+        moving_tree_step(&m);
+        const octreel_status status = octreel_recorder_tick(recorder, m.tree, &m.about);
+        if (status == OCTREEL_OK)
+            expected[taken++] = octree_digest(m.tree);
+        else
+            assert_int_equal(status, OCTREEL_BUSY);
+        busy += status == OCTREEL_BUSY;
+    }
+    close_recorder(recorder);
+    moving_tree_release(&m);
+    assert_true(busy == 20 && taken > 1);
+    assert_int_equal(tree_digests(folder.path, told, 2000), taken);
+    assert_memory_equal(told, expected, taken * sizeof *told);
+    assert_films_again(&folder, &again, taken);
+}
+
+static void a_recorder_leaves_the_programs_signals_alone(void **state)
+{
+    const place folder = place_in(*state, "film");
+    sigset_t before, after;
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 7);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    assert_int_equal(sigprocmask(SIG_SETMASK, NULL, &before), 0);
+    octreel_recorder *recorder = open_recorder(&def);
+    record_steps(recorder, &m, 3);
+    assert_int_equal(sigprocmask(SIG_SETMASK, NULL, &after), 0);
+    for (int signal = 1; signal < 32; signal++)
+        assert_int_equal(sigismember(&before, signal), sigismember(&after, signal));
+    octreel_recorder_destroy(recorder); /* closes it, too */
+    moving_tree_release(&m);
+    assert_nothing_half_written(folder.path);
+    assert_true(file_exists(place_below(folder.path, "index.html").path));
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(what_is_recorded_is_what_the_tree_was_and_films_again_to_the_same_bytes),
+        TEST(what_full_leaves_refuse_is_recorded_in_an_order_that_they_take),
+        TEST(views_and_frames_are_those_that_were_asked_for),
+        TEST(a_player_is_the_point_with_its_id_while_there_is_one),
+        TEST(shapes_alone_are_recorded_without_a_tree),
+        cmocka_unit_test(a_recorder_that_is_off_does_nothing),
+        TEST(a_full_queue_is_told_where_nobody_waits),
+        TEST(a_recorder_leaves_the_programs_signals_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

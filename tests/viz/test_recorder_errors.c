@@ -1,0 +1,363 @@
+/* test_recorder_errors.c - what a recorder refuses: each with its own status and a sentence, and nothing lost. */
+#include "fixture.h"
+
+#include <fenv.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "film_again.h"
+#include "moving_tree.h"
+#include "recordings.h"
+#include "session_file.h"
+#include "view_file.h"
+
+static void assert_not_opened(const octreel_recorder_def *def, octreel_status why, const char *part)
+{
+    octreel_recorder *recorder = (octreel_recorder *)def; /* anything but null */
+    octreel_error error = {""};
+    assert_int_equal(octreel_recorder_open(def, &recorder, &error), why);
+    assert_null(recorder);
+    if (strstr(error.text, part) == NULL)
+        fail_msg("%s", error.text);
+    assert_int_equal(octreel_recorder_open(def, &recorder, NULL), why);
+}
+
+static void every_status_has_a_sentence_of_its_own(void **state)
+{
+    (void)state;
+    for (int i = 0; i < OCTREEL_STATUS_COUNT; i++)
+        for (int j = 0; j < i; j++)
+            assert_string_not_equal(octreel_status_text((octreel_status)i), octreel_status_text((octreel_status)j));
+    assert_non_null(octreel_status_text(OCTREEL_STATUS_COUNT));
+}
+
+static void definitions_that_cannot_be_used_are_refused(void **state)
+{
+    const place folder = place_in(*state, "film");
+    octreel_recorder *recorder;
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    const octreel_recorder_def good = small_recorder(&m, folder.path);
+    octreel_recorder_def bad = good;
+#define REFUSE(member, value, why, part)                                                                               \
+    bad = good;                                                                                                        \
+    bad.member = value;                                                                                                \
+    assert_not_opened(&bad, why, part)
+    REFUSE(folder, NULL, OCTREEL_NULL_ARGUMENT, "folder");
+    REFUSE(folder, "", OCTREEL_BAD_FOLDER, "name is empty");
+    REFUSE(camera, NULL, OCTREEL_NULL_ARGUMENT, "null");
+    REFUSE(camera, "drone", OCTREEL_BAD_OPTION, "camera: there is no \"drone\"");
+    REFUSE(layers, "nodes,walls", OCTREEL_BAD_OPTION, "layers: there is no \"walls\"");
+    REFUSE(color_by, "mood", OCTREEL_BAD_OPTION, "color_by: there is no \"mood\"");
+    REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "diagram: there is no \"above\"");
+    REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: there is no \"glx\"");
+    REFUSE(any_renderer, true, OCTREEL_BAD_OPTION, "any_renderer");
+    REFUSE(width, 0, OCTREEL_BAD_OPTION, "0 x 90");
+    REFUSE(height, 16385, OCTREEL_BAD_OPTION, "160 x 16385");
+    REFUSE(aa, 3, OCTREEL_BAD_OPTION, "anti-aliasing by 3");
+    REFUSE(lod, NAN, OCTREEL_BAD_OPTION, "lod");
+    REFUSE(budget, UINT64_MAX, OCTREEL_BAD_OPTION, "budget");
+    REFUSE(every, 0, OCTREEL_BAD_OPTION, "every");
+    REFUSE(queue_ticks, 0, OCTREEL_BAD_OPTION, "queue_ticks");
+    REFUSE(tree.leaf_capacity, OCTREE_AUTO, OCTREEL_BAD_OPTION, "tree: give the capacity in force");
+    REFUSE(tree.leaf_capacity, 0, OCTREEL_BAD_OPTION, "tree: the leaf capacity");
+    REFUSE(tree.world.min[1], NAN, OCTREEL_BAD_OPTION, "tree: the world");
+    REFUSE(player.kind, OCTREE_PLAYER_KEYS, OCTREEL_BAD_OPTION, "player");
+    bad = good;
+    bad.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .box_size = NAN};
+    assert_not_opened(&bad, OCTREEL_BAD_OPTION, "box_size");
+    bad.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .id = SESSION_ID_LIMIT};
+    assert_not_opened(&bad, OCTREEL_BAD_ID, "9007199254740992");
+    assert_int_equal(octreel_recorder_open(NULL, &recorder, NULL), OCTREEL_NULL_ARGUMENT);
+    assert_int_equal(octreel_recorder_open(&good, NULL, NULL), OCTREEL_NULL_ARGUMENT);
+    moving_tree_release(&m);
+}
+
+static void a_folder_of_another_recording_is_left_as_it_is(void **state)
+{
+    const place folder = place_in(*state, "film"), file = place_in(*state, "file");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    octreel_recorder_def def = small_recorder(&m, folder.path);
+    octreel_recorder *recorder = open_recorder(&def);
+    record_steps(recorder, &m, 2);
+    close_recorder(recorder);
+    const listing before = folder_list(folder.path);
+    assert_not_opened(&def, OCTREEL_BAD_FOLDER, "already holds a recording");
+    const listing after = folder_list(folder.path);
+    assert_int_equal(before.count, after.count);
+    listing_release((listing *)&before);
+    listing_release((listing *)&after);
+    file_write_text(file.path, "mine");
+    def.folder = file.path;
+    assert_not_opened(&def, OCTREEL_BAD_FOLDER, "a file is in its place");
+    moving_tree_release(&m);
+}
+
+/* A tick that is refused, with the status and a part of the sentence. */
+static void assert_refused(octreel_recorder *recorder, const octree *tree, const octreel_tick *about,
+                           octreel_status why, const char *part)
+{
+    assert_int_equal(octreel_recorder_tick(recorder, tree, about), why);
+    if (strstr(octreel_recorder_error(recorder), part) == NULL)
+        fail_msg("%s", octreel_recorder_error(recorder));
+}
+
+static void refuse_queries(octreel_recorder *recorder, const octree *tree)
+{
+    const octree_query rows[] = {
+        {.kind = OCTREE_QUERY_NEAREST, .target = {0, NAN, 0}},
+        {.kind = OCTREE_QUERY_RADIUS, .radius = INFINITY},
+        {.kind = OCTREE_QUERY_RADIUS, .radius = -1},
+        {.kind = OCTREE_QUERY_RANGE, .box = {{0, 0, 0}, {0, 0, -1}}},
+        {.kind = OCTREE_QUERY_RANGE, .box = {{0, 0, 0}, {0, 0, INFINITY}}},
+        {.kind = OCTREE_QUERY_KINDS},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const octree_query queries[2] = {{.kind = OCTREE_QUERY_NEAREST}, rows[i]};
+        const octreel_tick about = {.queries = queries, .query_count = 2};
+        assert_refused(recorder, tree, &about, OCTREEL_BAD_QUERY, "queries[1]: ");
+    }
+}
+
+static void refuse_shapes(octreel_recorder *recorder, const octree *tree)
+{
+    octree_shape rows[] = {
+        {.kind = OCTREE_SHAPE_POINT, .at = {NAN, 0, 0}},
+        {.kind = OCTREE_SHAPE_SEGMENT, .to = {0, -INFINITY, 0}},
+        {.kind = OCTREE_SHAPE_BOX, .at = {1, 0, 0}},
+        {.kind = OCTREE_SHAPE_LABEL, .text = "\n"},
+        {.kind = OCTREE_SHAPE_LABEL},
+        {.kind = OCTREE_SHAPE_KINDS},
+    };
+    memset(rows[4].text, 'x', sizeof rows[4].text);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const octreel_tick about = {.shapes = &rows[i], .shape_count = 1};
+        assert_refused(recorder, tree, &about, OCTREEL_BAD_SHAPE, "shapes[0]: ");
+    }
+}
+
+static void refuse_trees(octreel_recorder *recorder, const octree *tree)
+{
+    const octree_def def = octree_definition(tree);
+    octree *others[] = {make_tree(cube(-8, 9), 1, 2, OCTREE_GROW), make_tree(def.world, 2, 2, OCTREE_GROW),
+                        make_tree(def.world, 1, 3, OCTREE_GROW), make_tree(def.world, 1, 2, OCTREE_REFUSE)};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        assert_refused(recorder, others[i], NULL, OCTREEL_OTHER_TREE, "world and the options");
+        octree_destroy(others[i]);
+    }
+    octree *twice = make_tree(def.world, 1, 2, OCTREE_GROW);
+    for (uint64_t i = 0; i < 300; i++)
+        assert_int_equal(octree_insert(twice, (double[]){1, 2, (double)i / 100}, i % 299), OCTREE_OK);
+    assert_refused(recorder, twice, NULL, OCTREEL_DUPLICATE_ID, "one id: 0");
+    octree_destroy(twice);
+    octree *large = make_tree(def.world, 1, 2, OCTREE_GROW);
+    assert_int_equal(octree_insert(large, (double[]){1, 2, 3}, SESSION_ID_LIMIT), OCTREE_OK);
+    assert_refused(recorder, large, NULL, OCTREEL_BAD_ID, "9007199254740992");
+    octree_destroy(large);
+    assert_refused(recorder, NULL, NULL, OCTREEL_NULL_ARGUMENT, "null");
+}
+
+static void refuse_modes(octreel_recorder *recorder, const octree *tree)
+{
+    assert_int_equal(fesetround(FE_UPWARD), 0);
+    const octreel_status status = octreel_recorder_tick(recorder, tree, NULL);
+    assert_int_equal(fesetround(FE_TONEAREST), 0);
+    assert_int_equal(status, OCTREEL_FLOAT_MODE);
+}
+
+/* Between two ticks of a program everything is tried: the recording is that of the program, and of nothing else. */
+static void what_is_refused_is_not_recorded_and_nothing_else_is_lost(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    enum { TICKS = 6 };
+    uint64_t expected[TICKS], told[TICKS];
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 4);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    octreel_recorder *recorder = open_recorder(&def);
+    for (int tick = 0; tick < TICKS; tick++) {
+        assert_recorded(recorder, &m);
+        expected[tick] = octree_digest(m.tree);
+        moving_tree_step(&m);
+        refuse_queries(recorder, m.tree);
+        refuse_shapes(recorder, m.tree);
+        refuse_trees(recorder, m.tree);
+        refuse_modes(recorder, m.tree);
+        assert_refused(recorder, m.tree, &(octreel_tick){.query_count = 1}, OCTREEL_NULL_ARGUMENT, "null");
+        assert_refused(recorder, m.tree, &(octreel_tick){.shape_count = 1}, OCTREEL_NULL_ARGUMENT, "null");
+        assert_int_equal(octreel_recorder_write(recorder, again.path, NULL), OCTREEL_NO_RING);
+    }
+    close_recorder(recorder);
+    moving_tree_release(&m);
+    assert_int_equal(tree_digests(folder.path, told, TICKS), TICKS);
+    assert_memory_equal(told, expected, sizeof told);
+    assert_films_again(&folder, &again, TICKS);
+}
+
+static void a_recorder_that_is_closed_says_so(void **state)
+{
+    const place folder = place_in(*state, "film");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    octreel_recorder *recorder = open_recorder(&def);
+    record_steps(recorder, &m, 1);
+    assert_int_equal(octreel_recorder_close(recorder), OCTREEL_OK);
+    assert_refused(recorder, m.tree, NULL, OCTREEL_CLOSED, "closed");
+    assert_int_equal(octreel_recorder_write(recorder, folder.path, NULL), OCTREEL_CLOSED);
+    assert_int_equal(octreel_recorder_close(recorder), OCTREEL_CLOSED);
+    octreel_recorder_destroy(recorder);
+    moving_tree_release(&m);
+}
+
+static void a_recorder_without_a_tick_says_so_and_leaves_no_recording(void **state)
+{
+    const place folder = place_in(*state, "film");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    octreel_recorder *recorder = open_recorder(&def);
+    assert_int_equal(octreel_recorder_close(recorder), OCTREEL_NOTHING);
+    octreel_recorder_destroy(recorder);
+    const listing names = folder_list(folder.path);
+    assert_int_equal(names.count, 0);
+    listing_release((listing *)&names);
+    moving_tree_release(&m);
+}
+
+/* Hand ticks over until one is refused, which the worker may be some ticks late to know. */
+static void record_until_broken(octreel_recorder *recorder, moving_tree *m, const char *part)
+{
+    octreel_status status = OCTREEL_OK;
+    for (int i = 0; status == OCTREEL_OK && i < 200; i++) {
+        moving_tree_step(m);
+        status = octreel_recorder_tick(recorder, m->tree, &m->about);
+    }
+    assert_int_equal(status, OCTREEL_BROKEN);
+    if (strstr(octreel_recorder_error(recorder), part) == NULL)
+        fail_msg("%s", octreel_recorder_error(recorder));
+    assert_refused(recorder, m->tree, NULL, OCTREEL_BROKEN, part);
+    assert_int_equal(octreel_recorder_close(recorder), OCTREEL_BROKEN);
+    assert_non_null(strstr(octreel_recorder_error(recorder), part));
+    octreel_recorder_destroy(recorder);
+}
+
+/* What --resume does. */
+static void resume(const place *folder)
+{
+    const place path = place_below(folder->path, "session.json");
+    film_options options = {.folder = folder->path, .resume = true};
+    record_error error = {""};
+    session_error unread = {""};
+    session_file file;
+    assert_true(view_read_recording(folder->path, &options.view, &options.every, &error));
+    if (!session_read(path.path, &file, &unread))
+        fail_msg("%s", unread.text);
+    assert_filmed(&file.session, &options);
+    session_release(&file);
+}
+
+static uint64_t ticks_of(const place *folder)
+{
+    return for_each_line(folder->path, NULL, NULL);
+}
+
+static void a_frame_that_cannot_be_written_ends_the_recording_and_resume_completes_it(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    octreel_recorder *recorder = open_recorder(&def);
+    const place blocked = frame_place(folder.path, 7);
+    record_steps(recorder, &m, 1);
+    assert_int_equal(mkdir(blocked.path, 0777), 0);
+    record_until_broken(recorder, &m, "frame_000007.png");
+    moving_tree_release(&m);
+    assert_int_equal(rmdir(blocked.path), 0);
+    assert_int_equal(ticks_of(&folder), 7);
+    resume(&folder);
+    assert_films_again(&folder, &again, 8);
+}
+
+/* The disk is full when ticks.jsonl has some forty lines: its worker has the signal of it blocked. */
+static void a_full_disk_ends_the_recording_and_resume_completes_it(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    struct rlimit limit, none;
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    octreel_recorder_def def = small_recorder(&m, folder.path);
+    def.every = 1000;
+    octreel_recorder *recorder = open_recorder(&def);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &none), 0);
+    limit = none;
+    limit.rlim_cur = 60000;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    record_until_broken(recorder, &m, "ticks.jsonl: cannot be written: File too large");
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &none), 0);
+    moving_tree_release(&m);
+    assert_nothing_half_written(folder.path);
+    const uint64_t ticks = ticks_of(&folder);
+    assert_true(ticks > 5);
+    resume(&folder);
+    assert_films_again(&folder, &again, ticks + 1); /* the tick in hand is not lost */
+}
+
+static void a_folder_that_vanishes_ends_the_recording(void **state)
+{
+    const place folder = place_in(*state, "film"), gone = place_in(*state, "gone");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    octreel_recorder *recorder = open_recorder(&def);
+    record_steps(recorder, &m, 3);
+    assert_int_equal(rename(folder.path, gone.path), 0);
+    record_until_broken(recorder, &m, folder.path);
+    moving_tree_release(&m);
+}
+
+/* Between opening and tick 0 somebody else has taken the folder. */
+static void a_first_tick_that_cannot_be_filmed_leaves_no_recording(void **state)
+{
+    const place folder = place_in(*state, "film");
+    const place mine = place_below(folder.path, "renderer.json.part");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    const octreel_recorder_def def = small_recorder(&m, folder.path);
+    octreel_recorder *recorder = open_recorder(&def);
+    assert_int_equal(mkdir(mine.path, 0777), 0);
+    assert_refused(recorder, m.tree, NULL, OCTREEL_BAD_FOLDER, "renderer.json");
+    assert_refused(recorder, m.tree, NULL, OCTREEL_BAD_FOLDER, "renderer.json");
+    assert_int_equal(octreel_recorder_close(recorder), OCTREEL_BAD_FOLDER);
+    octreel_recorder_destroy(recorder);
+    const listing names = folder_list(folder.path);
+    assert_int_equal(names.count, 1);
+    listing_release((listing *)&names);
+    moving_tree_release(&m);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_status_has_a_sentence_of_its_own),
+        TEST(definitions_that_cannot_be_used_are_refused),
+        TEST(a_folder_of_another_recording_is_left_as_it_is),
+        TEST(what_is_refused_is_not_recorded_and_nothing_else_is_lost),
+        TEST(a_recorder_that_is_closed_says_so),
+        TEST(a_recorder_without_a_tick_says_so_and_leaves_no_recording),
+        TEST(a_frame_that_cannot_be_written_ends_the_recording_and_resume_completes_it),
+        TEST(a_full_disk_ends_the_recording_and_resume_completes_it),
+        TEST(a_folder_that_vanishes_ends_the_recording),
+        TEST(a_first_tick_that_cannot_be_filmed_leaves_no_recording),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,158 @@
+/* test_recorder_memory.c - the n-th allocation of a call fails, n = 0, 1, 2 ...: the call says so, and nothing is lost.
+ *
+ * The linker hands the program's allocations to the functions below (see tests/CMakeLists.txt). They fail in the thread
+ * of the test alone: the worker has all that it wants.
+ */
+#include "fixture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "film_again.h"
+#include "moving_tree.h"
+
+/* The number of allocations that succeed; never beyond that: none fails. */
+static _Thread_local long left = -1;
+static _Thread_local bool failed;
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *memory, size_t size);
+
+static bool is_refused(void)
+{
+    if (left < 0)
+        return false;
+    if (left > 0) {
+        left--;
+        return false;
+    }
+    failed = true;
+    return true;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return is_refused() ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return is_refused() ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *memory, size_t size)
+{
+    return is_refused() ? NULL : __real_realloc(memory, size);
+}
+
+static void refuse_after(long count)
+{
+    left = count;
+    failed = false;
+}
+
+enum { BEFORE = 4, TICKS = 8 };
+
+/* Record, with one call that gets no more than `count` allocations: it is made again. False when it needs no more. */
+static bool record_with_failure(octreel_recorder *recorder, long count, uint64_t digests[TICKS])
+{
+    moving_tree m;
+    bool refused = false;
+    moving_tree_make(&m, OCTREE_REFUSE, 11);
+    for (int tick = 0; tick < TICKS; tick++) {
+        if (tick == BEFORE) {
+            for (int i = 0; i < 20; i++)
+                moving_tree_step(&m); /* so that there are more points than at any time before, perhaps */
+            refuse_after(count);
+            const octreel_status status = octreel_recorder_tick(recorder, m.tree, &m.about);
+            left = -1;
+            refused = failed;
+            assert_int_equal(status, refused ? OCTREEL_NO_MEMORY : OCTREEL_OK);
+        }
+        if (tick != BEFORE || refused)
+            assert_recorded(recorder, &m);
+        digests[tick] = octree_digest(m.tree);
+        moving_tree_step(&m);
+    }
+    moving_tree_release(&m);
+    return refused;
+}
+
+/* How a recorder is opened in this test: its tree is that of a moving_tree. */
+static octreel_recorder_def definition(const char *folder, size_t ring)
+{
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_REFUSE, 11);
+    octreel_recorder_def def = small_recorder(&m, folder);
+    def.ring = ring;
+    moving_tree_release(&m);
+    return def;
+}
+
+static void check_ticks(void **state, size_t ring)
+{
+    bool refused = true;
+    long count = 0;
+    for (; refused; count++) {
+        char name[32];
+        uint64_t digests[TICKS], told[TICKS];
+        snprintf(name, sizeof name, "film%ld", count);
+        const place folder = place_in(*state, name);
+        const octreel_recorder_def def = definition(folder.path, ring);
+        octreel_recorder *recorder = open_recorder(&def);
+        refused = record_with_failure(recorder, count, digests);
+        if (ring)
+            assert_int_equal(octreel_recorder_write(recorder, folder.path, NULL), OCTREEL_OK);
+        close_recorder(recorder);
+        const size_t kept = ring ? ring : TICKS;
+        assert_int_equal(tree_digests(folder.path, told, TICKS), kept);
+        assert_memory_equal(told, digests + TICKS - kept, kept * sizeof *told);
+    }
+    assert_true(count > 3);
+}
+
+static void a_tick_without_memory_is_refused_and_can_be_handed_over_again(void **state)
+{
+    check_ticks(state, 0);
+}
+
+static void a_ring_without_memory_stays_as_it_was(void **state)
+{
+    check_ticks(state, 3);
+}
+
+static void opening_without_memory_leaves_no_recorder(void **state)
+{
+    const place folder = place_in(*state, "film");
+    const octreel_recorder_def def = definition(folder.path, 0);
+    octreel_recorder *recorder;
+    long count = 0;
+    for (;; count++) {
+        refuse_after(count);
+        const octreel_status status = octreel_recorder_open(&def, &recorder, NULL);
+        left = -1;
+        if (!failed)
+            break;
+        assert_int_equal(status, OCTREEL_NO_MEMORY);
+        assert_null(recorder);
+    }
+    assert_true(count > 0);
+    octreel_recorder_destroy(recorder);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_tick_without_memory_is_refused_and_can_be_handed_over_again),
+        TEST(a_ring_without_memory_stays_as_it_was),
+        TEST(opening_without_memory_leaves_no_recorder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

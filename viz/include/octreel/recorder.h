@@ -1,0 +1,148 @@
+/* recorder.h - record a program from inside: hand over its tree, and what it asked of it, once a tick of its own loop.
+ *
+ * A recorder keeps a session in the making: what changed in the tree since the last tick becomes the session's edits,
+ * and beside them stand the program's queries and shapes. So the recording that comes out is like any other: octreel
+ * verifies, joins, compares and replays it, and recording its session.json again gives the same bytes. A worker thread
+ * plays and films it beside the program's loop. With `ring` nothing is filmed until the program says so: then the last
+ * ticks are, say because an assertion fired.
+ *
+ *     octreel_recorder_def def = octreel_recorder_def_default();
+ *     def.folder = "flight";
+ *     def.tree = octree_definition(tree);
+ *     octreel_recorder_open(&def, &recorder, NULL);
+ *     while (...)
+ *         octreel_recorder_tick(recorder, tree, NULL);
+ *     octreel_recorder_close(recorder);
+ *     octreel_recorder_destroy(recorder);
+ *
+ * Conventions
+ *   - Nothing here ends the process, handles signals or keeps globals. A recorder may be used from any thread, from one
+ *     at a time. The program's floating-point mode and GL contexts are left alone: a thread of the recorder's draws,
+ *     with all signals blocked. A child of fork() must not use its parent's recorders.
+ *   - Functions return a status; octreel_status_text() gives its sentence, octreel_recorder_error() the last one in
+ *     full. What is refused is not recorded, and nothing else is lost: the next tick holds all that changed since the
+ *     last one that was taken. After OCTREEL_BROKEN there are no further ticks; what was filmed is whole.
+ *   - A null recorder is one that is off: every function takes it, does nothing, and returns OCTREEL_OK.
+ *   - n is the number of points.
+ *   - While it is recorded the session is in FOLDER/session.json.live, a tick a line. After a crash of the program
+ *     "octreel record --resume -o FOLDER" makes a recording of it: what was in the queue alone is lost.
+ */
+#ifndef OCTREEL_RECORDER_H
+#define OCTREEL_RECORDER_H
+
+#include "octree/game.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One line per status: its name and its sentence. */
+#define OCTREEL_STATUS_MAP(X)                                                                                          \
+    X(OK, "done")                                                                                                      \
+    X(NULL_ARGUMENT, "a required pointer is null")                                                                     \
+    X(BAD_OPTION, "an option of the recorder has no such value")                                                       \
+    X(BAD_FOLDER, "the folder cannot be recorded into")                                                                \
+    X(CANNOT_DRAW, "there is nothing that draws this")                                                                 \
+    X(OTHER_TREE, "the tree is not of the world and the options that the recorder was opened for")                     \
+    X(DUPLICATE_ID, "two points of the tree have one id")                                                              \
+    X(BAD_ID, "an id is not below 2^53, as files need it")                                                             \
+    X(BAD_QUERY, "a query has a NaN, an infinity, a negative size, or a box whose min is above its max")               \
+    X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or a text that is none")           \
+    X(FLOAT_MODE, "the thread's floating-point mode is not the default: nearest rounding, subnormals")                 \
+    X(BUSY, "the queue is full, and the recorder was told not to wait")                                                \
+    X(BROKEN, "the recording broke off")                                                                               \
+    X(CLOSED, "the recorder is closed")                                                                                \
+    X(NOTHING, "there is no tick to be recorded")                                                                      \
+    X(NO_RING, "the recorder has no ring")                                                                             \
+    X(NO_MEMORY, "there is no memory")
+
+typedef enum octreel_status {
+#define OCTREEL_STATUS_ENUM(name, text) OCTREEL_##name,
+    OCTREEL_STATUS_MAP(OCTREEL_STATUS_ENUM)
+#undef OCTREEL_STATUS_ENUM
+        OCTREEL_STATUS_COUNT
+} octreel_status;
+
+/* The sentence for a status, without a final stop. Never null; static storage. */
+const char *octreel_status_text(octreel_status status);
+
+typedef struct octreel_recorder octreel_recorder;
+
+/* One sentence for a person: what could not be done, with the file or the option, and why. */
+typedef struct octreel_error {
+    char text[512];
+} octreel_error;
+
+/* How to record. Start from octreel_recorder_def_default() and change what you need. Names are those that octreel
+ * record
+ * --help lists. */
+typedef struct octreel_recorder_def {
+    const char *folder;   /* where the recording goes: a new folder, or one without a recording. A ring needs none */
+    octree_def tree;      /* octree_definition() of the trees to come; their allocator is not used */
+    octree_player player; /* OCTREE_PLAYER_NONE, or _BODY: the point that collides, by id, box_size and sweep */
+    int width, height;    /* pixels; 1 to 16384 */
+    const char *camera;   /* "iso", "orbit", "follow" ... */
+    const char *layers;   /* "default", "all", "-text", "nodes,points,shapes" ... */
+    const char *color_by; /* "depth", "occupancy", "plain" */
+    const char *diagram;  /* "none", "beside", "only" */
+    bool labels;          /* write paths such as 0/3/7 on nodes, where there is room */
+    double lod;           /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
+    uint64_t budget;      /* the most boxes, and the most points, of a frame; 0: any number */
+    int aa;               /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
+    uint64_t every;       /* film each N-th tick; ticks.jsonl has all of them */
+    const char *context;  /* what draws off-screen: "auto", "osmesa", "egl" */
+    bool any_renderer;    /* with "egl": a graphics card will do; frames are then the same on that card alone */
+    size_t queue_ticks;   /* ticks that may wait for the worker, at least 1 */
+    size_t queue_bytes;   /* and what they may take together; one tick alone may take more */
+    bool never_wait;      /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker */
+    size_t ring;          /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
+                            Beside the points of the first it holds what changed in the others */
+} octreel_recorder_def;
+
+/* No player, 1280 x 720, "iso", the default layers, 16 ticks or 64 MiB in the queue, no ring. */
+octreel_recorder_def octreel_recorder_def_default(void);
+
+/* What a program asked of its tree in a tick, and what else it shows. The arrays are copied; their `tick` is not read.
+ * A point in a frame is the tree's; a shape is what else there is: walls, goals, somebody else's tree. */
+typedef struct octreel_tick {
+    const octree_query *queries; /* in any order; all numbers finite */
+    size_t query_count;
+    const octree_shape *shapes;
+    size_t shape_count;
+} octreel_tick;
+
+/* Start a recorder into *recorder, which is null on an error, with the sentence in *error (may be null). The definition
+ * is copied; the folder is made. Errors: NULL_ARGUMENT, BAD_OPTION, BAD_ID (the player's), BAD_FOLDER, NO_MEMORY.
+ * Cost: a thread. */
+octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder,
+                                     octreel_error *error);
+
+/* Hand over a tick: the tree as it is now, with ids that are unique, and what was asked and is shown; `about` may be
+ * null. The first is tick 0. A null tree has no points, for programs that record shapes alone; it is NULL_ARGUMENT
+ * after a tick that had one. Nothing is kept of the tree when this returns. Waits for the worker where the queue is
+ * full, and at tick 0 until the first frame is drawn. Errors: NULL_ARGUMENT, OTHER_TREE, DUPLICATE_ID, BAD_ID,
+ * BAD_QUERY, BAD_SHAPE, FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: O(nodes
+ * + n + queries + shapes) in time; 96 bytes a point, and what changed until it is filmed. */
+octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick *about);
+
+/* Film what the ring holds into a folder as a recording of its own, whose tick 0 is tick *first of the recorder (may be
+ * null), and return when it is done. The ring goes on, and may be written again, into another folder. Errors:
+ * NULL_ARGUMENT, NO_RING, NOTHING, CLOSED, BAD_FOLDER, CANNOT_DRAW, BROKEN, NO_MEMORY. */
+octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first);
+
+/* Film what is in the queue, and complete the recording: session.json, and the page. A ring is let go unwritten. Where
+ * a tick broke off, what came before it is whole, and octreel record --resume completes it. Errors: BROKEN, what tick 0
+ * failed with, NOTHING, CLOSED. */
+octreel_status octreel_recorder_close(octreel_recorder *recorder);
+
+/* Close, where that was not done, and free all memory. */
+void octreel_recorder_destroy(octreel_recorder *recorder);
+
+/* The sentence of the last call that failed; "" where none did. Valid until the next call. */
+const char *octreel_recorder_error(const octreel_recorder *recorder);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
