@@ -1,5 +1,11 @@
 /* view.h - how a scene is looked at: size, camera, layers, colours, and what of the tree is left out. What
- * recording.json keeps. */
+ * recording.json keeps.
+ *
+ * A new layer goes through these rooms: its name and its place in painter's order here; what it shows in tick_scene.c
+ * and a file of its own beside it; its line of the legend in panel_legend.c; its words in record/element_words.c. What
+ * a tick does not say yet goes into octree_tick first. A colour is a role in theme.h, a curve of a recording's page a
+ * line of CURVES in record/viewer/facts.js. Then a structural test, a golden frame, and new digests in test_replay.
+ */
 #ifndef SCENE_VIEW_H
 #define SCENE_VIEW_H
 

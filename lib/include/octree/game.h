@@ -104,7 +104,7 @@ typedef struct octree_shape {
     char text[OCTREE_SHAPE_TEXT]; /* of a label: printable ASCII, with its final zero; else not read */
 } octree_shape;
 
-/* All that is needed to play. The arrays are borrowed: they must outlive the game. */
+/* All that is needed to play. It is borrowed, with its arrays: they must outlive the game. */
 typedef struct octree_session {
     octree_def tree;
     octree_player player;
