@@ -10,11 +10,34 @@ enum { SIDE = 128 };
 
 /* ---- Against GL --------------------------------------------------------------------------------------------- */
 
+/* Where a line ends: in the picture with all of its width, and often on the edge or the centre of a pixel, so that many
+ * edges meet centres. */
+static double some_place(uint64_t *random)
+{
+    const uint64_t steps = octree_random(random) & 1 ? 256 : 2;
+    return 2 + (double)(octree_random(random) % ((SIDE - 4) * steps)) / (double)steps;
+}
+
+static void add_lines(scene *s, uint64_t *random, uint64_t count)
+{
+    for (uint64_t i = 0; i < count; i++) {
+        const uint8_t role = (uint8_t)(1 + octree_random(random) % (ROLE_COUNT - 1));
+        const uint8_t width = (uint8_t)(1 + octree_random(random) % 4), style = octree_random(random) % 8 == 0;
+        scene_add_segment(
+            s, (scene_segment){
+                   .id = i,
+                   .in_picture = true,
+                   .look = {.layer = LAYER_TEXT, .role = role, .style = style, .width = width},
+                   .ends = {{some_place(random), some_place(random)}, {some_place(random), some_place(random)}},
+               });
+    }
+}
+
 /* Lines that are upright: rectangles, of which many begin or end on the centres of pixels. */
 static void add_upright_lines(scene *s, uint64_t *random, uint64_t count)
 {
     for (uint64_t i = 0; i < count; i++) {
-        const unsigned axis = octree_random(random) & 1, style = octree_random(random) & 1;
+        const unsigned axis = octree_random(random) & 1, style = octree_random(random) % 8 == 0;
         const double at = (double)(octree_random(random) % (SIDE * 256)) / 256;
         const double half = (double)(octree_random(random) % (SIDE * 2)) / 2;
         const double from = octree_random(random) & 1 ? at : half, to = octree_random(random) % (2 * SIDE) - SIDE / 2.0;
@@ -31,31 +54,47 @@ static void add_upright_lines(scene *s, uint64_t *random, uint64_t count)
     }
 }
 
-/* A slanted line that comes last, in a corner, sends all before it to GL. */
-static void upright_rectangles_are_filled_as_gl_fills_them(void **state)
+/* A diamond that comes last sends all before it to GL: they are too few to be filled first. */
+static void check_against_gl(void (*add)(scene *s, uint64_t *random, uint64_t count))
 {
-    (void)state;
     uint64_t random = 1;
-    const view v = view_of(SIDE, SIDE, CAMERA_ISO, VIEW_ALL_LAYERS);
+    view v = view_of(SIDE, SIDE, CAMERA_TOP, VIEW_ALL_LAYERS);
     const octree_box world = cube(-1, 1);
+    v.diagram = DIAGRAM_BESIDE; /* the one layer above the text */
     renderer *r = open_renderer(SIDE, SIDE), *other = open_renderer(SIDE, SIDE);
     for (int round = 0; round < 200; round++) {
         scene s = empty_scene(&v, &world);
-        add_upright_lines(&s, &random, 30);
+        double middle[2];
+        add(&s, &random, 30);
         uint8_t *filled = draw(r, &s);
-        scene_add_segment(&s, (scene_segment){.in_picture = true,
-                                              .ends = {{0, 0}, {3, 2}},
-                                              .look = {.layer = LAYER_TEXT, .role = ROLE_TEXT, .width = 1}});
+        scene_add_marker(&s, (scene_marker){.shape = SHAPE_DIAMOND,
+                                            .at = {0, 0, 0},
+                                            .look = {.layer = LAYER_DIAGRAM, .role = ROLE_TEXT, .width = 4}});
         uint8_t *sent = draw(other, &s);
+        pixel_of(&s, (const double[3]){0, 0, 0}, middle);
+        assert_int_equal(sent[(int)middle[1] * SIDE + (int)middle[0]] / THEME_SHADES, ROLE_TEXT);
         for (int y = 0; y < SIDE; y++)
-            for (int x = y < 4 ? 5 : 0; x < SIDE; x++)
-                assert_int_equal(filled[y * SIDE + x], sent[y * SIDE + x]);
+            for (int x = 0; x < SIDE; x++)
+                if (abs(x - (int)middle[0]) > 5 || abs(y - (int)middle[1]) > 5)
+                    assert_int_equal(filled[y * SIDE + x], sent[y * SIDE + x]);
         free(filled);
         free(sent);
         scene_release(&s);
     }
     renderer_close(other);
     renderer_close(r);
+}
+
+static void upright_rectangles_are_filled_as_gl_fills_them(void **state)
+{
+    (void)state;
+    check_against_gl(add_upright_lines);
+}
+
+static void lines_are_filled_as_gl_fills_them(void **state)
+{
+    (void)state;
+    check_against_gl(add_lines);
 }
 
 /* ---- From frame to frame ------------------------------------------------------------------------------------ */
@@ -222,6 +261,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(upright_rectangles_are_filled_as_gl_fills_them),
+        cmocka_unit_test(lines_are_filled_as_gl_fills_them),
         cmocka_unit_test(a_renderer_draws_the_same_whatever_it_drew_before),
         cmocka_unit_test(what_frames_begin_with_alike_is_sent_twice_and_then_no_more),
         cmocka_unit_test(many_rectangles_are_filled_between_what_is_sent),

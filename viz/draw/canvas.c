@@ -1,12 +1,12 @@
 /* canvas.c - see canvas.h. */
 #include "canvas.h"
+#include "fill.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* To begin and to read once more costs a rasteriser about as much as so many lines, or so many small rectangles. */
-#define LINES_A_PASS 256
-#define RECTANGLES_A_PASS 1024
+/* To begin and to read once more costs a rasteriser about as much as so many quads. */
+#define WORTH_A_PASS 256
 
 /* The index of what is laid over another picture and shows it. */
 #define NOTHING 255
@@ -35,37 +35,11 @@ static size_t count_pixels(const canvas *c)
     return (size_t)c->width * (size_t)c->height;
 }
 
-/* ---- Rectangles --------------------------------------------------------------------------------------------- */
+/* ---- What is filled ----------------------------------------------------------------------------------------- */
 
-static bool is_rectangle(const quad *q)
+static fill_target target_of(const drawing *d)
 {
-    const int32_t *x = q->x, *y = q->y;
-    return (x[0] == x[3] && x[1] == x[2] && y[0] == y[1] && y[2] == y[3]) ||
-           (x[0] == x[1] && x[2] == x[3] && y[1] == y[2] && y[3] == y[0]);
-}
-
-/* The first pixel whose centre is not before a coordinate: 0 to `size`. */
-static int first_pixel(int32_t at, int size)
-{
-    const int32_t centre = QUAD_SUBPIXELS / 2;
-    if (at <= centre)
-        return 0;
-    const int32_t pixel = (at - centre + QUAD_SUBPIXELS - 1) / QUAD_SUBPIXELS;
-    return pixel < size ? pixel : size;
-}
-
-/* GL's rule: a pixel belongs to what its centre is in, and of two that meet on the centre to the one behind. */
-static void fill(drawing *d, const quad *q)
-{
-    const int32_t *x = q->x, *y = q->y;
-    const canvas *c = d->canvas;
-    const int left = first_pixel(x[0] < x[2] ? x[0] : x[2], c->width);
-    const int right = first_pixel(x[0] < x[2] ? x[2] : x[0], c->width);
-    const int top = first_pixel(y[0] < y[2] ? y[0] : y[2], c->height);
-    const int bottom = first_pixel(y[0] < y[2] ? y[2] : y[0], c->height);
-    uint8_t *row = d->indices + (size_t)top * (size_t)c->width + left;
-    for (int i = top; i < bottom && left < right; i++, row += c->width)
-        memset(row, q->color, (size_t)(right - left));
+    return (fill_target){d->indices, d->canvas->width, d->canvas->height};
 }
 
 static void fill_all(drawing *d, size_t start, size_t end)
@@ -73,8 +47,9 @@ static void fill_all(drawing *d, size_t start, size_t end)
     if (d->blank)
         memset(d->indices, 0, count_pixels(d->canvas));
     d->blank = false;
+    const fill_target to = target_of(d);
     for (size_t i = start; i < end; i++)
-        fill(d, &d->quads[i]);
+        fill_quad(&to, &d->quads[i]);
 }
 
 /* ---- The rasteriser ----------------------------------------------------------------------------------------- */
@@ -125,11 +100,12 @@ static bool rasterise_all(drawing *d, size_t start, size_t end)
 /* Many rectangles in a row, and those that come last, are filled. */
 static bool draw_span(drawing *d, size_t start, size_t end)
 {
+    const fill_target to = target_of(d);
     size_t begun = start;
     for (size_t i = start, run; i < end; i = run + 1) {
-        for (run = i; run < end && is_rectangle(&d->quads[run]);)
+        for (run = i; run < end && fill_takes(&to, &d->quads[run]);)
             run++;
-        if (run == i || (run < end && run - i < RECTANGLES_A_PASS))
+        if (run == i || (run < end && run - i < WORTH_A_PASS))
             continue;
         if (!rasterise_all(d, begun, i))
             return false;
@@ -167,7 +143,7 @@ static void remember(canvas *c, const quad_list *quads)
 /* Whether it pays to keep what is alike up to `same`, where `start` quads are drawn, and there is room for it. */
 static bool is_worth_keeping(canvas *c, size_t start, size_t same)
 {
-    if (same - start < LINES_A_PASS)
+    if (same - start < WORTH_A_PASS)
         return false;
     c->kept = c->kept ? c->kept : malloc(count_pixels(c));
     return c->kept != NULL;
