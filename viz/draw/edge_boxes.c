@@ -6,53 +6,27 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What boxes must have in common to share edges: layer, style, width and axis; and the line's place on other axes. */
-typedef struct shared_line {
-    uint32_t kind;
-    double u, v;
-} shared_line;
-
 struct box_edge {
-    shared_line line;
+    line_key line;
     double from, to;
     uint32_t box;
     uint8_t depth;
 };
 
-static uint32_t kind_of(scene_look look, int axis)
-{
-    return (uint32_t)look.layer << 24 | (uint32_t)look.style << 16 | (uint32_t)look.width << 8 | (uint32_t)axis;
-}
-
-static int compare_doubles(double a, double b)
-{
-    return (a > b) - (a < b);
-}
-
-static int compare_lines(const shared_line *a, const shared_line *b)
-{
-    if (a->kind != b->kind)
-        return a->kind < b->kind ? -1 : 1;
-    const int u = compare_doubles(a->u, b->u);
-    return u ? u : compare_doubles(a->v, b->v);
-}
-
 static int compare_edges(const void *a, const void *b)
 {
     const box_edge *p = a, *q = b;
-    const int lines = compare_lines(&p->line, &q->line);
+    const int lines = line_key_compare(&p->line, &q->line);
     if (lines)
         return lines;
     const int from = compare_doubles(p->from, q->from);
     return from ? from : (p->box > q->box) - (p->box < q->box);
 }
 
-static box_edge edge_of(const scene_box *box, size_t index, int axis, unsigned corner)
+static box_edge edge_of(const scene_box *box, size_t index, unsigned axis, unsigned corner)
 {
-    const int second = (axis + 1) % 3, third = (axis + 2) % 3;
     return (box_edge){
-        .line = {kind_of(box->look, axis), (corner & 1 ? box->box.max : box->box.min)[second],
-                 (corner & 2 ? box->box.max : box->box.min)[third]},
+        .line = line_key_of(box, axis, corner),
         .from = box->box.min[axis],
         .to = box->box.max[axis],
         .box = (uint32_t)index,
@@ -72,7 +46,7 @@ bool edge_boxes_make(edge_boxes *all, const scene *s)
     for (size_t i = 0; i < s->boxes.count; i++) {
         const scene_box *box = &s->boxes.items[i];
         const size_t before = all->count;
-        for (int axis = 0; axis < 3; axis++)
+        for (unsigned axis = 0; axis < 3; axis++)
             for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
                 all->items[all->count++] = edge_of(box, i, axis, corner);
         if (all->count == before) /* a dot */
@@ -93,7 +67,7 @@ void edge_boxes_release(edge_boxes *all)
 /* A merged edge as it was painted. */
 typedef struct stroke {
     const edge *edge;
-    shared_line line;
+    line_key line;
     double from, to;
     double seen[2][3]; /* its ends in camera coordinates */
     int across;        /* the picture's axis that the stroke is longer on */
@@ -102,15 +76,13 @@ typedef struct stroke {
 
 static stroke stroke_of(const scene *s, const edge *e)
 {
-    int axis = 0;
+    unsigned axis = 0;
     while (axis < 2 && e->ends[0][axis] == e->ends[1][axis])
         axis++;
     if (e->ends[0][axis] == e->ends[1][axis])
         axis = 0;
-    stroke k = {.edge = e,
-                .line = {kind_of(e->look, axis), e->ends[0][(axis + 1) % 3], e->ends[0][(axis + 2) % 3]},
-                .from = e->ends[0][axis],
-                .to = e->ends[1][axis]};
+    stroke k = {
+        .edge = e, .line = line_key_at(e->look, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
     piece pieces[QUAD_BANDS];
     bool overflowed;
     const unsigned count = project_segment(s, e->ends[0], e->ends[1], pieces, &overflowed);
@@ -144,12 +116,12 @@ static double place_at(const scene *s, const stroke *k, double pixel)
 /* ---- The boxes there ---------------------------------------------------------------------------------------- */
 
 /* The first edge of a box on a line, or where it would be. */
-static size_t first_on(const edge_boxes *all, const shared_line *wanted)
+static size_t first_on(const edge_boxes *all, const line_key *wanted)
 {
     size_t low = 0, high = all->count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (compare_lines(&all->items[middle].line, wanted) < 0)
+        if (line_key_compare(&all->items[middle].line, wanted) < 0)
             low = middle + 1;
         else
             high = middle;
@@ -159,7 +131,7 @@ static size_t first_on(const edge_boxes *all, const shared_line *wanted)
 
 static bool is_on(const edge_boxes *all, size_t i, const stroke *k)
 {
-    return i < all->count && compare_lines(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
+    return i < all->count && line_key_compare(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
 }
 
 static double distance(const box_edge *of, double at)

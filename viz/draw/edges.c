@@ -20,18 +20,10 @@ typedef struct stretch_list {
     size_t count, room;
 } stretch_list;
 
-static int compare_doubles(double a, double b)
-{
-    return (a > b) - (a < b);
-}
-
 static int compare_lines(const void *a, const void *b)
 {
     const line *p = *(line *const *)a, *q = *(line *const *)b;
-    if (p->kind != q->kind)
-        return p->kind < q->kind ? -1 : 1;
-    const int u = compare_doubles(p->u, q->u);
-    return u ? u : compare_doubles(p->v, q->v);
+    return line_key_compare(&p->key, &q->key);
 }
 
 static int compare_stretches(const void *a, const void *b)
@@ -71,21 +63,11 @@ static bool same_look(scene_look a, scene_look b)
     return a.layer == b.layer && a.role == b.role && a.style == b.style && a.width == b.width;
 }
 
-static uint32_t kind_of(scene_look look, unsigned axis)
-{
-    return (uint32_t)look.layer << 24 | (uint32_t)look.style << 16 | (uint32_t)look.width << 8 | axis;
-}
-
-static unsigned axis_of(const line *on)
-{
-    return on->kind & 0xff;
-}
-
 /* Add the stretch [from, to] with the look of `of`, to the last edge where it goes on from there on the same line. */
 static bool emit(edge_list *list, const stretch *of, double from, double to, bool same_line)
 {
     const line *on = &list->lines.items[of->line];
-    const unsigned axis = axis_of(on);
+    const unsigned axis = line_key_axis(&on->key);
     edge *last = list->count ? &list->items[list->count - 1] : NULL;
     if (same_line && last && last->depth == of->depth && same_look(last->look, of->look) &&
         last->ends[1][axis] == from) {
@@ -98,8 +80,8 @@ static bool emit(edge_list *list, const stretch *of, double from, double to, boo
     *added = (edge){.id = of->id, .look = of->look, .depth = of->depth};
     for (int end = 0; end < 2; end++) {
         added->ends[end][axis] = end ? to : from;
-        added->ends[end][(axis + 1) % 3] = on->u;
-        added->ends[end][(axis + 2) % 3] = on->v;
+        added->ends[end][(axis + 1) % 3] = on->key.u;
+        added->ends[end][(axis + 2) % 3] = on->key.v;
     }
     return true;
 }
@@ -127,7 +109,7 @@ static double next_change(const stretch *line, size_t count, size_t begun, const
  * that a line costs little more than its length times the depth of the tree. */
 static bool sweep_line(edge_list *list, const stretch *line, size_t count)
 {
-    const unsigned axis = axis_of(&list->lines.items[line[0].line]);
+    const unsigned axis = line_key_axis(&list->lines.items[line[0].line].key);
     size_t first = 0;
     bool same_line = false;
     double at = line[0].from;
@@ -181,9 +163,8 @@ static bool append_stretch(stretch_list *all, const stretch *it)
 
 static bool collect_edge(stretch_list *all, line_set *lines, const scene_box *box, unsigned axis, unsigned corner)
 {
-    const unsigned second = (axis + 1) % 3, third = (axis + 2) % 3;
-    const size_t place = lines_find(lines, kind_of(box->look, axis), (corner & 1 ? box->box.max : box->box.min)[second],
-                                    (corner & 2 ? box->box.max : box->box.min)[third]);
+    const line_key key = line_key_of(box, axis, corner);
+    const size_t place = lines_find(lines, &key);
     if (place == SIZE_MAX)
         return false;
     line *on = &lines->items[place];

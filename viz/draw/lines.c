@@ -28,10 +28,10 @@ static uint64_t fold(double value)
     return bits ^ bits >> 32;
 }
 
-static size_t place_of(const line_set *set, uint32_t kind, double u, double v)
+static size_t place_of(const line_set *set, const line_key *key)
 {
-    const uint64_t mixed =
-        (fold(u) + kind) * UINT64_C(0x9e3779b97f4a7c15) ^ (fold(v) + kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
+    const uint64_t mixed = (fold(key->u) + key->kind) * UINT64_C(0x9e3779b97f4a7c15) ^
+                           (fold(key->v) + key->kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
     return (size_t)((mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32) & (set->size - 1);
 }
 
@@ -51,7 +51,7 @@ static bool grow(line_set *set)
     set->size = size;
     set->room = room;
     for (size_t i = 0; i < set->count; i++) {
-        size_t at = place_of(set, items[i].kind, items[i].u, items[i].v);
+        size_t at = place_of(set, &items[i].key);
         while (table[at])
             at = (at + 1) & (size - 1);
         table[at] = (uint32_t)(i + 1);
@@ -59,17 +59,17 @@ static bool grow(line_set *set)
     return true;
 }
 
-size_t lines_find(line_set *set, uint32_t kind, double u, double v)
+size_t lines_find(line_set *set, const line_key *key)
 {
     if (set->count == set->room && !grow(set))
         return SIZE_MAX;
-    size_t at = place_of(set, kind, u, v);
+    size_t at = place_of(set, key);
     for (; set->table[at]; at = (at + 1) & (set->size - 1)) {
-        const line *l = &set->items[set->table[at] - 1];
-        if (l->u == u && l->v == v && l->kind == kind)
+        const line_key *found = &set->items[set->table[at] - 1].key;
+        if (found->u == key->u && found->v == key->v && found->kind == key->kind)
             return set->table[at] - 1;
     }
-    set->items[set->count] = (line){.u = u, .v = v, .kind = kind};
+    set->items[set->count] = (line){.key = *key};
     set->table[at] = (uint32_t)(set->count + 1);
     return set->count++;
 }

@@ -2,16 +2,14 @@
 #ifndef DRAW_LINES_H
 #define DRAW_LINES_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "line_key.h"
 
-/* Parallel to an axis at `u` and `v` on the two others. */
+#include <stddef.h>
+
 typedef struct line {
-    double u, v;
-    uint32_t kind; /* layer, style, width and axis: what is drawn alike */
-    size_t last;   /* the stretch that was put on it last */
-    size_t count;  /* of its stretches */
+    line_key key;
+    size_t last;  /* the stretch that was put on it last */
+    size_t count; /* of its stretches */
 } line;
 
 /* A zeroed one is empty. */
@@ -26,6 +24,6 @@ void lines_clear(line_set *set);
 void lines_release(line_set *set);
 
 /* The place of a line, which is new where its count is 0. SIZE_MAX when there is no memory. The two zeros are one. */
-size_t lines_find(line_set *set, uint32_t kind, double u, double v);
+size_t lines_find(line_set *set, const line_key *key);
 
 #endif
