@@ -14,9 +14,9 @@
  * they make of each other), and R by at most 4u S. For a cell the planes are taken as evenly spaced: at its lowest
  * corner's keys, side is that of the world's lowest corner (5u S) and two products of a key (each 4u of at most 2S),
  * and four sums of terms of at most 3S in all make 12u S more: 33u S. The planes themselves are off from their ideal
- * places by two ulps of the world's coordinates at most (test_planes), of which four are taken. So a band of 128u S, of
- * those ulps times d, and of 2^-1000 for underflow, on either side of R, has room for all: beyond it is surely outside,
- * and below it surely inside.
+ * places by two ulps of the world's coordinates at most (test_exact_planes), of which four are taken. So a band of
+ * 128u S, of those ulps times d, and of 2^-1000 for underflow, on either side of R, has room for all: beyond it is
+ * surely outside, and below it surely inside.
  */
 #ifndef OCTREE_HULL_H
 #define OCTREE_HULL_H

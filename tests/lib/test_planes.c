@@ -1,45 +1,10 @@
 /* test_planes.c - the box of a cell: monotone, nested, never overflowing, and the paper's centres where those are
- * exact.
+ * exact. test_exact_planes.c holds the planes against the real ones.
  */
-#include "fixture.h"
+#include "extreme_worlds.h"
 
 #include <float.h>
 #include <math.h>
-
-#ifdef OCTREEL_ORACLES
-#include "exact_oracle.h"
-#endif
-
-/* Row 1 of the extremes, and worlds whose planes round. */
-static const double axes[][2] = {
-    {-1000, 1000},      {0, 1},           {-DBL_MAX, DBL_MAX},  {-1e200, 1e200},   {5e-324, 1e-310},
-    {1e15, 1e15 + 1},   {0.1, 0.3},       {-0.1, 1e15},         {-5e-324, 5e-324}, {0, 5e-324},
-    {-DBL_MAX, -1e308}, {1e308, DBL_MAX}, {-1, 1e-300},         {1, 1 + 0x1p-52},  {-0x1p-1022, 0x1p-1021},
-    {-DBL_MAX, 5e-324}, {-1.0 / 3, 1e5},  {0x1p-1074, DBL_MAX}, {-3, 7},           {0.1, 0x1.999999999999cp-4},
-    {-0.1, 0.1},        {-1, 0x1p53},     {-1e-308, 1e-308},    {0, 0x1p-1023},    {-7e-310, 3e-308},
-};
-enum { axis_count = sizeof axes / sizeof axes[0] };
-
-static octree_box world_of(size_t row)
-{
-    return cube(axes[row][0], axes[row][1]);
-}
-
-/* The address of the cell with these integer coordinates at a depth. */
-static octree_address address_of(uint32_t x, uint32_t y, uint32_t z, unsigned depth)
-{
-    octree_address address = OCTREE_ROOT;
-    for (unsigned level = depth; level-- > 0;)
-        address = address << 3 | (x >> level & 1) << 2 | (y >> level & 1) << 1 | (z >> level & 1);
-    return address;
-}
-
-/* The box of the cell k on every axis. */
-static octree_box cell(size_t row, uint32_t k, unsigned depth)
-{
-    octree_box world = world_of(row);
-    return octree_cell_box(&world, address_of(k, k, k, depth));
-}
 
 static void assert_same_box(const octree_box *a, const octree_box *b)
 {
@@ -50,7 +15,7 @@ static void assert_same_box(const octree_box *a, const octree_box *b)
 static void the_root_cell_is_the_world(void **state)
 {
     (void)state;
-    for (size_t row = 0; row < axis_count; row++) {
+    for (size_t row = 0; row < world_count; row++) {
         octree_box world = world_of(row);
         octree_box box = octree_cell_box(&world, OCTREE_ROOT);
         assert_same_box(&box, &world);
@@ -60,9 +25,9 @@ static void the_root_cell_is_the_world(void **state)
 static void planes_ascend_and_stay_within_the_world(void **state)
 {
     (void)state;
-    for (size_t row = 0; row < axis_count; row++)
+    for (size_t row = 0; row < world_count; row++)
         for (unsigned depth = 0; depth <= 10; depth++) {
-            double last = axes[row][0];
+            double last = world_axes[row][0];
             for (uint32_t k = 0; k < 1u << depth; k++) {
                 octree_box box = cell(row, k, depth);
                 assert_true(isfinite(box.min[0]) && isfinite(box.max[0]));
@@ -70,7 +35,7 @@ static void planes_ascend_and_stay_within_the_world(void **state)
                 assert_true(box.max[0] >= box.min[0]);
                 last = box.max[0];
             }
-            assert_true(last == axes[row][1]);
+            assert_true(last == world_axes[row][1]);
         }
 }
 
@@ -78,12 +43,12 @@ static void deep_planes_ascend_as_well(void **state)
 {
     (void)state;
     uint64_t random = 7;
-    for (size_t row = 0; row < axis_count; row++)
+    for (size_t row = 0; row < world_count; row++)
         for (int i = 0; i < 2000; i++) {
             unsigned depth = 11 + (unsigned)random_below(&random, 11);
             uint32_t k = (uint32_t)random_below(&random, (UINT64_C(1) << depth) - 1);
             octree_box low = cell(row, k, depth), high = cell(row, k + 1, depth);
-            assert_true(low.min[0] >= axes[row][0] && high.max[0] <= axes[row][1]);
+            assert_true(low.min[0] >= world_axes[row][0] && high.max[0] <= world_axes[row][1]);
             assert_true(low.min[0] <= low.max[0] && high.min[0] <= high.max[0]);
             assert_true(low.max[0] == high.min[0]);
         }
@@ -93,7 +58,7 @@ static void children_share_the_faces_of_their_parent(void **state)
 {
     (void)state;
     uint64_t random = 3;
-    for (size_t row = 0; row < axis_count; row++)
+    for (size_t row = 0; row < world_count; row++)
         for (int i = 0; i < 500; i++) {
             octree_box world = world_of(row);
             octree_address address = OCTREE_ROOT;
@@ -191,7 +156,7 @@ static octree_walk_order compare_with_parent_plane(const octree_node *node, void
 static void no_node_splits_without_a_plane_strictly_inside(void **state)
 {
     (void)state;
-    for (size_t row = 0; row < axis_count; row++) {
+    for (size_t row = 0; row < world_count; row++) {
         octree_def def = define(world_of(row), 1, 21, OCTREE_GROW);
         octree *tree = NULL;
         assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
@@ -199,7 +164,8 @@ static void no_node_splits_without_a_plane_strictly_inside(void **state)
         for (uint64_t id = 0; id < 60; id++) {
             double at[3];
             for (int axis = 0; axis < 3; axis++)
-                at[axis] = id % 3 == 0 ? def.world.min[axis] : random_between(&random, axes[row][0], axes[row][1]);
+                at[axis] =
+                    id % 3 == 0 ? def.world.min[axis] : random_between(&random, world_axes[row][0], world_axes[row][1]);
             assert_int_equal(octree_insert(tree, at, id), OCTREE_OK);
         }
         assert_valid(tree);
@@ -207,42 +173,6 @@ static void no_node_splits_without_a_plane_strictly_inside(void **state)
         octree_destroy(tree);
     }
 }
-
-#ifdef OCTREEL_ORACLES
-/* The test fails unless the plane k is the real one where that is a double at this and every shallower depth on the
- * way, and within two steps of it elsewhere. */
-static void assert_plane(size_t row, uint32_t k, unsigned depth)
-{
-    double low = axes[row][0], high = axes[row][1], real;
-    double ours = cell(row, k, depth).min[0];
-    bool exact = true;
-    for (unsigned shift = 0; shift < depth; shift++) {
-        uint32_t at = k >> shift;
-        exact = exact && exact_plane(low, high, at, depth - shift, &real);
-        exact = exact && exact_plane(low, high, at + 1, depth - shift, &real);
-    }
-    exact_plane(low, high, k, depth, &real);
-    if (exact && ours != real)
-        fail_msg("plane %u/2^%u of [%.17g, %.17g] is %.17g, not %.17g", k, depth, low, high, ours, real);
-    if (!exact_plane_is_near(low, high, k, depth, 2, ours))
-        fail_msg("plane %u/2^%u of [%.17g, %.17g] is far off: %.17g", k, depth, low, high, ours);
-}
-
-static void planes_are_the_real_ones_or_close(void **state)
-{
-    (void)state;
-    uint64_t random = 6;
-    for (size_t row = 0; row < axis_count; row++) {
-        for (unsigned depth = 0; depth <= 6; depth++)
-            for (uint32_t k = 0; k < 1u << depth; k++)
-                assert_plane(row, k, depth);
-        for (int i = 0; i < 300; i++) {
-            unsigned depth = 7 + (unsigned)random_below(&random, 15);
-            assert_plane(row, (uint32_t)random_below(&random, UINT64_C(1) << depth), depth);
-        }
-    }
-}
-#endif
 
 int main(void)
 {
@@ -256,9 +186,6 @@ int main(void)
         cmocka_unit_test(symmetric_worlds_split_at_zero),
         cmocka_unit_test(the_quarters_of_symmetric_worlds_are_exact),
         cmocka_unit_test(no_node_splits_without_a_plane_strictly_inside),
-#ifdef OCTREEL_ORACLES
-        cmocka_unit_test(planes_are_the_real_ones_or_close),
-#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

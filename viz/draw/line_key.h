@@ -1,4 +1,5 @@
-/* line_key.h - the line of the world that an edge of a box lies on: boxes share an edge where these are equal. Private. */
+/* line_key.h - the line of the world that an edge of a box lies on: boxes share an edge where two are equal. Private.
+ */
 #ifndef DRAW_LINE_KEY_H
 #define DRAW_LINE_KEY_H
 
