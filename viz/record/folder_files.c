@@ -59,7 +59,7 @@ bool write_session_file(const folder_place *place, const octree_session *session
     return end_file(&file, place, "session.json", "is another session, or was changed by hand", error);
 }
 
-/* That of octree_digest_bytes(), piece by piece: a session may be large. */
+/* That of octree_digest_bytes(), in pieces of whole words: a session may be large. */
 static uint64_t digest_stream(FILE *in)
 {
     unsigned char bytes[1 << 13];
@@ -67,12 +67,7 @@ static uint64_t digest_stream(FILE *in)
     size_t got;
     while ((got = fread(bytes, 1, sizeof bytes, in)) > 0) {
         size += got;
-        for (size_t i = 0; i < got; i += 8) {
-            uint64_t word = 0;
-            for (size_t j = 0; j < 8 && i + j < got; j++)
-                word |= (uint64_t)bytes[i + j] << (8 * j);
-            digest = octree_digest_word(digest, word);
-        }
+        digest = octree_digest_words(digest, bytes, got);
     }
     return octree_digest_word(digest, size);
 }
@@ -88,39 +83,51 @@ bool digest_session_file(const char *path, uint64_t *digest, record_error *error
     return ok || record_fail(error, "%s: cannot be read", path);
 }
 
+/* The text of a session in a folder, and where it is, for messages. The caller frees both. */
+typedef struct session_text {
+    char *path, *bytes;
+    size_t size;
+} session_text;
+
+static bool read_text(const char *folder, const char *name, session_text *text, record_error *error)
+{
+    char reason[WHOLE_FILE_REASON];
+    text->path = folder_path(folder, name);
+    if (!text->path)
+        return record_fail(error, "there is no memory");
+    if (whole_file_read(text->path, &text->bytes, &text->size, reason))
+        return true;
+    record_fail(error, "%s: %s", text->path, reason);
+    free(text->path);
+    return false;
+}
+
+static bool parse_text(session_text *text, const char *folder, session_file *file, record_error *error)
+{
+    session_error unread;
+    const bool ok = session_parse(text->path, folder, text->bytes, text->size, file, &unread);
+    free(text->bytes);
+    free(text->path);
+    return ok || record_fail(error, "%s", unread.text);
+}
+
 bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error)
 {
-    char reason[WHOLE_FILE_REASON], *bytes, *path = folder_path(folder, "session.json");
-    session_error unread;
-    size_t size;
-    if (!path)
-        return record_fail(error, "there is no memory");
-    bool ok = whole_file_read(path, &bytes, &size, reason) || record_fail(error, "%s: %s", path, reason);
-    if (ok) {
-        *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
-        ok = session_parse(path, folder, bytes, size, file, &unread) || record_fail(error, "%s", unread.text);
-        free(bytes);
-    }
-    free(path);
-    return ok;
+    session_text text;
+    if (!read_text(folder, "session.json", &text, error))
+        return false;
+    *digest = octree_digest_bytes(OCTREE_DIGEST_START, text.bytes, text.size);
+    return parse_text(&text, folder, file, error);
 }
 
 bool read_live_session(const char *folder, session_file *file, record_error *error)
 {
-    char reason[WHOLE_FILE_REASON], *bytes, *path = folder_path(folder, "session.json.live");
-    session_error unread;
-    size_t size;
-    if (!path)
-        return record_fail(error, "there is no memory");
-    bool ok = whole_file_read(path, &bytes, &size, reason) || record_fail(error, "%s: %s", path, reason);
-    if (ok) {
-        while (size > 0 && bytes[size - 1] != '\n')
-            size--;
-        ok = session_parse(path, folder, bytes, size, file, &unread) || record_fail(error, "%s", unread.text);
-        free(bytes);
-    }
-    free(path);
-    return ok;
+    session_text text;
+    if (!read_text(folder, "session.json.live", &text, error))
+        return false;
+    while (text.size > 0 && text.bytes[text.size - 1] != '\n')
+        text.size--;
+    return parse_text(&text, folder, file, error);
 }
 
 static void write_text(json_writer *w, const char *key, const char *text)

@@ -29,8 +29,8 @@ static inline uint64_t octree_digest_double(uint64_t digest, double value)
     return octree_digest_word(digest, bits);
 }
 
-/* Stir bytes in, eight at a time in little-endian order, then their number. */
-static inline uint64_t octree_digest_bytes(uint64_t digest, const void *bytes, size_t size)
+/* Stir bytes in, eight at a time in little-endian order; those left at the end are a word with zeros above them. */
+static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, size_t size)
 {
     const unsigned char *at = (const unsigned char *)bytes;
     for (size_t i = 0; i < size; i += 8) {
@@ -39,7 +39,13 @@ static inline uint64_t octree_digest_bytes(uint64_t digest, const void *bytes, s
             word |= (uint64_t)at[i + j] << (8 * j);
         digest = octree_digest_word(digest, word);
     }
-    return octree_digest_word(digest, size);
+    return digest;
+}
+
+/* Stir bytes in as words, then their number. */
+static inline uint64_t octree_digest_bytes(uint64_t digest, const void *bytes, size_t size)
+{
+    return octree_digest_word(octree_digest_words(digest, bytes, size), size);
 }
 
 #endif
