@@ -159,7 +159,8 @@ static bool judge_neighbors(trial *t, const question *q, const octree_neighbor *
         return count == 0;
     if (is_exact(&q->how))
         return judge_exact(t, q, list, count);
-    return stands(t, q, list, 0) && stands(t, q, list, count - 1) && stands(t, q, list, below(t, count));
+    const size_t any = below(t, count);
+    return stands(t, q, list, 0) && (count == 1 || (stands(t, q, list, count - 1) && stands(t, q, list, any)));
 }
 
 static bool said(trial *t, octree_status status, octree_status expected, const question *q)

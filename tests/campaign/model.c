@@ -87,15 +87,17 @@ octree_status model_check(const model *m, const double at[3])
 static octree_address smallest_cell(const octree_def *def, const double at[3])
 {
     octree_address address = OCTREE_ROOT;
+    octree_box cell = def->world;
     for (size_t depth = 0; depth < def->max_depth; depth++) {
-        const octree_box cell = octree_cell_box(&def->world, address);
         const octree_box upper = octree_cell_box(&def->world, address << 3 | 7);
         unsigned octant = 0;
         bool divisible = false;
         for (int axis = 0; axis < 3; axis++) {
             const double plane = upper.min[axis];
+            const bool above = at[axis] >= plane;
             divisible = divisible || (cell.min[axis] < plane && plane < cell.max[axis]);
-            octant = octant << 1 | (at[axis] >= plane);
+            octant = octant << 1 | above;
+            *(above ? &cell.min[axis] : &cell.max[axis]) = plane;
         }
         if (!divisible)
             break;
