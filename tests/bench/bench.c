@@ -1,15 +1,14 @@
 /* bench.c - octree-bench: its command line, and the workloads one after the other. */
+#include "program.h"
 #include "report.h"
 
-#include <errno.h>
 #include <getopt.h>
-#include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
+const char program_name[] = "octree-bench";
+
 enum { COUNTS_AT_MOST = 16, POINTS_AT_LEAST = 100, POINTS_AT_MOST = 100000000 };
 
 typedef struct options {
@@ -20,17 +19,6 @@ typedef struct options {
     int rounds;
     bool json;
 } options;
-
-static int trouble(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    fputs("octree-bench: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
-    va_end(arguments);
-    return EXIT_TROUBLE;
-}
 
 static void print_help(void)
 {
@@ -57,74 +45,32 @@ static void print_help(void)
         ROUNDS_AT_MOST, PEER_BATCH);
 }
 
-/* Take in one entry of a list. False when it does not fit, which has been said. */
-typedef bool take_entry(options *o, const char *entry);
-
-static bool take_count(options *o, const char *entry)
+static void take_count(void *to, const char *entry)
 {
-    char *end;
-    const double n = strtod(entry, &end);
-    if (end == entry || *end || !(n >= POINTS_AT_LEAST && n <= POINTS_AT_MOST) || n != floor(n)) {
-        trouble("--n takes whole numbers from %d to %d, such as 1e6, not \"%s\"", POINTS_AT_LEAST, POINTS_AT_MOST,
-                entry);
-        return false;
-    }
-    if (o->count == COUNTS_AT_MOST) {
-        trouble("--n takes at most %d numbers", COUNTS_AT_MOST);
-        return false;
-    }
-    o->counts[o->count++] = (size_t)n;
-    return true;
+    options *o = to;
+    if (o->count == COUNTS_AT_MOST)
+        stop("--n takes at most %d numbers", COUNTS_AT_MOST);
+    o->counts[o->count++] = (size_t)take_whole("--n", entry, POINTS_AT_LEAST, POINTS_AT_MOST);
 }
 
-static bool take_set(options *o, const char *entry)
+static void take_set(void *to, const char *entry)
 {
+    options *o = to;
     octree_sample_kind kind;
-    if (!octree_sample_parse(entry, &kind)) {
-        trouble("there is no set \"%s\"; --help lists them", entry);
-        return false;
-    }
+    if (!octree_sample_parse(entry, &kind))
+        stop("there is no set \"%s\"; --help lists them", entry);
     o->sets[kind] = true;
-    return true;
 }
 
-static bool take_op(options *o, const char *entry)
+static void take_op(void *to, const char *entry)
 {
-    for (int i = 0; i < OPS; i++) {
-        if (strcmp(all_ops[i].name, entry) == 0) {
-            o->ops[i] = true;
-            return true;
-        }
-    }
-    trouble("there is no operation \"%s\"; --help lists them", entry);
-    return false;
-}
-
-/* Takes the list apart, in place. */
-static bool take_list(options *o, char *list, take_entry *take)
-{
-    for (char *entry = list; entry;) {
-        char *comma = strchr(entry, ',');
-        if (comma)
-            *comma = 0;
-        if (!take(o, entry))
-            return false;
-        entry = comma ? comma + 1 : NULL;
-    }
-    return true;
-}
-
-static bool take_rounds(options *o, const char *text)
-{
-    char *end;
-    errno = 0;
-    const long rounds = strtol(text, &end, 10);
-    if (errno || end == text || *end || rounds < 1 || rounds > ROUNDS_AT_MOST) {
-        trouble("--rounds takes a whole number from 1 to %d, not \"%s\"", ROUNDS_AT_MOST, text);
-        return false;
-    }
-    o->rounds = (int)rounds;
-    return true;
+    options *o = to;
+    int i = 0;
+    while (i < OPS && strcmp(all_ops[i].name, entry) != 0)
+        i++;
+    if (i == OPS)
+        stop("there is no operation \"%s\"; --help lists them", entry);
+    o->ops[i] = true;
 }
 
 /* What no option named is all of it. */
@@ -142,8 +88,7 @@ static void fill_defaults(options *o)
         memset(o->ops, true, sizeof o->ops);
 }
 
-/* -1 to go on, or the exit status. */
-static int read_options(int argc, char **argv, options *o)
+static options read_options(int argc, char **argv)
 {
     static const struct option names[] = {
         {"n", required_argument, NULL, 'n'},
@@ -154,22 +99,35 @@ static int read_options(int argc, char **argv, options *o)
         {"help", no_argument, NULL, 'h'},
         {NULL, 0, NULL, 0},
     };
-    *o = (options){.rounds = 5};
+    options o = {.rounds = 5};
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
-        if (name == 'h') {
+        switch (name) {
+        case 'n':
+            take_list(&o, optarg, take_count);
+            break;
+        case 's':
+            take_list(&o, optarg, take_set);
+            break;
+        case 'o':
+            take_list(&o, optarg, take_op);
+            break;
+        case 'r':
+            o.rounds = (int)take_whole("--rounds", optarg, 1, ROUNDS_AT_MOST);
+            break;
+        case 'j':
+            o.json = true;
+            break;
+        case 'h':
             print_help();
-            return EXIT_DONE;
+            finish(EXIT_DONE);
+        default:
+            exit(EXIT_TROUBLE); /* getopt has said why */
         }
-        o->json |= name == 'j';
-        if (name == '?' || (name == 'n' && !take_list(o, optarg, take_count)) ||
-            (name == 's' && !take_list(o, optarg, take_set)) || (name == 'o' && !take_list(o, optarg, take_op)) ||
-            (name == 'r' && !take_rounds(o, optarg)))
-            return EXIT_TROUBLE;
     }
     if (optind < argc)
-        return trouble("there is no argument \"%s\"; try --help", argv[optind]);
-    fill_defaults(o);
-    return -1;
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
+    fill_defaults(&o);
+    return o;
 }
 
 static int run_workload(const options *o, octree_sample_kind set, size_t count)
@@ -183,21 +141,16 @@ static int run_workload(const options *o, octree_sample_kind set, size_t count)
         workload_free(&w);
     }
     if (result == OUT_OF_MEMORY)
-        return trouble("there is no memory for %zu points", count);
+        stop("there is no memory for %zu points", count);
     return result == UNLIKE ? EXIT_FINDING : EXIT_DONE;
 }
 
 int main(int argc, char **argv)
 {
-    options o;
-    int status = read_options(argc, argv, &o);
-    if (status >= 0)
-        return status;
-    status = EXIT_DONE;
+    const options o = read_options(argc, argv);
+    int status = EXIT_DONE;
     for (int set = 0; status == EXIT_DONE && set < OCTREE_SAMPLE_KINDS; set++)
         for (int i = 0; status == EXIT_DONE && o.sets[set] && i < o.count; i++)
             status = run_workload(&o, (octree_sample_kind)set, o.counts[i]);
-    if (fflush(stdout) != 0 || ferror(stdout))
-        return trouble("the results cannot be written to standard output");
-    return status;
+    finish(status);
 }

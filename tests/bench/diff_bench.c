@@ -1,14 +1,18 @@
 /* diff_bench.c - octreel-diff-bench: octreel diff beside cmp, odiff and ImageMagick on the same pictures, in turn. */
 #include "image.h"
+#include "measuring.h"
+#include "program.h"
 #include "run_program.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
+const char program_name[] = "octreel-diff-bench";
+
 enum { ROUNDS_AT_MOST = 99, ARGUMENTS = 24, PATH_ROOM = 512 };
 
 /* Who compares, and what says "different" in its exit status. */
@@ -99,18 +103,11 @@ static bool shift_palette(const bench *b, const char *from, const char *to)
 
 /* ---- Measuring ------------------------------------------------------------------------------------------------ */
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(const double *values, int rounds)
+static double median_of(const double *values, int rounds)
 {
     double sorted[ROUNDS_AT_MOST];
     memcpy(sorted, values, (size_t)rounds * sizeof *sorted);
-    qsort(sorted, (size_t)rounds, sizeof *sorted, by_value);
-    return (sorted[(rounds - 1) / 2] + sorted[rounds / 2]) / 2;
+    return median(sorted, (size_t)rounds);
 }
 
 static void run_once(contender *c, const char *x, const char *y, int round)
@@ -145,7 +142,7 @@ static void compare(bench *b, const char *what, const char *x, const char *y, bo
     for (int i = 0; i < CONTENDERS; i++) {
         const contender *c = &b->of[i];
         if ((who >> i & 1) && c->there)
-            printf("  %s %.1f/%.1f ms %s", c->name, median(c->ms, b->rounds), median(c->cpu, b->rounds),
+            printf("  %s %.1f/%.1f ms %s", c->name, median_of(c->ms, b->rounds), median_of(c->cpu, b->rounds),
                    c->status == 0              ? "same"
                    : c->status == c->different ? "different"
                                                : "trouble");
@@ -240,27 +237,25 @@ int main(int argc, char **argv)
     for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
         if (option == 'h') {
             print_help();
-            return EXIT_DONE;
+            finish(EXIT_DONE);
         }
+        if (option == '?')
+            return EXIT_TROUBLE; /* getopt has said why */
         if (option == 'o')
             b.of[ODIFF].program = optarg;
         if (option == 'r')
-            b.rounds = atoi(optarg);
+            b.rounds = (int)take_whole("--rounds", optarg, 1, ROUNDS_AT_MOST);
         b.quick |= option == 'q';
-        if (option == '?' || b.rounds < 1 || b.rounds > ROUNDS_AT_MOST) {
-            fputs("octreel-diff-bench --help tells what it takes\n", stderr);
-            return EXIT_TROUBLE;
-        }
     }
+    if (optind < argc)
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
     for (int i = 0; i < CONTENDERS; i++)
         b.of[i].there = program_exists(b.of[i].program);
     tell_who_is_missing(&b);
     strcpy(b.folder, "diff_bench_XXXXXX");
-    if (!mkdtemp(b.folder)) {
-        perror("octreel-diff-bench");
-        return EXIT_TROUBLE;
-    }
+    if (!mkdtemp(b.folder))
+        stop("a folder for the frames: %s", strerror(errno));
     const bool ok = run_all(&b);
     const char *const clean_up[] = {"rm", "-r", b.folder, NULL};
-    return run_quietly(clean_up) && ok ? (b.failed ? EXIT_FINDING : EXIT_DONE) : EXIT_TROUBLE;
+    finish(run_quietly(clean_up) && ok ? (b.failed ? EXIT_FINDING : EXIT_DONE) : EXIT_TROUBLE);
 }

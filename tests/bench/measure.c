@@ -1,35 +1,18 @@
 /* measure.c - one operation, timed on several trees in turn, their answers compared. */
 #include "measure.h"
+#include "measuring.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 enum { PROBES = 200 };
 
-/* Nanoseconds of this process alone: what else the machine does is not counted. */
-static double now(void)
+static void tell_medians(lineup *l, int rounds)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void finish(lineup *l, int rounds)
-{
-    for (int i = 0; i < l->count; i++) {
-        double *ns = l->of[i].round_ns;
-        qsort(ns, (size_t)rounds, sizeof *ns, by_value);
-        l->of[i].ns = (ns[(rounds - 1) / 2] + ns[rounds / 2]) / 2;
-    }
+    for (int i = 0; i < l->count; i++)
+        l->of[i].ns = median(l->of[i].round_ns, (size_t)rounds);
 }
 
 /* Peers measure distances in rounded doubles. */
@@ -86,9 +69,9 @@ static outcome change_once(lineup *l, int i, const workload *w, const changes *a
     const bool fills = asked->kind == PEER_BUILD || asked->kind == PEER_INSERT;
     if (fills && !(c->self = c->peer->create(&w->world)))
         return OUT_OF_MEMORY;
-    const double start = now();
+    const double start = processor_time();
     const size_t done = c->peer->change[asked->kind](c->self, asked->points, asked->to, asked->count);
-    c->round_ns[round] = (now() - start) / (double)asked->count;
+    c->round_ns[round] = (processor_time() - start) / (double)asked->count;
     outcome result = check_done(c, asked->op, done, asked->count);
     if (result == MEASURED)
         result = probe(l, i, asked->op, w, answers);
@@ -111,7 +94,7 @@ outcome measure_changes(lineup *l, const workload *w, const changes *asked, int 
             if (result != MEASURED)
                 return result;
         }
-    finish(l, rounds);
+    tell_medians(l, rounds);
     return MEASURED;
 }
 
@@ -122,9 +105,9 @@ static outcome ask_in_rounds(lineup *l, const workload *w, const questions *aske
         for (int i = 0; i < l->count; i++) {
             contender *c = &l->of[i];
             peer_answer *answers = i == 0 ? expected : given;
-            const double start = now();
+            const double start = processor_time();
             c->ask(c->self, asked->queries, asked->count, answers);
-            c->round_ns[round] = (now() - start) / (double)asked->count;
+            c->round_ns[round] = (processor_time() - start) / (double)asked->count;
             if (compare(l, i, asked->op, w, asked->count, expected, answers) != MEASURED)
                 return UNLIKE;
         }
@@ -139,7 +122,7 @@ outcome measure_asks(lineup *l, const workload *w, const questions *asked, int r
         result = ask_in_rounds(l, w, asked, rounds, expected, given);
         for (int i = 0; i < l->count; i++)
             l->of[i].memory = l->of[i].peer->memory(l->of[i].self);
-        finish(l, rounds);
+        tell_medians(l, rounds);
     }
     free(expected);
     free(given);

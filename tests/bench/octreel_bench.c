@@ -1,16 +1,17 @@
 /* octreel_bench.c - octreel-bench: its command line, and its table of frames a second beside the naive way's. */
 #include "filming.h"
+#include "measuring.h"
+#include "program.h"
 
-#include <errno.h>
 #include <getopt.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { EXIT_DONE = 0, EXIT_TROUBLE = 2 };
+const char program_name[] = "octreel-bench";
+
 enum { ROUNDS_AT_MOST = 99, FRAMES_AT_LEAST = 6, FRAMES_AT_MOST = 100000, JOBS = 2, FOLDER_ROOM = 512 };
 
 typedef struct options {
@@ -20,17 +21,6 @@ typedef struct options {
     const char *folder;
     bool json;
 } options;
-
-static int trouble(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    fputs("octreel-bench: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
-    va_end(arguments);
-    return EXIT_TROUBLE;
-}
 
 static void print_help(void)
 {
@@ -65,69 +55,51 @@ static void print_help(void)
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
-/* Takes the list apart, in place. */
-static bool take_scenes(options *o, char *list)
+static void take_scene(void *to, const char *entry)
 {
-    for (char *entry = list; entry;) {
-        char *comma = strchr(entry, ',');
-        int i = 0;
-        if (comma)
-            *comma = 0;
-        while (i < FILMED_SCENES && strcmp(filmed_scenes[i].name, entry) != 0)
-            i++;
-        if (i == FILMED_SCENES) {
-            trouble("there is no scene \"%s\"; --help lists them", entry);
-            return false;
-        }
-        o->scenes[i] = true;
-        entry = comma ? comma + 1 : NULL;
-    }
-    return true;
+    options *o = to;
+    int i = 0;
+    while (i < FILMED_SCENES && strcmp(filmed_scenes[i].name, entry) != 0)
+        i++;
+    if (i == FILMED_SCENES)
+        stop("there is no scene \"%s\"; --help lists them", entry);
+    o->scenes[i] = true;
 }
 
-static bool take_number(const char *name, const char *text, long least, long most, long *number)
+static void take_folder(options *o, const char *folder)
 {
-    char *end;
-    errno = 0;
-    *number = strtol(text, &end, 10);
-    if (!errno && end != text && !*end && *number >= least && *number <= most)
-        return true;
-    trouble("%s takes a whole number from %ld to %ld, not \"%s\"", name, least, most, text);
-    return false;
+    if (strlen(folder) >= FOLDER_ROOM - 64 || access(folder, W_OK) != 0)
+        stop("--folder takes a folder that can be written to, not \"%.100s\"", folder);
+    o->folder = folder;
 }
 
-static bool take_option(options *o, int name, char *value)
+static void take_option(options *o, int name, char *value)
 {
-    long number = 0;
     switch (name) {
     case 's':
-        return take_scenes(o, value);
+        take_list(o, value, take_scene);
+        break;
     case 'n':
-        if (!take_number("--frames", value, FRAMES_AT_LEAST, FRAMES_AT_MOST, &number))
-            return false;
-        o->frames = (uint64_t)number;
-        return true;
+        o->frames = (uint64_t)take_whole("--frames", value, FRAMES_AT_LEAST, FRAMES_AT_MOST);
+        break;
     case 'r':
-        if (!take_number("--rounds", value, 1, ROUNDS_AT_MOST, &number))
-            return false;
-        o->rounds = (int)number;
-        return true;
+        o->rounds = (int)take_whole("--rounds", value, 1, ROUNDS_AT_MOST);
+        break;
     case 'f':
-        o->folder = value;
-        if (strlen(value) < FOLDER_ROOM - 64 && access(value, W_OK) == 0)
-            return true;
-        trouble("--folder takes a folder that can be written to, not \"%.100s\"", value);
-        return false;
+        take_folder(o, value);
+        break;
     case 'j':
         o->json = true;
-        return true;
+        break;
+    case 'h':
+        print_help();
+        finish(EXIT_DONE);
     default:
-        return false;
+        exit(EXIT_TROUBLE); /* getopt has said why */
     }
 }
 
-/* -1 to go on, or the exit status. */
-static int read_options(int argc, char **argv, options *o)
+static options read_options(int argc, char **argv)
 {
     static const struct option names[] = {
         {"scene", required_argument, NULL, 's'},
@@ -138,41 +110,28 @@ static int read_options(int argc, char **argv, options *o)
         {"help", no_argument, NULL, 'h'},
         {NULL, 0, NULL, 0},
     };
-    *o = (options){.rounds = 3, .frames = 600, .folder = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "."};
-    for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
-        if (name == 'h') {
-            print_help();
-            return EXIT_DONE;
-        }
-        if (!take_option(o, name, optarg))
-            return EXIT_TROUBLE;
-    }
+    options o = {.rounds = 3, .frames = 600, .folder = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "."};
+    for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;)
+        take_option(&o, name, optarg);
     if (optind < argc)
-        return trouble("there is no argument \"%s\"; try --help", argv[optind]);
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
     const bool none[FILMED_SCENES] = {false};
-    if (memcmp(o->scenes, none, sizeof none) == 0)
-        memset(o->scenes, true, sizeof o->scenes);
-    return -1;
+    if (memcmp(o.scenes, none, sizeof none) == 0)
+        memset(o.scenes, true, sizeof o.scenes);
+    return o;
 }
 
 /* ---- Measuring ---------------------------------------------------------------------------------------------- */
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static double median_of(const filming *rounds, int count, size_t member)
 {
     double values[ROUNDS_AT_MOST];
     for (int i = 0; i < count; i++)
         memcpy(&values[i], (const char *)&rounds[i] + member, sizeof values[i]);
-    qsort(values, (size_t)count, sizeof *values, by_value);
-    return (values[(count - 1) / 2] + values[count / 2]) / 2;
+    return median(values, (size_t)count);
 }
 
-static filming median(const filming *rounds, int count)
+static filming medians(const filming *rounds, int count)
 {
     return (filming){
         .first_ms = median_of(rounds, count, offsetof(filming, first_ms)),
@@ -195,7 +154,7 @@ static uint64_t count_frames(const options *o, const filmed_scene *scene, filmin
 }
 
 /* All of them, round by round in turn. */
-static bool measure(const options *o, const filmed_scene *scene, filming result[FILM_KINDS])
+static void measure(const options *o, const filmed_scene *scene, filming result[FILM_KINDS])
 {
     filming rounds[FILM_KINDS][ROUNDS_AT_MOST];
     char folder[FOLDER_ROOM];
@@ -204,14 +163,11 @@ static bool measure(const options *o, const filmed_scene *scene, filming result[
             snprintf(folder, sizeof folder, "%s/octreel-bench-%ld", o->folder, (long)getpid());
             const filming_order order = {scene, (filming_who)who, count_frames(o, scene, (filming_who)who), JOBS,
                                          folder};
-            if (!film_scene(&order, &rounds[who][round])) {
-                trouble("%s", rounds[who][round].trouble);
-                return false;
-            }
+            if (!film_scene(&order, &rounds[who][round]))
+                stop("%s", rounds[who][round].trouble);
         }
     for (int who = 0; who < FILM_KINDS; who++)
-        result[who] = median(rounds[who], o->rounds);
-    return true;
+        result[who] = medians(rounds[who], o->rounds);
 }
 
 /* ---- Telling ------------------------------------------------------------------------------------------------ */
@@ -288,25 +244,21 @@ static void print_json(const filmed_scene *scene, const filming result[FILM_KIND
 
 int main(int argc, char **argv)
 {
-    options o;
-    const int status = read_options(argc, argv, &o);
-    if (status >= 0)
-        return status;
+    const options o = read_options(argc, argv);
     if (!o.json)
         print_heading(o.rounds);
     for (int i = 0; i < FILMED_SCENES; i++) {
         filming result[FILM_KINDS];
+        if (!o.scenes[i])
+            continue;
         fflush(stdout); /* a child has a copy of what is not written */
-        if (o.scenes[i] && !measure(&o, &filmed_scenes[i], result))
-            return EXIT_TROUBLE;
-        if (o.scenes[i] && o.json)
+        measure(&o, &filmed_scenes[i], result);
+        if (o.json) {
             print_json(&filmed_scenes[i], result);
-        else if (o.scenes[i]) {
+        } else {
             print_naive(&filmed_scenes[i], &result[FILM_NAIVE]);
             print_octreel(&filmed_scenes[i], result);
         }
     }
-    if (fflush(stdout) != 0 || ferror(stdout))
-        return trouble("the results cannot be written to standard output");
-    return EXIT_DONE;
+    finish(EXIT_DONE);
 }

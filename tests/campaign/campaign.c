@@ -3,17 +3,18 @@
  */
 #include "octree/digest.h"
 #include "operations.h"
+#include "program.h"
 
 #include <getopt.h>
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
+const char program_name[] = "octree-campaign";
+
 enum { OPERATIONS_A_TREE = 1000, AUDIT_EVERY = 50 };
 
 /* One kind of operation, and how often it is drawn beside the others. */
@@ -58,17 +59,6 @@ typedef struct tally {
     uint64_t done[KINDS], answers[KINDS];
 } tally;
 
-static int trouble(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    fputs("octree-campaign: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
-    va_end(arguments);
-    return EXIT_TROUBLE;
-}
-
 static void print_help(void)
 {
     fputs(
@@ -94,31 +84,24 @@ static void print_help(void)
 }
 
 /* A whole number below 2^64, also as in 1e9. */
-static bool read_number(const char *text, const char *option, uint64_t *number)
+static uint64_t read_number(const char *text, const char *option)
 {
     char *end;
     const double value = strtod(text, &end);
-    if (end == text || *end != '\0' || !(value >= 0 && value < 0x1p64) || value != floor(value)) {
-        trouble("--%s takes a whole number, such as 1000 or 1e9, not \"%s\"", option, text);
-        return false;
-    }
-    *number = strspn(text, "0123456789") == strlen(text) ? strtoull(text, NULL, 10) : (uint64_t)value;
-    return true;
+    if (end == text || *end != '\0' || !(value >= 0 && value < 0x1p64) || value != floor(value))
+        stop("--%s takes a whole number, such as 1000 or 1e9, not \"%s\"", option, text);
+    return strspn(text, "0123456789") == strlen(text) ? strtoull(text, NULL, 10) : (uint64_t)value;
 }
 
-static bool read_scene(const char *text, size_t *scene)
+static size_t read_scene(const char *text)
 {
     for (size_t i = 0; i < scene_kinds(); i++)
-        if (strcmp(scene_name(i), text) == 0) {
-            *scene = i;
-            return true;
-        }
-    trouble("there is no scene \"%s\"; --help lists them", text);
-    return false;
+        if (strcmp(scene_name(i), text) == 0)
+            return i;
+    stop("there is no scene \"%s\"; --help lists them", text);
 }
 
-/* -1 to go on, or the exit status. */
-static int read_options(int argc, char **argv, options *o)
+static options read_options(int argc, char **argv)
 {
     static const struct option names[] = {
         {"operations", required_argument, NULL, 'o'},
@@ -128,20 +111,31 @@ static int read_options(int argc, char **argv, options *o)
         {"help", no_argument, NULL, 'h'},
         {NULL, 0, NULL, 0},
     };
-    *o = (options){.operations = 1000000, .seed = 1, .scene = scene_kinds()};
+    options o = {.operations = 1000000, .seed = 1, .scene = scene_kinds()};
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
-        if (name == 'h') {
+        switch (name) {
+        case 'o':
+            o.operations = read_number(optarg, "operations");
+            break;
+        case 's':
+            o.seed = read_number(optarg, "seed");
+            break;
+        case 'f':
+            o.from = read_number(optarg, "from");
+            break;
+        case 'c':
+            o.scene = read_scene(optarg);
+            break;
+        case 'h':
             print_help();
-            return EXIT_DONE;
+            finish(EXIT_DONE);
+        default:
+            exit(EXIT_TROUBLE); /* getopt has said why */
         }
-        if (name == '?' || (name == 'o' && !read_number(optarg, "operations", &o->operations)) ||
-            (name == 's' && !read_number(optarg, "seed", &o->seed)) ||
-            (name == 'f' && !read_number(optarg, "from", &o->from)) || (name == 'c' && !read_scene(optarg, &o->scene)))
-            return EXIT_TROUBLE;
     }
     if (optind < argc)
-        return trouble("there is no argument \"%s\"; try --help", argv[optind]);
-    return -1;
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
+    return o;
 }
 
 static size_t any_kind(trial *t)
@@ -221,15 +215,10 @@ static int run(const options *o, trial *t)
 
 int main(int argc, char **argv)
 {
-    options o;
-    int status = read_options(argc, argv, &o);
-    if (status >= 0)
-        return status;
-    trial *t = model_memory(NULL, sizeof *t);
+    const options o = read_options(argc, argv);
+    trial *t = memory(NULL, sizeof *t);
     memset(t, 0, sizeof *t);
-    status = run(&o, t);
+    const int status = run(&o, t);
     free(t);
-    if (fflush(stdout) != 0 || ferror(stdout))
-        return trouble("the results cannot be written to standard output");
-    return status;
+    finish(status);
 }

@@ -2,22 +2,12 @@
 #include "model.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fixture.h"
 #include "octree/digest.h"
-
-void *model_memory(void *old, size_t size)
-{
-    void *memory = realloc(old, size > 0 ? size : 1);
-    if (memory == NULL) {
-        fputs("octree-campaign: there is no memory\n", stderr);
-        exit(2);
-    }
-    return memory;
-}
+#include "program.h"
 
 void model_begin(model *m, const octree_def *def)
 {
@@ -133,9 +123,9 @@ static void append(model *m, const octree_point *point, octree_address cell)
 {
     if (m->count == m->room) {
         m->room = m->room == 0 ? 64 : 2 * m->room;
-        m->points = model_memory(m->points, m->room * sizeof *m->points);
-        m->cells = model_memory(m->cells, m->room * sizeof *m->cells);
-        m->seals = model_memory(m->seals, m->room * sizeof *m->seals);
+        m->points = memory(m->points, m->room * sizeof *m->points);
+        m->cells = memory(m->cells, m->room * sizeof *m->cells);
+        m->seals = memory(m->seals, m->room * sizeof *m->seals);
     }
     put(m, m->count++, point, cell);
 }

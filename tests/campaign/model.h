@@ -40,7 +40,4 @@ int model_order(const octree_point *a, const octree_point *b);
 /* A digest of a point's bits. */
 uint64_t model_seal(const octree_point *point);
 
-/* Memory, or the program ends with a sentence and status 2. */
-void *model_memory(void *old, size_t size);
-
 #endif

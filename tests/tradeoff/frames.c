@@ -6,7 +6,7 @@
 #include "draw.h"
 #include "fixture.h"
 #include "tick_scene.h"
-#include "trouble.h"
+#include "must.h"
 #include "workload.h"
 
 struct subject {

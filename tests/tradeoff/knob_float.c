@@ -7,7 +7,7 @@
 #include "knob.h"
 #include "quick_oracle.h"
 #include "timing.h"
-#include "trouble.h"
+#include "must.h"
 
 static const column columns[] = {
     {"setting", "the largest coordinate: the world is a cube of side 1000 there", NULL},

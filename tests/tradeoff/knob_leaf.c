@@ -5,7 +5,7 @@
 #include "fixture.h"
 #include "knob.h"
 #include "timing.h"
-#include "trouble.h"
+#include "must.h"
 
 static const column columns[] = {
     {"setting", "leaf capacity; greatest depth; the capacity that AUTO chose", NULL},

@@ -5,7 +5,7 @@
 #include "mirrored.h"
 #include "neighbors.h"
 #include "timing.h"
-#include "trouble.h"
+#include "program.h"
 
 static const column columns[] = {
     {"setting", "0 exact, 1 FAST", NULL},

@@ -5,7 +5,7 @@
 #include "knob.h"
 #include "neighbors.h"
 #include "timing.h"
-#include "trouble.h"
+#include "must.h"
 
 static const column columns[] = {
     {"setting", "epsilon", NULL},

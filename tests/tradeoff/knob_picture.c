@@ -7,7 +7,7 @@
 #include "paint.h"
 #include "picture.h"
 #include "timing.h"
-#include "trouble.h"
+#include "must.h"
 
 static const column columns[] = {
     {"setting", "--lod: boxes that appear smaller, in pixels, are left out under a drawn one", NULL},

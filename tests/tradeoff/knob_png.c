@@ -9,7 +9,8 @@
 #include "knob.h"
 #include "picture.h"
 #include "timing.h"
-#include "trouble.h"
+#include "measuring.h"
+#include "program.h"
 
 static const column columns[] = {
     {"setting", "zlib's level", NULL},

@@ -6,7 +6,7 @@
 #include "knob.h"
 #include "quick_oracle.h"
 #include "timing.h"
-#include "trouble.h"
+#include "must.h"
 
 static const column columns[] = {
     {"setting", "epsilon / half the box's side, or / the ball's radius", NULL},

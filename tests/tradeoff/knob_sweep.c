@@ -6,7 +6,7 @@
 #include "knob.h"
 #include "quick_oracle.h"
 #include "timing.h"
-#include "trouble.h"
+#include "must.h"
 
 static const column columns[] = {
     {"setting", "speed: the step / the side of the player's box", NULL},

@@ -7,7 +7,7 @@
 #include "knob.h"
 #include "octree/game.h"
 #include "timing.h"
-#include "trouble.h"
+#include "must.h"
 
 static const column columns[] = {
     {"setting", "ticks of the flight", NULL},

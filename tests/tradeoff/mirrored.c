@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "fixture.h"
-#include "trouble.h"
+#include "program.h"
 
 enum { POINTS = 32, OFFSETS = 3 };
 

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "quick_oracle.h"
-#include "trouble.h"
+#include "must.h"
 
 void ask_all(void *contestant)
 {

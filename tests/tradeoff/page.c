@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "trouble.h"
+#include "program.h"
 
 static const char style[] =
     "body{font:16px/1.5 system-ui,sans-serif;max-width:74rem;margin:2rem auto;padding:0 1rem;color:#1b2430;"

@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "trouble.h"
+#include "program.h"
 
 /* The exit status; 127 when the program cannot be run. */
 static int run_program(char *const *arguments)

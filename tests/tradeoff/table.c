@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "trouble.h"
+#include "measuring.h"
+#include "program.h"
 
 void table_add(table *t, const char *scene, const char *variant, const double *values)
 {
@@ -81,12 +82,6 @@ static const row *find_row(const table *t, pick p)
     return NULL;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 ratio table_ratios(const table *t, pick a, pick b, const char *column)
 {
     const size_t at = index_of(t, column);
@@ -108,9 +103,8 @@ ratio table_ratios(const table *t, pick a, pick b, const char *column)
             found.scene = t->rows[i].scene;
         }
     }
-    qsort(all, count, sizeof *all, by_value);
     if (count > 0)
-        found.median = (all[(count - 1) / 2] + all[count / 2]) / 2;
+        found.median = median(all, count);
     free(all);
     return found;
 }

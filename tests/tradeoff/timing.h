@@ -12,7 +12,4 @@ typedef void timed_work(void *contestant);
 /* ns[i] receives the nanoseconds of contestant i, of `size` bytes each. */
 void time_in_turn(timed_work *work, void *contestants, size_t size, size_t count, int rounds, double *ns);
 
-/* Nanoseconds of processor time until now. */
-double processor_time(void);
-
 #endif

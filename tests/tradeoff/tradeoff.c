@@ -8,9 +8,9 @@
 #include "page.h"
 #include "plots.h"
 #include "session_file.h"
-#include "trouble.h"
+#include "program.h"
 
-enum { EXIT_DONE = 0, EXIT_FINDING = 1 };
+const char program_name[] = "octree-tradeoff";
 
 static const knob *const all_knobs[] = {&knob_mode, &knob_nearest_epsilon, &knob_range_epsilon,
                                         &knob_leaf, &knob_float,           &knob_sweep,
@@ -46,16 +46,15 @@ static void print_help(void)
           stdout);
 }
 
-static void choose(options *o, char *list)
+static void choose(void *to, const char *name)
 {
-    for (char *name = strtok(list, ","); name; name = strtok(NULL, ",")) {
-        int i = 0;
-        while (i < KNOBS && strcmp(all_knobs[i]->name, name) != 0)
-            i++;
-        if (i == KNOBS)
-            stop("there is no knob \"%s\"; --help lists them", name);
-        o->chosen[i] = true;
-    }
+    options *o = to;
+    int i = 0;
+    while (i < KNOBS && strcmp(all_knobs[i]->name, name) != 0)
+        i++;
+    if (i == KNOBS)
+        stop("there is no knob \"%s\"; --help lists them", name);
+    o->chosen[i] = true;
 }
 
 static double read_factor(const char *text)
@@ -88,7 +87,7 @@ static options read_options(int argc, char **argv)
             o.folder = optarg;
             break;
         case 'k':
-            choose(&o, optarg);
+            take_list(&o, optarg, choose);
             any = true;
             break;
         case 'c':

@@ -7,7 +7,7 @@
 #include "fixture.h"
 #include "inspect.h"
 #include "quick_oracle.h"
-#include "trouble.h"
+#include "must.h"
 
 enum { SEED = 7, SESSION_TICKS = 24 };
 
