@@ -17,17 +17,6 @@ static bool collect(const octree_point *point, void *context)
     return true;
 }
 
-octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
-                                   octree_point *points, size_t room, size_t *count)
-{
-    if (!count || (!points && room))
-        return OCTREE_NULL_ARGUMENT;
-    collection c = {points, room, 0};
-    const octree_status status = octree_range_search(tree, box, how, collect, &c);
-    *count = c.count;
-    return status;
-}
-
 /* Let the largest, on top of a heap of points, sink to its place. */
 static void sink(octree_point *heap, size_t count)
 {
@@ -70,15 +59,31 @@ static bool collect_least(const octree_point *point, void *context)
     return true;
 }
 
+static octree_status run(const octree *tree, const octree_box *box, const octree_search *how,
+                         octree_point_visitor visit, octree_point *points, size_t room, size_t *count)
+{
+    if (!count)
+        return OCTREE_NULL_ARGUMENT;
+    *count = 0;
+    if (!points && room)
+        return OCTREE_NULL_ARGUMENT;
+    collection c = {points, room, 0};
+    const octree_status status = octree_range_search(tree, box, how, visit, &c);
+    *count = c.count;
+    return status;
+}
+
+octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
+                                   octree_point *points, size_t room, size_t *count)
+{
+    return run(tree, box, how, collect, points, room, count);
+}
+
 octree_status octree_range_collect_sorted(const octree *tree, const octree_box *box, const octree_search *how,
                                           octree_point *points, size_t room, size_t *count)
 {
-    if (!count || (!points && room))
-        return OCTREE_NULL_ARGUMENT;
-    collection c = {points, room, 0};
-    const octree_status status = octree_range_search(tree, box, how, collect_least, &c);
-    *count = c.count;
-    const size_t stored = c.count < room ? c.count : room;
+    const octree_status status = run(tree, box, how, collect_least, points, room, count);
+    const size_t stored = !count ? 0 : *count < room ? *count : room;
     if (stored > 1)
         qsort(points, stored, sizeof *points, octree_compare_points);
     return status;

@@ -185,7 +185,7 @@ octree_status octree_game_play(octree_game *game, const octree_input *input)
     if (!game || !input)
         return OCTREE_NULL_ARGUMENT;
     const octree_status status = octree_input_check(input);
-    return status == OCTREE_OK ? step(game, input->key, input) : status;
+    return status == OCTREE_OK ? step(game, input->key ? input->key : '.', input) : status;
 }
 
 uint64_t octree_session_length(const octree_session *session)
@@ -228,8 +228,11 @@ const octree_session *octree_game_session(const octree_game *game)
     return game ? game->session : NULL;
 }
 
-const char *octree_event_name(unsigned i)
+const char *octree_event_name(octree_event event)
 {
     static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full", "split", "merged"};
-    return i < OCTREE_EVENT_KINDS ? names[i] : NULL;
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        if (event == 1u << i)
+            return names[i];
+    return NULL;
 }

@@ -276,8 +276,10 @@ octree_status octree_nearest_k(const octree *tree, const double target[3], size_
                                octree_neighbor *neighbors, size_t *count)
 {
     const octree_search search = search_or_default(how);
-    const octree_status status =
-        count && (neighbors || k == 0) ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
+    if (!count)
+        return OCTREE_NULL_ARGUMENT;
+    *count = 0;
+    const octree_status status = neighbors || k == 0 ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
     *count = k > 0 ? nearest_search(tree, target, k, -1, &search, neighbors) : 0;

@@ -57,9 +57,11 @@ octree_status octree_range(const octree *tree, const octree_box *box, octree_poi
 
 octree_status octree_range_count(const octree *tree, const octree_box *box, size_t *count)
 {
-    if (!tree || !count)
+    if (!count)
         return OCTREE_NULL_ARGUMENT;
-    const octree_status status = check_box(box);
-    *count = status == OCTREE_OK ? run_query(tree, box, &(octree_search){0}, NULL, NULL) : 0;
+    *count = 0;
+    const octree_status status = tree ? check_box(box) : OCTREE_NULL_ARGUMENT;
+    if (status == OCTREE_OK)
+        *count = run_query(tree, box, &(octree_search){0}, NULL, NULL);
     return status;
 }

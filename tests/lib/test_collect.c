@@ -279,17 +279,23 @@ static void bad_questions_are_refused_and_nothing_is_written(void **state)
     octree_destroy(tree);
 }
 
+static void assert_null_argument(size_t sorted, const octree *tree, const octree_box *box, octree_point *points)
+{
+    size_t count = 777;
+    assert_int_equal(collectors[sorted](tree, box, NULL, points, 2, &count), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(count, 0);
+}
+
 static void null_is_refused_but_for_how(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
     const octree_box box = cube(-1, 1);
     octree_point points[2];
-    size_t count;
     for (size_t sorted = 0; sorted < 2; sorted++) {
-        assert_int_equal(collectors[sorted](NULL, &box, NULL, points, 2, &count), OCTREE_NULL_ARGUMENT);
-        assert_int_equal(collectors[sorted](tree, NULL, NULL, points, 2, &count), OCTREE_NULL_ARGUMENT);
-        assert_int_equal(collectors[sorted](tree, &box, NULL, NULL, 2, &count), OCTREE_NULL_ARGUMENT);
+        assert_null_argument(sorted, NULL, &box, points);
+        assert_null_argument(sorted, tree, NULL, points);
+        assert_null_argument(sorted, tree, &box, NULL);
         assert_int_equal(collectors[sorted](tree, &box, NULL, points, 2, NULL), OCTREE_NULL_ARGUMENT);
     }
     octree_destroy(tree);

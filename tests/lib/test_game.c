@@ -407,9 +407,11 @@ static void each_event_has_a_name(void **state)
     (void)state;
     static const char *const names[] = {"moved", "refused", "collided", "full", "split", "merged"};
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        assert_string_equal(octree_event_name(i), names[i]);
-    assert_null(octree_event_name(OCTREE_EVENT_KINDS));
-    assert_null(octree_event_name(UINT32_MAX));
+        assert_string_equal(octree_event_name(1u << i), names[i]);
+    assert_string_equal(octree_event_name(OCTREE_EVENT_MERGED), "merged");
+    assert_null(octree_event_name(0));
+    assert_null(octree_event_name(1u << OCTREE_EVENT_KINDS));
+    assert_null(octree_event_name(OCTREE_EVENT_MOVED | OCTREE_EVENT_SPLIT));
 }
 
 int main(void)

@@ -152,12 +152,25 @@ static void bad_input_plays_no_tick(void **state)
     octree_game_destroy(game);
 }
 
+static void no_key_waits(void **state)
+{
+    (void)state;
+    const octree_session session = small_session(NULL, 0);
+    octree_game *game = start_game(&session);
+    assert_int_equal(octree_game_play(game, &(octree_input){0}), OCTREE_OK);
+    assert_int_equal(octree_game_tick(game)->number, 1);
+    assert_int_equal(octree_game_tick(game)->key, '.');
+    assert_int_equal(octree_game_tick(game)->events, 0);
+    octree_game_destroy(game);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tick_that_is_given_is_that_of_a_session_that_has_it),
         cmocka_unit_test(what_is_given_comes_in_place_of_what_the_session_has),
         cmocka_unit_test(bad_input_plays_no_tick),
+        cmocka_unit_test(no_key_waits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

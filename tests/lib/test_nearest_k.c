@@ -58,8 +58,13 @@ static void nearest_k_refuses_what_it_cannot_answer(void **state)
     for (int i = 0; i < 9; i++) {
         double target[3] = {0, 0, 0};
         target[i % 3] = values[i / 3];
+        count = 777;
         assert_int_equal(octree_nearest_k(tree, target, 2, NULL, found, &count), OCTREE_NOT_FINITE);
+        assert_int_equal(count, 0);
     }
+    count = 777;
+    assert_int_equal(octree_nearest_k(NULL, (double[3]){0}, 2, NULL, found, &count), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(count, 0);
     static const struct {
         octree_search how;
         octree_status status;

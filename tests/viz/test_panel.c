@@ -16,7 +16,7 @@ static void check_facts(const scene *s, const octree_game *game)
     assert_string_equal(find_text(s, "tick ")->text, title);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         if (tick->events >> i & 1)
-            assert_non_null(find_text(s, octree_event_name(i)));
+            assert_non_null(find_text(s, octree_event_name(1u << i)));
 }
 
 /* A hit is told in words and not by its colour alone; without one nothing but the legend's swatch is red. */

@@ -90,7 +90,7 @@ static void a_player_is_the_point_with_its_id_while_there_is_one(void **state)
     octree *tree = make_tree(cube(-8, 8), 1, 4, OCTREE_GROW);
     const double rest[3] = {4, 4, 4}, away[3] = {-4, -4, -4}, near[3] = {4, 4, 4.5};
     const octree_query about = {.kind = OCTREE_QUERY_NEAREST, .at_player = true};
-    const octreel_tick asked = {.queries = &about, .query_count = 1};
+    const octreel_tick_info asked = {.queries = &about, .query_count = 1};
     octreel_recorder_def def = octreel_recorder_def_default();
     def.folder = folder.path;
     def.tree = octree_definition(tree);
@@ -127,7 +127,7 @@ static void shapes_alone_are_recorded_without_a_tree(void **state)
     def.height = 90;
     octreel_recorder *recorder = open_recorder(&def);
     for (size_t tick = 0; tick < 3; tick++) {
-        const octreel_tick about = {.shapes = shapes, .shape_count = tick};
+        const octreel_tick_info about = {.shapes = shapes, .shape_count = tick};
         assert_int_equal(octreel_recorder_tick(recorder, NULL, &about), OCTREEL_OK);
     }
     close_recorder(recorder);

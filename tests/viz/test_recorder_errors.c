@@ -100,7 +100,7 @@ static void a_folder_of_another_recording_is_left_as_it_is(void **state)
 }
 
 /* A tick that is refused, with the status and a part of the sentence. */
-static void assert_refused(octreel_recorder *recorder, const octree *tree, const octreel_tick *about,
+static void assert_refused(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about,
                            octreel_status why, const char *part)
 {
     assert_int_equal(octreel_recorder_tick(recorder, tree, about), why);
@@ -120,7 +120,7 @@ static void refuse_queries(octreel_recorder *recorder, const octree *tree)
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const octree_query queries[2] = {{.kind = OCTREE_QUERY_NEAREST}, rows[i]};
-        const octreel_tick about = {.queries = queries, .query_count = 2};
+        const octreel_tick_info about = {.queries = queries, .query_count = 2};
         assert_refused(recorder, tree, &about, OCTREEL_BAD_QUERY, "queries[1]: ");
     }
 }
@@ -137,7 +137,7 @@ static void refuse_shapes(octreel_recorder *recorder, const octree *tree)
     };
     memset(rows[4].text, 'x', sizeof rows[4].text);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const octreel_tick about = {.shapes = &rows[i], .shape_count = 1};
+        const octreel_tick_info about = {.shapes = &rows[i], .shape_count = 1};
         assert_refused(recorder, tree, &about, OCTREEL_BAD_SHAPE, "shapes[0]: ");
     }
 }
@@ -189,8 +189,8 @@ static void what_is_refused_is_not_recorded_and_nothing_else_is_lost(void **stat
         refuse_shapes(recorder, m.tree);
         refuse_trees(recorder, m.tree);
         refuse_modes(recorder, m.tree);
-        assert_refused(recorder, m.tree, &(octreel_tick){.query_count = 1}, OCTREEL_NULL_ARGUMENT, "null");
-        assert_refused(recorder, m.tree, &(octreel_tick){.shape_count = 1}, OCTREEL_NULL_ARGUMENT, "null");
+        assert_refused(recorder, m.tree, &(octreel_tick_info){.query_count = 1}, OCTREEL_NULL_ARGUMENT, "null");
+        assert_refused(recorder, m.tree, &(octreel_tick_info){.shape_count = 1}, OCTREEL_NULL_ARGUMENT, "null");
         assert_int_equal(octreel_recorder_write(recorder, again.path, NULL), OCTREEL_NO_RING);
     }
     close_recorder(recorder);

@@ -24,7 +24,7 @@ static const char more_help[] =
     "  -h, --help\n\n"
     "Exit status: 0 done, whether or not anything is there, 2 trouble.\n"
     "Example: octreel record -o flight\n"
-    "         octreel pick flight/frame_000219.png 640 360\n";
+    "         octreel pick flight/frame_000219.png 800 200\n";
 
 typedef struct arguments {
     const char *frame;

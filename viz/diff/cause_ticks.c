@@ -32,7 +32,7 @@ static void compare_events(const octree_tick *a, const octree_tick *b, cause_fac
         if ((a->events ^ b->events) & bit)
             cause_add(facts, (cause_fact){.kind = b->events & bit ? CAUSE_EVENT_MORE : CAUSE_EVENT_LESS,
                                           .tick = CAUSE_NO_TICK,
-                                          .name = octree_event_name(i)});
+                                          .name = octree_event_name(1u << i)});
     }
 }
 

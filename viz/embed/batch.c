@@ -68,7 +68,7 @@ static bool copy(batch *b, void **to, const void *from, size_t count, size_t ite
     return true;
 }
 
-static bool copy_about(batch *b, const octreel_tick *about)
+static bool copy_about(batch *b, const octreel_tick_info *about)
 {
     void *queries = NULL, *shapes = NULL;
     const bool ok = copy(b, &queries, about->queries, about->query_count, sizeof *about->queries) &&
@@ -106,7 +106,7 @@ static bool find_changes(batch *b, const points *before, const points *after)
     return true;
 }
 
-batch *batch_make(const points *before, const points *after, const octreel_tick *about)
+batch *batch_make(const points *before, const points *after, const octreel_tick_info *about)
 {
     batch *b = calloc(1, sizeof *b);
     if (!b)

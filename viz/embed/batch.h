@@ -23,7 +23,7 @@ typedef struct batch {
 
 /* How the points of one tick became those of the next, with copies of the queries and shapes; `about` may be null. Null
  * when there is no memory. Cost: O(both, queries, shapes). */
-batch *batch_make(const points *before, const points *after, const octreel_tick *about);
+batch *batch_make(const points *before, const points *after, const octreel_tick_info *about);
 void batch_release(batch *b);
 
 /* Make the changes of a batch; `spare` is used meanwhile. False when there is no memory. */

@@ -138,7 +138,7 @@ static bool is_finite(const octree_query *query)
     return true;
 }
 
-static octreel_status check_queries(octreel_recorder *r, const octreel_tick *about)
+static octreel_status check_queries(octreel_recorder *r, const octreel_tick_info *about)
 {
     for (size_t i = 0; i < about->query_count; i++) {
         const octree_input one = {.queries = &about->queries[i], .query_count = 1};
@@ -151,7 +151,7 @@ static octreel_status check_queries(octreel_recorder *r, const octreel_tick *abo
     return OCTREEL_OK;
 }
 
-static octreel_status check_shapes(octreel_recorder *r, const octreel_tick *about)
+static octreel_status check_shapes(octreel_recorder *r, const octreel_tick_info *about)
 {
     for (size_t i = 0; i < about->shape_count; i++) {
         const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};
@@ -164,7 +164,7 @@ static octreel_status check_shapes(octreel_recorder *r, const octreel_tick *abou
     return OCTREEL_OK;
 }
 
-static octreel_status check_about(octreel_recorder *r, const octreel_tick *about)
+static octreel_status check_about(octreel_recorder *r, const octreel_tick_info *about)
 {
     if (!about)
         return OCTREEL_OK;
@@ -214,7 +214,7 @@ static void keep(octreel_recorder *r, const octree *tree)
     r->had_tree |= tree != NULL;
 }
 
-octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick *about)
+octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about)
 {
     octreel_recorder *r = recorder;
     if (!r)

@@ -32,7 +32,7 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_write_key(w, "events");
     json_write_begin_object(w);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
-        json_write_key(w, octree_event_name(i));
+        json_write_key(w, octree_event_name(1u << i));
         json_write_integer(w, summary->events[i]);
     }
     json_write_end_object(w);
@@ -93,7 +93,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
         fprintf(out, "%" PRIu64 " frames leave out what is beyond --budget\n", summary->over_budget);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(i), summary->events[i]);
+        fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     if (options->last != 0) {
         putc('\n', out);
         report_part(out, summary, options);

@@ -34,7 +34,7 @@ static void write_events(json_writer *w, unsigned events)
     json_write_begin_array(w);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         if (events >> i & 1)
-            json_write_string(w, octree_event_name(i));
+            json_write_string(w, octree_event_name(1u << i));
     json_write_end_array(w);
 }
 

@@ -79,7 +79,7 @@ static void write_events(pen *p, const octree_game *game)
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
         if (tick->events >> i & 1) {
             strncat(words, words[0] ? ", " : "", sizeof words - strlen(words) - 1);
-            strncat(words, octree_event_name(i), sizeof words - strlen(words) - 1);
+            strncat(words, octree_event_name(1u << i), sizeof words - strlen(words) - 1);
         }
     }
     const bool stopped = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL);

@@ -139,8 +139,8 @@ typedef enum octree_event {
 
 #define OCTREE_EVENT_KINDS 6
 
-/* The name of event bit 1 << i, such as "moved". Null from OCTREE_EVENT_KINDS on. */
-const char *octree_event_name(unsigned i);
+/* The name of one event, such as "moved". Null for all else: for none, for several, for an unknown bit. */
+const char *octree_event_name(octree_event event);
 
 /* A point that the tree did not take: at load, by an edit, by its own motion, or by the player's step (full). */
 typedef struct octree_refusal {
@@ -215,15 +215,15 @@ typedef struct octree_game octree_game;
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
-/* Play one tick with this key, whatever the session's keys say. After an error the game must not be stepped again.
- * Errors: NULL_ARGUMENT, BAD_KEY, NO_MEMORY. Cost: O(bodies that move + queries + v log v for v visits; all bodies,
+/* Play one tick with this key, whatever the session's keys say. Errors: NULL_ARGUMENT, FLOAT_MODE and BAD_KEY, of which
+ * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(bodies that move + queries + v log v for v visits; all bodies,
  * when swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not
  * read. */
 typedef struct octree_input {
-    char key;                 /* '.' waits */
+    char key;                 /* '.' and 0 wait */
     const octree_edit *edits; /* in the order in which they are made */
     size_t edit_count;
     const octree_query *queries;
@@ -234,7 +234,7 @@ typedef struct octree_input {
 
 /* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes behind
  * it. The arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
- * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create: no tick is then played. */
+ * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create, of which nothing is played. */
 octree_status octree_game_play(octree_game *game, const octree_input *input);
 
 /* What octree_game_play would say of this input, its key apart. Cost: O(edits + queries + shapes). */

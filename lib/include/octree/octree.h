@@ -68,6 +68,10 @@ const char *octree_status_name(octree_status status);
 /* The deepest level of a node. The root is at depth 0; an address of 21 octants fits 64 bits. */
 #define OCTREE_MAX_DEPTH 21
 
+/* A node's address: a leading 1 bit, then three bits an octant from the root down (Morton order). The root is 1. */
+typedef uint64_t octree_address;
+#define OCTREE_ROOT ((octree_address)1)
+
 typedef struct octree octree;
 
 /* A closed axis-aligned box. */
@@ -90,7 +94,7 @@ typedef enum octree_full_leaf {
 } octree_full_leaf;
 
 /* Where a tree takes its memory. `allocate` returns memory aligned as malloc's, or null. `release` is told the size
- * that was asked for, and is never given null. The context must outlive the tree. */
+ * that was asked for, and is never given null. One without the other is BAD_OPTION. The context must outlive the tree. */
 typedef struct octree_allocator {
     void *(*allocate)(size_t size, void *context);
     void (*release)(void *memory, size_t size, void *context);
@@ -124,7 +128,7 @@ void octree_destroy(octree *tree);
 /* Remove every point; the memory goes back to the allocator. Cost: O(memory blocks). */
 octree_status octree_clear(octree *tree);
 
-/* The definition in force, after clamping; under OCTREE_AUTO with the capacity that was chosen. */
+/* The definition in force, after clamping; under OCTREE_AUTO with the capacity that was chosen. For null the default. */
 octree_def octree_definition(const octree *tree);
 
 /* What a tree is asked, in shares of which only the ratios matter. */
@@ -149,7 +153,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix);
 
 /* ---- Change ------------------------------------------------------------------------------------------------- */
 
-/* Algorithm 1. Insert a point. Cost: O(D + M).
+/* Algorithm 1. Insert a point. Cost: O(D + M); under OCTREE_AUTO that of octree_tune where the tree has doubled.
  * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, DUPLICATE (same position and id), FULL (under OCTREE_REFUSE),
  * NO_MEMORY, TOO_MANY; the tree is then unchanged. */
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id);
@@ -179,10 +183,6 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
 /* Give the tree another world, with the same points and options. Errors: NULL_ARGUMENT, BAD_WORLD, OUTSIDE (a point
  * would be outside), FULL (a point would be refused), NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_reworld(octree *tree, const octree_box *world);
-
-/* A node's address: a leading 1 bit, then three bits an octant from the root down (Morton order). The root is 1. */
-typedef uint64_t octree_address;
-#define OCTREE_ROOT ((octree_address)1)
 
 /* Lay the tree out anew, as a bulk build does, and give the rest of its memory back. After many changes the leaves are
  * scattered, and what was removed is kept for what comes: then this halves the memory or makes queries faster. The
@@ -259,8 +259,8 @@ octree_status octree_range(const octree *tree, const octree_box *box, octree_poi
 octree_status octree_range_search(const octree *tree, const octree_box *box, const octree_search *how,
                                   octree_point_visitor visit, void *context);
 
-/* The number of points in a closed box, into *count. Errors and cost as octree_range; nodes inside the box are
- * counted without being entered. */
+/* The number of points in a closed box, into *count, which is 0 on an error. Errors and cost as octree_range; nodes
+ * inside the box are counted without being entered. */
 octree_status octree_range_count(const octree *tree, const octree_box *box, size_t *count);
 
 /* Visit every point at a distance of at most `radius` from a centre, in no stated order. The centre may be outside the
@@ -271,8 +271,8 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
 octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,
                             octree_point_visitor visit, void *context);
 
-/* The points in a closed box into points[0 .. room - 1], in no stated order. *count receives how many there are; where
- * that is more than `room`, the rest is left out. Errors and cost as octree_range_search. */
+/* The points in a closed box into points[0 .. room - 1], in no stated order. *count receives how many there are, 0 on
+ * an error; where that is more than `room`, the rest is left out. Errors and cost as octree_range_search. */
 octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
                                    octree_point *points, size_t room, size_t *count);
 
@@ -304,7 +304,8 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                    void *context);
 
-/* The box that octree_collide asks for: the smallest and largest doubles within box_size of the centre. */
+/* The box that octree_collide asks for: the smallest and largest doubles within box_size of the centre. Errors:
+ * NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0); *box is then unchanged. Cost: O(1). */
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);
 
 typedef struct octree_neighbor {
@@ -321,12 +322,11 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
 
 /* The k nearest points into neighbors[0 .. *count - 1], *count = min(k, points that count): by distance, then by id,
  * then by position. There must be room for that many; null will do for k = 0. *count is 0 on an error. Each is the true
- * one, by the real numbers; the i-th distance in
- * FAST mode is at most 1 + 2^-50 times the true i-th, or 2^-490 of the world's extent more. With epsilon > 0 it is at
- * most (1 + epsilon) times the true i-th. Proof: a node is left out only when its box is farther than the k-th best
- * found, divided by 1 + epsilon; so is then all that is in it, and the best found only get nearer. Errors:
- * NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (epsilon < 0), BAD_OPTION. k = 0 and an empty tree give none. Cost: O(D + M + k
- * log k) on average for points of bounded density, O(n log k) at worst. */
+ * one, by the real numbers; the i-th distance in FAST mode is at most 1 + 2^-50 times the true i-th, or 2^-490 of the
+ * world's extent more. With epsilon > 0 it is at most (1 + epsilon) times the true i-th. Proof: a node is left out only
+ * when its box is farther than the k-th best found, divided by 1 + epsilon; so is then all that is in it, and the best
+ * found only get nearer. Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (epsilon < 0), BAD_OPTION. k = 0 and an empty tree
+ * give none. Cost: O(D + M + k log k) on average for points of bounded density, O(n log k) at worst. */
 octree_status octree_nearest_k(const octree *tree, const double target[3], size_t k, const octree_search *how,
                                octree_neighbor *neighbors, size_t *count);
 
@@ -348,8 +348,8 @@ int octree_compare_points(const void *a, const void *b);
 
 /* ---- Look --------------------------------------------------------------------------------------------------- */
 
-/* One node as the tree sees it. `points` holds a leaf's points, in no stated order, and is null for inner nodes; it
- * is owned by the tree and valid until the next change. */
+/* One node as the tree sees it. `points` holds a leaf's points, in no stated order, and is null for inner nodes and for
+ * the root of an empty tree; it is owned by the tree and valid until the next change. */
 typedef struct octree_node {
     octree_address address;
     unsigned depth;

@@ -17,7 +17,7 @@ typedef struct moving_tree {
     size_t count;
     octree_query queries[MOVING_TREE_QUERIES];
     octree_shape shapes[MOVING_TREE_SHAPES];
-    octreel_tick about;
+    octreel_tick_info about;
 } moving_tree;
 
 /* A tree in [-8, 8]^3 of few points to a leaf and of little depth, so that leaves are often full; the same for the same

@@ -7,12 +7,14 @@
  * ticks are, say because an assertion fired.
  *
  *     octreel_recorder_def def = octreel_recorder_def_default();
- *     def.folder = "flight";
+ *     def.folder = "my-flight";
  *     def.tree = octree_definition(tree);
- *     octreel_recorder_open(&def, &recorder, NULL);
+ *     if (octreel_recorder_open(&def, &recorder, &why))
+ *         puts(why.text); // and goes on: *recorder is null, which is a recorder that is off
  *     while (...)
  *         octreel_recorder_tick(recorder, tree, NULL);
- *     octreel_recorder_close(recorder);
+ *     if (octreel_recorder_close(recorder))
+ *         puts(octreel_recorder_error(recorder));
  *     octreel_recorder_destroy(recorder);
  *
  * Conventions
@@ -73,9 +75,8 @@ typedef struct octreel_error {
     char text[512];
 } octreel_error;
 
-/* How to record. Start from octreel_recorder_def_default() and change what you need. Names are those that octreel
- * record
- * --help lists. */
+/* How to record. Start from octreel_recorder_def_default() and change what you need. Names are those that
+ * "octreel record --help" lists. */
 typedef struct octreel_recorder_def {
     const char *folder;   /* where the recording goes: a new folder, or one without a recording. A ring needs none */
     octree_def tree;      /* octree_definition() of the trees to come; their allocator is not used */
@@ -94,7 +95,8 @@ typedef struct octreel_recorder_def {
     bool any_renderer;    /* with "egl": a graphics card will do; frames are then the same on that card alone */
     size_t queue_ticks;   /* ticks that may wait for the worker, at least 1 */
     size_t queue_bytes;   /* and what they may take together; one tick alone may take more */
-    bool never_wait;      /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker */
+    bool never_wait;      /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker; the first
+                            frame is waited for all the same */
     size_t ring;          /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
                             Beside the points of the first it holds what changed in the others */
 } octreel_recorder_def;
@@ -104,16 +106,16 @@ octreel_recorder_def octreel_recorder_def_default(void);
 
 /* What a program asked of its tree in a tick, and what else it shows. The arrays are copied; their `tick` is not read.
  * A point in a frame is the tree's; a shape is what else there is: walls, goals, somebody else's tree. */
-typedef struct octreel_tick {
+typedef struct octreel_tick_info {
     const octree_query *queries; /* in any order; all numbers finite */
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
-} octreel_tick;
+} octreel_tick_info;
 
 /* Start a recorder into *recorder, which is null on an error, with the sentence in *error (may be null). The definition
  * is copied; the folder is made. Errors: NULL_ARGUMENT, BAD_OPTION, BAD_ID (the player's), BAD_FOLDER, NO_MEMORY.
- * Cost: a thread. */
+ * Cost: a thread, which a ring has only while it is written. */
 octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder,
                                      octreel_error *error);
 
@@ -123,7 +125,7 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * full, and at tick 0 until the first frame is drawn. Errors: NULL_ARGUMENT, OTHER_TREE, DUPLICATE_ID, BAD_ID,
  * BAD_QUERY, BAD_SHAPE, FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: O(nodes
  * + n + queries + shapes) in time; 96 bytes a point, and what changed until it is filmed. */
-octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick *about);
+octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
 
 /* Film what the ring holds into a folder as a recording of its own, whose tick 0 is tick *first of the recorder (may be
  * null), and return when it is done. The ring goes on, and may be written again, into another folder. Errors:
