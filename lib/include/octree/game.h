@@ -216,8 +216,8 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
 void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key, whatever the session's keys say. Errors: NULL_ARGUMENT, FLOAT_MODE and BAD_KEY, of which
- * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(bodies that move + queries + v log v for v visits; all bodies,
- * when swept; nodes, when the tree changed). */
+ * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(bodies that move + queries +
+ * v log v for v visits; all bodies, when swept; nodes, when the tree changed). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not

@@ -94,7 +94,8 @@ typedef enum octree_full_leaf {
 } octree_full_leaf;
 
 /* Where a tree takes its memory. `allocate` returns memory aligned as malloc's, or null. `release` is told the size
- * that was asked for, and is never given null. One without the other is BAD_OPTION. The context must outlive the tree. */
+ * that was asked for, and is never given null. One without the other is BAD_OPTION. The context must outlive the tree.
+ */
 typedef struct octree_allocator {
     void *(*allocate)(size_t size, void *context);
     void (*release)(void *memory, size_t size, void *context);
@@ -128,7 +129,8 @@ void octree_destroy(octree *tree);
 /* Remove every point; the memory goes back to the allocator. Cost: O(memory blocks). */
 octree_status octree_clear(octree *tree);
 
-/* The definition in force, after clamping; under OCTREE_AUTO with the capacity that was chosen. For null the default. */
+/* The definition in force, after clamping; under OCTREE_AUTO with the capacity that was chosen. For null the default.
+ */
 octree_def octree_definition(const octree *tree);
 
 /* What a tree is asked, in shares of which only the ratios matter. */
