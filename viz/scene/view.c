@@ -6,10 +6,16 @@
 
 #define VIEW_TEXT(name, text) text,
 static const char *const camera_names[CAMERA_COUNT] = {VIEW_CAMERA_MAP(VIEW_TEXT)};
-static const char *const layer_names[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_TEXT)};
 static const char *const coloring_names[COLORING_COUNT] = {VIEW_COLORING_MAP(VIEW_TEXT)};
 static const char *const diagram_names[DIAGRAM_COUNT] = {VIEW_DIAGRAM_MAP(VIEW_TEXT)};
 #undef VIEW_TEXT
+
+#define VIEW_LAYER_NAME(name, text, words) text,
+#define VIEW_LAYER_WORDS(name, text, words) words,
+static const char *const layer_names[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_LAYER_NAME)};
+static const char *const layer_words[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_LAYER_WORDS)};
+#undef VIEW_LAYER_NAME
+#undef VIEW_LAYER_WORDS
 
 view view_default(void)
 {
@@ -37,6 +43,13 @@ const char *view_camera_name(view_camera camera)
 const char *view_layer_name(view_layer layer)
 {
     return (unsigned)layer < LAYER_COUNT ? layer_names[layer] : NULL;
+}
+
+const char *view_layer_words(view_layer layer)
+{
+    if (layer == LAYER_DIAGRAM)
+        return "the diagram";
+    return (unsigned)layer < LAYER_COUNT ? layer_words[layer] : NULL;
 }
 
 const char *view_coloring_name(view_coloring coloring)

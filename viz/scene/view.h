@@ -23,29 +23,29 @@
     X(FOLLOW, "follow") /* perspective, behind and above the player */                                                 \
     X(ORBIT, "orbit")   /* perspective, round the world by a fixed angle a tick */
 
-/* Each layer and its name, in painter's order: later layers lie on top. */
+/* Each layer, its name and what it shows in words, in painter's order: later layers lie on top. */
 #define VIEW_LAYER_MAP(X)                                                                                              \
-    X(WORLD, "world")                                                                                                  \
-    X(NODES, "nodes")                                                                                                  \
-    X(VISIT_HEAT, "visit-heat") /* in how many ticks leaves were visited */                                            \
-    X(POINT_HEAT, "point-heat") /* how many points were in them, in all ticks together */                              \
-    X(PRUNED, "pruned")         /* nodes that the tick's questions left out by their box */                            \
-    X(VISITED, "visited")       /* nodes that they looked into, or took whole */                                       \
-    X(HIT, "hit")               /* leaves that hold what they found */                                                 \
-    X(MERGES, "merges")         /* nodes that ceased to be inner ones at this tick */                                  \
-    X(SPLITS, "splits")         /* nodes that became inner ones */                                                     \
-    X(ASKED, "asked")           /* the node that inspect is asked for */                                               \
-    X(POINTS, "points")                                                                                                \
-    X(VELOCITIES, "velocities") /* where points that move go on to */                                                  \
-    X(RANGE, "range")                                                                                                  \
-    X(RADIUS, "radius")                                                                                                \
-    X(KNEAREST, "knearest")                                                                                            \
-    X(NEAREST, "nearest")                                                                                              \
-    X(PLAYER, "player")                                                                                                \
-    X(BOX, "box")       /* the player's collision box, and what is in it */                                            \
-    X(SHAPES, "shapes") /* what the session shows beside the points */                                                 \
-    X(BROKEN, "broken") /* the node at which the validator finds an invariant broken */                                \
-    X(TEXT, "text")
+    X(WORLD, "world", "the world")                                                                                     \
+    X(NODES, "nodes", "nodes")                                                                                         \
+    X(VISIT_HEAT, "visit-heat", "heat")     /* in how many ticks leaves were visited */                                \
+    X(POINT_HEAT, "point-heat", "heat")     /* how many points were in them, in all ticks together */                  \
+    X(PRUNED, "pruned", "pruned nodes")     /* nodes that the tick's questions left out by their box */                \
+    X(VISITED, "visited", "visited nodes")  /* nodes that they looked into, or took whole */                           \
+    X(HIT, "hit", "leaves with hits")       /* leaves that hold what they found */                                     \
+    X(MERGES, "merges", "merges")           /* nodes that ceased to be inner ones at this tick */                      \
+    X(SPLITS, "splits", "splits")           /* nodes that became inner ones */                                         \
+    X(ASKED, "asked", "the node asked for") /* the node that inspect is asked for */                                   \
+    X(POINTS, "points", "points")                                                                                      \
+    X(VELOCITIES, "velocities", "velocities") /* where points that move go on to */                                    \
+    X(RANGE, "range", "range queries")                                                                                 \
+    X(RADIUS, "radius", "radius queries")                                                                              \
+    X(KNEAREST, "knearest", "k-nearest queries")                                                                       \
+    X(NEAREST, "nearest", "nearest queries")                                                                           \
+    X(PLAYER, "player", "the player")                                                                                  \
+    X(BOX, "box", "the collision box")     /* the player's collision box, and what is in it */                         \
+    X(SHAPES, "shapes", "shapes")          /* what the session shows beside the points */                              \
+    X(BROKEN, "broken", "the broken node") /* the node at which the validator finds an invariant broken */             \
+    X(TEXT, "text", "text")
 
 /* What the colour of a node tells, and the name of each choice. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
@@ -67,7 +67,7 @@ typedef enum view_camera {
 } view_camera;
 
 typedef enum view_layer {
-#define VIEW_LAYER_ENUM(name, text) LAYER_##name,
+#define VIEW_LAYER_ENUM(name, text, words) LAYER_##name,
     VIEW_LAYER_MAP(VIEW_LAYER_ENUM)
 #undef VIEW_LAYER_ENUM
         LAYER_COUNT,
@@ -151,6 +151,9 @@ const char *view_camera_name(view_camera camera);
 const char *view_layer_name(view_layer layer);
 const char *view_coloring_name(view_coloring coloring);
 const char *view_diagram_name(view_diagram diagram);
+
+/* What a layer shows, in words: "the world", "pruned nodes". The diagram has words too; null beyond it. */
+const char *view_layer_words(view_layer layer);
 
 /* The inverse; false when there is no such name. */
 bool view_camera_parse(const char *name, view_camera *camera);
