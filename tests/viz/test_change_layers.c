@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "broken_tree.h"
-#include "change_layers.h"
 #include "draw_list.h"
+#include "element_ids.h"
 #include "panel.h"
 #include "random_session.h"
 

@@ -1,5 +1,6 @@
 /* answer_layers.c - see answer_layers.h. */
 #include "answer_layers.h"
+#include "element_ids.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,12 +8,6 @@
 
 #define FEW_MARKS 50
 #define MANY_MARKS 500
-
-/* Of the answer at `place`, the part at `part`. */
-static uint64_t part_id(size_t place, size_t part)
-{
-    return (uint64_t)place << 32 | (uint64_t)part;
-}
 
 static void add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_look look)
 {
@@ -62,7 +57,7 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
     point_on_circle(ball, plane, 0, from);
     for (int i = 0; i < BALL_CHORDS; i++) {
         point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
-        add_line(s, part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, look);
+        add_line(s, answer_part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, look);
         memcpy(from, to, sizeof from);
     }
 }
@@ -104,7 +99,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
     double pixels[NUMBERED_RANKS][2], seen[3];
     size_t numbered = 0;
     for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
-        scene_label rank = {.id = part_id(place, i), .in_world = true, .look = look};
+        scene_label rank = {.id = answer_part_id(place, i), .in_world = true, .look = look};
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
         camera_transform(&s->camera, rank.at, seen);
         if (s->camera.perspective && seen[2] < s->camera.near)
@@ -122,7 +117,7 @@ static void add_knearest(scene *s, const octree_answer *answer, size_t place)
 {
     const scene_look look = {.layer = LAYER_KNEAREST, .role = ROLE_KNEAREST, .width = 1};
     for (size_t i = 0; i < answer->count; i++)
-        add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, look);
+        add_line(s, answer_part_id(place, i), answer->target, answer->neighbors[i].point.position, look);
     add_ranks(s, answer, place, look);
 }
 

@@ -1,6 +1,7 @@
 /* change_layers.c - see change_layers.h. */
 #include "change_layers.h"
 #include "crossed_box.h"
+#include "element_ids.h"
 #include "tick_nodes.h"
 
 #include <stdio.h>

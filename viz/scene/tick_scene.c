@@ -4,6 +4,7 @@
 #include "change_layers.h"
 #include "crossed_box.h"
 #include "diagram.h"
+#include "element_ids.h"
 #include "heat_layers.h"
 #include "panel.h"
 #include "shape_layer.h"
@@ -102,7 +103,7 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
         return;
     const scene_look look = {.layer = LAYER_BOX, .role = ROLE_COLLISION, .width = 1};
     const octree_box box = box_about(tick->attempt, session->player.box_size);
-    scene_box outline = {.id = UINT64_MAX, .box = box, .look = look};
+    scene_box outline = {.id = COLLISION_BOX_ID, .box = box, .look = look};
     outline.look.width = 2;
     scene_add_box(s, outline);
     add_crossed_faces(s, &box, look);
