@@ -18,7 +18,7 @@ bool find_point(const octree *tree, const double position[3], uint64_t id, found
 static unsigned merge_depth(const octree *tree, const path *way)
 {
     unsigned depth = way->depth;
-    while (depth > 0 && way->nodes[depth - 1]->count - 1 <= tree->def.leaf_capacity)
+    while (depth > 0 && fits_leaf(tree, way->nodes[depth - 1]->count - 1))
         depth--;
     return depth;
 }
