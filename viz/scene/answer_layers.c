@@ -36,7 +36,7 @@ static void mark_points(scene *s, const octree_answer *answer, scene_look look, 
 
 static void add_range(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = STYLE_DASHED, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_RANGE, STYLE_DASHED, 1);
     scene_add_box(s, (scene_box){.id = place, .box = answer->box, .look = look});
     mark_points(s, answer, look, SHAPE_FRAME, 5);
 }
@@ -64,7 +64,7 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
 
 static void add_ball(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_RADIUS, .role = ROLE_RADIUS, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_RADIUS, STYLE_SOLID, 1);
     for (int plane = 0; plane < BALL_CIRCLES; plane++)
         add_circle(s, answer, place, plane, look);
     mark_points(s, answer, look, SHAPE_LOZENGE, 8);
@@ -72,7 +72,7 @@ static void add_ball(scene *s, const octree_answer *answer, size_t place)
 
 static void add_nearest(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_NEAREST, .role = ROLE_NEAREST, .style = STYLE_DASHED, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_NEAREST, STYLE_DASHED, 1);
     for (size_t i = 0; i < answer->count; i++) {
         add_line(s, place, answer->target, answer->neighbors[i].point.position, look);
         mark(s, &answer->neighbors[i].point, look, SHAPE_FRAME, 7);
@@ -115,10 +115,21 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
 
 static void add_knearest(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_KNEAREST, .role = ROLE_KNEAREST, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_KNEAREST, STYLE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
         add_line(s, answer_part_id(place, i), answer->target, answer->neighbors[i].point.position, look);
     add_ranks(s, answer, place, look);
+}
+
+view_layer answer_layer(octree_query_kind kind)
+{
+    static const view_layer layers[OCTREE_QUERY_KINDS] = {
+        [OCTREE_QUERY_RANGE] = LAYER_RANGE,
+        [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
+        [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
+        [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
+    };
+    return layers[kind];
 }
 
 void add_answers(scene *s, const octree_answer *answers, size_t count)

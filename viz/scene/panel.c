@@ -1,5 +1,6 @@
 /* panel.c - see panel.h. */
 #include "panel.h"
+#include "answer_layers.h"
 #include "layout.h"
 #include "number_text.h"
 #include "panel_legend.h"
@@ -148,20 +149,16 @@ static void write_range(pen *p, const octree_answer *answer)
 /* In the colours of what is drawn of them. */
 static void write_answers(pen *p, const octree_answer *answers, size_t count)
 {
-    static const struct {
-        void (*write)(pen *, const octree_answer *);
-        view_layer layer;
-        theme_role role;
-    } kinds[OCTREE_QUERY_KINDS] = {
-        [OCTREE_QUERY_RANGE] = {write_range, LAYER_RANGE, ROLE_RANGE},
-        [OCTREE_QUERY_NEAREST] = {write_nearest, LAYER_NEAREST, ROLE_NEAREST},
-        [OCTREE_QUERY_KNEAREST] = {write_knearest, LAYER_KNEAREST, ROLE_KNEAREST},
-        [OCTREE_QUERY_RADIUS] = {write_radius, LAYER_RADIUS, ROLE_RADIUS},
+    static void (*const writers[OCTREE_QUERY_KINDS])(pen *, const octree_answer *) = {
+        [OCTREE_QUERY_RANGE] = write_range,
+        [OCTREE_QUERY_NEAREST] = write_nearest,
+        [OCTREE_QUERY_KNEAREST] = write_knearest,
+        [OCTREE_QUERY_RADIUS] = write_radius,
     };
     for (size_t i = 0; i < count; i++) {
-        const octree_query_kind kind = answers[i].kind;
-        p->name = view_shows(&p->scene->view, kinds[kind].layer) ? kinds[kind].role : ROLE_FAINT;
-        kinds[kind].write(p, &answers[i]);
+        const view_layer layer = answer_layer(answers[i].kind);
+        p->name = view_shows(&p->scene->view, layer) ? scene_layer_role(layer) : ROLE_FAINT;
+        writers[answers[i].kind](p, &answers[i]);
     }
     p->name = ROLE_FAINT;
 }

@@ -41,9 +41,8 @@ static void add_plumb_line(scene *s, const octree_tick *tick, const octree_box *
 static void add_player(scene *s, const octree_tick *tick, const octree_session *session)
 {
     add_plumb_line(s, tick, &session->tree.world);
-    scene_marker marker = {.id = session->player.id,
-                           .look = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 4},
-                           .shape = SHAPE_DIAMOND};
+    scene_marker marker = {
+        .id = session->player.id, .look = scene_layer_look(LAYER_PLAYER, STYLE_SOLID, 4), .shape = SHAPE_DIAMOND};
     memcpy(marker.at, tick->player, sizeof marker.at);
     scene_add_marker(s, marker);
     scene_add_box(s, (scene_box){
@@ -101,7 +100,7 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
 {
     if (tick->hit_count == 0)
         return;
-    const scene_look look = {.layer = LAYER_BOX, .role = ROLE_COLLISION, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_BOX, STYLE_SOLID, 1);
     const octree_box box = box_about(tick->attempt, session->player.box_size);
     scene_box outline = {.id = COLLISION_BOX_ID, .box = box, .look = look};
     outline.look.width = 2;
@@ -154,7 +153,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
 static void add_asked(scene *s, const octree *tree, octree_address address)
 {
     octree_node node;
-    const scene_look look = {.layer = LAYER_ASKED, .role = ROLE_PLAYER, .width = 2};
+    const scene_look look = scene_layer_look(LAYER_ASKED, STYLE_SOLID, 2);
     if (!address || octree_node_at(tree, address, &node) != OCTREE_OK)
         return;
     add_node_box(s, &node, look);

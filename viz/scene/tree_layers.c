@@ -32,7 +32,7 @@ static void add_filter(scene *s, const octree_box *world)
 
 void add_world(scene *s, const octree_box *world)
 {
-    const scene_look look = {.layer = LAYER_WORLD, .role = ROLE_WORLD, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_WORLD, STYLE_SOLID, 1);
     scene_add_box(s, (scene_box){.id = WORLD_ID, .box = *world, .look = look});
     add_filter(s, world);
     add_axes(s, world);

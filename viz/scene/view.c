@@ -10,8 +10,8 @@ static const char *const coloring_names[COLORING_COUNT] = {VIEW_COLORING_MAP(VIE
 static const char *const diagram_names[DIAGRAM_COUNT] = {VIEW_DIAGRAM_MAP(VIEW_TEXT)};
 #undef VIEW_TEXT
 
-#define VIEW_LAYER_NAME(name, text, words) text,
-#define VIEW_LAYER_WORDS(name, text, words) words,
+#define VIEW_LAYER_NAME(name, text, ...) text,
+#define VIEW_LAYER_WORDS(name, text, words, ...) words,
 static const char *const layer_names[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_LAYER_NAME)};
 static const char *const layer_words[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_LAYER_WORDS)};
 #undef VIEW_LAYER_NAME
