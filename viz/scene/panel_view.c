@@ -3,6 +3,7 @@
 #include "filter.h"
 #include "number_text.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -45,11 +46,11 @@ static void write_budget(pen *p, const scene_tally *tally)
         write_warning(p, "budget", text);
     }
     if (tally->thinned) {
-        snprintf(text, sizeof text, "1 point in %llu", (unsigned long long)tally->one_in);
+        snprintf(text, sizeof text, "1 point in %" PRIu64, tally->one_in);
         write_warning(p, tally->beyond ? "" : "budget", text);
     }
     if (tally->arrows.thinned) {
-        snprintf(text, sizeof text, "1 arrow in %llu", (unsigned long long)tally->arrows.one_in);
+        snprintf(text, sizeof text, "1 arrow in %" PRIu64, tally->arrows.one_in);
         write_warning(p, tally->beyond || tally->thinned ? "" : "budget", text);
     }
 }
