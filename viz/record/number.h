@@ -18,6 +18,10 @@ bool number_parse(const char *begin, const char *limit, const char **end, double
  * "Infinity". *end is the first character behind it, or begin. */
 bool number_parse_nonfinite(const char *begin, const char *limit, const char **end);
 
+/* The digits of a macro that is a plain number, for text that is put together when it is compiled. */
+#define NUMBER_DIGITS(macro) NUMBER_DIGITS_OF(macro)
+#define NUMBER_DIGITS_OF(number) #number
+
 /* Room for any number's text, with its final zero. */
 #define NUMBER_TEXT 32
 

@@ -2,10 +2,12 @@
 #include "panel_legend.h"
 #include "answer_layers.h"
 #include "diagram_legend.h"
+#include "heat_layers.h"
 #include "panel_view.h"
 #include "velocity_layer.h"
 
 #include <assert.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -31,7 +33,7 @@ typedef enum swatch {
 typedef struct legend_entry {
     view_layer layer;
     swatch swatch;
-    const char *text; /* null: what the tick counts */
+    const char *text; /* null: it has a number in it */
     bool plain;       /* says little that the picture does not say by itself */
     bool answer;      /* its answer is told in the same colour */
     bool swept;       /* in sessions alone that are swept */
@@ -46,8 +48,8 @@ static const legend_entry legend[] = {
     {.layer = LAYER_SPLITS, .swatch = SWATCH_PLUS},
     {.layer = LAYER_MERGES, .swatch = SWATCH_DASHED_PLUS},
     {.layer = LAYER_ASKED, .swatch = SWATCH_BOLD},
-    {.layer = LAYER_VISIT_HEAT, .swatch = SWATCH_HEAT, .text = "[] 1-512+ visits"},
-    {.layer = LAYER_POINT_HEAT, .swatch = SWATCH_HEAT, .text = "<> 1-262144+ points"},
+    {.layer = LAYER_VISIT_HEAT, .swatch = SWATCH_HEAT},
+    {.layer = LAYER_POINT_HEAT, .swatch = SWATCH_HEAT},
     {.layer = LAYER_POINTS, .swatch = SWATCH_DOT, .text = "point", .plain = true},
     {.layer = LAYER_VELOCITIES, .swatch = SWATCH_ARROW},
     {.layer = LAYER_PLAYER, .swatch = SWATCH_SQUARE, .text = "player and its box", .plain = true},
@@ -245,7 +247,7 @@ static bool count_visits(char text[SCENE_TEXT], char rest[SCENE_TEXT], const oct
     return taken && !together;
 }
 
-/* The words of an entry that counts. */
+/* The words of an entry with a number: mostly what the tick counts. */
 static void count_in_words(char text[SCENE_TEXT], view_layer layer, const legend_subject *about)
 {
     const octree_tick *tick = about->tick;
@@ -259,6 +261,12 @@ static void count_in_words(char text[SCENE_TEXT], view_layer layer, const legend
         break;
     case LAYER_HIT:
         snprintf(text, SCENE_TEXT, "%zu %s hit", tick->hit_leaf_count, tick->hit_leaf_count == 1 ? "leaf" : "leaves");
+        break;
+    case LAYER_VISIT_HEAT:
+        snprintf(text, SCENE_TEXT, "[] 1-%" PRIu64 "+ visits", HEAT_LAST(HEAT_VISITS_SHIFT));
+        break;
+    case LAYER_POINT_HEAT:
+        snprintf(text, SCENE_TEXT, "<> 1-%" PRIu64 "+ points", HEAT_LAST(HEAT_POINTS_SHIFT));
         break;
     case LAYER_SHAPES:
         snprintf(text, SCENE_TEXT, "%zu shape%s", tick->shape_count, tick->shape_count == 1 ? "" : "s");
@@ -276,7 +284,7 @@ static void count_in_words(char text[SCENE_TEXT], view_layer layer, const legend
         count_changes(text, "merged", tick->merges, tick->merge_count);
         break;
     default:
-        assert(!"a line without words is of a layer that counts");
+        assert(!"a line without words has a number, which is told above");
     }
 }
 

@@ -133,15 +133,15 @@ static void fill_ramp(pen *p, int steps)
 
 void write_node_legend(pen *p, size_t max_depth)
 {
-    const char *text = "node";
+    char text[SCENE_TEXT] = "node";
     switch (p->scene->view.coloring) {
     case COLORING_DEPTH: /* down to the deepest that the tree allows */
         fill_ramp(p, max_depth + 1 < THEME_NODE_DEPTHS ? (int)max_depth + 1 : THEME_NODE_DEPTHS);
-        text = "node, shallow to deep";
+        snprintf(text, sizeof text, "node, shallow to deep");
         break;
     case COLORING_OCCUPANCY:
         fill_ramp(p, THEME_NODE_DEPTHS);
-        text = "node, 0-256+ points";
+        snprintf(text, sizeof text, "node, 0-%u+ points", THEME_MOST_POINTS);
         break;
     default:
         fill(p, MARGIN, p->y + 3, SWATCH, 2, ROLE_NODE_PLAIN);

@@ -19,13 +19,13 @@ static const char *const layer_words[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_LAYER_W
 
 view view_default(void)
 {
-    return (view){.width = 1280,
-                  .height = 720,
+    return (view){.width = VIEW_DEFAULT_WIDTH,
+                  .height = VIEW_DEFAULT_HEIGHT,
                   .camera = CAMERA_ISO,
                   .layers = VIEW_DEFAULT_LAYERS,
                   .aa = 1,
-                  .lod = 2,          /* smaller boxes are specks: at 100,000 points no difference is seen up to 4 */
-                  .budget = 250000}; /* some 300 MB and a few seconds a frame at worst */
+                  .lod = VIEW_DEFAULT_LOD,
+                  .budget = VIEW_DEFAULT_BUDGET};
 }
 
 int view_unit(const view *v)

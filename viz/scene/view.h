@@ -131,8 +131,13 @@ typedef struct view {
 /* What is shown unless somebody says otherwise: all about the tick; what went before it is left out. */
 #define VIEW_DEFAULT_LAYERS (VIEW_ALL_LAYERS & ~VIEW_HEAT_LAYERS)
 
-/* 1280 x 720, iso, the default layers, nodes coloured by depth; nothing left out but boxes below two pixels and what is
- * beyond a budget of 250,000. */
+/* What else is so unless somebody says otherwise. */
+#define VIEW_DEFAULT_WIDTH 1280
+#define VIEW_DEFAULT_HEIGHT 720
+#define VIEW_DEFAULT_LOD 2         /* smaller boxes are specks: at 100,000 points no difference is seen up to 4 */
+#define VIEW_DEFAULT_BUDGET 250000 /* some 300 MB and a few seconds a frame at worst */
+
+/* These, iso, no anti-aliasing, and nodes coloured by depth. */
 view view_default(void);
 
 /* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6
