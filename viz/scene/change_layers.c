@@ -4,7 +4,6 @@
 #include "element_ids.h"
 #include "tick_nodes.h"
 
-#include <stdio.h>
 #include <string.h>
 
 finding find_broken(const view *v, const octree *tree)
