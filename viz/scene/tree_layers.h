@@ -9,9 +9,8 @@ void add_world(scene *s, const octree_box *world);
 
 /* The box of every node that the view shows, once, in pre-order, with its address as id; every point that it shows,
  * once, by id within its leaf. Points are drawn smaller where there are many: `expected` is their number, for a game
- * the session's, so that it does not change from tick to tick. */
-/* Where the view asks for labels, nodes have
- * their paths on them: see node_labels.h. */
+ * the session's, so that it does not change from tick to tick. Where the view asks for labels, nodes have their paths
+ * on them: see node_labels.h. */
 void add_tree(scene *s, const octree *tree, size_t expected);
 
 /* Empty the scene and set its view, unit and camera. Where the diagram takes the place of the space view, words are the
