@@ -166,11 +166,6 @@ static void add_asked(scene *s, const octree *tree, octree_address address)
     scene_add_marker(s, mark);
 }
 
-bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title)
-{
-    return look_scene_build(s, v, tree, &(tree_look){.title = title});
-}
-
 bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_look *about)
 {
     const octree_box world = octree_definition(tree).world;
