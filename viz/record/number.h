@@ -2,8 +2,8 @@
  *
  * Reading is correctly rounded; what number_print() wrote reads back to the same bits.
  */
-#ifndef OCTREEL_NUMBER_H
-#define OCTREEL_NUMBER_H
+#ifndef RECORD_NUMBER_H
+#define RECORD_NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>
