@@ -11,7 +11,7 @@
 #include "draw_list.h"
 #include "element_ids.h"
 #include "layout.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 static const scene_panel *find_panel(const scene *s, uint64_t id)
 {

@@ -4,7 +4,7 @@
 #include "element_ids.h"
 #include "filter.h"
 #include "layout.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 #include <math.h>
 

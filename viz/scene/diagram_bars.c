@@ -3,7 +3,7 @@
 #include "diagram_place.h"
 #include "element_ids.h"
 #include "filter.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,9 +9,10 @@
 #include "panel.h"
 #include "shape_layer.h"
 #include "tick_nodes.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 #include "velocity_layer.h"
 #include "visit_layers.h"
+#include "world_layer.h"
 
 #include <string.h>
 

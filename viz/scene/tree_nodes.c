@@ -1,10 +1,10 @@
 /* tree_nodes.c - a tree's nodes and points in a scene: those that the view shows, no smaller and no more than it says.
  */
+#include "tree_nodes.h"
 #include "camera.h"
 #include "filter.h"
 #include "node_labels.h"
 #include "thinning.h"
-#include "tree_layers.h"
 
 #include <stdlib.h>
 #include <string.h>

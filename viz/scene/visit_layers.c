@@ -1,7 +1,7 @@
 /* visit_layers.c - see visit_layers.h. */
 #include "visit_layers.h"
 #include "tick_nodes.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 /* A node keeps the colour that it has in the tree. What was looked into is bold, what was left out is dashed. */
 static void add_met(scene *s, const octree *tree, const octree_visit *visit)

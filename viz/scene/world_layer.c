@@ -1,5 +1,5 @@
-/* tree_layers.c - see tree_layers.h: where a scene begins, and its world. */
-#include "tree_layers.h"
+/* world_layer.c - see world_layer.h. */
+#include "world_layer.h"
 #include "axes.h"
 #include "element_ids.h"
 #include "layout.h"
