@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static bool is_address(octree_address address)
+bool is_address(octree_address address)
 {
     unsigned bits = 0;
     for (octree_address rest = address; rest > 1; rest >>= 1)

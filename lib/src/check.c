@@ -14,7 +14,7 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
     }
     if (below != n->count)
         return "a node's count is not the sum of its children's";
-    if (n->count <= tree->def.leaf_capacity)
+    if (fits_leaf(tree, n->count))
         return "an inner node would fit one leaf";
     if (!may_split(tree, c))
         return "an inner node is deeper than the tree allows";

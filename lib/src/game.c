@@ -2,7 +2,6 @@
 #include "bodies.h"
 #include "float_mode.h"
 #include "game_parts.h"
-#include "node_set.h"
 
 #include <string.h>
 

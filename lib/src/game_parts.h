@@ -55,6 +55,12 @@ bool game_is_players(const octree_game *game, uint64_t id);
 /* Note where the player is, and was before the tick: of a body, what edits and motion have made of it. */
 void game_find_player(octree_game *game);
 
+/* Ask the tick's queries, those of its key and those of every tick. */
+octree_status game_ask(octree_game *game, const octree_input *input);
+
+/* Let each answer point to its part of the lists, which do not grow any more. */
+void game_publish_answers(octree_game *game);
+
 /* The queries, the node sets, and the tick's arrays. At tick 0 the collision test too. */
 octree_status game_finish_tick(octree_game *game, const octree_input *input);
 

@@ -6,7 +6,6 @@
 #include "game_parts.h"
 #include "tree.h"
 
-#include <math.h>
 #include <string.h>
 
 static const struct {

@@ -1,6 +1,5 @@
-/* game_queries.c - the last part of a tick: its queries, its splits and merges, and the tick as the caller sees it. */
+/* game_queries.c - the queries of a tick and their answers. */
 #include "game_parts.h"
-#include "node_set.h"
 
 #include <string.h>
 
@@ -79,7 +78,7 @@ static octree_status ask(octree_game *game, const octree_query *query, bool by_k
     return find_neighbors(game, answer, query->at_player);
 }
 
-static octree_status ask_all(octree_game *game, const octree_input *input)
+octree_status game_ask(octree_game *game, const octree_input *input)
 {
     const octree_session *session = game->session;
     octree_status status = OCTREE_OK;
@@ -92,30 +91,7 @@ static octree_status ask_all(octree_game *game, const octree_input *input)
     return status;
 }
 
-static octree_status compare_node_sets(octree_game *game)
-{
-    const bool first = !game->has_set;
-    if (!first && game->set_version == octree_version(game->tree))
-        return OCTREE_OK;
-    const list before = game->inner;
-    game->inner = game->inner_before;
-    game->inner_before = before;
-    game->has_set = true;
-    game->set_version = octree_version(game->tree);
-    if (!node_set_fill(&game->memory, &game->inner, game->tree))
-        return OCTREE_NO_MEMORY;
-    if (first)
-        return OCTREE_OK;
-    if (!node_set_subtract(&game->memory, &game->inner, &game->inner_before, &game->splits) ||
-        !node_set_subtract(&game->memory, &game->inner_before, &game->inner, &game->merges))
-        return OCTREE_NO_MEMORY;
-    game->tick.events |= game->splits.count ? OCTREE_EVENT_SPLIT : 0;
-    game->tick.events |= game->merges.count ? OCTREE_EVENT_MERGED : 0;
-    return OCTREE_OK;
-}
-
-/* Let each answer point to its part of the lists, which do not grow any more. */
-static void publish_answers(octree_game *game)
+void game_publish_answers(octree_game *game)
 {
     octree_answer *answers = game->answers.items;
     size_t points = 0, neighbors = 0;
@@ -133,38 +109,4 @@ static void publish_answers(octree_game *game)
     }
     game->tick.answers = answers;
     game->tick.answer_count = game->answers.count;
-}
-
-static void publish(octree_game *game)
-{
-    octree_tick *tick = &game->tick;
-    publish_answers(game);
-    tick->hits = game->hits.items;
-    tick->hit_count = game->hits.count;
-    tick->hit_from = tick->swept ? game->hit_from.items : NULL;
-    tick->refusals = game->refusals.items;
-    tick->refusal_count = game->refusals.count;
-    tick->splits = game->splits.items;
-    tick->split_count = game->splits.count;
-    tick->merges = game->merges.items;
-    tick->merge_count = game->merges.count;
-}
-
-octree_status game_finish_tick(octree_game *game, const octree_input *input)
-{
-    octree_status status = OCTREE_OK;
-    if (game->tick.number == 0 && game->tick.has_player)
-        status = game_collide(game, game->tick.player);
-    if (status == OCTREE_OK)
-        status = ask_all(game, input);
-    if (status == OCTREE_OK)
-        status = compare_node_sets(game);
-    if (status == OCTREE_OK)
-        status = game_show_shapes(game, input);
-    if (status == OCTREE_OK)
-        status = game_note_movers(game);
-    if (status != OCTREE_OK)
-        return status;
-    publish(game);
-    return game_finish_visits(game);
 }

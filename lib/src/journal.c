@@ -50,7 +50,8 @@ bool journal_replace(journal *j, const node *n)
     return !n->below || note(j, &j->replaced, *n);
 }
 
-bool journal_replace_all(journal *j, const node *n)
+/* And all that is below it too. */
+static bool replace_all(journal *j, const node *n)
 {
     const node *pending[STACK_ROOM];
     size_t size = 0;
@@ -71,7 +72,7 @@ bool journal_collapse(journal *j, node *n)
     if (!journal_make_leaf(j, &leaf, n->count))
         return false;
     leaf_gather(&leaf, n, NULL);
-    if (!journal_replace_all(j, n))
+    if (!replace_all(j, n))
         return false;
     *n = leaf;
     return true;

@@ -18,9 +18,8 @@ typedef struct journal {
 node *journal_make_group(journal *j, unsigned count);
 bool journal_make_leaf(journal *j, node *leaf, uint32_t count);
 
-/* The node's own group or points, or all that is below it too, will not be part of the tree. */
+/* The node's own group or points will not be part of the tree. */
 bool journal_replace(journal *j, const node *n);
-bool journal_replace_all(journal *j, const node *n);
 
 /* A leaf of all points in and below a node, in its place; what was below it is replaced. */
 bool journal_collapse(journal *j, node *n);

@@ -17,12 +17,12 @@ static octree_status move_within(octree *tree, const found_point *found, const o
 static octree_status move_across(octree *tree, const found_point *found, const octree_point *moved)
 {
     const octree_point old = leaf_points(path_end(&found->way))[found->index];
-    merge_room room;
+    node room;
     if (!reserve_merge(tree, found, &room))
         return OCTREE_NO_MEMORY;
     const octree_status status = insert_point(tree, moved);
     if (status != OCTREE_OK) {
-        leaf_release(tree, &room.leaf);
+        leaf_release(tree, &room);
         return status;
     }
     found_point again; /* the insertion may have moved groups of nodes */

@@ -18,16 +18,16 @@ bool find_point(const octree *tree, const double position[3], uint64_t id, found
 static unsigned merge_depth(const octree *tree, const path *way)
 {
     unsigned depth = way->depth;
-    while (depth > 0 && way->nodes[depth - 1]->count - 1 <= tree->def.leaf_capacity)
+    while (depth > 0 && fits_leaf(tree, way->nodes[depth - 1]->count - 1))
         depth--;
     return depth;
 }
 
-bool reserve_merge(octree *tree, const found_point *found, merge_room *room)
+bool reserve_merge(octree *tree, const found_point *found, node *room)
 {
     const unsigned depth = merge_depth(tree, &found->way);
-    *room = (merge_room){.wanted = depth < found->way.depth};
-    return !room->wanted || leaf_create(tree, &room->leaf, found->way.nodes[depth]->count - 1);
+    *room = (node){.below = NULL};
+    return depth == found->way.depth || leaf_create(tree, room, found->way.nodes[depth]->count - 1);
 }
 
 static void merge(octree *tree, node *n, const octree_point *left_out, node *room)
@@ -51,15 +51,15 @@ static void drop_child(octree *tree, node *parent, node *child)
     parent->octants &= (uint8_t) ~(1u << octant);
 }
 
-void remove_found(octree *tree, const found_point *found, merge_room *room)
+void remove_found(octree *tree, const found_point *found, node *room)
 {
     const path *way = &found->way;
     node *leaf = path_end(way);
     const unsigned depth = merge_depth(tree, way);
     if (depth < way->depth) {
-        merge(tree, way->nodes[depth], &leaf_points(leaf)[found->index], &room->leaf);
+        merge(tree, way->nodes[depth], &leaf_points(leaf)[found->index], room);
     } else {
-        leaf_release(tree, &room->leaf);
+        leaf_release(tree, room);
         leaf_take(tree, leaf, found->index);
         if (leaf->count == 0 && way->depth > 0)
             drop_child(tree, way->nodes[way->depth - 1], leaf);
@@ -77,7 +77,7 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
     found_point found;
     if (!find_point(tree, position, id, &found))
         return OCTREE_NOT_FOUND;
-    merge_room room;
+    node room;
     if (!reserve_merge(tree, &found, &room))
         return OCTREE_NO_MEMORY;
     remove_found(tree, &found, &room);

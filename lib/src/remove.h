@@ -13,16 +13,11 @@ typedef struct found_point {
 /* False when the pair is not in the tree. */
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);
 
-/* The leaf that a removal would merge points into, made ahead; empty when no node would merge. */
-typedef struct merge_room {
-    node leaf;
-    bool wanted;
-} merge_room;
-
-/* Take the memory that removing this point now needs. False when there is none. */
-bool reserve_merge(octree *tree, const found_point *found, merge_room *room);
+/* Make the leaf that removing this point now would merge others into; an empty one when no node would merge. False when
+ * there is no memory. */
+bool reserve_merge(octree *tree, const found_point *found, node *room);
 
 /* Remove the point. Cannot fail; uses the room up or gives it back. */
-void remove_found(octree *tree, const found_point *found, merge_room *room);
+void remove_found(octree *tree, const found_point *found, node *room);
 
 #endif

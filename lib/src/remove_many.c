@@ -60,7 +60,7 @@ static bool make_parent(removal *r, const node children[8], unsigned octants, ui
         if (mask >> octant & 1)
             group[left++] = children[octant];
     *made = (node){.below = group, .count = count, .octants = (uint8_t)mask};
-    return count > r->tree->def.leaf_capacity || journal_collapse(&r->journal, made);
+    return !fits_leaf(r->tree, count) || journal_collapse(&r->journal, made);
 }
 
 /* What a node becomes; itself where nothing of it is removed. */

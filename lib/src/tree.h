@@ -79,6 +79,12 @@ static inline bool may_split(const octree *tree, cell c)
     return c.depth < tree->def.max_depth && cell_divisible(tree->axes, c);
 }
 
+/* How many points one leaf may hold. Nodes that hold no more merge, and those that hold more split where they may. */
+static inline bool fits_leaf(const octree *tree, size_t count)
+{
+    return count <= tree->def.leaf_capacity;
+}
+
 /* The nodes from the root towards a code: as deep as they exist. The last one is a leaf, or an inner node whose octant
  * for this code is not occupied. */
 typedef struct path {

@@ -41,9 +41,7 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    char text[OCTREE_ADDRESS_TEXT];
-    octree_address canonical;
-    if (!octree_address_parse(octree_address_format(address, text), &canonical) || canonical != address)
+    if (!is_address(address))
         return OCTREE_NOT_FOUND;
     const node *n = &tree->root;
     cell c = root_cell();

@@ -13,7 +13,7 @@ static scene scene_of_world(const octree_box *world, const view *v)
 {
     octree *tree = make_tree(*world, 4, 21, OCTREE_GROW);
     scene s = {0};
-    assert_true(tree_scene_build(&s, v, tree, "axes"));
+    build_tree(&s, v, tree, "axes");
     octree_destroy(tree);
     return s;
 }
@@ -157,7 +157,7 @@ static void a_fitted_box_has_the_axes_and_not_the_world(void **state)
     scene s = {0};
     v.fit = FIT_POINTS;
     fit_view(&v, tree);
-    assert_true(tree_scene_build(&s, &v, tree, "fitted"));
+    build_tree(&s, &v, tree, "fitted");
     assert_true(count_numbers(&s) >= 5);
     check_numbers(&s, &v.focus);
     check_apart(&s);

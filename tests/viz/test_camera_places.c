@@ -52,7 +52,7 @@ static scene scene_from(const octree *tree, unsigned layers, const double place[
 {
     const view v = view_of(SIDE, SIDE, CAMERA_FOLLOW, layers);
     scene s = {0};
-    assert_true(tree_scene_build(&s, &v, tree, "places"));
+    build_tree(&s, &v, tree, "places");
     stand_at(&s, place, way);
     return s;
 }

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "broken_tree.h"
-#include "change_layers.h"
 #include "draw_list.h"
+#include "element_ids.h"
 #include "panel.h"
 #include "random_session.h"
 
@@ -156,7 +156,7 @@ static void a_broken_invariant_is_crossed_out_and_told(void **state)
         scene s = {0};
         build_tick(&s, &v, game);
         check_broken(&s, &session.tree.world, where, sentence);
-        assert_true(tree_scene_build(&s, &v, tree, "a cloud"));
+        build_tree(&s, &v, tree, "a cloud");
         check_broken(&s, &session.tree.world, where, sentence);
         v.layers &= ~(1u << LAYER_BROKEN);
         build_tick(&s, &v, game);

@@ -59,7 +59,7 @@ static void the_colour_of_each_node_is_that_of_its_depth_its_points_or_none(void
         scene s = {0};
         uint32_t used = 0;
         v.coloring = (view_coloring)coloring;
-        assert_true(tree_scene_build(&s, &v, tree, "colours"));
+        build_tree(&s, &v, tree, "colours");
         for (size_t i = 0; i < s.boxes.count; i++) {
             const scene_box *box = &s.boxes.items[i];
             if (box->look.layer != LAYER_NODES)

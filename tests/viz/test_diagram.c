@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "brute.h"
-#include "diagram.h"
 #include "draw_list.h"
+#include "element_ids.h"
 #include "layout.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 static const scene_panel *find_panel(const scene *s, uint64_t id)
 {
@@ -129,7 +129,7 @@ static void check_bars(const scene *s, unsigned depth, size_t nodes, double pitc
     size_t bars = 0;
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
-        if (panel->look.layer != LAYER_DIAGRAM || panel->id >> 32 != (DIAGRAM_BAR_ID >> 32 | depth))
+        if (panel->look.layer != LAYER_DIAGRAM || !diagram_is_bar(panel->id) || diagram_bar_depth(panel->id) != depth)
             continue;
         const double steps = ceil(panel->height * 16 / (pitch - 2 * s->unit));
         assert_true(steps >= 1 && steps <= 16);
@@ -206,7 +206,7 @@ static void check_way(const scene *s, octree_address leaf)
     const unsigned deep = octree_address_depth(leaf);
     size_t yellow = 0;
     for (unsigned depth = 0; depth <= deep; depth++) {
-        const scene_panel *mark = find_panel(s, DIAGRAM_WAY_ID | depth);
+        const scene_panel *mark = find_panel(s, diagram_way_id(depth));
         const scene_panel *node = find_panel(s, leaf >> 3 * (deep - depth));
         assert_true(mark && mark->look.role == ROLE_PLAYER);
         if (node)

@@ -1,10 +1,13 @@
 /* test_diff_trace.c - the pixels in which two frames differ belong to elements: to those that differ. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "explain.h"
 #include "fixture.h"
+#include "frame_file.h"
 #include "galleries.h"
 #include "recordings.h"
+#include "sentence.h"
 
 /* A film of these layers alone. */
 static place film_layers(const temp_folder *own, const char *name, const octree_session *session, unsigned layers,
@@ -152,6 +155,76 @@ static void what_is_ignored_is_not_traced(void **state)
     comparison_release(&made);
 }
 
+/* ---- In words ------------------------------------------------------------------------------------------------ */
+
+static char *words_of(const trace_part *part)
+{
+    char *text;
+    sentence s;
+    assert_true(sentence_begin(&s));
+    trace_print_part(s.stream, part);
+    assert_true(sentence_end(&s, &text));
+    return text;
+}
+
+static void every_layer_has_words(void **state)
+{
+    (void)state;
+    for (int layer = 0; layer <= TRACE_BACKGROUND; layer++) {
+        const trace_part part = {.layer = layer, .id = 1};
+        char *text = words_of(&part);
+        assert_non_null(text);
+        free(text);
+    }
+}
+
+/* A part of this layer in a frame that differs, and the words for it in its cause. */
+static void assert_told(const comparison_of *made, uint64_t tick, int layer, const char *words)
+{
+    char name[FRAME_NAME];
+    const diff_pair *pair = diff_find(&made->result, frame_name(tick, name));
+    const trace *t = trace_of(made, tick);
+    bool found = false;
+    for (size_t i = 0; i < t->count; i++)
+        found = found || t->parts[i].layer == layer;
+    assert_true(found);
+    if (!strstr(pair->cause, words))
+        fail_msg("%s", pair->cause);
+}
+
+/* Two sessions of one point that moves. */
+static void other_velocities_are_told(void **state)
+{
+    const octree_body bodies[2] = {{1, {100, 100, 100}, {1, 0, 0}}, {1, {100, 100, 100}, {0, 1, 0}}};
+    octree_session session = short_session("wd");
+    session.body_count = 1;
+    session.bodies = &bodies[0];
+    const place a = film_layers(*state, "a", &session, VIEW_ALL_LAYERS, 1);
+    session.bodies = &bodies[1];
+    const place b = film_layers(*state, "b", &session, VIEW_ALL_LAYERS, 1);
+    comparison_of made = assert_traced(&a, &b, NULL);
+    assert_adds_up(&made);
+    assert_told(&made, 0, LAYER_VELOCITIES, " of velocities");
+    comparison_release(&made);
+}
+
+static void other_shapes_are_told(void **state)
+{
+    octree_shape shape = {
+        .tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_LABEL, .at = {-500, 500, 0}, .text = "a goal"};
+    octree_session session = short_session("wd");
+    session.shapes = &shape;
+    session.shape_count = 1;
+    const place a = film_layers(*state, "a", &session, VIEW_ALL_LAYERS, 1);
+    shape.text[0] = 'A';
+    const place b = film_layers(*state, "b", &session, VIEW_ALL_LAYERS, 1);
+    comparison_of made = assert_traced(&a, &b, NULL);
+    assert_adds_up(&made);
+    for (uint64_t tick = 0; tick < 3; tick++)
+        assert_told(&made, tick, LAYER_SHAPES, " of shapes");
+    comparison_release(&made);
+}
+
 /* ---- What is not traced -------------------------------------------------------------------------------------- */
 
 static void frames_of_unlike_sizes_are_not_traced(void **state)
@@ -173,6 +246,9 @@ int main(void)
         TEST(what_a_split_draws_belongs_to_the_node_that_split),
         TEST(all_layers_together_add_up),
         TEST(what_is_ignored_is_not_traced),
+        TEST(every_layer_has_words),
+        TEST(other_velocities_are_told),
+        TEST(other_shapes_are_told),
         TEST(frames_of_unlike_sizes_are_not_traced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -126,7 +126,7 @@ static size_t check_filter(const known_tree *t, const view_filter *f)
     scene s = {0};
     size_t nodes = 0, points = 0;
     v.filter = *f;
-    assert_true(tree_scene_build(&s, &v, t->tree, "filter"));
+    build_tree(&s, &v, t->tree, "filter");
     for (size_t i = 0; i < t->count; i++) {
         const bool passes = node_passes(t, f, &t->nodes[i]);
         assert_int_equal(has_box(&s, &t->nodes[i]), passes);
@@ -223,11 +223,11 @@ static void an_empty_tree_has_its_root_under_any_filter_that_meets_it(void **sta
     view v = view_default();
     scene s = {0};
     v.filter = (view_filter){.slice = 'x', .slice_at = 1, .leaves = true};
-    assert_true(tree_scene_build(&s, &v, tree, "empty"));
+    build_tree(&s, &v, tree, "empty");
     assert_int_equal(count_layer(&s, LAYER_NODES).boxes, 1);
     v.filter.by_depth = true;
     v.filter.min_depth = v.filter.max_depth = 1;
-    assert_true(tree_scene_build(&s, &v, tree, "empty"));
+    build_tree(&s, &v, tree, "empty");
     assert_int_equal(count_layer(&s, LAYER_NODES).boxes, 0);
     scene_release(&s);
     octree_destroy(tree);
@@ -241,7 +241,7 @@ static void the_slice_and_the_region_are_outlined(void **state)
     view v = view_default();
     scene s = {0};
     v.filter = (view_filter){.slice = 'y', .slice_at = 7, .by_region = true, .region = cube(-5, 50)};
-    assert_true(tree_scene_build(&s, &v, t.tree, "outlines"));
+    build_tree(&s, &v, t.tree, "outlines");
     size_t outlines = 0;
     for (size_t i = 0; i < s.boxes.count; i++) {
         const scene_box *box = &s.boxes.items[i];

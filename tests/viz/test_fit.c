@@ -164,7 +164,7 @@ static void every_camera_but_the_follower_sees_all_points_of_odd_clouds(void **s
                 octree_walk(tree, assert_points_seen, &c);
             }
             scene s = {0};
-            assert_true(tree_scene_build(&s, &v, tree, "odd"));
+            build_tree(&s, &v, tree, "odd");
             assert_int_equal(s.refused, 0);
             scene_release(&s);
         }
@@ -191,7 +191,8 @@ static void neither_place_nor_scale_changes_a_bit_of_a_fitted_pixel(void **state
         scene s = {0}, t = {0};
         fit_view(&a, here);
         fit_view(&b, there);
-        assert_true(tree_scene_build(&s, &a, here, "") && tree_scene_build(&t, &b, there, ""));
+        build_tree(&s, &a, here, "");
+        build_tree(&t, &b, there, "");
         for (int j = 0; j < 3; j++) {
             double pixels[2][2];
             pixel_of(&s, points[j], pixels[0]);

@@ -130,7 +130,7 @@ static size_t check_labels(const octree *tree, const view *v)
 {
     scene s = {0};
     size_t labels = 0, nodes = 0, grounds = 0;
-    assert_true(tree_scene_build(&s, v, tree, "labels"));
+    build_tree(&s, v, tree, "labels");
     for (size_t i = 0; i < s.boxes.count; i++) {
         const scene_box *box = &s.boxes.items[i];
         if (box->look.layer != LAYER_NODES)
@@ -191,11 +191,11 @@ static void nobody_who_does_not_ask_has_labels(void **state)
     view v = labelled(CAMERA_ISO);
     scene s = {0};
     v.layers &= ~(1u << LAYER_NODES);
-    assert_true(tree_scene_build(&s, &v, tree, "none"));
+    build_tree(&s, &v, tree, "none");
     assert_int_equal(s.tally.labels, 0);
     assert_false(has_text(&s, "root"));
     v = view_default();
-    assert_true(tree_scene_build(&s, &v, tree, "none"));
+    build_tree(&s, &v, tree, "none");
     assert_false(has_text(&s, "root"));
     scene_release(&s);
     octree_destroy(tree);

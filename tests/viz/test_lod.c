@@ -30,7 +30,7 @@ static octree *clustered(size_t count, size_t capacity)
 static scene scene_of(const octree *tree, const view *v)
 {
     scene s = {0};
-    assert_true(tree_scene_build(&s, v, tree, "lod"));
+    build_tree(&s, v, tree, "lod");
     return s;
 }
 

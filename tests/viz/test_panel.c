@@ -241,7 +241,7 @@ static void numbers_of_any_length_stay_texts(void **state)
     char title[500];
     memset(title, 'W', sizeof title);
     title[sizeof title - 1] = 0;
-    assert_true(tree_scene_build(&s, &v, octree_game_tree(game), title));
+    build_tree(&s, &v, octree_game_tree(game), title);
     check_place(&s);
     octree_game_destroy(game);
     scene_release(&s);

@@ -297,7 +297,7 @@ static void a_tree_is_the_same_scene_whatever_its_history(void **state)
             assert_int_equal(octree_insert(tree, passer_by, id), OCTREE_OK);
         for (uint64_t id = 0; id < 50; id++)
             assert_int_equal(octree_remove(tree, passer_by, id), OCTREE_OK);
-        assert_true(tree_scene_build(&s, &v, tree, "history"));
+        build_tree(&s, &v, tree, "history");
         check_tree(&s, tree);
         expected = round ? expected : scene_digest(&s);
         assert_true(scene_digest(&s) == expected);
@@ -313,7 +313,7 @@ static void an_empty_tree_shows_its_world_and_its_root(void **state)
     const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
     octree *tree = make_tree(cube(-1, 1), 2, 5, OCTREE_REFUSE);
     scene s = {0};
-    assert_true(tree_scene_build(&s, &v, tree, "empty"));
+    build_tree(&s, &v, tree, "empty");
     check_tree(&s, tree);
     assert_int_equal(s.boxes.count, 2);
     assert_int_equal(s.markers.count, 0);

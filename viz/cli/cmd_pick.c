@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MOST_RADIUS 16384
 #define MOST_PLACE 1000000000 /* beyond any picture, which then says how large it is */
 
 static const char help[] =
@@ -54,7 +53,7 @@ static bool take_option(arguments *a, int option)
 {
     switch (option) {
     case 'r':
-        return read_pixels("--radius", optarg, MOST_RADIUS, &a->pick.radius);
+        return read_pixels("--radius", optarg, DRAW_MAX_SIDE, &a->pick.radius);
     case OPTION_CONTEXT:
         return read_context(optarg, &a->pick.renderer);
     case OPTION_ANY_RENDERER:

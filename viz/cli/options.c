@@ -288,6 +288,11 @@ static bool read_aa(const char *text, view *v)
     return true;
 }
 
+#define SIZE NUMBER_DIGITS(VIEW_DEFAULT_WIDTH) "x" NUMBER_DIGITS(VIEW_DEFAULT_HEIGHT)
+#define MOST NUMBER_DIGITS(DRAW_MAX_SIDE)
+#define LOD NUMBER_DIGITS(VIEW_DEFAULT_LOD)
+#define BUDGET NUMBER_DIGITS(VIEW_DEFAULT_BUDGET)
+
 /* Each option, in the order in which they are read: its name, what stands for its value in the help (null: it takes
  * none), what reads it, and what it does; where there are names to choose from, these are listed behind that. */
 static const struct {
@@ -297,7 +302,7 @@ static const struct {
     name_at *names;
 } rows[] = {
     {"camera-from", "DIR", read_camera_from, "the whole view of a recording; other options here change it", NULL},
-    {"size", "WxH", read_size, "picture in pixels (default 1280x720; a side is 1 to 16384)", NULL},
+    {"size", "WxH", read_size, "picture in pixels (default " SIZE "; a side is 1 to " MOST ")", NULL},
     {"camera", "NAME", read_camera, "(default iso) one of", camera_at},
     {"fit", "WHAT", read_fit, "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
      NULL},
@@ -312,9 +317,9 @@ static const struct {
     {"region", "BOX", read_region, "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", NULL},
     {"labels", NULL, read_labels, "write paths such as 0/3/7 on nodes, where there is room", NULL},
     {"aa", "N", read_aa, "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", NULL},
-    {"lod", "PX", read_lod, "leave out boxes below PX pixels whose ancestor is drawn (default 2; 0: none)", NULL},
+    {"lod", "PX", read_lod, "leave out boxes below PX pixels whose ancestor is drawn (default " LOD "; 0: none)", NULL},
     {"budget", "N", read_budget,
-     "at most N boxes and N points a frame, which says what it leaves out (default 250000; 0: all)", NULL},
+     "at most N boxes and N points a frame, which says what it leaves out (default " BUDGET "; 0: all)", NULL},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])

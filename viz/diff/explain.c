@@ -6,7 +6,6 @@
 #include "same_bytes.h"
 #include "sentence.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -3,7 +3,6 @@
 #include "escaped.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 
 static void write_text(FILE *out, const char *text)
 {

@@ -22,7 +22,8 @@ const char *diff_kind_name(diff_kind kind)
     return names[kind];
 }
 
-const char *diff_base_name(const char *path)
+/* The part behind the last slash. */
+static const char *base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
@@ -117,7 +118,7 @@ static bool read_file(diff_side *side, record_error *error)
     fclose(file);
     if (size >= 4 && memcmp(first, "\x89PNG", 4) == 0) {
         side->kind = DIFF_PICTURE;
-        return diff_side_add(side, diff_base_name(side->path), (frame_digest){0}, error);
+        return diff_side_add(side, base_name(side->path), (frame_digest){0}, error);
     }
     if (strcmp(first, DIGEST_FILE_BEGINNING) == 0) {
         side->kind = DIFF_DIGESTS;

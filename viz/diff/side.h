@@ -45,7 +45,4 @@ bool diff_side_add(diff_side *side, const char *name, frame_digest digest, recor
 /* The frame of this name, or null. */
 const diff_frame *diff_side_find(const diff_side *side, const char *name);
 
-/* The part behind the last slash. */
-const char *diff_base_name(const char *path);
-
 #endif

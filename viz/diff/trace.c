@@ -321,33 +321,15 @@ const trace *tracer_at(const tracer *t, uint64_t tick)
 
 void trace_print_part(FILE *out, const trace_part *part)
 {
-    static const char *const words[] = {
-        [LAYER_WORLD] = "the world",
-        [LAYER_VISIT_HEAT] = "heat",
-        [LAYER_POINT_HEAT] = "heat",
-        [LAYER_PRUNED] = "pruned nodes",
-        [LAYER_VISITED] = "visited nodes",
-        [LAYER_HIT] = "leaves with hits",
-        [LAYER_MERGES] = "merges",
-        [LAYER_SPLITS] = "splits",
-        [LAYER_RANGE] = "range queries",
-        [LAYER_RADIUS] = "radius queries",
-        [LAYER_KNEAREST] = "k-nearest queries",
-        [LAYER_NEAREST] = "nearest queries",
-        [LAYER_PLAYER] = "the player",
-        [LAYER_BOX] = "the collision box",
-        [LAYER_BROKEN] = "the broken node",
-        [LAYER_TEXT] = "text",
-        [LAYER_DIAGRAM] = "the diagram",
-        [TRACE_BACKGROUND] = "the background",
-    };
     char text[OCTREE_ADDRESS_TEXT];
     if (part->layer == LAYER_NODES)
         fprintf(out, "node %s", octree_address_format(part->id, text));
     else if (part->layer == LAYER_POINTS)
         fprintf(out, "point %" PRIu64, part->id);
+    else if (part->layer == TRACE_BACKGROUND)
+        fputs("the background", out);
     else
-        fputs(words[part->layer], out);
+        fputs(view_layer_words((view_layer)part->layer), out);
 }
 
 void trace_print(FILE *out, const trace *t)

@@ -1,6 +1,7 @@
 /* pixel.c - all elements that have to do with one pixel: the quads that may reach it are drawn one by one, by the same
  * rasteriser, and what each covers is read back. */
 #include "edge_boxes.h"
+#include "grow.h"
 #include "paint.h"
 #include "rasterise.h"
 
@@ -45,16 +46,12 @@ static draw_touch *take_touch(probe *p, draw_kind kind, size_t index)
     draw_touch *found = find_touch(list, number);
     if (found)
         return found;
-    if (list->count == list->room) {
-        const size_t room = list->room ? 2 * list->room : 16;
-        draw_touch *items = realloc(list->items, room * sizeof *items);
-        if (!items) {
-            p->out_of_memory = true;
-            return NULL;
-        }
-        list->items = items;
-        list->room = room;
+    draw_touch *items = grow_by_one(list->items, list->count, &list->room, 16, sizeof *items);
+    if (!items) {
+        p->out_of_memory = true;
+        return NULL;
     }
+    list->items = items;
     list->items[list->count] = (draw_touch){.number = number};
     return &list->items[list->count++];
 }

@@ -32,11 +32,9 @@ pencil pencil_make(const scene *s, scene_look look, unsigned depth)
 /* What the tick is about fades less than the tree around it: the last bands would drown it. */
 static unsigned shade_of(const pencil *with, unsigned band)
 {
-    static const bool fades[LAYER_DIAGRAM + 1] = {[LAYER_WORLD] = true,
-                                                  [LAYER_NODES] = true,
-                                                  [LAYER_PRUNED] = true,
-                                                  [LAYER_POINTS] = true,
-                                                  [LAYER_VELOCITIES] = true};
+#define LAYER_FADES(name, text, words, role, fades) [LAYER_##name] = fades,
+    static const bool fades[LAYER_DIAGRAM + 1] = {VIEW_LAYER_MAP(LAYER_FADES)};
+#undef LAYER_FADES
     if (with->look.role == ROLE_BACKGROUND)
         return 0;
     return fades[with->look.layer] ? band : band / 3;

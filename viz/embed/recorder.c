@@ -2,7 +2,6 @@
 #include "octreel/recorder.h"
 #include "live.h"
 #include "ring.h"
-#include "session_file.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,7 +4,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stddef.h>
 
 static octreel_status refuse(record_error *error, const char *option, const char *name)
 {

@@ -108,7 +108,6 @@ static bool encode(const content *content, FILE *file, image_fault *fault)
     return whole;
 }
 
-/* A full disk may show as late as in fclose, when stdio hands over its last bytes. */
 /* A rename would put a file in the place of a device or a pipe. */
 static bool is_replaceable(const char *path)
 {
@@ -116,6 +115,7 @@ static bool is_replaceable(const char *path)
     return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode); /* a folder stays */
 }
 
+/* A full disk may show as late as in fclose, when stdio hands over its last bytes. */
 static bool write_by_rename(const content *content, const char *part, image_fault *fault)
 {
     FILE *file = fopen(part, "wb");

@@ -9,8 +9,8 @@
  * The contents decide which of them a file is, and the ending .ply or .pcd where the contents do not. A file that is
  * cut off or whose counts do not fit what it holds is an error: no point is lost in silence.
  */
-#ifndef OCTREEL_CLOUD_H
-#define OCTREEL_CLOUD_H
+#ifndef RECORD_CLOUD_H
+#define RECORD_CLOUD_H
 
 #include <stdbool.h>
 #include <stddef.h>

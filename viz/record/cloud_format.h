@@ -1,8 +1,8 @@
 /* cloud_format.h - what the readers of the point-cloud formats share: the file in memory, its lines and words, its
  * binary scalars, the growing result and the sentence of an error. Nobody else includes this.
  */
-#ifndef OCTREEL_CLOUD_FORMAT_H
-#define OCTREEL_CLOUD_FORMAT_H
+#ifndef RECORD_CLOUD_FORMAT_H
+#define RECORD_CLOUD_FORMAT_H
 
 #include "cloud.h"
 

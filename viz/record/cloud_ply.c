@@ -2,7 +2,6 @@
 #include "cloud_format.h"
 
 #include <inttypes.h>
-#include <math.h>
 
 enum {
     MAX_ELEMENTS = 64,

@@ -1,9 +1,6 @@
 /* element_words.c - see element_words.h. */
 #include "element_words.h"
-#include "answer_layers.h"
-#include "change_layers.h"
-#include "crossed_box.h"
-#include "diagram.h"
+#include "element_ids.h"
 #include "number.h"
 #include "velocity_layer.h"
 
@@ -169,9 +166,12 @@ static void say_neighbor(teller *t, uint64_t place, uint64_t rank)
 
 static void say_own_box(teller *t, const scene_box *box)
 {
-    static const char *const names[] = {"the world, box ", "the slice that the view shows, box ",
-                                        "the region that the view shows, box "};
-    say(t, "%s", names[box->id < 3 ? box->id : 0]);
+    static const char *const names[WORLD_IDS] = {
+        [WORLD_ID] = "the world, box ",
+        [SLICE_ID] = "the slice that the view shows, box ",
+        [REGION_ID] = "the region that the view shows, box ",
+    };
+    say(t, "%s", names[box->id < WORLD_IDS ? box->id : WORLD_ID]);
     say_box(t, &box->box);
 }
 
@@ -191,7 +191,8 @@ static void say_shape(teller *t, uint64_t place)
 
 static void say_collision_box(teller *t, const scene_box *box)
 {
-    say(t, box->id == UINT64_MAX ? "the collision box where the step met something, " : "the player's collision box, ");
+    const bool met = box->id == COLLISION_BOX_ID;
+    say(t, met ? "the collision box where the step met something, " : "the player's collision box, ");
     say_box(t, &box->box);
 }
 
@@ -234,7 +235,7 @@ static void say_axis(teller *t, uint64_t id)
 static void say_change(teller *t, uint64_t id, const char *what)
 {
     say(t, "a plane of a node that %s at this tick, ", what);
-    say_node(t, id >> 2);
+    say_node(t, change_line_node(id));
 }
 
 static void say_tree_line(teller *t, const scene_segment *line)
@@ -274,10 +275,10 @@ static void segment_words(teller *t, const scene_segment *line)
         say_velocity(t, line->id);
         break;
     case LAYER_RADIUS:
-        say_ball(t, line->id >> 32);
+        say_ball(t, answer_part_place(line->id));
         break;
     case LAYER_KNEAREST:
-        say_neighbor(t, line->id >> 32, line->id & UINT32_MAX);
+        say_neighbor(t, answer_part_place(line->id), answer_part(line->id));
         break;
     case LAYER_NEAREST:
         say_neighbor(t, line->id, 0);
@@ -339,14 +340,13 @@ static void marker_words(teller *t, const scene_marker *mark)
     say(t, "%s", ends[mark->look.layer] ? ends[mark->look.layer] : "");
 }
 
-/* Ids whose highest bit is that of no address are not of nodes: see diagram.h. */
 static void say_diagram(teller *t, uint64_t id)
 {
-    if (id == 0) {
+    if (id == DIAGRAM_GROUND_ID) {
         say(t, "the ground of the diagram");
-    } else if (id >> 61 == DIAGRAM_BAR_ID >> 61) {
-        say(t, "in the diagram, a bar: nodes of depth %u that have no room there", (unsigned)(id >> 32 & 255));
-    } else if (id >> 62 == DIAGRAM_WAY_ID >> 62) {
+    } else if (diagram_is_bar(id)) {
+        say(t, "in the diagram, a bar: nodes of depth %u that have no room there", diagram_bar_depth(id));
+    } else if (diagram_is_way(id)) {
         say(t, "in the diagram, the way to the player");
     } else {
         say(t, "in the diagram, ");

@@ -4,7 +4,6 @@
 #include "live_session.h"
 #include "recording.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 

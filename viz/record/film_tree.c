@@ -1,5 +1,6 @@
 /* film_tree.c - one tree as one picture; see film.h. */
 #include "film.h"
+#include "frame_file.h"
 #include "picture.h"
 #include "tick_scene.h"
 #include "ticks_write.h"
@@ -8,8 +9,8 @@ static bool write_picture(const picture *p, const scene *s, const char *path, re
 {
     char digests[2][DIGEST_TEXT];
     const image_text texts[] = {
-        {"octreel-scene", digest_print(scene_digest(s), digests[0])},
-        {"octreel-pixels", digest_print(image_digest(&p->frame), digests[1])},
+        {FRAME_SCENE_KEYWORD, digest_print(scene_digest(s), digests[0])},
+        {FRAME_PIXELS_KEYWORD, digest_print(image_digest(&p->frame), digests[1])},
     };
     return picture_write(p, path, texts, sizeof texts / sizeof texts[0], error);
 }

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const char tick_keyword[] = "octreel-tick", session_keyword[] = "octreel-session",
-                  scene_keyword[] = "octreel-scene", pixels_keyword[] = "octreel-pixels",
+                  scene_keyword[] = FRAME_SCENE_KEYWORD, pixels_keyword[] = FRAME_PIXELS_KEYWORD,
                   left_out_keyword[] = "octreel-left-out";
 
 #define NUMBER_SIZE 24 /* of a text: room for any number and any digest */

@@ -8,6 +8,10 @@
 
 #include <stdint.h>
 
+/* Keywords of texts that the pictures of trees alone have too: the digests of the scene, and of the pixels. */
+#define FRAME_SCENE_KEYWORD "octreel-scene"
+#define FRAME_PIXELS_KEYWORD "octreel-pixels"
+
 #define FRAME_NAME 40
 char *frame_name(uint64_t tick, char name[FRAME_NAME]);
 

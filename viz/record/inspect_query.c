@@ -1,5 +1,6 @@
 /* inspect_query.c - see inspect_query.h: asking. */
 #include "inspect_query.h"
+#include "grow.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,15 +16,11 @@ typedef struct found {
 static bool take_point(const octree_point *point, void *context)
 {
     found *f = context;
-    if (f->count == f->room) {
-        const size_t room = f->room ? 2 * f->room : 64;
-        octree_point *grown = room <= SIZE_MAX / sizeof *grown ? realloc(f->points, room * sizeof *grown) : NULL;
-        f->no_memory = !grown;
-        if (!grown)
-            return false;
-        f->points = grown;
-        f->room = room;
-    }
+    octree_point *grown = grow_by_one(f->points, f->count, &f->room, 64, sizeof *grown);
+    f->no_memory = !grown;
+    if (!grown)
+        return false;
+    f->points = grown;
     f->points[f->count++] = *point;
     return true;
 }

@@ -3,7 +3,7 @@
 #include "json_write.h"
 #include "number.h"
 
-#include <string.h>
+#include <inttypes.h>
 
 /* Leaves by the points that they hold: bucket 0 holds empty leaves, bucket b those of 2^(b-1) .. 2^b - 1 points. */
 #define BUCKETS 34
@@ -179,7 +179,7 @@ static void print_node(const octree_node *node, const char *name, FILE *out)
             node->leaf ? "leaf" : "inner node", node->count, node->depth);
     print_box(out, "  box", &node->box);
     for (size_t i = 0; node->leaf && i < node->count; i++) {
-        fprintf(out, "  %llu", (unsigned long long)node->points[i].id);
+        fprintf(out, "  %" PRIu64, node->points[i].id);
         print_position(out, ":", node->points[i].position);
         fputc('\n', out);
     }

@@ -2,8 +2,8 @@
  *
  * A parser gives values without their lines; an error about a value needs its line.
  */
-#ifndef OCTREEL_JSON_PLACE_H
-#define OCTREEL_JSON_PLACE_H
+#ifndef RECORD_JSON_PLACE_H
+#define RECORD_JSON_PLACE_H
 
 #include <stddef.h>
 

@@ -4,8 +4,8 @@
  * script element of HTML the copy ends nothing: '<' and the separators U+2028 and U+2029 are written as escapes. Memory
  * does not grow with the text.
  */
-#ifndef OCTREEL_JSON_THIN_H
-#define OCTREEL_JSON_THIN_H
+#ifndef RECORD_JSON_THIN_H
+#define RECORD_JSON_THIN_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,6 @@
 #include "folder_files.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 

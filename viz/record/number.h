@@ -2,8 +2,8 @@
  *
  * Reading is correctly rounded; what number_print() wrote reads back to the same bits.
  */
-#ifndef OCTREEL_NUMBER_H
-#define OCTREEL_NUMBER_H
+#ifndef RECORD_NUMBER_H
+#define RECORD_NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,6 +17,10 @@ bool number_parse(const char *begin, const char *limit, const char **end, double
 /* True when begin starts with what C prints for a NaN or an infinity, in any case: "nan", "-nan(ind)", "inf",
  * "Infinity". *end is the first character behind it, or begin. */
 bool number_parse_nonfinite(const char *begin, const char *limit, const char **end);
+
+/* The digits of a macro that is a plain number, for text that is put together when it is compiled. */
+#define NUMBER_DIGITS(macro) NUMBER_DIGITS_OF(macro)
+#define NUMBER_DIGITS_OF(number) #number
 
 /* Room for any number's text, with its final zero. */
 #define NUMBER_TEXT 32

@@ -3,6 +3,8 @@
 #include "filter.h"
 #include "fit.h"
 
+_Static_assert(DRAW_MAX_SIDE <= IMAGE_MAX_SIDE, "what is drawn can be written, and read again");
+
 static image_palette theme_palette(void)
 {
     image_palette palette = {.count = THEME_COLORS};

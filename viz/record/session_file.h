@@ -35,8 +35,8 @@
  * body. Ids are unique, that player's included. "velocities" replace those of the points. Points may lie outside the
  * world: the game refuses them at tick 0.
  */
-#ifndef OCTREEL_SESSION_FILE_H
-#define OCTREEL_SESSION_FILE_H
+#ifndef RECORD_SESSION_FILE_H
+#define RECORD_SESSION_FILE_H
 
 #include "octree/game.h"
 

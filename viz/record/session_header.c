@@ -1,7 +1,6 @@
 /* session_header.c - the header of a session file: world, tree, player and keys. */
 #include "session_reader.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- What the file is --------------------------------------------------------------------------------------- */

@@ -1,6 +1,6 @@
 /* session_ids.h - which point has an id. Nobody but the session reader includes this. */
-#ifndef OCTREEL_SESSION_IDS_H
-#define OCTREEL_SESSION_IDS_H
+#ifndef RECORD_SESSION_IDS_H
+#define RECORD_SESSION_IDS_H
 
 #include "octree/game.h"
 

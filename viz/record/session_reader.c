@@ -1,5 +1,6 @@
 /* session_reader.c - see session_reader.h: members, values of each type, memory. */
 #include "session_reader.h"
+#include "grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -137,15 +138,11 @@ bool session_read_box(session_reader *reader, json_t *value, const json_place *a
 
 void *session_append(session_reader *reader, const json_place *at, session_list *list, size_t item_size)
 {
-    if (list->count == list->capacity) {
-        size_t capacity = list->capacity > 0 ? 2 * list->capacity : 16;
-        void *grown = realloc(list->items, capacity * item_size);
-        if (!grown) {
-            session_fail(reader, at, "out of memory after %zu of them", list->count);
-            return NULL;
-        }
-        list->items = grown;
-        list->capacity = capacity;
+    void *grown = grow_by_one(list->items, list->count, &list->capacity, 16, item_size);
+    if (!grown) {
+        session_fail(reader, at, "out of memory after %zu of them", list->count);
+        return NULL;
     }
+    list->items = grown;
     return (char *)list->items + item_size * list->count++;
 }

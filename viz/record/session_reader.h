@@ -5,8 +5,8 @@
  * Readers take a JSON value, its place (for errors), and where the result goes. They return false with the error
  * written.
  */
-#ifndef OCTREEL_SESSION_READER_H
-#define OCTREEL_SESSION_READER_H
+#ifndef RECORD_SESSION_READER_H
+#define RECORD_SESSION_READER_H
 
 #include "json_place.h"
 #include "session_file.h"

@@ -1,6 +1,7 @@
 /* view_file.c - see view_file.h. */
 #include "view_file.h"
 #include "draw.h"
+#include "number.h"
 #include "session_reader.h"
 #include "whole_file.h"
 
@@ -232,7 +233,7 @@ static bool read_lod(session_reader *reader, json_t *value, const json_place *at
 {
     const double pixels = json_real_value(value);
     if (!json_is_real(value) || !(pixels >= 0 && pixels <= DRAW_MAX_SIDE))
-        return session_expected(reader, value, at, "pixels from 0 to 16384");
+        return session_expected(reader, value, at, "pixels from 0 to " NUMBER_DIGITS(DRAW_MAX_SIDE));
     *(double *)into = pixels;
     return true;
 }

@@ -1,6 +1,6 @@
 /* whole_file.h - a regular file read into memory. */
-#ifndef OCTREEL_WHOLE_FILE_H
-#define OCTREEL_WHOLE_FILE_H
+#ifndef RECORD_WHOLE_FILE_H
+#define RECORD_WHOLE_FILE_H
 
 #include <stdbool.h>
 #include <stddef.h>

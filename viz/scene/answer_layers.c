@@ -1,5 +1,6 @@
 /* answer_layers.c - see answer_layers.h. */
 #include "answer_layers.h"
+#include "element_ids.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,12 +8,6 @@
 
 #define FEW_MARKS 50
 #define MANY_MARKS 500
-
-/* Of the answer at `place`, the part at `part`. */
-static uint64_t part_id(size_t place, size_t part)
-{
-    return (uint64_t)place << 32 | (uint64_t)part;
-}
 
 static void add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_look look)
 {
@@ -41,7 +36,7 @@ static void mark_points(scene *s, const octree_answer *answer, scene_look look, 
 
 static void add_range(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = STYLE_DASHED, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_RANGE, STYLE_DASHED, 1);
     scene_add_box(s, (scene_box){.id = place, .box = answer->box, .look = look});
     mark_points(s, answer, look, SHAPE_FRAME, 5);
 }
@@ -62,14 +57,14 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
     point_on_circle(ball, plane, 0, from);
     for (int i = 0; i < BALL_CHORDS; i++) {
         point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
-        add_line(s, part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, look);
+        add_line(s, answer_part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, look);
         memcpy(from, to, sizeof from);
     }
 }
 
 static void add_ball(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_RADIUS, .role = ROLE_RADIUS, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_RADIUS, STYLE_SOLID, 1);
     for (int plane = 0; plane < BALL_CIRCLES; plane++)
         add_circle(s, answer, place, plane, look);
     mark_points(s, answer, look, SHAPE_LOZENGE, 8);
@@ -77,7 +72,7 @@ static void add_ball(scene *s, const octree_answer *answer, size_t place)
 
 static void add_nearest(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_NEAREST, .role = ROLE_NEAREST, .style = STYLE_DASHED, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_NEAREST, STYLE_DASHED, 1);
     for (size_t i = 0; i < answer->count; i++) {
         add_line(s, place, answer->target, answer->neighbors[i].point.position, look);
         mark(s, &answer->neighbors[i].point, look, SHAPE_FRAME, 7);
@@ -104,7 +99,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
     double pixels[NUMBERED_RANKS][2], seen[3];
     size_t numbered = 0;
     for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
-        scene_label rank = {.id = part_id(place, i), .in_world = true, .look = look};
+        scene_label rank = {.id = answer_part_id(place, i), .in_world = true, .look = look};
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
         camera_transform(&s->camera, rank.at, seen);
         if (s->camera.perspective && seen[2] < s->camera.near)
@@ -120,10 +115,21 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
 
 static void add_knearest(scene *s, const octree_answer *answer, size_t place)
 {
-    const scene_look look = {.layer = LAYER_KNEAREST, .role = ROLE_KNEAREST, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_KNEAREST, STYLE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
-        add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, look);
+        add_line(s, answer_part_id(place, i), answer->target, answer->neighbors[i].point.position, look);
     add_ranks(s, answer, place, look);
+}
+
+view_layer answer_layer(octree_query_kind kind)
+{
+    static const view_layer layers[OCTREE_QUERY_KINDS] = {
+        [OCTREE_QUERY_RANGE] = LAYER_RANGE,
+        [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
+        [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
+        [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
+    };
+    return layers[kind];
 }
 
 void add_answers(scene *s, const octree_answer *answers, size_t count)

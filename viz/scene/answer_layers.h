@@ -12,7 +12,10 @@
 /* Neighbours are numbered up to this rank. */
 #define NUMBERED_RANKS 9
 
-/* Each answer in the layer of its kind. Ids begin with the answer's place among them; markers have their point's. */
+/* The layer of the answers of a kind. */
+view_layer answer_layer(octree_query_kind kind);
+
+/* Each answer in its layer. Ids begin with the answer's place among them; markers have their point's. */
 void add_answers(scene *s, const octree_answer *answers, size_t count);
 
 #endif

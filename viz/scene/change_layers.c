@@ -1,9 +1,9 @@
 /* change_layers.c - see change_layers.h. */
 #include "change_layers.h"
 #include "crossed_box.h"
+#include "element_ids.h"
 #include "tick_nodes.h"
 
-#include <stdio.h>
 #include <string.h>
 
 finding find_broken(const view *v, const octree *tree)
@@ -34,8 +34,8 @@ static void add_planes(scene *s, const octree *tree, octree_address address, sce
 
 void add_changes(scene *s, const octree_game *game)
 {
-    static const scene_look split = {.layer = LAYER_SPLITS, .role = ROLE_POINT, .style = STYLE_SOLID, .width = 2};
-    static const scene_look merged = {.layer = LAYER_MERGES, .role = ROLE_POINT, .style = STYLE_DASHED, .width = 2};
+    const scene_look split = scene_layer_look(LAYER_SPLITS, STYLE_SOLID, 2);
+    const scene_look merged = scene_layer_look(LAYER_MERGES, STYLE_DASHED, 2);
     const octree_tick *tick = octree_game_tick(game);
     const octree *tree = octree_game_tree(game);
     for (size_t i = 0; view_shows(&s->view, LAYER_SPLITS) && i < tick->split_count; i++)
@@ -48,7 +48,7 @@ void add_broken(scene *s, const octree_box *world, const finding *found)
 {
     if (!found->broken)
         return;
-    const scene_look look = {.layer = LAYER_BROKEN, .role = ROLE_WARNING, .style = STYLE_DASHED, .width = 2};
+    const scene_look look = scene_layer_look(LAYER_BROKEN, STYLE_DASHED, 2);
     const octree_box box = octree_cell_box(world, found->where);
     scene_label word = {.id = found->where, .in_world = true, .look = look, .text = " broken"};
     scene_add_box(s, (scene_box){.id = found->where, .box = box, .look = look});

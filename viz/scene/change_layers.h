@@ -20,12 +20,6 @@ finding find_broken(const view *v, const octree *tree);
  * address and the line's axis: see change_line_id. */
 void add_changes(scene *s, const octree_game *game);
 
-/* An address may need all of 64 bits at the greatest depth, but nodes that split lie above it. */
-static inline uint64_t change_line_id(octree_address node, unsigned axis)
-{
-    return node << 2 | axis;
-}
-
 /* The node at which an invariant is broken: crossed out, with the word beside it. */
 void add_broken(scene *s, const octree_box *world, const finding *found);
 

@@ -4,9 +4,7 @@
 
 #include "scene.h"
 
-#define CROSS_LINES 12
-
-/* The diagonals of a box's six faces, with ids from 0 on. */
+/* The diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1: see element_ids.h. */
 void add_crossed_faces(scene *s, const octree_box *box, scene_look look);
 
 #endif

@@ -1,9 +1,10 @@
 /* diagram.c - see diagram.h. */
 #include "diagram.h"
 #include "diagram_place.h"
+#include "element_ids.h"
 #include "filter.h"
 #include "layout.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 #include <math.h>
 
@@ -82,7 +83,7 @@ static void add_ring(const diagram_place *p, unsigned depth, double x, const dou
     const double y = diagram_row(p, depth);
     for (int dark = 0; dark < 2; dark++) {
         const double more = (dark ? RING : 2 * RING) * p->scene->unit;
-        diagram_fill(p, (dark ? DIAGRAM_RING_ID : DIAGRAM_WAY_ID) | depth, x, y, size[0] + more, size[1] + more,
+        diagram_fill(p, dark ? diagram_ring_id(depth) : diagram_way_id(depth), x, y, size[0] + more, size[1] + more,
                      dark ? ROLE_BACKGROUND : ROLE_PLAYER);
     }
 }
@@ -125,7 +126,7 @@ static void add_way(const diagram_place *p)
         if (depth)
             add_line(p, p->way >> 3 * (deep - depth), at - 1, at, line_look(ROLE_PLAYER, STYLE_SOLID, 2));
         if (depth > p->slots.deepest)
-            diagram_fill(p, DIAGRAM_WAY_ID | depth, at->x, diagram_row(p, depth), RING * p->scene->unit,
+            diagram_fill(p, diagram_way_id(depth), at->x, diagram_row(p, depth), RING * p->scene->unit,
                          at->foot - at->head, ROLE_PLAYER);
         p->scene->tally.way++;
     }
@@ -135,7 +136,7 @@ static void add_way(const diagram_place *p)
 static void add_ground(scene *s)
 {
     const camera_window w = layout_diagram(&s->view);
-    scene_add_panel(s, (scene_panel){.id = 0,
+    scene_add_panel(s, (scene_panel){.id = DIAGRAM_GROUND_ID,
                                      .x = (int)w.x,
                                      .y = (int)w.y,
                                      .width = (int)w.width,

@@ -11,11 +11,6 @@
 #include "octree/game.h"
 #include "scene.h"
 
-/* The ids of what is no node: their highest bit is that of no address. */
-#define DIAGRAM_BAR_ID (UINT64_C(1) << 61)    /* and the depth << 32, and the column */
-#define DIAGRAM_WAY_ID (UINT64_C(1) << 62)    /* and the depth: what marks the nodes on the way */
-#define DIAGRAM_RING_ID (DIAGRAM_WAY_ID | 32) /* and the depth: what keeps mark and node apart */
-
 /* What the diagram shows beside the tree. */
 typedef struct diagram_marks {
     octree_address way;         /* the node to which the way from the root is shown; 0 for none */

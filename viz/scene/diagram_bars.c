@@ -1,8 +1,9 @@
 /* diagram_bars.c - the levels of the diagram that are folded: how many nodes stand in each column of the picture. */
 #include "diagram.h"
 #include "diagram_place.h"
+#include "element_ids.h"
 #include "filter.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,8 +54,8 @@ static void add_bar(const folding *f, unsigned depth, size_t column, const bar *
     const double unit = p->scene->unit, width = p->width / (double)f->columns;
     const double height = fmax(floor((p->pitch - 2 * unit) * steps_of(b->nodes) / STEPS), 1);
     const double x = p->left + ((double)column + 0.5) * width;
-    diagram_fill(p, DIAGRAM_BAR_ID | (uint64_t)depth << 32 | column, x, diagram_row(p, depth),
-                 fmax(width - unit / 2, 1), height, b->shown ? node_role(v, depth, b->points / b->nodes) : ROLE_WORLD);
+    diagram_fill(p, diagram_bar_id(depth, column), x, diagram_row(p, depth), fmax(width - unit / 2, 1), height,
+                 b->shown ? node_role(v, depth, b->points / b->nodes) : ROLE_WORLD);
     p->scene->tally.folded += b->nodes;
 }
 

@@ -2,7 +2,6 @@
 #include "filter.h"
 #include "number_text.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static bool cuts(const view_filter *f, const octree_box *world, const octree_box *box)

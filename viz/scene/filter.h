@@ -2,7 +2,8 @@
  *
  * A node is shown when it passes every part of the filter:
  *   slice    the plane runs through its cell, by the rule that places points: min <= at < max, where the world's
- * greatest face belongs to the last cell. So a slice is one layer of cells, also where it lies on a plane of the tree.
+ *            greatest face belongs to the last cell. So a slice is one layer of cells, also where it lies on a plane
+ *            of the tree.
  *   depth    its depth is in the range.
  *   leaves   it is a leaf.
  *   region   its box meets the region; both are closed.

@@ -2,7 +2,6 @@
 #include "heat.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 void heat_release(heat *h)
 {

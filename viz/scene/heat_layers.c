@@ -1,6 +1,5 @@
 /* heat_layers.c - see heat_layers.h. */
 #include "heat_layers.h"
-#include "tick_nodes.h"
 #include "filter.h"
 
 unsigned heat_step(uint64_t amount, unsigned shift)

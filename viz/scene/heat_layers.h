@@ -11,6 +11,9 @@
 #define HEAT_VISITS_SHIFT 1
 #define HEAT_POINTS_SHIFT 2
 
+/* Where the last step begins. */
+#define HEAT_LAST(shift) (UINT64_C(1) << (HEAT_STEPS - 1) * (shift))
+
 /* The step of an amount that is not 0. */
 unsigned heat_step(uint64_t amount, unsigned shift);
 

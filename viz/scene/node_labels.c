@@ -2,7 +2,6 @@
 #include "node_labels.h"
 #include "text_space.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

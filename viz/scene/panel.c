@@ -1,11 +1,13 @@
 /* panel.c - see panel.h. */
 #include "panel.h"
+#include "answer_layers.h"
 #include "layout.h"
 #include "number_text.h"
 #include "panel_legend.h"
 #include "panel_pen.h"
 #include "panel_view.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,7 +16,7 @@
 /* On one line where it fits, else on three. */
 static void write_position(pen *p, const char *name, const double position[3])
 {
-    char axes[3][32], line[SCENE_TEXT * 2];
+    char axes[3][NUMBER_WORDS], line[SCENE_TEXT * 2];
     for (int i = 0; i < 3; i++)
         number_text(position[i], 6, axes[i]);
     snprintf(line, sizeof line, "%s %s %s", axes[0], axes[1], axes[2]);
@@ -30,7 +32,7 @@ static void write_world(pen *p, const octree_box *world)
 {
     for (int i = 0; i < 3; i++) {
         const char name[2] = {(char)('x' + i), 0};
-        char from[32], to[32];
+        char from[NUMBER_WORDS], to[NUMBER_WORDS];
         write_row(p, name, "%s", number_text(world->min[i], 9, from));
         write_row(p, "  to", "%s", number_text(world->max[i], 9, to));
     }
@@ -98,7 +100,7 @@ static void write_ids(pen *p, const char *name, const octree_point *points, size
     size_t told = 0, room = text_room(VALUE, 1);
     snprintf(number, sizeof number, "%zu", count);
     for (; told < count && told < MOST_IDS; told++) {
-        snprintf(id, sizeof id, " %llu", (unsigned long long)points[told].id);
+        snprintf(id, sizeof id, " %" PRIu64, points[told].id);
         if (told + 1 < count)
             snprintf(rest, sizeof rest, " +%zu", count - told - 1);
         else
@@ -113,13 +115,13 @@ static void write_ids(pen *p, const char *name, const octree_point *points, size
 
 static void write_nearest(pen *p, const octree_answer *answer)
 {
-    char id[32], distance[32];
+    char id[SCENE_TEXT], distance[NUMBER_WORDS];
     if (answer->count == 0) {
         write_row(p, "nearest", "none");
         return;
     }
     number_text(answer->neighbors[0].distance, 6, distance);
-    snprintf(id, sizeof id, "%llu", (unsigned long long)answer->neighbors[0].point.id);
+    snprintf(id, sizeof id, "%" PRIu64, answer->neighbors[0].point.id);
     const bool fits = strlen(id) + strlen(" at ") + strlen(distance) <= text_room(VALUE, 1);
     write_row(p, "nearest", "%s%s%s", id, fits ? " at " : "", fits ? distance : "");
     if (!fits)
@@ -136,7 +138,7 @@ static void write_knearest(pen *p, const octree_answer *answer)
 
 static void write_radius(pen *p, const octree_answer *answer)
 {
-    char radius[32];
+    char radius[NUMBER_WORDS];
     write_row(p, "radius", "%zu within %s", answer->count, number_text(answer->radius, 6, radius));
 }
 
@@ -148,20 +150,16 @@ static void write_range(pen *p, const octree_answer *answer)
 /* In the colours of what is drawn of them. */
 static void write_answers(pen *p, const octree_answer *answers, size_t count)
 {
-    static const struct {
-        void (*write)(pen *, const octree_answer *);
-        view_layer layer;
-        theme_role role;
-    } kinds[OCTREE_QUERY_KINDS] = {
-        [OCTREE_QUERY_RANGE] = {write_range, LAYER_RANGE, ROLE_RANGE},
-        [OCTREE_QUERY_NEAREST] = {write_nearest, LAYER_NEAREST, ROLE_NEAREST},
-        [OCTREE_QUERY_KNEAREST] = {write_knearest, LAYER_KNEAREST, ROLE_KNEAREST},
-        [OCTREE_QUERY_RADIUS] = {write_radius, LAYER_RADIUS, ROLE_RADIUS},
+    static void (*const writers[OCTREE_QUERY_KINDS])(pen *, const octree_answer *) = {
+        [OCTREE_QUERY_RANGE] = write_range,
+        [OCTREE_QUERY_NEAREST] = write_nearest,
+        [OCTREE_QUERY_KNEAREST] = write_knearest,
+        [OCTREE_QUERY_RADIUS] = write_radius,
     };
     for (size_t i = 0; i < count; i++) {
-        const octree_query_kind kind = answers[i].kind;
-        p->name = view_shows(&p->scene->view, kinds[kind].layer) ? kinds[kind].role : ROLE_FAINT;
-        kinds[kind].write(p, &answers[i]);
+        const view_layer layer = answer_layer(answers[i].kind);
+        p->name = view_shows(&p->scene->view, layer) ? scene_layer_role(layer) : ROLE_FAINT;
+        writers[answers[i].kind](p, &answers[i]);
     }
     p->name = ROLE_FAINT;
 }
@@ -169,7 +167,7 @@ static void write_answers(pen *p, const octree_answer *answers, size_t count)
 static void write_refusals(pen *p, const octree_tick *tick)
 {
     for (size_t i = 0; i < tick->refusal_count && i < 2; i++)
-        write_row(p, i ? "" : "refused", "%llu: %s", (unsigned long long)tick->refusals[i].id,
+        write_row(p, i ? "" : "refused", "%" PRIu64 ": %s", tick->refusals[i].id,
                   octree_status_name(tick->refusals[i].why));
     if (tick->refusal_count > 2)
         write_row(p, "", "and %zu more", tick->refusal_count - 2);
@@ -277,7 +275,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
 {
     const octree_tick *tick = octree_game_tick(game);
     char title[SCENE_TEXT];
-    snprintf(title, sizeof title, "tick %llu", (unsigned long long)tick->number);
+    snprintf(title, sizeof title, "tick %" PRIu64, tick->number);
     if (panel_width(&s->view) == 0) {
         pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
         write_text(&line, 4, ROLE_TEXT, 1, title);

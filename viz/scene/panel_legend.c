@@ -1,9 +1,13 @@
 /* panel_legend.c - see panel_legend.h. */
 #include "panel_legend.h"
+#include "answer_layers.h"
 #include "diagram_legend.h"
+#include "heat_layers.h"
 #include "panel_view.h"
 #include "velocity_layer.h"
 
+#include <assert.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -27,10 +31,9 @@ typedef enum swatch {
 } swatch;
 
 typedef struct legend_entry {
-    unsigned layer;
-    theme_role role;
+    view_layer layer;
     swatch swatch;
-    const char *text; /* null: what the tick counts */
+    const char *text; /* null: it has a number in it */
     bool plain;       /* says little that the picture does not say by itself */
     bool answer;      /* its answer is told in the same colour */
     bool swept;       /* in sessions alone that are swept */
@@ -39,36 +42,24 @@ typedef struct legend_entry {
 static const legend_entry legend[] = {
     {.layer = LAYER_NODES, .swatch = SWATCH_NODES, .text = ""},
     {.layer = LAYER_DIAGRAM, .swatch = SWATCH_DIAGRAM, .text = ""},
-    {.layer = LAYER_VISITED, .role = ROLE_NODE + 2, .swatch = SWATCH_BOLD},
-    {.layer = LAYER_PRUNED, .role = ROLE_NODE + 2, .swatch = SWATCH_DASHES},
-    {.layer = LAYER_HIT, .role = ROLE_POINT, .swatch = SWATCH_FRAME},
-    {.layer = LAYER_SPLITS, .role = ROLE_POINT, .swatch = SWATCH_PLUS},
-    {.layer = LAYER_MERGES, .role = ROLE_POINT, .swatch = SWATCH_DASHED_PLUS},
-    {.layer = LAYER_ASKED, .role = ROLE_PLAYER, .swatch = SWATCH_BOLD},
-    {.layer = LAYER_VISIT_HEAT, .swatch = SWATCH_HEAT, .text = "[] 1-512+ visits"},
-    {.layer = LAYER_POINT_HEAT, .swatch = SWATCH_HEAT, .text = "<> 1-262144+ points"},
-    {.layer = LAYER_POINTS, .role = ROLE_POINT, .swatch = SWATCH_DOT, .text = "point", .plain = true},
-    {.layer = LAYER_VELOCITIES, .role = ROLE_POINT, .swatch = SWATCH_ARROW},
-    {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .swatch = SWATCH_SQUARE, .text = "player and its box", .plain = true},
-    {.layer = LAYER_BOX, .role = ROLE_COLLISION, .swatch = SWATCH_CROSS, .text = "collision, crossed"},
-    {.layer = LAYER_BOX,
-     .role = ROLE_COLLISION,
-     .swatch = SWATCH_DASHES,
-     .text = "way to a hit, dashed",
-     .swept = true},
-    {.layer = LAYER_RANGE, .role = ROLE_RANGE, .swatch = SWATCH_DASHES, .text = "range query, dashed", .answer = true},
-    {.layer = LAYER_RADIUS, .role = ROLE_RADIUS, .swatch = SWATCH_LINE, .text = "radius query, round", .answer = true},
-    {.layer = LAYER_KNEAREST,
-     .role = ROLE_KNEAREST,
-     .swatch = SWATCH_LINE,
-     .text = "k nearest, numbered",
-     .answer = true},
-    {.layer = LAYER_NEAREST,
-     .role = ROLE_NEAREST,
-     .swatch = SWATCH_DASHES,
-     .text = "nearest point, dashed",
-     .answer = true},
-    {.layer = LAYER_SHAPES, .role = ROLE_SHAPE, .swatch = SWATCH_BOLD},
+    {.layer = LAYER_VISITED, .swatch = SWATCH_BOLD},
+    {.layer = LAYER_PRUNED, .swatch = SWATCH_DASHES},
+    {.layer = LAYER_HIT, .swatch = SWATCH_FRAME},
+    {.layer = LAYER_SPLITS, .swatch = SWATCH_PLUS},
+    {.layer = LAYER_MERGES, .swatch = SWATCH_DASHED_PLUS},
+    {.layer = LAYER_ASKED, .swatch = SWATCH_BOLD},
+    {.layer = LAYER_VISIT_HEAT, .swatch = SWATCH_HEAT},
+    {.layer = LAYER_POINT_HEAT, .swatch = SWATCH_HEAT},
+    {.layer = LAYER_POINTS, .swatch = SWATCH_DOT, .text = "point", .plain = true},
+    {.layer = LAYER_VELOCITIES, .swatch = SWATCH_ARROW},
+    {.layer = LAYER_PLAYER, .swatch = SWATCH_SQUARE, .text = "player and its box", .plain = true},
+    {.layer = LAYER_BOX, .swatch = SWATCH_CROSS, .text = "collision, crossed"},
+    {.layer = LAYER_BOX, .swatch = SWATCH_DASHES, .text = "way to a hit, dashed", .swept = true},
+    {.layer = LAYER_RANGE, .swatch = SWATCH_DASHES, .text = "range query, dashed", .answer = true},
+    {.layer = LAYER_RADIUS, .swatch = SWATCH_LINE, .text = "radius query, round", .answer = true},
+    {.layer = LAYER_KNEAREST, .swatch = SWATCH_LINE, .text = "k nearest, numbered", .answer = true},
+    {.layer = LAYER_NEAREST, .swatch = SWATCH_DASHES, .text = "nearest point, dashed", .answer = true},
+    {.layer = LAYER_SHAPES, .swatch = SWATCH_BOLD},
 };
 
 #define LEGEND_ENTRIES (sizeof legend / sizeof legend[0])
@@ -82,14 +73,6 @@ typedef struct legend_subject {
     unsigned velocity_ticks; /* whose way an arrow shows */
     octree_address asked;    /* of a tree alone: the node, or 0 */
 } legend_subject;
-
-/* The layer of each kind of query. */
-static const view_layer query_layers[OCTREE_QUERY_KINDS] = {
-    [OCTREE_QUERY_RANGE] = LAYER_RANGE,
-    [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
-    [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
-    [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
-};
 
 static bool has_movers(const octree_game *game)
 {
@@ -109,12 +92,12 @@ static unsigned layers_of(const octree_game *game)
     const bool known = session->player.kind == OCTREE_PLAYER_KEYS;
     unsigned asked = known ? 1u << LAYER_NEAREST : 0, others = VIEW_ALL_LAYERS & ~(1u << LAYER_ASKED);
     for (size_t i = 0; i < OCTREE_QUERY_KINDS; i++) {
-        others &= ~(1u << query_layers[i]);
+        others &= ~(1u << answer_layer((octree_query_kind)i));
         if (octree_game_tick(game)->asked >> i & 1)
-            asked |= 1u << query_layers[i];
+            asked |= 1u << answer_layer((octree_query_kind)i);
     }
     for (size_t i = 0; known && i < session->query_count; i++)
-        asked |= 1u << query_layers[session->queries[i].kind];
+        asked |= 1u << answer_layer(session->queries[i].kind);
     if (octree_game_tick(game)->shape_count == 0)
         others &= ~(1u << LAYER_SHAPES);
     if (session->player.kind == OCTREE_PLAYER_NONE)
@@ -129,7 +112,7 @@ static unsigned layers_of_tree(const tree_look *about)
 {
     unsigned layers = 1u << LAYER_NODES | 1u << LAYER_POINTS;
     for (size_t i = 0; i < about->answer_count; i++)
-        layers |= 1u << query_layers[about->answers[i].kind];
+        layers |= 1u << answer_layer(about->answers[i].kind);
     if (about->node)
         layers |= 1u << LAYER_ASKED;
     return layers;
@@ -150,7 +133,7 @@ static bool is_listed(const scene *s, const legend_entry *entry, const legend_su
 }
 
 /* Whether this frame has anything in a layer. */
-static bool is_in_frame(const scene *s, unsigned layer)
+static bool is_in_frame(const scene *s, view_layer layer)
 {
     for (size_t i = 0; i < s->boxes.count; i++)
         if (s->boxes.items[i].look.layer == layer)
@@ -187,6 +170,7 @@ static void fill_plus(pen *p, int dash, theme_role role)
 
 static void fill_swatch(pen *p, const legend_entry *entry)
 {
+    const theme_role role = scene_layer_role(entry->layer);
     switch (entry->swatch) {
     case SWATCH_NODES:
     case SWATCH_DIAGRAM:
@@ -196,39 +180,39 @@ static void fill_swatch(pen *p, const legend_entry *entry)
             fill(p, MARGIN + step * 2, p->y + 4 - step / 2, 2, step + 1, theme_node_role((unsigned)step));
         break;
     case SWATCH_LINE:
-        fill(p, MARGIN, p->y + 4, SWATCH, 1, entry->role);
+        fill(p, MARGIN, p->y + 4, SWATCH, 1, role);
         break;
     case SWATCH_BOLD:
-        fill(p, MARGIN, p->y + 3, SWATCH, 2, entry->role);
+        fill(p, MARGIN, p->y + 3, SWATCH, 2, role);
         break;
     case SWATCH_DASHES:
-        fill_dashes(p, 1, entry->role);
+        fill_dashes(p, 1, role);
         break;
     case SWATCH_PLUS:
-        fill_plus(p, 11, entry->role);
+        fill_plus(p, 11, role);
         break;
     case SWATCH_DASHED_PLUS:
-        fill_plus(p, 3, entry->role);
+        fill_plus(p, 3, role);
         break;
     case SWATCH_FRAME:
-        fill_square(p, 7, entry->role);
+        fill_square(p, 7, role);
         fill_square(p, 5, ROLE_PANEL);
         break;
     case SWATCH_DOT:
-        fill_square(p, 2, entry->role);
+        fill_square(p, 2, role);
         break;
     case SWATCH_SQUARE:
-        fill_square(p, 5, entry->role);
+        fill_square(p, 5, role);
         break;
     case SWATCH_CROSS:
         for (int i = -4; i <= 4; i++)
             for (int side = -1; side <= (i ? 1 : -1); side += 2)
-                fill(p, MARGIN + SWATCH / 2 + i, p->y + 4 + side * i, 1, 1, entry->role);
+                fill(p, MARGIN + SWATCH / 2 + i, p->y + 4 + side * i, 1, 1, role);
         break;
     case SWATCH_ARROW:
-        fill(p, MARGIN, p->y + 4, SWATCH, 1, entry->role);
+        fill(p, MARGIN, p->y + 4, SWATCH, 1, role);
         for (int i = 1; i <= 3; i++)
-            fill(p, MARGIN + SWATCH - 1 - 2 * i, p->y + 4 - i, 2, 2 * i + 1, entry->role);
+            fill(p, MARGIN + SWATCH - 1 - 2 * i, p->y + 4 - i, 2, 2 * i + 1, role);
         break;
     }
 }
@@ -263,8 +247,8 @@ static bool count_visits(char text[SCENE_TEXT], char rest[SCENE_TEXT], const oct
     return taken && !together;
 }
 
-/* The words of an entry that counts. */
-static void count_in_words(char text[SCENE_TEXT], unsigned layer, const legend_subject *about)
+/* The words of an entry with a number: mostly what the tick counts. */
+static void count_in_words(char text[SCENE_TEXT], view_layer layer, const legend_subject *about)
 {
     const octree_tick *tick = about->tick;
     char rest[SCENE_TEXT], address[OCTREE_ADDRESS_TEXT];
@@ -278,6 +262,12 @@ static void count_in_words(char text[SCENE_TEXT], unsigned layer, const legend_s
     case LAYER_HIT:
         snprintf(text, SCENE_TEXT, "%zu %s hit", tick->hit_leaf_count, tick->hit_leaf_count == 1 ? "leaf" : "leaves");
         break;
+    case LAYER_VISIT_HEAT:
+        snprintf(text, SCENE_TEXT, "[] 1-%" PRIu64 "+ visits", HEAT_LAST(HEAT_VISITS_SHIFT));
+        break;
+    case LAYER_POINT_HEAT:
+        snprintf(text, SCENE_TEXT, "<> 1-%" PRIu64 "+ points", HEAT_LAST(HEAT_POINTS_SHIFT));
+        break;
     case LAYER_SHAPES:
         snprintf(text, SCENE_TEXT, "%zu shape%s", tick->shape_count, tick->shape_count == 1 ? "" : "s");
         break;
@@ -290,15 +280,17 @@ static void count_in_words(char text[SCENE_TEXT], unsigned layer, const legend_s
     case LAYER_SPLITS:
         count_changes(text, "split", tick->splits, tick->split_count);
         break;
-    default:
+    case LAYER_MERGES:
         count_changes(text, "merged", tick->merges, tick->merge_count);
         break;
+    default:
+        assert(!"a line without words has a number, which is told above");
     }
 }
 
 static void write_entry(pen *p, const legend_entry *entry, const legend_subject *about)
 {
-    char text[SCENE_TEXT], rest[SCENE_TEXT];
+    char text[SCENE_TEXT] = "", rest[SCENE_TEXT];
     if (entry->swatch == SWATCH_NODES) {
         write_node_legend(p, about->max_depth);
         return;

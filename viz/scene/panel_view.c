@@ -3,6 +3,7 @@
 #include "filter.h"
 #include "number_text.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -45,11 +46,11 @@ static void write_budget(pen *p, const scene_tally *tally)
         write_warning(p, "budget", text);
     }
     if (tally->thinned) {
-        snprintf(text, sizeof text, "1 point in %llu", (unsigned long long)tally->one_in);
+        snprintf(text, sizeof text, "1 point in %" PRIu64, tally->one_in);
         write_warning(p, tally->beyond ? "" : "budget", text);
     }
     if (tally->arrows.thinned) {
-        snprintf(text, sizeof text, "1 arrow in %llu", (unsigned long long)tally->arrows.one_in);
+        snprintf(text, sizeof text, "1 arrow in %" PRIu64, tally->arrows.one_in);
         write_warning(p, tally->beyond || tally->thinned ? "" : "budget", text);
     }
 }
@@ -132,15 +133,15 @@ static void fill_ramp(pen *p, int steps)
 
 void write_node_legend(pen *p, size_t max_depth)
 {
-    const char *text = "node";
+    char text[SCENE_TEXT] = "node";
     switch (p->scene->view.coloring) {
     case COLORING_DEPTH: /* down to the deepest that the tree allows */
         fill_ramp(p, max_depth + 1 < THEME_NODE_DEPTHS ? (int)max_depth + 1 : THEME_NODE_DEPTHS);
-        text = "node, shallow to deep";
+        snprintf(text, sizeof text, "node, shallow to deep");
         break;
     case COLORING_OCCUPANCY:
         fill_ramp(p, THEME_NODE_DEPTHS);
-        text = "node, 0-256+ points";
+        snprintf(text, sizeof text, "node, 0-%u+ points", THEME_MOST_POINTS);
         break;
     default:
         fill(p, MARGIN, p->y + 3, SWATCH, 2, ROLE_NODE_PLAIN);

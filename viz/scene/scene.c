@@ -1,5 +1,6 @@
 /* scene.c - see scene.h. */
 #include "scene.h"
+#include "grow.h"
 #include "octree/digest.h"
 
 #include <math.h>
@@ -27,13 +28,8 @@ void scene_release(scene *s)
 /* Room for one more item, or null: then the scene says so. */
 static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
 {
-    if (count < *room)
-        return items;
-    const size_t wanted = *room ? 2 * *room : 64;
-    void *grown = wanted <= SIZE_MAX / size ? realloc(items, wanted * size) : NULL;
-    if (grown)
-        *room = wanted;
-    else
+    void *grown = grow_by_one(items, count, room, 64, size);
+    if (!grown)
         s->out_of_memory = true;
     return grown;
 }

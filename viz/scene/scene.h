@@ -27,6 +27,21 @@ typedef struct scene_look {
     uint8_t width; /* of lines, half the size of markers, and the size of text: 1 is 12 units a line */
 } scene_look;
 
+/* The colour of what a layer is about, as VIEW_LAYER_MAP has it. */
+static inline theme_role scene_layer_role(view_layer layer)
+{
+#define SCENE_LAYER_ROLE(name, text, words, role, fades) [LAYER_##name] = role,
+    static const uint8_t roles[LAYER_DIAGRAM + 1] = {VIEW_LAYER_MAP(SCENE_LAYER_ROLE)};
+#undef SCENE_LAYER_ROLE
+    return (theme_role)roles[layer];
+}
+
+/* A look in that colour. */
+static inline scene_look scene_layer_look(view_layer layer, scene_style style, unsigned width)
+{
+    return (scene_look){(uint8_t)layer, (uint8_t)scene_layer_role(layer), (uint8_t)style, (uint8_t)width};
+}
+
 typedef struct scene_box {
     uint64_t id; /* a node's address in LAYER_NODES */
     octree_box box;

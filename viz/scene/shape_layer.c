@@ -4,11 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static const scene_look shape_look = {.layer = LAYER_SHAPES, .role = ROLE_SHAPE, .style = STYLE_SOLID, .width = 2};
+static scene_look shape_look(unsigned width)
+{
+    return scene_layer_look(LAYER_SHAPES, STYLE_SOLID, width);
+}
 
 static void add_box(scene *s, uint64_t id, const octree_shape *shape)
 {
-    scene_box box = {.id = id, .look = shape_look};
+    scene_box box = {.id = id, .look = shape_look(2)};
     memcpy(box.box.min, shape->at, sizeof box.box.min);
     memcpy(box.box.max, shape->to, sizeof box.box.max);
     scene_add_box(s, box);
@@ -16,7 +19,7 @@ static void add_box(scene *s, uint64_t id, const octree_shape *shape)
 
 static void add_segment(scene *s, uint64_t id, const octree_shape *shape)
 {
-    scene_segment line = {.id = id, .look = shape_look};
+    scene_segment line = {.id = id, .look = shape_look(2)};
     memcpy(line.ends[0], shape->at, sizeof line.ends[0]);
     memcpy(line.ends[1], shape->to, sizeof line.ends[1]);
     scene_add_segment(s, line);
@@ -24,8 +27,7 @@ static void add_segment(scene *s, uint64_t id, const octree_shape *shape)
 
 static void add_point(scene *s, uint64_t id, const octree_shape *shape)
 {
-    scene_marker marker = {.id = id, .look = shape_look, .shape = SHAPE_SQUARE};
-    marker.look.width = 3;
+    scene_marker marker = {.id = id, .look = shape_look(3), .shape = SHAPE_SQUARE};
     memcpy(marker.at, shape->at, sizeof marker.at);
     scene_add_marker(s, marker);
 }
@@ -33,8 +35,7 @@ static void add_point(scene *s, uint64_t id, const octree_shape *shape)
 static void add_label(scene *s, uint64_t id, const octree_shape *shape)
 {
     _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label holds a shape's text and a blank before it");
-    scene_label label = {.id = id, .in_world = true, .look = shape_look};
-    label.look.width = 1;
+    scene_label label = {.id = id, .in_world = true, .look = shape_look(1)};
     memcpy(label.at, shape->at, sizeof label.at);
     snprintf(label.text, sizeof label.text, " %s", shape->text); /* the blank keeps clear of a marker */
     scene_add_label(s, label);

@@ -55,6 +55,9 @@ theme_role theme_node_role(unsigned depth);
 /* The step of the ramp for a number of points: 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
 unsigned theme_occupancy_step(size_t count);
 
+/* Where its last step begins. */
+#define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
+
 /* The one colour of nodes that tell nothing by it. */
 #define ROLE_NODE_PLAIN (ROLE_NODE + 3)
 

@@ -4,13 +4,15 @@
 #include "change_layers.h"
 #include "crossed_box.h"
 #include "diagram.h"
+#include "element_ids.h"
 #include "heat_layers.h"
 #include "panel.h"
 #include "shape_layer.h"
 #include "tick_nodes.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 #include "velocity_layer.h"
 #include "visit_layers.h"
+#include "world_layer.h"
 
 #include <string.h>
 
@@ -40,9 +42,8 @@ static void add_plumb_line(scene *s, const octree_tick *tick, const octree_box *
 static void add_player(scene *s, const octree_tick *tick, const octree_session *session)
 {
     add_plumb_line(s, tick, &session->tree.world);
-    scene_marker marker = {.id = session->player.id,
-                           .look = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 4},
-                           .shape = SHAPE_DIAMOND};
+    scene_marker marker = {
+        .id = session->player.id, .look = scene_layer_look(LAYER_PLAYER, STYLE_SOLID, 4), .shape = SHAPE_DIAMOND};
     memcpy(marker.at, tick->player, sizeof marker.at);
     scene_add_marker(s, marker);
     scene_add_box(s, (scene_box){
@@ -100,9 +101,9 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
 {
     if (tick->hit_count == 0)
         return;
-    const scene_look look = {.layer = LAYER_BOX, .role = ROLE_COLLISION, .width = 1};
+    const scene_look look = scene_layer_look(LAYER_BOX, STYLE_SOLID, 1);
     const octree_box box = box_about(tick->attempt, session->player.box_size);
-    scene_box outline = {.id = UINT64_MAX, .box = box, .look = look};
+    scene_box outline = {.id = COLLISION_BOX_ID, .box = box, .look = look};
     outline.look.width = 2;
     scene_add_box(s, outline);
     add_crossed_faces(s, &box, look);
@@ -153,7 +154,7 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
 static void add_asked(scene *s, const octree *tree, octree_address address)
 {
     octree_node node;
-    const scene_look look = {.layer = LAYER_ASKED, .role = ROLE_PLAYER, .width = 2};
+    const scene_look look = scene_layer_look(LAYER_ASKED, STYLE_SOLID, 2);
     if (!address || octree_node_at(tree, address, &node) != OCTREE_OK)
         return;
     add_node_box(s, &node, look);
@@ -164,11 +165,6 @@ static void add_asked(scene *s, const octree *tree, octree_address address)
     for (int i = 0; i < 3; i++)
         mark.at[i] = node.box.min[i] / 2 + node.box.max[i] / 2;
     scene_add_marker(s, mark);
-}
-
-bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title)
-{
-    return look_scene_build(s, v, tree, &(tree_look){.title = title});
 }
 
 bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_look *about)

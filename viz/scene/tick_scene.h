@@ -10,9 +10,6 @@
  * leaves the layers of heat empty. False when there is no memory. */
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h);
 
-/* Fill a scene with a tree alone: its nodes, its points, and a line that names it. False when there is no memory. */
-bool tree_scene_build(scene *s, const view *v, const octree *tree, const char *title);
-
 /* What is said of a tree. */
 typedef struct tree_look {
     const char *title;
@@ -21,6 +18,8 @@ typedef struct tree_look {
     size_t answer_count;
 } tree_look;
 
+/* Fill a scene with a tree alone: its nodes, its points, a line that names it, and what else is said of it. False when
+ * there is no memory. */
 bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_look *about);
 
 #endif

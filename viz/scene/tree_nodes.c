@@ -1,10 +1,10 @@
 /* tree_nodes.c - a tree's nodes and points in a scene: those that the view shows, no smaller and no more than it says.
  */
+#include "tree_nodes.h"
 #include "camera.h"
 #include "filter.h"
 #include "node_labels.h"
 #include "thinning.h"
-#include "tree_layers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +47,7 @@ static void add_point(tree_walk *w, const octree_point *point)
         s->tally.thinned++;
         return;
     }
-    const scene_look look = {.layer = LAYER_POINTS, .role = ROLE_POINT, .width = w->point_width};
+    const scene_look look = scene_layer_look(LAYER_POINTS, STYLE_SOLID, w->point_width);
     scene_marker marker = {.id = point->id, .look = look};
     memcpy(marker.at, point->position, sizeof marker.at);
     scene_add_marker(s, marker);

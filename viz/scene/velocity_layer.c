@@ -79,7 +79,7 @@ static bool make_arrow(const scene *s, const octree_game *game, const octree_bod
     const octree_box *world = &octree_game_session(game)->tree.world;
     *arrow = (scene_segment){
         .id = body->id,
-        .look = {.layer = LAYER_VELOCITIES, .role = ROLE_POINT, .style = STYLE_ARROW, .width = 1},
+        .look = scene_layer_look(LAYER_VELOCITIES, STYLE_ARROW, 1),
     };
     memcpy(arrow->ends[0], body->position, sizeof arrow->ends[0]);
     go_on(body, world, ticks, arrow->ends[1]);

@@ -1,6 +1,4 @@
-/* velocity_layer.h - the layer of velocities: for each point that moves an arrow, the way that it has before it.
- * Private.
- */
+/* velocity_layer.h - the layer of velocities: for each point that moves an arrow, the way that it has before it. */
 #ifndef SCENE_VELOCITY_LAYER_H
 #define SCENE_VELOCITY_LAYER_H
 

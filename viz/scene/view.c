@@ -6,20 +6,26 @@
 
 #define VIEW_TEXT(name, text) text,
 static const char *const camera_names[CAMERA_COUNT] = {VIEW_CAMERA_MAP(VIEW_TEXT)};
-static const char *const layer_names[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_TEXT)};
 static const char *const coloring_names[COLORING_COUNT] = {VIEW_COLORING_MAP(VIEW_TEXT)};
 static const char *const diagram_names[DIAGRAM_COUNT] = {VIEW_DIAGRAM_MAP(VIEW_TEXT)};
 #undef VIEW_TEXT
 
+#define VIEW_LAYER_NAME(name, text, ...) text,
+#define VIEW_LAYER_WORDS(name, text, words, ...) words,
+static const char *const layer_names[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_LAYER_NAME)};
+static const char *const layer_words[LAYER_COUNT] = {VIEW_LAYER_MAP(VIEW_LAYER_WORDS)};
+#undef VIEW_LAYER_NAME
+#undef VIEW_LAYER_WORDS
+
 view view_default(void)
 {
-    return (view){.width = 1280,
-                  .height = 720,
+    return (view){.width = VIEW_DEFAULT_WIDTH,
+                  .height = VIEW_DEFAULT_HEIGHT,
                   .camera = CAMERA_ISO,
                   .layers = VIEW_DEFAULT_LAYERS,
                   .aa = 1,
-                  .lod = 2,          /* smaller boxes are specks: at 100,000 points no difference is seen up to 4 */
-                  .budget = 250000}; /* some 300 MB and a few seconds a frame at worst */
+                  .lod = VIEW_DEFAULT_LOD,
+                  .budget = VIEW_DEFAULT_BUDGET};
 }
 
 int view_unit(const view *v)
@@ -37,6 +43,13 @@ const char *view_camera_name(view_camera camera)
 const char *view_layer_name(view_layer layer)
 {
     return (unsigned)layer < LAYER_COUNT ? layer_names[layer] : NULL;
+}
+
+const char *view_layer_words(view_layer layer)
+{
+    if (layer == LAYER_DIAGRAM)
+        return "the diagram";
+    return (unsigned)layer < LAYER_COUNT ? layer_words[layer] : NULL;
 }
 
 const char *view_coloring_name(view_coloring coloring)

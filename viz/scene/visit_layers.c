@@ -1,7 +1,7 @@
 /* visit_layers.c - see visit_layers.h. */
 #include "visit_layers.h"
 #include "tick_nodes.h"
-#include "tree_layers.h"
+#include "tree_nodes.h"
 
 /* A node keeps the colour that it has in the tree. What was looked into is bold, what was left out is dashed. */
 static void add_met(scene *s, const octree *tree, const octree_visit *visit)
@@ -21,7 +21,7 @@ static void add_met(scene *s, const octree *tree, const octree_visit *visit)
 
 void add_visits(scene *s, const octree_game *game)
 {
-    static const scene_look hit_look = {.layer = LAYER_HIT, .role = ROLE_POINT, .width = 2};
+    const scene_look hit_look = scene_layer_look(LAYER_HIT, STYLE_SOLID, 2);
     const octree_tick *tick = octree_game_tick(game);
     const octree *tree = octree_game_tree(game);
     octree_node node;

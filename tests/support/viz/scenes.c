@@ -100,6 +100,11 @@ void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat
     assert_int_equal(s->refused, 0);
 }
 
+void build_tree(scene *s, const view *v, const octree *tree, const char *title)
+{
+    assert_true(look_scene_build(s, v, tree, &(tree_look){.title = title}));
+}
+
 scene busy_scene(int width, int height, view_camera camera)
 {
     const octree_session session = octree_session_default();

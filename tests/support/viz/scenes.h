@@ -35,6 +35,9 @@ void play_tick(octree_game *game);
 void build_tick(scene *s, const view *v, const octree_game *game);
 void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat *h);
 
+/* Fill a scene with a tree alone, or the test fails. */
+void build_tree(scene *s, const view *v, const octree *tree, const char *title);
+
 /* The default session's tick 30, with everything on. */
 scene busy_scene(int width, int height, view_camera camera);
 

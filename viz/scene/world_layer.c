@@ -1,9 +1,9 @@
-/* tree_layers.c - see tree_layers.h: where a scene begins, and its world. */
-#include "tree_layers.h"
+/* world_layer.c - see world_layer.h. */
+#include "world_layer.h"
 #include "axes.h"
+#include "element_ids.h"
 #include "layout.h"
 
-#include <string.h>
 
 void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick)
 {
@@ -15,7 +15,7 @@ void begin_scene(scene *s, const view *v, const octree_box *world, const double 
     s->camera = camera_make(v, layout_space(v), world, player, tick);
 }
 
-/* Where the slice and the region are: ids 1 and 2 beside the world's own box. */
+/* Where the slice and the region are. */
 static void add_filter(scene *s, const octree_box *world)
 {
     const view_filter *f = &s->view.filter;
@@ -23,16 +23,16 @@ static void add_filter(scene *s, const octree_box *world)
     octree_box plane = *world;
     if (f->slice) {
         plane.min[f->slice - 'x'] = plane.max[f->slice - 'x'] = f->slice_at;
-        scene_add_box(s, (scene_box){.id = 1, .box = plane, .look = look});
+        scene_add_box(s, (scene_box){.id = SLICE_ID, .box = plane, .look = look});
     }
     if (f->by_region)
-        scene_add_box(s, (scene_box){.id = 2, .box = f->region, .look = look});
+        scene_add_box(s, (scene_box){.id = REGION_ID, .box = f->region, .look = look});
 }
 
 void add_world(scene *s, const octree_box *world)
 {
-    const scene_look look = {.layer = LAYER_WORLD, .role = ROLE_WORLD, .width = 1};
-    scene_add_box(s, (scene_box){.id = 0, .box = *world, .look = look});
+    const scene_look look = scene_layer_look(LAYER_WORLD, STYLE_SOLID, 1);
+    scene_add_box(s, (scene_box){.id = WORLD_ID, .box = *world, .look = look});
     add_filter(s, world);
     add_axes(s, world);
 }
