@@ -54,16 +54,26 @@ static char *headline_of(const variant *a, const variant *b)
     return text;
 }
 
-static void assert_says(void change(variant *v), const char *expected)
+/* Of a session and the same with one change; what `prepare` does is done to both. */
+static void assert_says_of(void prepare(variant *v), void change(variant *v), const char *expected)
 {
     static variant a, b;
     make_variant(&a);
     make_variant(&b);
+    if (prepare) {
+        prepare(&a);
+        prepare(&b);
+    }
     change(&b);
     char *text = headline_of(&a, &b);
     if (strcmp(text ? text : "", expected) != 0)
         fail_msg("it says \"%s\" and not \"%s\"", text ? text : "", expected);
     free(text);
+}
+
+static void assert_says(void change(variant *v), const char *expected)
+{
+    assert_says_of(NULL, change, expected);
 }
 
 /* ---- Options ------------------------------------------------------------------------------------------------- */
@@ -142,6 +152,67 @@ static void options_come_before_what_follows_from_them(void **state)
                 "differs");
 }
 
+/* ---- The kind of player --------------------------------------------------------------------------------------- */
+
+static void set_nobody(variant *v)
+{
+    v->session.player = (octree_player){.kind = OCTREE_PLAYER_NONE};
+}
+
+static void set_body(variant *v)
+{
+    v->session.player.kind = OCTREE_PLAYER_BODY;
+    v->session.player.id = 1;
+}
+
+static void set_all(variant *v)
+{
+    set_player(v);
+    set_start(v);
+    set_step(v);
+    set_box(v);
+    set_sweep(v);
+}
+
+static void set_nobody_with_all(variant *v)
+{
+    set_all(v);
+    v->session.player.kind = OCTREE_PLAYER_NONE;
+}
+
+static void set_keys(variant *v)
+{
+    v->session.player = (octree_player){.id = 1000, .step = 1, .box_size = 0.5};
+}
+
+static void move_body_of_no_player(variant *v)
+{
+    v->session.player.kind = OCTREE_PLAYER_NONE;
+    v->session.player.id = 3;
+}
+
+static void another_kind_of_player_is_named(void **state)
+{
+    (void)state;
+    assert_says(set_nobody, "another kind of player (none, was keys): every tick from 0 differs");
+    assert_says(set_body, "another kind of player (body, was keys), another player's id (1, was 100): every tick from "
+                          "0 differs");
+    assert_says_of(set_nobody, set_keys, "another kind of player (keys, was none): every tick from 0 differs");
+    assert_says_of(set_nobody, set_body, "another kind of player (body, was none): every tick from 0 differs");
+    assert_says_of(set_body, set_nobody, "another kind of player (none, was body): every tick from 0 differs");
+}
+
+/* Nobody has no step, and a body none that is read. */
+static void what_a_kind_of_player_does_not_read_is_not_named(void **state)
+{
+    (void)state;
+    assert_says(set_nobody_with_all, "another kind of player (none, was keys): every tick from 0 differs");
+    assert_says_of(set_nobody, set_nobody_with_all, "");
+    assert_says_of(set_body, set_step, "");
+    assert_says_of(set_body, set_start, "");
+    assert_says_of(set_body, set_box, "another collision box (4, was 0.5): every tick from 0 differs");
+}
+
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
 static void add_body(variant *v)
@@ -175,6 +246,15 @@ static void move_all(variant *v)
 {
     for (size_t i = 0; i < v->session.body_count; i++)
         v->bodies[i].position[0] -= 0.5;
+}
+
+/* Nobody has an id, and so it is nobody's. */
+static void points_are_named_where_nobody_plays(void **state)
+{
+    (void)state;
+    assert_says_of(move_body_of_no_player, move_body,
+                   "another start of a point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 7 merged, node 5 born, "
+                   "point 3 moved");
 }
 
 static void points_at_the_start_are_named(void **state)
@@ -328,7 +408,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_option_is_named_with_both_values),
         cmocka_unit_test(options_come_before_what_follows_from_them),
+        cmocka_unit_test(another_kind_of_player_is_named),
+        cmocka_unit_test(what_a_kind_of_player_does_not_read_is_not_named),
         cmocka_unit_test(points_at_the_start_are_named),
+        cmocka_unit_test(points_are_named_where_nobody_plays),
         cmocka_unit_test(keys_are_named_by_their_ticks),
         cmocka_unit_test(edits_are_named_by_tick_and_point),
         cmocka_unit_test(queries_are_named_by_kind_and_tick),

@@ -39,7 +39,7 @@
     X(POINT_LESS, "point_less")     /* id, place */                                                                    \
     X(POINT_MOVED, "point_moved")   /* id, places */                                                                   \
     X(PRESSED, "pressed")           /* the key: values */                                                              \
-    X(PLAYER, "player")             /* where it is: places */                                                          \
+    X(PLAYER, "player")             /* where it is: places, or nowhere */                                              \
     X(ATTEMPT, "attempt")           /* where it tried to go: places */                                                 \
     X(WAY, "way")                   /* it, or what it hit, came from elsewhere */                                      \
     X(EVENT_MORE, "event_more")     /* name */                                                                         \

@@ -24,34 +24,55 @@ static int order_whole(uint64_t a, uint64_t b)
 
 /* ---- Options ------------------------------------------------------------------------------------------------- */
 
-#define OPTIONS 9
+#define OPTIONS 10
 
-/* Those in force: a tree clamps them. */
-static void list_options(const octree_session *session, cause_option options[OPTIONS])
+/* What the kinds of both players read. */
+typedef struct both_read {
+    bool player, step;
+} both_read;
+
+static both_read read_by_both(const octree_player *a, const octree_player *b)
+{
+    return (both_read){.player = a->kind != OCTREE_PLAYER_NONE && b->kind != OCTREE_PLAYER_NONE,
+                       .step = a->kind == OCTREE_PLAYER_KEYS && b->kind == OCTREE_PLAYER_KEYS};
+}
+
+static const char *kind_name(octree_player_kind kind)
+{
+    static const char *const names[] = {
+        [OCTREE_PLAYER_KEYS] = "keys", [OCTREE_PLAYER_BODY] = "body", [OCTREE_PLAYER_NONE] = "none"};
+    return names[kind];
+}
+
+/* Those in force: a tree clamps them. What is not read is the same on both sides. */
+static void list_options(const octree_session *session, both_read read, cause_option options[OPTIONS])
 {
     const octree_def *tree = &session->tree;
     const octree_player *player = &session->player;
     const size_t capacity = tree->leaf_capacity < UINT32_MAX ? tree->leaf_capacity : UINT32_MAX;
     const size_t depth = tree->max_depth < OCTREE_MAX_DEPTH ? tree->max_depth : OCTREE_MAX_DEPTH;
+    const cause_value unread = {.type = VALUE_NONE};
     const cause_option list[OPTIONS] = {
         {"world", cause_box(&tree->world)},
         {"leaf capacity", cause_whole(capacity)},
         {"depth", cause_whole(depth)},
         {"rule for full leaves", cause_word(tree->full_leaf == OCTREE_GROW ? "grow" : "refuse")},
-        {"player's id", cause_whole(player->id)},
-        {"start of the player", cause_place(player->position)},
-        {"step of the player", cause_number(player->step)},
-        {"collision box", cause_number(player->box_size)},
-        {"collision test", cause_word(player->sweep ? "swept" : "at the end of a step")},
+        {"kind of player", cause_word(kind_name(player->kind))},
+        {"player's id", read.player ? cause_whole(player->id) : unread},
+        {"start of the player", read.step ? cause_place(player->position) : unread},
+        {"step of the player", read.step ? cause_number(player->step) : unread},
+        {"collision box", read.player ? cause_number(player->box_size) : unread},
+        {"collision test", read.player ? cause_word(player->sweep ? "swept" : "at the end of a step") : unread},
     };
     memcpy(options, list, sizeof list);
 }
 
 static void compare_options(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
+    const both_read read = read_by_both(&a->player, &b->player);
     cause_option options[2][OPTIONS];
-    list_options(a, options[0]);
-    list_options(b, options[1]);
+    list_options(a, read, options[0]);
+    list_options(b, read, options[1]);
     cause_add_options(facts, CAUSE_OPTION, options[0], options[1], OPTIONS);
 }
 
