@@ -13,6 +13,7 @@ typedef struct variant {
     octree_body bodies[16];
     octree_edit edits[8];
     octree_query queries[4];
+    octree_shape shapes[8];
 } variant;
 
 static const octree_body some_bodies[] = {
@@ -21,6 +22,12 @@ static const octree_body some_bodies[] = {
 static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {1, {1, 2, 4}, {0, 0, 0}}},
                                          {2, OCTREE_EDIT_INSERT, {9, {9, 9, 9}, {0, 0, 0}}},
                                          {4, OCTREE_EDIT_REMOVE, {2, {0, 0, 0}, {0, 0, 0}}}};
+
+static const octree_shape some_shapes[] = {
+    {.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {1, 2, 3}},
+    {.tick = 2, .kind = OCTREE_SHAPE_LABEL, .at = {4, 5, 6}, .text = "start"},
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_BOX, .at = {-1, -1, -1}, .to = {1, 1, 1}},
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_SEGMENT, .at = {0, 0, 0}, .to = {9, 9, 9}}};
 
 static void make_variant(variant *v)
 {
@@ -36,6 +43,9 @@ static void make_variant(variant *v)
     v->session.edit_count = 3;
     v->session.queries = v->queries;
     v->session.query_count = 2;
+    memcpy(v->shapes, some_shapes, sizeof some_shapes);
+    v->session.shapes = v->shapes;
+    v->session.shape_count = sizeof some_shapes / sizeof *some_shapes;
 }
 
 static char *headline_of(const variant *a, const variant *b)
@@ -403,6 +413,101 @@ static void queries_are_named_by_kind_and_tick(void **state)
     assert_says(idle_query, "");
 }
 
+/* ---- Shapes -------------------------------------------------------------------------------------------------- */
+
+#define SAME_TICKS "; the same happens in all ticks that both have"
+
+/* Put a shape before the i-th. */
+static void insert_shape(variant *v, size_t i, octree_shape shape)
+{
+    memmove(v->shapes + i + 1, v->shapes + i, (v->session.shape_count - i) * sizeof *v->shapes);
+    v->shapes[i] = shape;
+    v->session.shape_count++;
+}
+
+static void one_more_shape(variant *v)
+{
+    insert_shape(v, 0, (octree_shape){.tick = 1, .kind = OCTREE_SHAPE_LABEL, .at = {7, 8, 9}, .text = "a goal"});
+}
+
+static void one_shape_fewer(variant *v)
+{
+    v->session.shape_count--;
+}
+
+/* Two ticks, one more in front in each: the others are the same. */
+static void two_more_shapes(variant *v)
+{
+    insert_shape(v, 2, (octree_shape){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_POINT, .at = {7, 7, 7}});
+    insert_shape(v, 0, (octree_shape){.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {8, 8, 8}});
+}
+
+static void larger_shape(variant *v)
+{
+    v->shapes[2].to[1] = 5;
+}
+
+static void longer_shape(variant *v)
+{
+    v->shapes[3].to[0] = 5;
+}
+
+static void moved_shape(variant *v)
+{
+    v->shapes[0].at[0] = 5;
+}
+
+static void moved_label(variant *v)
+{
+    v->shapes[1].at[0] = 5;
+}
+
+static void other_label(variant *v)
+{
+    strcpy(v->shapes[1].text, "a text as long as labels may be: 46 characters");
+}
+
+static void other_kind_of_shape(variant *v)
+{
+    v->shapes[3].kind = OCTREE_SHAPE_POINT;
+}
+
+/* A point has one place, and no text. */
+static void idle_shape(variant *v)
+{
+    v->shapes[0].to[0] = 8;
+    v->shapes[0].text[0] = 'x';
+    v->shapes[1].to[1] = 7;
+}
+
+static void shape_and_length(variant *v)
+{
+    shorter(v);
+    one_shape_fewer(v);
+}
+
+static void shapes_are_named_by_kind_tick_and_place(void **state)
+{
+    (void)state;
+    assert_says(one_more_shape, "one more label shown at tick 1 (\"a goal\")" SAME_TICKS);
+    assert_says(one_shape_fewer, "one segment fewer shown at every tick ((0, 0, 0) to (9, 9, 9))" SAME_TICKS);
+    assert_says(two_more_shapes, "one more point shown at tick 2 ((8, 8, 8)), one more point shown at every tick "
+                                 "((7, 7, 7))" SAME_TICKS);
+    assert_says(larger_shape, "another box shown at every tick ((-1, -1, -1) to (1, 5, 1), was (-1, -1, -1) to "
+                              "(1, 1, 1))" SAME_TICKS);
+    assert_says(longer_shape, "another segment shown at every tick ((0, 0, 0) to (5, 9, 9), was (0, 0, 0) to "
+                              "(9, 9, 9))" SAME_TICKS);
+    assert_says(moved_shape, "another point shown at tick 2 ((5, 2, 3), was (1, 2, 3))" SAME_TICKS);
+    assert_says(moved_label, "another label shown at tick 2 ((5, 5, 6), was (4, 5, 6))" SAME_TICKS);
+    assert_says(other_label, "another label shown at tick 2 (\"a text as long as labels may be: 46 characters\", was "
+                             "\"start\")" SAME_TICKS);
+    assert_says(other_kind_of_shape, "one more point shown at every tick ((0, 0, 0)), one segment fewer shown at every "
+                                     "tick ((0, 0, 0) to (9, 9, 9))" SAME_TICKS);
+    assert_says(shape_and_length, "another last tick (5, was 6), one segment fewer shown at every tick ((0, 0, 0) to "
+                                  "(9, 9, 9))" SAME_TICKS);
+    assert_says(idle_shape, "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,6 +520,7 @@ int main(void)
         cmocka_unit_test(keys_are_named_by_their_ticks),
         cmocka_unit_test(edits_are_named_by_tick_and_point),
         cmocka_unit_test(queries_are_named_by_kind_and_tick),
+        cmocka_unit_test(shapes_are_named_by_kind_tick_and_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

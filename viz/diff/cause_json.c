@@ -40,6 +40,13 @@ static void write_value(json_writer *w, const char *key, const cause_value *valu
     case VALUE_PLACE:
         json_member_vector(w, key, value->numbers);
         break;
+    case VALUE_SEGMENT:
+        json_write_key(w, key);
+        json_write_begin_array(w);
+        json_write_numbers(w, value->numbers, 3);
+        json_write_numbers(w, value->numbers + 3, 3);
+        json_write_end_array(w);
+        break;
     case VALUE_BOX:
         memcpy(box.min, value->numbers, sizeof box.min);
         memcpy(box.max, value->numbers + 3, sizeof box.max);
