@@ -9,7 +9,7 @@
 #include "changed_session.h"
 #include "fixture.h"
 #include "game_fixture.h"
-#include "sentence.h"
+#include "text_stream.h"
 #include "ticks_write.h"
 
 #define SEEDS 60 /* in the quick run */
@@ -243,10 +243,10 @@ static void assert_named(const changed_session *t, uint64_t seed)
     if (!cause_find(&t->made.session, &t->changed, NULL, &all, NULL, NULL, &c, &error))
         fail_msg("%s", error.text);
     char *headline;
-    sentence s;
-    assert_true(sentence_begin(&s));
+    text_stream s;
+    assert_true(text_stream_begin(&s));
     cause_print_headline(s.stream, &c);
-    assert_true(sentence_end(&s, &headline));
+    assert_true(text_stream_end(&s, &headline));
     const cause_fact *fact = c.session.facts, *expected = &t->expected;
     if (c.session.count != 1 || c.session.found[expected->kind] != 1 || fact->kind != expected->kind ||
         fact->tick != expected->tick || !same_text(fact->name, expected->name) || fact->id != expected->id ||

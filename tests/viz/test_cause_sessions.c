@@ -5,7 +5,7 @@
 #include "cause_words.h"
 #include "fixture.h"
 #include "game_fixture.h"
-#include "sentence.h"
+#include "text_stream.h"
 
 /* A session that a test may change in any part. */
 typedef struct variant {
@@ -54,12 +54,12 @@ static char *headline_of(const variant *a, const variant *b)
     record_error error = {""};
     char *text;
     cause c;
-    sentence s;
+    text_stream s;
     if (!cause_find(&a->session, &b->session, NULL, &wanted, NULL, NULL, &c, &error))
         fail_msg("%s", error.text);
-    assert_true(sentence_begin(&s));
+    assert_true(text_stream_begin(&s));
     cause_print_headline(s.stream, &c);
-    assert_true(sentence_end(&s, &text));
+    assert_true(text_stream_end(&s, &text));
     cause_release(&c);
     return text;
 }

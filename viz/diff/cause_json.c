@@ -1,6 +1,7 @@
 /* cause_json.c - see cause_json.h. */
 #include "cause_json.h"
-#include "sentence.h"
+#include "text_stream.h"
+#include "trace_words.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -104,10 +105,10 @@ static void write_facts(json_writer *w, const char *key, const char *more, const
 static void write_element(json_writer *w, const trace_part *part)
 {
     char *what = NULL;
-    sentence s;
-    if (sentence_begin(&s))
+    text_stream s;
+    if (text_stream_begin(&s))
         trace_print_part(s.stream, part);
-    if (!sentence_end(&s, &what))
+    if (!text_stream_end(&s, &what))
         return;
     json_write_begin_object(w);
     json_member_text(w, "what", what);
