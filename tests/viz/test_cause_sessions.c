@@ -5,7 +5,7 @@
 #include "cause_words.h"
 #include "fixture.h"
 #include "game_fixture.h"
-#include "sentence.h"
+#include "text_stream.h"
 
 /* A session that a test may change in any part. */
 typedef struct variant {
@@ -13,6 +13,7 @@ typedef struct variant {
     octree_body bodies[16];
     octree_edit edits[8];
     octree_query queries[4];
+    octree_shape shapes[8];
 } variant;
 
 static const octree_body some_bodies[] = {
@@ -21,6 +22,12 @@ static const octree_body some_bodies[] = {
 static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {1, {1, 2, 4}, {0, 0, 0}}},
                                          {2, OCTREE_EDIT_INSERT, {9, {9, 9, 9}, {0, 0, 0}}},
                                          {4, OCTREE_EDIT_REMOVE, {2, {0, 0, 0}, {0, 0, 0}}}};
+
+static const octree_shape some_shapes[] = {
+    {.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {1, 2, 3}},
+    {.tick = 2, .kind = OCTREE_SHAPE_LABEL, .at = {4, 5, 6}, .text = "start"},
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_BOX, .at = {-1, -1, -1}, .to = {1, 1, 1}},
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_SEGMENT, .at = {0, 0, 0}, .to = {9, 9, 9}}};
 
 static void make_variant(variant *v)
 {
@@ -36,6 +43,9 @@ static void make_variant(variant *v)
     v->session.edit_count = 3;
     v->session.queries = v->queries;
     v->session.query_count = 2;
+    memcpy(v->shapes, some_shapes, sizeof some_shapes);
+    v->session.shapes = v->shapes;
+    v->session.shape_count = sizeof some_shapes / sizeof *some_shapes;
 }
 
 static char *headline_of(const variant *a, const variant *b)
@@ -44,26 +54,36 @@ static char *headline_of(const variant *a, const variant *b)
     record_error error = {""};
     char *text;
     cause c;
-    sentence s;
+    text_stream s;
     if (!cause_find(&a->session, &b->session, NULL, &wanted, NULL, NULL, &c, &error))
         fail_msg("%s", error.text);
-    assert_true(sentence_begin(&s));
+    assert_true(text_stream_begin(&s));
     cause_print_headline(s.stream, &c);
-    assert_true(sentence_end(&s, &text));
+    assert_true(text_stream_end(&s, &text));
     cause_release(&c);
     return text;
 }
 
-static void assert_says(void change(variant *v), const char *expected)
+/* Of a session and the same with one change; what `prepare` does is done to both. */
+static void assert_says_of(void prepare(variant *v), void change(variant *v), const char *expected)
 {
     static variant a, b;
     make_variant(&a);
     make_variant(&b);
+    if (prepare) {
+        prepare(&a);
+        prepare(&b);
+    }
     change(&b);
     char *text = headline_of(&a, &b);
     if (strcmp(text ? text : "", expected) != 0)
         fail_msg("it says \"%s\" and not \"%s\"", text ? text : "", expected);
     free(text);
+}
+
+static void assert_says(void change(variant *v), const char *expected)
+{
+    assert_says_of(NULL, change, expected);
 }
 
 /* ---- Options ------------------------------------------------------------------------------------------------- */
@@ -142,6 +162,67 @@ static void options_come_before_what_follows_from_them(void **state)
                 "differs");
 }
 
+/* ---- The kind of player --------------------------------------------------------------------------------------- */
+
+static void set_nobody(variant *v)
+{
+    v->session.player = (octree_player){.kind = OCTREE_PLAYER_NONE};
+}
+
+static void set_body(variant *v)
+{
+    v->session.player.kind = OCTREE_PLAYER_BODY;
+    v->session.player.id = 1;
+}
+
+static void set_all(variant *v)
+{
+    set_player(v);
+    set_start(v);
+    set_step(v);
+    set_box(v);
+    set_sweep(v);
+}
+
+static void set_nobody_with_all(variant *v)
+{
+    set_all(v);
+    v->session.player.kind = OCTREE_PLAYER_NONE;
+}
+
+static void set_keys(variant *v)
+{
+    v->session.player = (octree_player){.id = 1000, .step = 1, .box_size = 0.5};
+}
+
+static void move_body_of_no_player(variant *v)
+{
+    v->session.player.kind = OCTREE_PLAYER_NONE;
+    v->session.player.id = 3;
+}
+
+static void another_kind_of_player_is_named(void **state)
+{
+    (void)state;
+    assert_says(set_nobody, "another kind of player (none, was keys): every tick from 0 differs");
+    assert_says(set_body, "another kind of player (body, was keys), another player's id (1, was 100): every tick from "
+                          "0 differs");
+    assert_says_of(set_nobody, set_keys, "another kind of player (keys, was none): every tick from 0 differs");
+    assert_says_of(set_nobody, set_body, "another kind of player (body, was none): every tick from 0 differs");
+    assert_says_of(set_body, set_nobody, "another kind of player (none, was body): every tick from 0 differs");
+}
+
+/* Nobody has no step, and a body none that is read. */
+static void what_a_kind_of_player_does_not_read_is_not_named(void **state)
+{
+    (void)state;
+    assert_says(set_nobody_with_all, "another kind of player (none, was keys): every tick from 0 differs");
+    assert_says_of(set_nobody, set_nobody_with_all, "");
+    assert_says_of(set_body, set_step, "");
+    assert_says_of(set_body, set_start, "");
+    assert_says_of(set_body, set_box, "another collision box (4, was 0.5): every tick from 0 differs");
+}
+
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
 static void add_body(variant *v)
@@ -175,6 +256,15 @@ static void move_all(variant *v)
 {
     for (size_t i = 0; i < v->session.body_count; i++)
         v->bodies[i].position[0] -= 0.5;
+}
+
+/* Nobody has an id, and so it is nobody's. */
+static void points_are_named_where_nobody_plays(void **state)
+{
+    (void)state;
+    assert_says_of(move_body_of_no_player, move_body,
+                   "another start of a point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 7 merged, node 5 born, "
+                   "point 3 moved");
 }
 
 static void points_at_the_start_are_named(void **state)
@@ -323,15 +413,114 @@ static void queries_are_named_by_kind_and_tick(void **state)
     assert_says(idle_query, "");
 }
 
+/* ---- Shapes -------------------------------------------------------------------------------------------------- */
+
+#define SAME_TICKS "; the same happens in all ticks that both have"
+
+/* Put a shape before the i-th. */
+static void insert_shape(variant *v, size_t i, octree_shape shape)
+{
+    memmove(v->shapes + i + 1, v->shapes + i, (v->session.shape_count - i) * sizeof *v->shapes);
+    v->shapes[i] = shape;
+    v->session.shape_count++;
+}
+
+static void one_more_shape(variant *v)
+{
+    insert_shape(v, 0, (octree_shape){.tick = 1, .kind = OCTREE_SHAPE_LABEL, .at = {7, 8, 9}, .text = "a goal"});
+}
+
+static void one_shape_fewer(variant *v)
+{
+    v->session.shape_count--;
+}
+
+/* Two ticks, one more in front in each: the others are the same. */
+static void two_more_shapes(variant *v)
+{
+    insert_shape(v, 2, (octree_shape){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_POINT, .at = {7, 7, 7}});
+    insert_shape(v, 0, (octree_shape){.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {8, 8, 8}});
+}
+
+static void larger_shape(variant *v)
+{
+    v->shapes[2].to[1] = 5;
+}
+
+static void longer_shape(variant *v)
+{
+    v->shapes[3].to[0] = 5;
+}
+
+static void moved_shape(variant *v)
+{
+    v->shapes[0].at[0] = 5;
+}
+
+static void moved_label(variant *v)
+{
+    v->shapes[1].at[0] = 5;
+}
+
+static void other_label(variant *v)
+{
+    strcpy(v->shapes[1].text, "a text as long as labels may be: 46 characters");
+}
+
+static void other_kind_of_shape(variant *v)
+{
+    v->shapes[3].kind = OCTREE_SHAPE_POINT;
+}
+
+/* A point has one place, and no text. */
+static void idle_shape(variant *v)
+{
+    v->shapes[0].to[0] = 8;
+    v->shapes[0].text[0] = 'x';
+    v->shapes[1].to[1] = 7;
+}
+
+static void shape_and_length(variant *v)
+{
+    shorter(v);
+    one_shape_fewer(v);
+}
+
+static void shapes_are_named_by_kind_tick_and_place(void **state)
+{
+    (void)state;
+    assert_says(one_more_shape, "one more label shown at tick 1 (\"a goal\")" SAME_TICKS);
+    assert_says(one_shape_fewer, "one segment fewer shown at every tick ((0, 0, 0) to (9, 9, 9))" SAME_TICKS);
+    assert_says(two_more_shapes, "one more point shown at tick 2 ((8, 8, 8)), one more point shown at every tick "
+                                 "((7, 7, 7))" SAME_TICKS);
+    assert_says(larger_shape, "another box shown at every tick ((-1, -1, -1) to (1, 5, 1), was (-1, -1, -1) to "
+                              "(1, 1, 1))" SAME_TICKS);
+    assert_says(longer_shape, "another segment shown at every tick ((0, 0, 0) to (5, 9, 9), was (0, 0, 0) to "
+                              "(9, 9, 9))" SAME_TICKS);
+    assert_says(moved_shape, "another point shown at tick 2 ((5, 2, 3), was (1, 2, 3))" SAME_TICKS);
+    assert_says(moved_label, "another label shown at tick 2 ((5, 5, 6), was (4, 5, 6))" SAME_TICKS);
+    assert_says(other_label, "another label shown at tick 2 (\"a text as long as labels may be: 46 characters\", was "
+                             "\"start\")" SAME_TICKS);
+    assert_says(other_kind_of_shape, "one more point shown at every tick ((0, 0, 0)), one segment fewer shown at every "
+                                     "tick ((0, 0, 0) to (9, 9, 9))" SAME_TICKS);
+    assert_says(shape_and_length, "another last tick (5, was 6), one segment fewer shown at every tick ((0, 0, 0) to "
+                                  "(9, 9, 9))" SAME_TICKS);
+    assert_says(idle_shape, "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_option_is_named_with_both_values),
         cmocka_unit_test(options_come_before_what_follows_from_them),
+        cmocka_unit_test(another_kind_of_player_is_named),
+        cmocka_unit_test(what_a_kind_of_player_does_not_read_is_not_named),
         cmocka_unit_test(points_at_the_start_are_named),
+        cmocka_unit_test(points_are_named_where_nobody_plays),
         cmocka_unit_test(keys_are_named_by_their_ticks),
         cmocka_unit_test(edits_are_named_by_tick_and_point),
         cmocka_unit_test(queries_are_named_by_kind_and_tick),
+        cmocka_unit_test(shapes_are_named_by_kind_tick_and_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

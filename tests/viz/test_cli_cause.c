@@ -90,6 +90,46 @@ static void json_has_the_facts(void **state)
     command_release(&result);
 }
 
+static void assert_place(const json_t *value, double x, double y, double z)
+{
+    const double place[3] = {x, y, z};
+    assert_int_equal(json_array_size(value), 3);
+    for (size_t i = 0; i < 3; i++)
+        assert_true(json_number_value(json_array_get(value, i)) == place[i]);
+}
+
+static void shapes_are_told_in_words_and_json(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    octree_shape shape = {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_SEGMENT, .at = {1, 2, 3}, .to = {700, 8, 9}};
+    octree_session session = short_session("wd");
+    film_options options = small_film(a.path);
+    session.shapes = &shape;
+    session.shape_count = 1;
+    assert_filmed(&session, &options);
+    shape.to[0] = 500;
+    options.folder = b.path;
+    assert_filmed(&session, &options);
+    command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
+    assert_int_equal(result.status, 1);
+    assert_says(&result, "\nanother segment shown at every tick ((1, 2, 3) to (500, 8, 9), was (1, 2, 3) to (700, 8, "
+                         "9)); the same happens in all ticks that both have\n");
+    assert_says(&result, "\n    tick 0: the same happened in it; another segment shown at every tick (");
+    assert_says(&result, " of shapes");
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
+    json_t *all = json_read(result.out), *cause = json_member(all, "cause");
+    const json_t *fact = json_array_get(json_member(cause, "session"), 0), *ends = json_member(fact, "frames");
+    assert_members(fact, "kind name reference frames");
+    assert_string_equal(json_string_value(json_member(fact, "kind")), "shape_other");
+    assert_string_equal(json_string_value(json_member(fact, "name")), "segment");
+    assert_place(json_array_get(ends, 0), 1, 2, 3);
+    assert_place(json_array_get(ends, 1), 500, 8, 9);
+    assert_whole_number(json_member(cause, "differing"), 0);
+    json_decref(all);
+    command_release(&result);
+}
+
 static void damage_is_trouble_behind_the_report(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
@@ -153,6 +193,7 @@ int main(void)
         TEST(the_headline_comes_second_and_causes_below_their_frames),
         TEST(all_or_no_frames_are_explained_where_that_is_asked_for),
         TEST(json_has_the_facts),
+        TEST(shapes_are_told_in_words_and_json),
         TEST(damage_is_trouble_behind_the_report),
         TEST(without_a_renderer_the_rest_is_told),
         TEST(the_same_frames_of_unlike_sessions_are_the_same),

@@ -280,6 +280,12 @@ static void text_of_recordings_is_ignored_where_it_is(void **state)
     assert_int_equal(diff_find(&made.result, "frame_000001.png")->difference.ignored, 1);
     assert_int_equal(finding_of(&made, "frame_000002.png"), FOUND_PIXELS);
     comparison_release(&made);
+    for (int i = 0; i < 2; i++) { /* a tick that the session does not have */
+        const char *folder = i ? b.path : a.path;
+        assert_int_equal(
+            rename(place_below(folder, "frame_000002.png").path, place_below(folder, "frame_000009.png").path), 0);
+    }
+    assert_not_compared(a.path, b.path, &options, "there is no tick 9: the session's last tick is 2");
 }
 
 /* One side is enough, and a folder of plain pictures may be the other. */

@@ -7,7 +7,8 @@
 #include "frame_file.h"
 #include "galleries.h"
 #include "recordings.h"
-#include "sentence.h"
+#include "text_stream.h"
+#include "trace_words.h"
 
 /* A film of these layers alone. */
 static place film_layers(const temp_folder *own, const char *name, const octree_session *session, unsigned layers,
@@ -160,10 +161,10 @@ static void what_is_ignored_is_not_traced(void **state)
 static char *words_of(const trace_part *part)
 {
     char *text;
-    sentence s;
-    assert_true(sentence_begin(&s));
+    text_stream s;
+    assert_true(text_stream_begin(&s));
     trace_print_part(s.stream, part);
-    assert_true(sentence_end(&s, &text));
+    assert_true(text_stream_end(&s, &text));
     return text;
 }
 

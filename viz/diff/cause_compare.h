@@ -7,7 +7,8 @@
 #include "cause_facts.h"
 #include "view.h"
 
-/* The options first, then points at the start, keys, edits and queries. Cost: a sort of points and of edits. */
+/* All that a session holds and its kind of player reads: the options first, then points at the start, keys, edits,
+ * queries and shapes. Cost: a sort of points and of edits. */
 void cause_compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts);
 
 /* What belongs to a recording and not to its session: the view, and each how many ticks there is a frame. */

@@ -1,9 +1,7 @@
 /* cause_facts.c - see cause_facts.h. */
 #include "cause_facts.h"
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 const char *cause_kind_name(cause_kind kind)
 {
@@ -13,36 +11,6 @@ const char *cause_kind_name(cause_kind kind)
 #undef CAUSE_KIND_NAME
     };
     return names[kind];
-}
-
-cause_value cause_whole(uint64_t whole)
-{
-    return (cause_value){.type = VALUE_WHOLE, .whole = whole};
-}
-
-cause_value cause_number(double number)
-{
-    return (cause_value){.type = VALUE_NUMBER, .numbers = {number}};
-}
-
-cause_value cause_word(const char *word)
-{
-    cause_value value = {.type = VALUE_WORD};
-    snprintf(value.word, sizeof value.word, "%s", word);
-    return value;
-}
-
-cause_value cause_place(const double place[3])
-{
-    return (cause_value){.type = VALUE_PLACE, .numbers = {place[0], place[1], place[2]}};
-}
-
-cause_value cause_box(const octree_box *box)
-{
-    cause_value value = {.type = VALUE_BOX};
-    memcpy(value.numbers, box->min, sizeof box->min);
-    memcpy(value.numbers + 3, box->max, sizeof box->max);
-    return value;
 }
 
 void cause_add(cause_facts *facts, cause_fact fact)
@@ -62,18 +30,10 @@ void cause_add(cause_facts *facts, cause_fact fact)
     facts->facts[facts->count++] = fact;
 }
 
-static bool same_value(const cause_value *a, const cause_value *b)
-{
-    bool same = a->type == b->type && a->whole == b->whole && strcmp(a->word, b->word) == 0;
-    for (int i = 0; same && i < 6; i++)
-        same = a->numbers[i] == b->numbers[i];
-    return same;
-}
-
 void cause_add_options(cause_facts *facts, cause_kind kind, const cause_option *a, const cause_option *b, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (!same_value(&a[i].value, &b[i].value))
+        if (!cause_same_value(&a[i].value, &b[i].value))
             cause_add(
                 facts,
                 (cause_fact){.kind = kind, .tick = CAUSE_NO_TICK, .name = a[i].name, .a = a[i].value, .b = b[i].value});

@@ -5,6 +5,7 @@
 #ifndef DIFF_CAUSE_FACTS_H
 #define DIFF_CAUSE_FACTS_H
 
+#include "cause_value.h"
 #include "octree/game.h"
 
 /* Each kind of fact and its name in JSON. */
@@ -26,6 +27,9 @@
     X(QUERY_MORE, "query_more")   /* tick where it is not asked at every one, name (its kind) */                       \
     X(QUERY_LESS, "query_less")   /* the same */                                                                       \
     X(QUERY_OTHER, "query_other") /* the same */                                                                       \
+    X(SHAPE_MORE, "shape_more")   /* tick where it is not shown at every one, name (its kind), value: place or text */ \
+    X(SHAPE_LESS, "shape_less")   /* the same */                                                                       \
+    X(SHAPE_OTHER, "shape_other") /* the same, values */                                                               \
     /* How it is looked at. */                                                                                         \
     X(VIEW, "view")             /* name, values */                                                                     \
     X(LAYER_MORE, "layer_more") /* name */                                                                             \
@@ -39,7 +43,7 @@
     X(POINT_LESS, "point_less")     /* id, place */                                                                    \
     X(POINT_MOVED, "point_moved")   /* id, places */                                                                   \
     X(PRESSED, "pressed")           /* the key: values */                                                              \
-    X(PLAYER, "player")             /* where it is: places */                                                          \
+    X(PLAYER, "player")             /* where it is: places, or nowhere */                                              \
     X(ATTEMPT, "attempt")           /* where it tried to go: places */                                                 \
     X(WAY, "way")                   /* it, or what it hit, came from elsewhere */                                      \
     X(EVENT_MORE, "event_more")     /* name */                                                                         \
@@ -69,34 +73,12 @@ typedef enum cause_kind {
 
 const char *cause_kind_name(cause_kind kind);
 
-typedef enum cause_type {
-    VALUE_NONE,
-    VALUE_WHOLE,
-    VALUE_NUMBER,
-    VALUE_WORD,
-    VALUE_PLACE, /* three numbers */
-    VALUE_BOX,
-} cause_type;
-
-typedef struct cause_value {
-    cause_type type;
-    uint64_t whole;
-    double numbers[6]; /* of a box: its min, then its max */
-    char word[40];
-} cause_value;
-
-cause_value cause_whole(uint64_t whole);
-cause_value cause_number(double number);
-cause_value cause_word(const char *word);
-cause_value cause_place(const double place[3]);
-cause_value cause_box(const octree_box *box);
-
 #define CAUSE_NO_TICK UINT64_MAX
 
 /* What a kind does not name is zero. */
 typedef struct cause_fact {
     cause_kind kind;
-    uint64_t tick;    /* of a key, an edit or a query; CAUSE_NO_TICK: of all */
+    uint64_t tick;    /* of a key, an edit, a query or a shape; CAUSE_NO_TICK: of all */
     const char *name; /* in static storage */
     uint64_t id;      /* of a point */
     octree_address node;

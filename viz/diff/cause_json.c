@@ -1,6 +1,7 @@
 /* cause_json.c - see cause_json.h. */
 #include "cause_json.h"
-#include "sentence.h"
+#include "text_stream.h"
+#include "trace_words.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +40,13 @@ static void write_value(json_writer *w, const char *key, const cause_value *valu
         break;
     case VALUE_PLACE:
         json_member_vector(w, key, value->numbers);
+        break;
+    case VALUE_SEGMENT:
+        json_write_key(w, key);
+        json_write_begin_array(w);
+        json_write_numbers(w, value->numbers, 3);
+        json_write_numbers(w, value->numbers + 3, 3);
+        json_write_end_array(w);
         break;
     case VALUE_BOX:
         memcpy(box.min, value->numbers, sizeof box.min);
@@ -97,10 +105,10 @@ static void write_facts(json_writer *w, const char *key, const char *more, const
 static void write_element(json_writer *w, const trace_part *part)
 {
     char *what = NULL;
-    sentence s;
-    if (sentence_begin(&s))
+    text_stream s;
+    if (text_stream_begin(&s))
         trace_print_part(s.stream, part);
-    if (!sentence_end(&s, &what))
+    if (!text_stream_end(&s, &what))
         return;
     json_write_begin_object(w);
     json_member_text(w, "what", what);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+_Static_assert(sizeof((cause_value *)0)->word >= OCTREE_SHAPE_TEXT, "a label is a word");
+
 static bool same_place(const double a[3], const double b[3])
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
@@ -24,34 +26,55 @@ static int order_whole(uint64_t a, uint64_t b)
 
 /* ---- Options ------------------------------------------------------------------------------------------------- */
 
-#define OPTIONS 9
+#define OPTIONS 10
 
-/* Those in force: a tree clamps them. */
-static void list_options(const octree_session *session, cause_option options[OPTIONS])
+/* What the kinds of both players read. */
+typedef struct both_read {
+    bool player, step;
+} both_read;
+
+static both_read read_by_both(const octree_player *a, const octree_player *b)
+{
+    return (both_read){.player = a->kind != OCTREE_PLAYER_NONE && b->kind != OCTREE_PLAYER_NONE,
+                       .step = a->kind == OCTREE_PLAYER_KEYS && b->kind == OCTREE_PLAYER_KEYS};
+}
+
+static const char *kind_name(octree_player_kind kind)
+{
+    static const char *const names[] = {
+        [OCTREE_PLAYER_KEYS] = "keys", [OCTREE_PLAYER_BODY] = "body", [OCTREE_PLAYER_NONE] = "none"};
+    return names[kind];
+}
+
+/* Those in force: a tree clamps them. What is not read is the same on both sides. */
+static void list_options(const octree_session *session, both_read read, cause_option options[OPTIONS])
 {
     const octree_def *tree = &session->tree;
     const octree_player *player = &session->player;
     const size_t capacity = tree->leaf_capacity < UINT32_MAX ? tree->leaf_capacity : UINT32_MAX;
     const size_t depth = tree->max_depth < OCTREE_MAX_DEPTH ? tree->max_depth : OCTREE_MAX_DEPTH;
+    const cause_value unread = {.type = VALUE_NONE};
     const cause_option list[OPTIONS] = {
         {"world", cause_box(&tree->world)},
         {"leaf capacity", cause_whole(capacity)},
         {"depth", cause_whole(depth)},
         {"rule for full leaves", cause_word(tree->full_leaf == OCTREE_GROW ? "grow" : "refuse")},
-        {"player's id", cause_whole(player->id)},
-        {"start of the player", cause_place(player->position)},
-        {"step of the player", cause_number(player->step)},
-        {"collision box", cause_number(player->box_size)},
-        {"collision test", cause_word(player->sweep ? "swept" : "at the end of a step")},
+        {"kind of player", cause_word(kind_name(player->kind))},
+        {"player's id", read.player ? cause_whole(player->id) : unread},
+        {"start of the player", read.step ? cause_place(player->position) : unread},
+        {"step of the player", read.step ? cause_number(player->step) : unread},
+        {"collision box", read.player ? cause_number(player->box_size) : unread},
+        {"collision test", read.player ? cause_word(player->sweep ? "swept" : "at the end of a step") : unread},
     };
     memcpy(options, list, sizeof list);
 }
 
 static void compare_options(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
+    const both_read read = read_by_both(&a->player, &b->player);
     cause_option options[2][OPTIONS];
-    list_options(a, options[0]);
-    list_options(b, options[1]);
+    list_options(a, read, options[0]);
+    list_options(b, read, options[1]);
     cause_add_options(facts, CAUSE_OPTION, options[0], options[1], OPTIONS);
 }
 
@@ -266,11 +289,68 @@ static void compare_edits(const octree_session *a, const octree_session *b, caus
     free(bs.edits);
 }
 
-/* ---- Queries ------------------------------------------------------------------------------------------------- */
+/* ---- What ticks have: queries and shapes --------------------------------------------------------------------- */
 
-static bool same_query(const octree_query *a, const octree_query *b)
+/* Things in ascending order of their ticks, which are their first members; and how two of them are compared. */
+typedef struct tick_things {
+    const void *things;
+    size_t count, size;
+    bool (*same)(const void *a, const void *b);
+    void (*add)(const void *a, const void *b, cause_facts *facts); /* one of one side, or the two of both; else null */
+} tick_things;
+
+static const void *thing_at(const tick_things *t, size_t i)
 {
-    if (a->tick != b->tick || a->kind != b->kind || a->at_player != b->at_player)
+    return (const char *)t->things + i * t->size;
+}
+
+static uint64_t tick_at(const tick_things *t, size_t i)
+{
+    return *(const uint64_t *)thing_at(t, i);
+}
+
+static bool is_same(const tick_things *a, size_t i, const tick_things *b, size_t j)
+{
+    return a->same(thing_at(a, i), thing_at(b, j));
+}
+
+/* The end of those that have the tick of the i-th. */
+static size_t end_of_tick(const tick_things *t, size_t i)
+{
+    size_t end = i;
+    while (end < t->count && tick_at(t, end) == tick_at(t, i))
+        end++;
+    return end;
+}
+
+/* Those of one tick: between what is the same before and behind, one by one. */
+static void compare_one_tick(const tick_things *a, size_t i, size_t a_end, const tick_things *b, size_t j, size_t b_end,
+                             cause_facts *facts)
+{
+    for (; i < a_end && j < b_end && is_same(a, i, b, j); i++)
+        j++;
+    for (; i < a_end && j < b_end && is_same(a, a_end - 1, b, b_end - 1); a_end--)
+        b_end--;
+    for (; i < a_end || j < b_end; i++, j++)
+        if (i >= a_end || j >= b_end || !is_same(a, i, b, j))
+            a->add(i < a_end ? thing_at(a, i) : NULL, j < b_end ? thing_at(b, j) : NULL, facts);
+}
+
+static void compare_things(const tick_things *a, const tick_things *b, cause_facts *facts)
+{
+    for (size_t i = 0, j = 0; i < a->count || j < b->count;) {
+        const int order = i == a->count ? 1 : j == b->count ? -1 : order_whole(tick_at(a, i), tick_at(b, j));
+        const size_t a_end = order <= 0 ? end_of_tick(a, i) : i, b_end = order >= 0 ? end_of_tick(b, j) : j;
+        compare_one_tick(a, i, a_end, b, j, b_end, facts);
+        i = a_end;
+        j = b_end;
+    }
+}
+
+static bool same_query(const void *one, const void *other)
+{
+    const octree_query *a = one, *b = other;
+    if (a->kind != b->kind || a->at_player != b->at_player)
         return false;
     if (a->kind == OCTREE_QUERY_RANGE)
         return same_place(a->box.min, b->box.min) && same_place(a->box.max, b->box.max);
@@ -278,29 +358,70 @@ static bool same_query(const octree_query *a, const octree_query *b)
            (a->kind != OCTREE_QUERY_RADIUS || a->radius == b->radius);
 }
 
-static void add_query(const octree_query *query, cause_kind kind, cause_facts *facts)
+static void add_query(const void *a, const void *b, cause_facts *facts)
 {
-    cause_add(facts, (cause_fact){.kind = kind, .tick = query->tick, .name = octree_query_name(query->kind)});
+    const octree_query *query = b ? b : a;
+    cause_add(facts, (cause_fact){.kind = !a   ? CAUSE_QUERY_MORE
+                                          : !b ? CAUSE_QUERY_LESS
+                                               : CAUSE_QUERY_OTHER,
+                                  .tick = query->tick,
+                                  .name = octree_query_name(query->kind)});
 }
 
-/* Between what is the same before and behind: one by one. */
 static void compare_queries(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
-    const octree_query *as = a->queries, *bs = b->queries;
-    size_t i = 0, j = 0, a_count = a->query_count, b_count = b->query_count;
-    while (i < a_count && i < b_count && same_query(&as[i], &bs[i]))
-        i++;
-    for (j = i; a_count > i && b_count > i && same_query(&as[a_count - 1], &bs[b_count - 1]); a_count--)
-        b_count--;
-    while (i < a_count || j < b_count) {
-        const int order = i == a_count ? 1 : j == b_count ? -1 : order_whole(as[i].tick, bs[j].tick);
-        if (order != 0)
-            add_query(order < 0 ? &as[i] : &bs[j], order < 0 ? CAUSE_QUERY_LESS : CAUSE_QUERY_MORE, facts);
-        else if (!same_query(&as[i], &bs[j]))
-            add_query(&bs[j], CAUSE_QUERY_OTHER, facts);
-        i += order <= 0;
-        j += order >= 0;
+    const tick_things as = {a->queries, a->query_count, sizeof *a->queries, same_query, add_query};
+    const tick_things bs = {b->queries, b->query_count, sizeof *b->queries, same_query, add_query};
+    compare_things(&as, &bs, facts);
+}
+
+static bool has_two_ends(octree_shape_kind kind)
+{
+    return kind == OCTREE_SHAPE_BOX || kind == OCTREE_SHAPE_SEGMENT;
+}
+
+static bool same_shape(const void *one, const void *other)
+{
+    const octree_shape *a = one, *b = other;
+    return a->kind == b->kind && same_place(a->at, b->at) && (!has_two_ends(a->kind) || same_place(a->to, b->to)) &&
+           (a->kind != OCTREE_SHAPE_LABEL || strcmp(a->text, b->text) == 0);
+}
+
+/* Where it is; and of a label what it says, unless that is the same. */
+static cause_value shape_value(const octree_shape *shape, bool same_text)
+{
+    if (has_two_ends(shape->kind))
+        return cause_ends(shape->kind == OCTREE_SHAPE_BOX ? VALUE_BOX : VALUE_SEGMENT, shape->at, shape->to);
+    return shape->kind == OCTREE_SHAPE_LABEL && !same_text ? cause_word(shape->text) : cause_place(shape->at);
+}
+
+/* Two kinds of shapes have nothing to do with each other. */
+static void add_shape(const void *one, const void *other, cause_facts *facts)
+{
+    const octree_shape *a = one, *b = other, *some = b ? b : a;
+    if (a && b && a->kind != b->kind) {
+        add_shape(a, NULL, facts);
+        add_shape(NULL, b, facts);
+        return;
     }
+    const bool same_text = a && b && strcmp(a->text, b->text) == 0;
+    cause_fact fact = {.kind = !a   ? CAUSE_SHAPE_MORE
+                               : !b ? CAUSE_SHAPE_LESS
+                                    : CAUSE_SHAPE_OTHER,
+                       .tick = some->tick,
+                       .name = octree_shape_name(some->kind)};
+    if (a)
+        fact.a = shape_value(a, same_text);
+    if (b)
+        fact.b = shape_value(b, same_text);
+    cause_add(facts, fact);
+}
+
+static void compare_shapes(const octree_session *a, const octree_session *b, cause_facts *facts)
+{
+    const tick_things as = {a->shapes, a->shape_count, sizeof *a->shapes, same_shape, add_shape};
+    const tick_things bs = {b->shapes, b->shape_count, sizeof *b->shapes, same_shape, add_shape};
+    compare_things(&as, &bs, facts);
 }
 
 void cause_compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts)
@@ -311,4 +432,5 @@ void cause_compare_sessions(const octree_session *a, const octree_session *b, ca
     compare_keys(a, b, facts);
     compare_edits(a, b, facts);
     compare_queries(a, b, facts);
+    compare_shapes(a, b, facts);
 }

@@ -303,14 +303,30 @@ static void compare_ways(const octree_tick *a, const octree_tick *b, cause_facts
         cause_add(facts, (cause_fact){.kind = CAUSE_WAY, .tick = CAUSE_NO_TICK});
 }
 
+static cause_value place_of_player(const octree_tick *tick)
+{
+    return tick->has_player ? cause_place(tick->player) : cause_word("nowhere");
+}
+
+static void compare_players(const octree_tick *a, const octree_tick *b, cause_facts *facts)
+{
+    if (a->has_player != b->has_player)
+        cause_add(facts,
+                  (cause_fact){
+                      .kind = CAUSE_PLAYER, .tick = CAUSE_NO_TICK, .a = place_of_player(a), .b = place_of_player(b)});
+    if (!a->has_player || !b->has_player)
+        return;
+    add_places(facts, CAUSE_PLAYER, a->player, b->player);
+    if (!same_numbers(a->attempt, a->player, 3) || !same_numbers(b->attempt, b->player, 3))
+        add_places(facts, CAUSE_ATTEMPT, a->attempt, b->attempt);
+    compare_ways(a, b, facts);
+}
+
 void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts *facts)
 {
     const octree_tick *x = octree_game_tick(a), *y = octree_game_tick(b);
     compare_keys(x, y, facts);
-    add_places(facts, CAUSE_PLAYER, x->player, y->player);
-    if (!same_numbers(x->attempt, x->player, 3) || !same_numbers(y->attempt, y->player, 3))
-        add_places(facts, CAUSE_ATTEMPT, x->attempt, y->attempt);
-    compare_ways(x, y, facts);
+    compare_players(x, y, facts);
     compare_events(x, y, facts);
     compare_hits(x, y, facts);
     compare_answers(x, y, facts);

@@ -98,14 +98,21 @@ static bool same_world(const octree *a, const octree *b, cause_facts *facts)
     return facts->found[CAUSE_OPTION] == before;
 }
 
+/* Whom the ticks tell of, and so not the trees; null where it is not one and the same. */
+static const uint64_t *player_of_both(const octree_game *a, const octree_game *b)
+{
+    const uint64_t *ids[2] = {&octree_game_session(a)->player.id, &octree_game_session(b)->player.id};
+    const bool both = octree_game_tick(a)->has_player && octree_game_tick(b)->has_player;
+    return both && *ids[0] == *ids[1] ? ids[0] : NULL;
+}
+
 void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts *facts)
 {
     const octree *const as = octree_game_tree(a), *const bs = octree_game_tree(b);
-    const uint64_t players[2] = {octree_game_session(a)->player.id, octree_game_session(b)->player.id};
     walking over_b = {as, false, facts}, over_a = {bs, true, facts};
     if (same_world(as, bs, facts)) {
         octree_walk(bs, look_at, &over_b);
         octree_walk(as, look_at, &over_a);
     }
-    compare_points(as, bs, players[0] == players[1] ? players : NULL, facts);
+    compare_points(as, bs, player_of_both(a, b), facts);
 }

@@ -1,60 +1,18 @@
 /* cause_words.c - see cause_words.h. */
 #include "cause_words.h"
-#include "number.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-/* ---- Values -------------------------------------------------------------------------------------------------- */
-
-static void print_number(FILE *out, double number)
-{
-    char text[NUMBER_TEXT];
-    number_print(number, text);
-    fputs(text, out);
-}
-
-static void print_place(FILE *out, const double place[3])
-{
-    for (int axis = 0; axis < 3; axis++) {
-        fputs(axis ? ", " : "(", out);
-        print_number(out, place[axis]);
-    }
-    fputc(')', out);
-}
-
-static void print_value(FILE *out, const cause_value *value)
-{
-    switch (value->type) {
-    case VALUE_WHOLE:
-        fprintf(out, "%" PRIu64, value->whole);
-        break;
-    case VALUE_NUMBER:
-        print_number(out, value->numbers[0]);
-        break;
-    case VALUE_PLACE:
-        print_place(out, value->numbers);
-        break;
-    case VALUE_BOX:
-        print_place(out, value->numbers);
-        fputs(" to ", out);
-        print_place(out, value->numbers + 3);
-        break;
-    default:
-        fputs(value->word, out);
-        break;
-    }
-}
+/* ---- One fact ------------------------------------------------------------------------------------------------ */
 
 /* "8, was 4" */
 static void print_change(FILE *out, const cause_fact *fact)
 {
-    print_value(out, &fact->b);
+    cause_print_value(out, &fact->b);
     fputs(", was ", out);
-    print_value(out, &fact->a);
+    cause_print_value(out, &fact->a);
 }
-
-/* ---- One fact ------------------------------------------------------------------------------------------------ */
 
 typedef void print_fact(FILE *out, const cause_fact *fact);
 
@@ -86,7 +44,7 @@ static void print_start(FILE *out, const cause_fact *fact)
         print_change(out, fact);
     } else {
         fputs(" at ", out);
-        print_value(out, fact->kind == CAUSE_START_MORE ? &fact->b : &fact->a);
+        cause_print_value(out, fact->kind == CAUSE_START_MORE ? &fact->b : &fact->a);
     }
     fputc(')', out);
 }
@@ -104,7 +62,7 @@ static void print_deed(FILE *out, const cause_fact *fact, const cause_value *pla
             strcmp(fact->name, "insert") == 0 ? "inserted at "
             : strcmp(fact->name, "move") == 0 ? "moved to "
                                               : "removed");
-    print_value(out, place);
+    cause_print_value(out, place);
 }
 
 static void print_edit(FILE *out, const cause_fact *fact)
@@ -120,12 +78,12 @@ static void print_other_edit(FILE *out, const cause_fact *fact)
     fprintf(out, "another edit at tick %" PRIu64 " (", fact->tick);
     if (fact->kind == CAUSE_EDIT_SPEED) {
         fprintf(out, "point %" PRIu64 " inserted with velocity ", fact->id);
-        print_value(out, &fact->b);
+        cause_print_value(out, &fact->b);
     } else {
         print_deed(out, fact, &fact->b);
     }
     fputs(", was ", out);
-    print_value(out, &fact->a);
+    cause_print_value(out, &fact->a);
     fputc(')', out);
 }
 
@@ -138,6 +96,14 @@ static void print_order(FILE *out, const cause_fact *fact)
     fprintf(out, "another order of the edits of tick %" PRIu64, fact->tick);
 }
 
+static void print_when(FILE *out, const cause_fact *fact)
+{
+    if (fact->tick == CAUSE_NO_TICK)
+        fputs(" at every tick", out);
+    else
+        fprintf(out, " at tick %" PRIu64, fact->tick);
+}
+
 static void print_query(FILE *out, const cause_fact *fact)
 {
     fprintf(out,
@@ -145,10 +111,33 @@ static void print_query(FILE *out, const cause_fact *fact)
             : fact->kind == CAUSE_QUERY_LESS ? "one %s query fewer"
                                              : "another %s query",
             fact->name);
-    if (fact->tick == CAUSE_NO_TICK)
-        fputs(" at every tick", out);
-    else
-        fprintf(out, " at tick %" PRIu64, fact->tick);
+    print_when(out, fact);
+}
+
+/* What a label says is quoted. */
+static void print_shape_value(FILE *out, const cause_value *value)
+{
+    const char *quote = value->type == VALUE_WORD ? "\"" : "";
+    fputs(quote, out);
+    cause_print_value(out, value);
+    fputs(quote, out);
+}
+
+static void print_shape(FILE *out, const cause_fact *fact)
+{
+    fprintf(out,
+            fact->kind == CAUSE_SHAPE_MORE   ? "one more %s shown"
+            : fact->kind == CAUSE_SHAPE_LESS ? "one %s fewer shown"
+                                             : "another %s shown",
+            fact->name);
+    print_when(out, fact);
+    fputs(" (", out);
+    print_shape_value(out, fact->kind == CAUSE_SHAPE_LESS ? &fact->a : &fact->b);
+    if (fact->kind == CAUSE_SHAPE_OTHER) {
+        fputs(", was ", out);
+        print_shape_value(out, &fact->a);
+    }
+    fputc(')', out);
 }
 
 static void print_layer(FILE *out, const cause_fact *fact)
@@ -161,12 +150,12 @@ static void print_point(FILE *out, const cause_fact *fact)
     fprintf(out, "point %" PRIu64, fact->id);
     if (fact->kind == CAUSE_POINT_MOVED) {
         fputs(" moved from ", out);
-        print_value(out, &fact->a);
+        cause_print_value(out, &fact->a);
         fputs(" to ", out);
     } else {
         fputs(fact->kind == CAUSE_POINT_MORE ? " added at " : " removed from ", out);
     }
-    print_value(out, fact->kind == CAUSE_POINT_LESS ? &fact->a : &fact->b);
+    cause_print_value(out, fact->kind == CAUSE_POINT_LESS ? &fact->a : &fact->b);
 }
 
 static void print_path(FILE *out, const cause_fact *fact)
@@ -174,9 +163,9 @@ static void print_path(FILE *out, const cause_fact *fact)
     static const char *const words[CAUSE_KINDS] = {
         [CAUSE_PRESSED] = "key ", [CAUSE_PLAYER] = "the player at ", [CAUSE_ATTEMPT] = "its attempt at "};
     fputs(words[fact->kind], out);
-    print_value(out, &fact->b);
+    cause_print_value(out, &fact->b);
     fputs(" instead of ", out);
-    print_value(out, &fact->a);
+    cause_print_value(out, &fact->a);
 }
 
 static void print_way(FILE *out, const cause_fact *fact)
@@ -279,6 +268,9 @@ static const phrase phrases[CAUSE_KINDS] = {
     [CAUSE_QUERY_MORE] = {print_query, NULL, NULL, false, false},
     [CAUSE_QUERY_LESS] = {print_query, NULL, NULL, false, false},
     [CAUSE_QUERY_OTHER] = {print_query, NULL, NULL, false, false},
+    [CAUSE_SHAPE_MORE] = {print_shape, NULL, NULL, false, false},
+    [CAUSE_SHAPE_LESS] = {print_shape, NULL, NULL, false, false},
+    [CAUSE_SHAPE_OTHER] = {print_shape, NULL, NULL, false, false},
     [CAUSE_VIEW] = {print_option, NULL, NULL, false, false},
     [CAUSE_LAYER_MORE] = {print_layer, NULL, NULL, false, false},
     [CAUSE_LAYER_LESS] = {print_layer, NULL, NULL, false, false},
@@ -420,11 +412,21 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
+/* Shapes and arrows are shown, and are nothing that happens. */
+static bool any_shown(const cause_facts *facts)
+{
+    return facts->found[CAUSE_SHAPE_MORE] || facts->found[CAUSE_SHAPE_LESS] || facts->found[CAUSE_SHAPE_OTHER] ||
+           facts->found[CAUSE_VELOCITY];
+}
+
 /* What follows from another option: how many ticks differ. */
 static void print_extent(FILE *out, const cause *c)
 {
     if (c->differing == 0)
-        fputs(c->session.found[CAUSE_LENGTH] ? "the ticks that both have are the same" : "no tick differs", out);
+        fputs(any_shown(&c->session)           ? "the same happens in all ticks that both have"
+              : c->session.found[CAUSE_LENGTH] ? "the ticks that both have are the same"
+                                               : "no tick differs",
+              out);
     else if (c->differing == c->compared - c->first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->first);
     else

@@ -75,10 +75,10 @@ void write_escaped(FILE *out, const char *text, escape *how)
     }
 }
 
-bool write_escaped_sentence(FILE *out, sentence *s, escape *how)
+bool write_escaped_stream(FILE *out, text_stream *s, escape *how)
 {
     char *text;
-    const bool ok = sentence_end(s, &text);
+    const bool ok = text_stream_end(s, &text);
     write_escaped(out, text ? text : "", how);
     free(text);
     return ok;

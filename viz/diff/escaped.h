@@ -2,7 +2,7 @@
 #ifndef DIFF_ESCAPED_H
 #define DIFF_ESCAPED_H
 
-#include "sentence.h"
+#include "text_stream.h"
 
 /* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
 #define ESCAPE_ROOM 16
@@ -16,7 +16,7 @@ escape escape_markdown; /* inside a line, a cell of a table, or an element of HT
  * characters that XML does not know, and what is no UTF-8 become U+FFFD. */
 void write_escaped(FILE *out, const char *text, escape *how);
 
-/* Write what was printed into a sentence, and end it. False where there was no memory. */
-bool write_escaped_sentence(FILE *out, sentence *s, escape *how);
+/* Write what was printed into a stream of text, and end it. False where there was no memory. */
+bool write_escaped_stream(FILE *out, text_stream *s, escape *how);
 
 #endif

@@ -4,7 +4,7 @@
 #include "explain_pair.h"
 #include "frame_file.h"
 #include "same_bytes.h"
-#include "sentence.h"
+#include "text_stream.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -164,10 +164,10 @@ static void print_headline(FILE *out, const diff_result *result)
 
 static bool say(diff_result *result, record_error *error)
 {
-    sentence s;
-    if (sentence_begin(&s))
+    text_stream s;
+    if (text_stream_begin(&s))
         print_headline(s.stream, result);
-    const bool ok = sentence_end(&s, &result->headline);
+    const bool ok = text_stream_end(&s, &result->headline);
     return ok || record_fail(error, "there is no memory for a headline");
 }
 

@@ -2,6 +2,15 @@
  *
  * Of two recordings it is told from their sessions, which are played side by side; of other frames from what they say
  * of themselves.
+ *
+ * Who prints what of it:
+ *   different: 5 of 5 frames                                        report.c
+ *   another leaf capacity (4, was 2): every tick from 0 differs     the headline: print_headline() in explain.c
+ *     frame_000001.png: 312 of 14400 pixels differ; ...             report.c
+ *       tick 1: node 0/3/7 split, point 12 moved from ...           a pair: print_cause() in explain_pair.c
+ *       ...; 312 pixels: 180 of node 0/3/7, 132 of point 12         its pixels: trace_words.h
+ * In the second and the fourth line facts are told: cause.h finds them, cause_words.h has the words of each kind, and
+ * cause_json.h its members in JSON.
  */
 #ifndef DIFF_EXPLAIN_H
 #define DIFF_EXPLAIN_H

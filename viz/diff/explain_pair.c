@@ -2,7 +2,8 @@
 #include "explain_pair.h"
 #include "cause_words.h"
 #include "frame_file.h"
-#include "sentence.h"
+#include "text_stream.h"
+#include "trace_words.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -137,9 +138,9 @@ static void print_cause(FILE *out, const explanation *e, diff_pair *pair)
 
 bool explain_pair(const explanation *e, diff_pair *pair, record_error *error)
 {
-    sentence s;
-    const bool begun = sentence_begin(&s);
+    text_stream s;
+    const bool begun = text_stream_begin(&s);
     if (begun)
         print_cause(s.stream, e, pair);
-    return (sentence_end(&s, &pair->cause) && begun) || record_fail(error, "there is no memory for a cause");
+    return (text_stream_end(&s, &pair->cause) && begun) || record_fail(error, "there is no memory for a cause");
 }

@@ -20,14 +20,14 @@ static bool write_fault(FILE *out, const diff_pair *pair)
     const diff_verdict verdict = diff_finding_verdict(pair->finding);
     const char *element = verdict == DIFF_TROUBLE ? "error" : "failure";
     char *words;
-    sentence s;
-    if (!sentence_begin(&s))
+    text_stream s;
+    if (!text_stream_begin(&s))
         return false;
     fprintf(s.stream, "%s: ", diff_verdict_name(verdict));
     diff_print_difference(s.stream, pair);
     if (pair->cause)
         fprintf(s.stream, ". Cause: %s", pair->cause);
-    if (!sentence_end(&s, &words))
+    if (!text_stream_end(&s, &words))
         return false;
     fprintf(out, "      <%s type=\"%s\"", element, diff_finding_name(pair->finding));
     write_attribute(out, "message", words);
@@ -85,8 +85,8 @@ static void write_counts(FILE *out, const diff_result *result)
 /* What holds for all of them: the verdict, why, and how they were compared. */
 static bool write_summary(FILE *out, const diff_report *report)
 {
-    sentence s;
-    if (!sentence_begin(&s))
+    text_stream s;
+    if (!text_stream_begin(&s))
         return false;
     diff_print_verdict(s.stream, report->result);
     putc('\n', s.stream);
@@ -95,7 +95,7 @@ static bool write_summary(FILE *out, const diff_report *report)
     diff_print_tolerance(s.stream, report);
     putc('\n', s.stream);
     fputs("    <system-out>", out);
-    const bool ok = write_escaped_sentence(out, &s, escape_xml_text);
+    const bool ok = write_escaped_stream(out, &s, escape_xml_text);
     fputs("    </system-out>\n", out);
     if (report->result->trouble) {
         fputs("    <system-err>", out);

@@ -45,11 +45,11 @@ static bool write_row(FILE *out, const diff_pair *pair, bool causes)
     if (pair->finding == FOUND_PIXELS) {
         write_pixels(out, pair);
     } else {
-        sentence s;
-        ok = sentence_begin(&s);
+        text_stream s;
+        ok = text_stream_begin(&s);
         if (ok)
             diff_print_difference(s.stream, pair);
-        ok = ok && write_escaped_sentence(out, &s, escape_markdown);
+        ok = ok && write_escaped_stream(out, &s, escape_markdown);
         fputs(" |", out);
     }
     fputs(" |", out);
@@ -93,22 +93,22 @@ static void write_why(FILE *out, const diff_result *result)
 
 static bool write_verdict(FILE *out, const diff_report *report)
 {
-    sentence s;
-    if (!sentence_begin(&s))
+    text_stream s;
+    if (!text_stream_begin(&s))
         return false;
     diff_print_verdict(s.stream, report->result);
     fputs("### octreel diff: ", out);
-    bool ok = write_escaped_sentence(out, &s, escape_markdown);
+    bool ok = write_escaped_stream(out, &s, escape_markdown);
     fputs("\n\n", out);
     write_why(out, report->result);
     write_name(out, report->b->path);
     fputs(" against ", out);
     write_name(out, report->a->path);
     fputs(", ", out);
-    if (!ok || !sentence_begin(&s))
+    if (!ok || !text_stream_begin(&s))
         return false;
     diff_print_tolerance(s.stream, report);
-    ok = write_escaped_sentence(out, &s, escape_markdown);
+    ok = write_escaped_stream(out, &s, escape_markdown);
     fputs(".\n", out);
     return ok;
 }

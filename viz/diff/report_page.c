@@ -6,7 +6,7 @@
 #include "base64.h"
 #include "evidence_page.h"
 #include "report_json.h"
-#include "sentence.h"
+#include "text_stream.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -68,14 +68,14 @@ static void choose_pairs(page *p)
 
 /* A line of JSON while it is made: in memory, for an element of HTML ends at the first "</" in it. */
 typedef struct fact_line {
-    sentence made;
+    text_stream made;
     json_writer writer;
 } fact_line;
 
 static bool line_begin(fact_line *line)
 {
     *line = (fact_line){.writer = {.out = NULL}};
-    if (!sentence_begin(&line->made))
+    if (!text_stream_begin(&line->made))
         return false;
     line->writer.out = line->made.stream;
     json_write_begin_object(&line->writer);
@@ -88,7 +88,7 @@ static bool line_end(fact_line *line, FILE *out)
     char *text;
     json_write_end_object(&line->writer);
     json_write_end_line(&line->writer);
-    const bool ok = sentence_end(&line->made, &text);
+    const bool ok = text_stream_end(&line->made, &text);
     for (const char *at = ok ? text : ""; *at; at++)
         if (*at == '<')
             fputs("\\u003c", out);
@@ -124,11 +124,11 @@ static bool write_words(json_writer *w, const char *key, printer *print, const d
                         const diff_pair *pair)
 {
     char *text;
-    sentence s;
-    if (!sentence_begin(&s))
+    text_stream s;
+    if (!text_stream_begin(&s))
         return false;
     print(s.stream, report, pair);
-    if (!sentence_end(&s, &text))
+    if (!text_stream_end(&s, &text))
         return false;
     json_member_text(w, key, text ? text : "");
     free(text);

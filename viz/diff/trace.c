@@ -3,7 +3,6 @@
 #include "frame_file.h"
 #include "tick_scene.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -315,36 +314,4 @@ static int by_tick(const void *tick, const void *told)
 const trace *tracer_at(const tracer *t, uint64_t tick)
 {
     return t->count ? bsearch(&tick, t->traces, t->count, sizeof *t->traces, by_tick) : NULL;
-}
-
-/* ---- In words ------------------------------------------------------------------------------------------------ */
-
-void trace_print_part(FILE *out, const trace_part *part)
-{
-    char text[OCTREE_ADDRESS_TEXT];
-    if (part->layer == LAYER_NODES)
-        fprintf(out, "node %s", octree_address_format(part->id, text));
-    else if (part->layer == LAYER_POINTS)
-        fprintf(out, "point %" PRIu64, part->id);
-    else if (part->layer == TRACE_BACKGROUND)
-        fputs("the background", out);
-    else
-        fputs(view_layer_words((view_layer)part->layer), out);
-}
-
-void trace_print(FILE *out, const trace *t)
-{
-    const size_t most = t->count < TRACE_TOLD ? t->count : TRACE_TOLD;
-    uint64_t told = 0;
-    fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, t->pixels == 1 ? "" : "s");
-    for (int text = 0; text < 2; text++) /* what is written says what is drawn: it comes last */
-        for (size_t i = 0; i < most; i++) {
-            if ((t->parts[i].layer == LAYER_TEXT) != text)
-                continue;
-            fprintf(out, "%s%" PRIu64 " of ", told ? ", " : "", t->parts[i].pixels);
-            trace_print_part(out, &t->parts[i]);
-            told += t->parts[i].pixels;
-        }
-    if (told < t->pixels)
-        fprintf(out, ", %" PRIu64 " of others", t->pixels - told);
 }

@@ -25,14 +25,6 @@ typedef struct trace {
     uint64_t pixels; /* of all parts */
 } trace;
 
-/* "node 0/3/7", "point 12", "text". */
-void trace_print_part(FILE *out, const trace_part *part);
-
-/* "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text"; of many parts the first so many, and
- * text last of them. */
-#define TRACE_TOLD 5
-void trace_print(FILE *out, const trace *t);
-
 /* Two games that are drawn while they are played. A zeroed one has not begun. */
 typedef struct tracer {
     heat heats[2];

@@ -1,20 +1,20 @@
-/* sentence.h - text that is printed into memory. */
-#ifndef DIFF_SENTENCE_H
-#define DIFF_SENTENCE_H
+/* text_stream.h - text that is printed into memory. */
+#ifndef DIFF_TEXT_STREAM_H
+#define DIFF_TEXT_STREAM_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-typedef struct sentence {
+typedef struct text_stream {
     FILE *stream; /* null where there is no memory */
     char *text;
     size_t size;
-} sentence;
+} text_stream;
 
-bool sentence_begin(sentence *s);
+bool text_stream_begin(text_stream *s);
 
 /* *text becomes what was printed, which the caller frees; null where that is nothing. False where there was no memory.
  */
-bool sentence_end(sentence *s, char **text);
+bool text_stream_end(text_stream *s, char **text);
 
 #endif

@@ -1,16 +1,16 @@
-/* sentence.c - see sentence.h. */
-#include "sentence.h"
+/* text_stream.c - see text_stream.h. */
+#include "text_stream.h"
 
 #include <stdlib.h>
 
-bool sentence_begin(sentence *s)
+bool text_stream_begin(text_stream *s)
 {
-    *s = (sentence){0};
+    *s = (text_stream){0};
     s->stream = open_memstream(&s->text, &s->size);
     return s->stream != NULL;
 }
 
-bool sentence_end(sentence *s, char **text)
+bool text_stream_end(text_stream *s, char **text)
 {
     const bool whole = s->stream && !ferror(s->stream);
     const bool ok = s->stream && fclose(s->stream) == 0 && whole;

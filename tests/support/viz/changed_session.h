@@ -1,0 +1,34 @@
+/* changed_session.h - a random session and the same with one change, for tests that ask what the change is. */
+#ifndef CHANGED_SESSION_H
+#define CHANGED_SESSION_H
+
+#include "cause_facts.h"
+#include "random_session.h"
+
+#define CHANGED_SHAPES 8
+
+/* A random session, the same with one change, and what the change is. */
+typedef struct changed_session {
+    random_session made;
+    octree_session changed;
+    octree_shape shapes[2][CHANGED_SHAPES]; /* of both */
+    octree_body bodies[RANDOM_SESSION_BODIES];
+    octree_edit edits[RANDOM_SESSION_EDITS + 1];
+    cause_fact expected;
+    char text[640]; /* what the headline begins with */
+} changed_session;
+
+/* Make one, and change it at a tick where the change has one. False where the session has nothing to change so. */
+typedef bool session_change(changed_session *t, uint64_t tick, uint64_t *state);
+bool try_change(changed_session *t, uint64_t seed, session_change *change);
+
+session_change move_by_one_step; /* an edit: some point, as far as the player steps */
+session_change add_one_point;    /* by an edit */
+session_change change_capacity;
+session_change change_step;
+session_change change_kind;     /* of the player, with a step and a start that not both kinds read */
+session_change change_velocity; /* of a point at the start */
+session_change change_number_of_shapes;
+session_change change_shape;
+
+#endif
