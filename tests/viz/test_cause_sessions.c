@@ -7,6 +7,8 @@
 #include "game_fixture.h"
 #include "text_stream.h"
 
+#define SAME_TICKS "the same happens in all ticks that both have"
+
 /* A session that a test may change in any part. */
 typedef struct variant {
     octree_session session;
@@ -133,6 +135,11 @@ static void set_sweep(variant *v)
     v->session.player.sweep = true;
 }
 
+static void set_minus_zero(variant *v)
+{
+    v->session.player.position[0] = -0.0;
+}
+
 static void set_two(variant *v)
 {
     set_capacity(v);
@@ -146,9 +153,10 @@ static void each_option_is_named_with_both_values(void **state)
                            "every tick from 0 differs");
     assert_says(set_capacity, "another leaf capacity (8, was 2): every tick from 0 differs");
     assert_says(set_depth, "another depth (0, was 5): every tick from 0 differs");
-    assert_says(set_rule, "another rule for full leaves (grow, was refuse): no tick differs");
+    assert_says(set_rule, "another rule for full leaves (grow, was refuse): " SAME_TICKS);
     assert_says(set_player, "another player's id (77, was 100): every tick from 0 differs");
     assert_says(set_start, "another start of the player ((0.5, 0, 0), was (0, 0, 0)): every tick from 0 differs");
+    assert_says(set_minus_zero, "another start of the player ((-0, 0, 0), was (0, 0, 0)): " SAME_TICKS);
     assert_says(set_step, "another step of the player (0.25, was 1): every tick from 1 differs");
     assert_says(set_box, "another collision box (4, was 0.5): every tick from 0 differs");
     assert_says(set_sweep, "another collision test (swept, was at the end of a step): every tick from 0 differs");
@@ -276,7 +284,7 @@ static void points_at_the_start_are_named(void **state)
     assert_says(move_body,
                 "another start of a point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 born, point 3 moved");
     assert_says(push_body, "another velocity of a point (point 3: (0, -0.5, 0), was (0, 0, 0)); tick 1: point 3 moved");
-    assert_says(swap_bodies, "another order of the points at the start; no tick differs");
+    assert_says(swap_bodies, "another order of the points at the start; " SAME_TICKS);
     assert_says(move_all, "4 points start elsewhere (1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
 }
 
@@ -314,8 +322,8 @@ static void keys_are_named_by_their_ticks(void **state)
     assert_says(other_key, "another key at tick 3 (s, was w); tick 3: the player at (1, 0, 0) instead of (1, 2, 0)");
     assert_says(other_keys, "3 other keys (ticks 1, 3 and 4); tick 1: the player at (1, 0, 0) instead of (0, 1, 0)");
     assert_says(waits, "");
-    assert_says(shorter, "another last tick (5, was 6); the ticks that both have are the same");
-    assert_says(quits, "another last tick (2, was 6); the ticks that both have are the same");
+    assert_says(shorter, "another last tick (5, was 6); " SAME_TICKS);
+    assert_says(quits, "another last tick (2, was 6); " SAME_TICKS);
 }
 
 /* ---- Edits --------------------------------------------------------------------------------------------------- */
@@ -370,7 +378,7 @@ static void edits_are_named_by_tick_and_point(void **state)
     assert_says(faster_edit,
                 "another edit at tick 2 (point 9 inserted with velocity (-1, 0, 0), was (0, 0, 0)); tick 2: "
                 "point 9 moved");
-    assert_says(swap_edits, "another order of the edits of tick 2; no tick differs");
+    assert_says(swap_edits, "another order of the edits of tick 2; " SAME_TICKS);
     assert_says(idle_edit, "");
     assert_says(many_edits,
                 "4 more edits (of points 20, 21, 22 and 23); tick 5: node 0 born, points 20, 21, 22 and 23 added");
@@ -414,8 +422,6 @@ static void queries_are_named_by_kind_and_tick(void **state)
 }
 
 /* ---- Shapes -------------------------------------------------------------------------------------------------- */
-
-#define SAME_TICKS "; the same happens in all ticks that both have"
 
 /* Put a shape before the i-th. */
 static void insert_shape(variant *v, size_t i, octree_shape shape)
@@ -489,22 +495,22 @@ static void shape_and_length(variant *v)
 static void shapes_are_named_by_kind_tick_and_place(void **state)
 {
     (void)state;
-    assert_says(one_more_shape, "one more label shown at tick 1 (\"a goal\")" SAME_TICKS);
-    assert_says(one_shape_fewer, "one segment fewer shown at every tick ((0, 0, 0) to (9, 9, 9))" SAME_TICKS);
+    assert_says(one_more_shape, "one more label shown at tick 1 (\"a goal\"); " SAME_TICKS);
+    assert_says(one_shape_fewer, "one segment fewer shown at every tick ((0, 0, 0) to (9, 9, 9)); " SAME_TICKS);
     assert_says(two_more_shapes, "one more point shown at tick 2 ((8, 8, 8)), one more point shown at every tick "
-                                 "((7, 7, 7))" SAME_TICKS);
+                                 "((7, 7, 7)); " SAME_TICKS);
     assert_says(larger_shape, "another box shown at every tick ((-1, -1, -1) to (1, 5, 1), was (-1, -1, -1) to "
-                              "(1, 1, 1))" SAME_TICKS);
+                              "(1, 1, 1)); " SAME_TICKS);
     assert_says(longer_shape, "another segment shown at every tick ((0, 0, 0) to (5, 9, 9), was (0, 0, 0) to "
-                              "(9, 9, 9))" SAME_TICKS);
-    assert_says(moved_shape, "another point shown at tick 2 ((5, 2, 3), was (1, 2, 3))" SAME_TICKS);
-    assert_says(moved_label, "another label shown at tick 2 ((5, 5, 6), was (4, 5, 6))" SAME_TICKS);
+                              "(9, 9, 9)); " SAME_TICKS);
+    assert_says(moved_shape, "another point shown at tick 2 ((5, 2, 3), was (1, 2, 3)); " SAME_TICKS);
+    assert_says(moved_label, "another label shown at tick 2 ((5, 5, 6), was (4, 5, 6)); " SAME_TICKS);
     assert_says(other_label, "another label shown at tick 2 (\"a text as long as labels may be: 46 characters\", was "
-                             "\"start\")" SAME_TICKS);
+                             "\"start\"); " SAME_TICKS);
     assert_says(other_kind_of_shape, "one more point shown at every tick ((0, 0, 0)), one segment fewer shown at every "
-                                     "tick ((0, 0, 0) to (9, 9, 9))" SAME_TICKS);
+                                     "tick ((0, 0, 0) to (9, 9, 9)); " SAME_TICKS);
     assert_says(shape_and_length, "another last tick (5, was 6), one segment fewer shown at every tick ((0, 0, 0) to "
-                                  "(9, 9, 9))" SAME_TICKS);
+                                  "(9, 9, 9)); " SAME_TICKS);
     assert_says(idle_shape, "");
 }
 

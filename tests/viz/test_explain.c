@@ -153,8 +153,9 @@ static void recordings_of_unlike_length_say_where_each_ends(void **state)
     options.every = 2;
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "another last tick (2, was 4); the ticks that both have are the same; another "
-                                       "interval of frames (2, was 1)");
+    assert_holds(made.result.headline,
+                 "another last tick (2, was 4); the same happens in all ticks that both have; another "
+                 "interval of frames (2, was 1)");
     assert_holds(cause_of(&made, "frame_000001.png"), "b has a frame every 2 ticks");
     assert_holds(cause_of(&made, "frame_000004.png"), "b ends at tick 2");
     assert_int_equal(unlink(frame_place(b.path, 2).path), 0);

@@ -8,15 +8,7 @@ _Static_assert(sizeof((cause_value *)0)->word >= OCTREE_SHAPE_TEXT, "a label is 
 
 static bool same_place(const double a[3], const double b[3])
 {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-static int order_numbers(const double *a, const double *b, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (a[i] != b[i])
-            return a[i] < b[i] ? -1 : 1;
-    return 0;
+    return cause_order_numbers(a, b, 3) == 0;
 }
 
 static int order_whole(uint64_t a, uint64_t b)
@@ -190,9 +182,9 @@ static int order_edits(const octree_edit *a, const octree_edit *b)
 {
     int order = order_of_deed(a, b);
     if (order == 0 && a->kind != OCTREE_EDIT_REMOVE)
-        order = order_numbers(a->body.position, b->body.position, 3);
+        order = cause_order_numbers(a->body.position, b->body.position, 3);
     if (order == 0 && a->kind == OCTREE_EDIT_INSERT)
-        order = order_numbers(a->body.velocity, b->body.velocity, 3);
+        order = cause_order_numbers(a->body.velocity, b->body.velocity, 3);
     return order;
 }
 
@@ -355,7 +347,7 @@ static bool same_query(const void *one, const void *other)
     if (a->kind == OCTREE_QUERY_RANGE)
         return same_place(a->box.min, b->box.min) && same_place(a->box.max, b->box.max);
     return (a->at_player || same_place(a->target, b->target)) && (a->kind != OCTREE_QUERY_KNEAREST || a->k == b->k) &&
-           (a->kind != OCTREE_QUERY_RADIUS || a->radius == b->radius);
+           (a->kind != OCTREE_QUERY_RADIUS || cause_order_numbers(&a->radius, &b->radius, 1) == 0);
 }
 
 static void add_query(const void *a, const void *b, cause_facts *facts)

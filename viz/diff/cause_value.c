@@ -3,6 +3,7 @@
 #include "number.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 cause_value cause_whole(uint64_t whole)
@@ -37,12 +38,20 @@ cause_value cause_ends(cause_type type, const double from[3], const double to[3]
     return (cause_value){.type = type, .numbers = {from[0], from[1], from[2], to[0], to[1], to[2]}};
 }
 
+int cause_order_numbers(const double *a, const double *b, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const int minus[2] = {signbit(a[i]) != 0, signbit(b[i]) != 0};
+        if (a[i] != b[i] || minus[0] != minus[1])
+            return a[i] < b[i] || (a[i] == b[i] && minus[0]) ? -1 : 1;
+    }
+    return 0;
+}
+
 bool cause_same_value(const cause_value *a, const cause_value *b)
 {
-    bool same = a->type == b->type && a->whole == b->whole && strcmp(a->word, b->word) == 0;
-    for (int i = 0; same && i < 6; i++)
-        same = a->numbers[i] == b->numbers[i];
-    return same;
+    return a->type == b->type && a->whole == b->whole && strcmp(a->word, b->word) == 0 &&
+           cause_order_numbers(a->numbers, b->numbers, 6) == 0;
 }
 
 static void print_number(FILE *out, double number)

@@ -5,6 +5,7 @@
 #include "octree/octree.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -31,6 +32,9 @@ cause_value cause_word(const char *word);
 cause_value cause_place(const double place[3]);
 cause_value cause_box(const octree_box *box);
 cause_value cause_ends(cause_type type, const double from[3], const double to[3]); /* a segment or a box */
+
+/* -1, 0 or 1, by the first that differ. The sign of zero counts: it is printed. */
+int cause_order_numbers(const double *a, const double *b, size_t count);
 
 bool cause_same_value(const cause_value *a, const cause_value *b);
 

@@ -412,21 +412,11 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Shapes and arrows are shown, and are nothing that happens. */
-static bool any_shown(const cause_facts *facts)
-{
-    return facts->found[CAUSE_SHAPE_MORE] || facts->found[CAUSE_SHAPE_LESS] || facts->found[CAUSE_SHAPE_OTHER] ||
-           facts->found[CAUSE_VELOCITY];
-}
-
 /* What follows from another option: how many ticks differ. */
 static void print_extent(FILE *out, const cause *c)
 {
-    if (c->differing == 0)
-        fputs(any_shown(&c->session)           ? "the same happens in all ticks that both have"
-              : c->session.found[CAUSE_LENGTH] ? "the ticks that both have are the same"
-                                               : "no tick differs",
-              out);
+    if (c->differing == 0) /* frames may: what is shown, such as a shape or an arrow, need not have happened */
+        fputs("the same happens in all ticks that both have", out);
     else if (c->differing == c->compared - c->first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->first);
     else
