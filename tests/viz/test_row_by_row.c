@@ -7,6 +7,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 static const image_color ground = {20, 120, 240};
 
@@ -92,6 +93,21 @@ static bool read_in_bands(const char *path, int rows, const image *whole, image_
     return ok;
 }
 
+static void assert_digest_alike(const char *path, const image *whole, const char *trouble)
+{
+    image about;
+    image_error error = {""};
+    uint64_t digest;
+    const bool read = image_digest_png(path, ground, &about, &digest, &error);
+    assert_int_equal(read, whole->pixels != NULL);
+    assert_string_equal(error.text, trouble);
+    if (!read)
+        return;
+    assert_null(about.pixels);
+    assert_same_but_pixels(&about, whole);
+    assert_true(digest == image_digest(whole));
+}
+
 static void assert_read_alike(const char *path, int rows)
 {
     image whole;
@@ -99,6 +115,7 @@ static void assert_read_alike(const char *path, int rows)
     const bool read = image_read_png_over(path, ground, &whole, &errors[0]);
     assert_int_equal(read_in_bands(path, rows, &whole, &errors[1]), read);
     assert_string_equal(errors[0].text, errors[1].text);
+    assert_digest_alike(path, &whole, errors[0].text);
     image_release(&whole);
 }
 
@@ -117,7 +134,8 @@ static void rows_are_those_of_the_whole_picture(void **state)
     const char *path = temp_file(*state, "a.png");
     uint64_t random = 1;
     for (int i = 0; i < 4 * PNG_STORAGES; i++) {
-        const stored_png picture = random_picture(&random, i % PNG_STORAGES);
+        stored_png picture = random_picture(&random, i % PNG_STORAGES);
+        picture.width = i % 5 ? picture.width : within(&random, 1000, 2000); /* of more than one usual band */
         stored_png_save(&picture, path);
         assert_read_alike(path, within(&random, 1, i % 3 ? 9 : 60));
     }
@@ -254,14 +272,49 @@ static void the_first_of_two_damaged_files_is_told(void **state)
     free(paths[1]);
 }
 
+/* ---- Memory -------------------------------------------------------------------------------------------------- */
+
+enum { WIDE = 2000, HIGH = 3000 };
+
+/* A row of a picture that never is in memory. */
+static const uint8_t *draw_row(int y, void *context)
+{
+    static uint8_t row[3 * WIDE];
+    const int phase = *(const int *)context;
+    for (int i = 0; i < 3 * WIDE; i++)
+        row[i] = (uint8_t)(y % 100 < 3 ? i * phase : y / 100);
+    return row;
+}
+
+/* 18 MB each. This comes first: what a process had at most only grows. */
+static void neither_of_two_large_pictures_is_held(void **state)
+{
+    char *paths[2] = {strdup(temp_file(*state, "a.png")), strdup(temp_file(*state, "b.png"))};
+    const diff_frame frames[2] = {{.path = paths[0]}, {.path = paths[1]}};
+    const diff_options options = diff_options_default();
+    diff_pair pair = {.a = &frames[0], .b = &frames[1]};
+    struct rusage before, after;
+    image_error error;
+    for (int phase = 0; phase < 2; phase++) {
+        const image_rows rows = {.width = WIDE, .height = HIGH, .row = draw_row, .context = &phase};
+        assert_true(image_write_png_rows(&rows, paths[phase], &error));
+    }
+    assert_int_equal(getrusage(RUSAGE_SELF, &before), 0);
+    compare_pixels(&pair, &options);
+    assert_int_equal(getrusage(RUSAGE_SELF, &after), 0);
+    assert_int_equal(pair.finding, FOUND_PIXELS);
+    assert_true(after.ru_maxrss - before.ru_maxrss < 6000); /* kilobytes */
+    free(paths[0]);
+    free(paths[1]);
+}
+
 #define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, temp_folder_remove)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(rows_are_those_of_the_whole_picture),
-        WITH_FOLDER(damaged_files_fail_with_the_same_sentence),
-        WITH_FOLDER(findings_are_those_of_whole_pictures),
+        WITH_FOLDER(neither_of_two_large_pictures_is_held),     WITH_FOLDER(rows_are_those_of_the_whole_picture),
+        WITH_FOLDER(damaged_files_fail_with_the_same_sentence), WITH_FOLDER(findings_are_those_of_whole_pictures),
         WITH_FOLDER(the_first_of_two_damaged_files_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a band: so few that all bands of both pictures fit the second cache, and so many that threads seldom meet. */
-enum { BAND_PIXELS = 1 << 14 };
-
 static void lock(row_reader *r)
 {
     if (r->ahead)
@@ -21,13 +18,6 @@ static void unlock(row_reader *r)
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------- */
-
-static int rows_of(const row_reader *r, const image *about)
-{
-    if (r->whole)
-        return about->height;
-    return about->width < BAND_PIXELS ? BAND_PIXELS / about->width : 1;
-}
 
 /* Room for the bands that are there at a time: without a thread, one. */
 static bool make_room(row_reader *r)
@@ -47,7 +37,7 @@ static void open_source(row_reader *r)
     lock(r);
     r->source = source;
     if (source)
-        r->rows = rows_of(r, image_source_about(source));
+        r->rows = r->whole ? image_source_about(source)->height : image_band_rows(image_source_about(source));
     r->ended = !source || !make_room(r);
     r->opened = true;
     if (r->ahead)

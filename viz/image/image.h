@@ -123,8 +123,19 @@ bool image_source_next(image_source *source, int rows, uint8_t *room, image *ban
 size_t image_source_room(const image_source *source, int rows);
 bool image_source_failed(const image_source *source);
 
+/* How many rows of a picture are best asked for at a time: so few that some such bands fit the second cache, and so
+ * many that what is done for each band does not count. */
+static inline int image_band_rows(const image *about)
+{
+    enum { BAND_PIXELS = 1 << 14 };
+    return about->width < BAND_PIXELS ? BAND_PIXELS / about->width : 1;
+}
+
 /* Close a source that was opened whole; its image becomes the caller's. */
 void image_source_take(image_source *source, image *whole);
+
+/* image_digest() of a PNG as image_read_png_over() reads it, row by row. `about` is the image without pixels. */
+bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, image_error *error);
 
 /* Read no more than a PNG's beginning and its end: the size, and whether it ends as a PNG does. False when it does not
  * begin as one. */
