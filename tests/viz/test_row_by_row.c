@@ -133,7 +133,7 @@ static void rows_are_those_of_the_whole_picture(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     uint64_t random = 1;
-    for (int i = 0; i < 4 * PNG_STORAGES; i++) {
+    for (int i = 0; i < 3 * PNG_STORAGES; i++) {
         stored_png picture = random_picture(&random, i % PNG_STORAGES);
         picture.width = i % 5 ? picture.width : within(&random, 1000, 2000); /* of more than one usual band */
         stored_png_save(&picture, path);
@@ -145,7 +145,7 @@ static void damaged_files_fail_with_the_same_sentence(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     uint64_t random = 2;
-    for (int i = 0; i < 20 * PNG_STORAGES; i++) {
+    for (int i = 0; i < 8 * PNG_STORAGES; i++) {
         const stored_png picture = random_picture(&random, i % PNG_STORAGES);
         stored_png_save(&picture, path);
         damage(path, &random);
@@ -246,7 +246,7 @@ static void findings_are_those_of_whole_pictures(void **state)
 {
     char *paths[2] = {strdup(temp_file(*state, "a.png")), strdup(temp_file(*state, "b.png"))};
     uint64_t random = 3;
-    for (int i = 0; i < 5 * PNG_STORAGES; i++) {
+    for (int i = 0; i < 3 * PNG_STORAGES; i++) {
         const image_tolerance tolerance = random_tolerance(&random);
         save_pair(&random, i, paths);
         assert_compared_alike(paths, &tolerance);
@@ -259,7 +259,7 @@ static void the_first_of_two_damaged_files_is_told(void **state)
 {
     char *paths[2] = {strdup(temp_file(*state, "a.png")), strdup(temp_file(*state, "b.png"))};
     uint64_t random = 4;
-    for (int i = 0; i < 8 * PNG_STORAGES; i++) {
+    for (int i = 0; i < 4 * PNG_STORAGES; i++) {
         const image_tolerance tolerance = random_tolerance(&random);
         const int which = within(&random, 1, 3);
         save_pair(&random, i, paths);

@@ -185,12 +185,13 @@ static void convert(image_source *s, const image *band)
         lay_over_wide(band->pixels, count, s->background);
 }
 
-/* The next rows of the stream into the band's pixels; with the last of them all that follows is read. */
+/* Rows that are wanted, and where their pixels go. */
 typedef struct band_request {
     image_source *source;
     const image *band;
 } band_request;
 
+/* With the last rows all that follows them is read. */
 static void decode(png_structp png, png_infop info, void *context)
 {
     (void)info;
