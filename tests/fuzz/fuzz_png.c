@@ -101,14 +101,48 @@ static void check(bool holds)
         abort();
 }
 
+static FILE *open_stream(const file *f)
+{
+    FILE *stream = fmemopen((void *)(uintptr_t)f->bytes, f->size, "rb");
+    check(stream != NULL);
+    return stream;
+}
+
+/* Up to where it fails, in bands: the rows must be those of the whole. */
+static bool read_rows(image_source *source, int rows, const image *whole)
+{
+    uint8_t *room = malloc(image_source_room(source, rows) + 1);
+    check(room != NULL);
+    int y = 0;
+    for (image band; image_source_next(source, rows, room, &band); y += band.height) {
+        const size_t size = (size_t)band.width * image_pixel_size(&band);
+        check(!whole->pixels || image_pixel_size(&band) == image_pixel_size(whole));
+        check(!whole->pixels || memcmp(band.pixels, whole->pixels + (size_t)y * size, size * (size_t)band.height) == 0);
+    }
+    free(room);
+    return !image_source_failed(source) && y == image_source_about(source)->height;
+}
+
+/* Row by row the file is read, or fails, just as it does whole. */
+static void check_rows(const file *f, image_color background, const image *whole, const image_error *failed)
+{
+    image_error error = {""};
+    FILE *stream = open_stream(f);
+    image_source *source = image_source_open_stream(stream, f->size, "fuzz", background, false, &error);
+    const bool ok = source && read_rows(source, 1 + (int)(f->size % 5), whole);
+    check(ok == (whole->pixels != NULL) && strcmp(error.text, failed->text) == 0);
+    image_source_close(source);
+    fclose(stream);
+}
+
 static bool read_file(const file *f, image_color background, image *read)
 {
     image_error error = {""};
-    FILE *stream = fmemopen((void *)(uintptr_t)f->bytes, f->size, "rb");
-    check(stream != NULL);
+    FILE *stream = open_stream(f);
     const bool ok = image_read_png_stream(stream, f->size, "fuzz", background, read, &error);
     fclose(stream);
     check(ok ? read->pixels != NULL : read->pixels == NULL && strncmp(error.text, "fuzz: ", 6) == 0);
+    check_rows(f, background, read, &error);
     return ok;
 }
 

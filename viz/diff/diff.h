@@ -63,8 +63,9 @@ typedef struct diff_result {
 } diff_result;
 
 /* Compare b with the reference a. Identical files are told by their bytes, on all cores; what is left is decoded, each
- * pair on two cores, with as many pairs at a time as that leaves room for: on two cores no more than two pictures are
- * in memory. Both sides must outlive the result. False, with a sentence, when the sides cannot be compared at all: a
+ * pair on two cores, with as many pairs at a time as that leaves room for. Of a pair a few rows are in memory; both
+ * pictures are with a tolerance for anti-aliasing, and a picture that is interlaced or has 16 bits a sample is in any
+ * case. Both sides must outlive the result. False, with a sentence, when the sides cannot be compared at all: a
  * picture with a folder, a tolerance for digests, two empty folders. */
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               record_error *error);

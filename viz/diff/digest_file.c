@@ -143,11 +143,11 @@ bool digest_file_write(FILE *out, const diff_side *side, record_error *error)
 
 bool digest_frame(const char *path, image_color background, frame_digest *digest, image_error *error)
 {
-    image picture;
-    if (!image_read_png_over(path, background, &picture, error))
+    image about;
+    uint64_t pixels;
+    if (!image_digest_png(path, background, &about, &pixels, error))
         return false;
-    *digest = (frame_digest){image_digest(&picture), picture.width, picture.height};
-    image_release(&picture);
+    *digest = (frame_digest){pixels, about.width, about.height};
     return true;
 }
 

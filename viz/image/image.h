@@ -101,6 +101,42 @@ bool image_read_png_over(const char *path, image_color background, image *image,
 bool image_read_png_stream(FILE *stream, uint64_t size, const char *name, image_color background, image *image,
                            image_error *error);
 
+/* The rows of a PNG, decoded as they are asked for, so that it never is in memory whole. Where rows cannot come one
+ * after the other - they are interlaced, or have 16 bits a sample and may not need them - all are read when it is
+ * opened, as they are when `whole` asks for it. One thread at a time may use it. */
+typedef struct image_source image_source;
+
+/* Begin, under the rules of image_read_png(). Null, with a sentence, where that cannot be; path and error must outlive
+ * the source. A stream stays the caller's. */
+image_source *image_source_open(const char *path, image_color background, bool whole, image_error *error);
+image_source *image_source_open_stream(FILE *stream, uint64_t size, const char *name, image_color background,
+                                       bool whole, image_error *error);
+void image_source_close(image_source *source); /* null is allowed */
+
+/* The image but for its pixels, which are null unless all of them are at hand. */
+const image *image_source_about(const image_source *source);
+
+/* The next rows, at most `rows`, as an image of their own that is not to be released: its pixels are in `room`, of
+ * image_source_room() bytes, or in the source. False when there are no more, or, with a sentence, when it fails; that
+ * the file is right to its end is known when its last rows were given. */
+bool image_source_next(image_source *source, int rows, uint8_t *room, image *band);
+size_t image_source_room(const image_source *source, int rows);
+bool image_source_failed(const image_source *source);
+
+/* How many rows of a picture are best asked for at a time: so few that some such bands fit the second cache, and so
+ * many that what is done for each band does not count. */
+static inline int image_band_rows(const image *about)
+{
+    enum { BAND_PIXELS = 1 << 14 };
+    return about->width < BAND_PIXELS ? BAND_PIXELS / about->width : 1;
+}
+
+/* Close a source that was opened whole; its image becomes the caller's. */
+void image_source_take(image_source *source, image *whole);
+
+/* image_digest() of a PNG as image_read_png_over() reads it, row by row. `about` is the image without pixels. */
+bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, image_error *error);
+
 /* Read no more than a PNG's beginning and its end: the size, and whether it ends as a PNG does. False when it does not
  * begin as one. */
 bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, image_error *error);
@@ -160,6 +196,25 @@ typedef struct image_difference {
 /* Colours are compared, so an indexed image and its RGB twin are alike. */
 image_difference image_compare(const image *a, const image *b);
 image_difference image_compare_within(const image *a, const image *b, const image_tolerance *tolerance);
+
+/* The same, given rows as they come. */
+typedef struct image_comparison {
+    const image_tolerance *tolerance;
+    image_difference difference; /* its worst_delta are squares, until it ends */
+    bool stored_alike;           /* equal bytes mean equal colours */
+    int y;                       /* of the next rows */
+    uint16_t last[2][3];         /* the unlike colours that were measured last: neighbours often differ alike */
+    double last_square;
+    int last_channel;
+} image_comparison;
+
+/* Begin with two images, whose pixels are not looked at. Where their sizes are unlike, no rows may be added. The
+ * tolerance must outlive it. */
+image_comparison image_comparison_begin(const image *a, const image *b, const image_tolerance *tolerance);
+/* Add the next rows of both: as many of each, and all at once under a tolerance with antialias, which looks at the rows
+ * above and below. */
+void image_comparison_add(image_comparison *comparison, const image *a, const image *b);
+image_difference image_comparison_end(const image_comparison *comparison);
 
 /* The judgements: the same size and no unlike pixel at all; the same size and no more counted ones than are forgiven.
  */

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-void samples_read(const image *image, size_t n, int count, int range, pixel_samples span[SPAN])
+void samples_read(const image *image, size_t n, int count, int range, pixel_samples *span)
 {
     const size_t step = image_pixel_size(image);
     const unsigned scale = range == 65535 ? 257 : 1;

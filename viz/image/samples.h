@@ -15,7 +15,7 @@ static inline int samples_range(const image *a, const image *b)
 }
 
 /* `count` pixels from the n-th on, as wide as the range. */
-void samples_read(const image *image, size_t n, int count, int range, pixel_samples span[SPAN]);
+void samples_read(const image *image, size_t n, int count, int range, pixel_samples *span);
 
 static inline bool samples_equal(const pixel_samples *a, const pixel_samples *b)
 {

@@ -68,12 +68,11 @@ static bool says_digest(const char *path, const char *keyword, uint64_t digest)
 
 static bool check_pixels(const char *path, frame_origin *origin, record_error *error)
 {
+    const image_color white = {255, 255, 255};
     image_error unread;
-    image pixels;
-    if (!image_read_png(path, &pixels, &unread))
+    image about;
+    if (!image_digest_png(path, white, &about, &origin->pixels, &unread))
         return record_fail(error, "%s", unread.text);
-    origin->pixels = image_digest(&pixels);
-    image_release(&pixels);
     return says_digest(path, pixels_keyword, origin->pixels) ||
            record_fail(error, "%s: its pixels are not those that were drawn", path);
 }

@@ -1,0 +1,30 @@
+/* stored_png.h - random pictures, stored by libpng in every way that PNG knows. */
+#ifndef STORED_PNG_H
+#define STORED_PNG_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A way of storing pixels. */
+typedef struct png_storage {
+    int color_type, depth; /* libpng's */
+    bool interlaced;
+    bool keyed;  /* with a tRNS chunk */
+    bool narrow; /* of 16 bits a sample, which 8 would hold */
+} png_storage;
+
+/* All of them. */
+enum { PNG_STORAGES = 64 };
+png_storage png_storage_at(int i);
+
+/* Save a picture of patches of a few colours; the same seed makes the same one. Afterwards `spoiled` bytes of it are
+ * replaced, by another seed. */
+typedef struct stored_png {
+    int width, height;
+    png_storage storage;
+    uint64_t seed, spoiling_seed;
+    int spoiled;
+} stored_png;
+void stored_png_save(const stored_png *picture, const char *path);
+
+#endif

@@ -1,0 +1,110 @@
+/* digest.c - one number for size and colours of a picture, which is at hand whole or read row by row. */
+#include "image.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include "octree/digest.h"
+
+/* The colour of the n-th pixel in reading order as one word: 8 bits a sample, or 16. */
+static uint64_t color_word(const image *image, size_t n)
+{
+    const uint8_t *at = image->pixels + n * image_pixel_size(image);
+    if (image->wide) {
+        uint16_t samples[3];
+        memcpy(samples, at, sizeof samples);
+        return (uint64_t)samples[0] << 32 | (uint64_t)samples[1] << 16 | samples[2];
+    }
+    const image_color color = image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]};
+    return (uint64_t)color.r << 16 | (uint64_t)color.g << 8 | color.b;
+}
+
+/* The end of the run of pixels stored as pixel `start` is. A frame is mostly background: eight bytes at a time are
+ * compared with their own neighbours one pixel earlier. */
+static size_t run_end(const image *image, size_t start, size_t pixel_count)
+{
+    const size_t step = image_pixel_size(image);
+    size_t at = (start + 1) * step;
+    size_t size = pixel_count * step;
+    while (at + 8 <= size && memcmp(image->pixels + at, image->pixels + at - step, 8) == 0)
+        at += 8;
+    while (at < size && image->pixels[at] == image->pixels[at - step])
+        at++;
+    return at / step;
+}
+
+static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool wide)
+{
+    if (length == 0)
+        return digest;
+    if (wide)
+        return octree_digest_word(octree_digest_word(digest, (uint64_t)length), color);
+    return octree_digest_word(digest, (uint64_t)length << 24 | color);
+}
+
+/* A digest while rows are stirred in. Runs of one colour are, not pixels. Runs of unlike indices may have the same
+ * colour, and runs may go on in the next rows: these are joined, so that neither palette nor bands leave a trace. */
+typedef struct digesting {
+    uint64_t digest;
+    uint64_t color; /* of the run that has not ended */
+    size_t length;
+    bool wide;
+} digesting;
+
+static digesting begin(const image *about)
+{
+    const uint64_t start = octree_digest_word(OCTREE_DIGEST_START, (uint64_t)about->width);
+    return (digesting){.digest = octree_digest_word(start, (uint64_t)about->height), .wide = about->wide};
+}
+
+static void add_rows(digesting *d, const image *rows)
+{
+    const size_t pixel_count = (size_t)rows->width * (size_t)rows->height;
+    for (size_t at = 0, end; at < pixel_count; at = end) {
+        end = run_end(rows, at, pixel_count);
+        const uint64_t next = color_word(rows, at);
+        if (next != d->color) {
+            d->digest = digest_run(d->digest, d->length, d->color, d->wide);
+            d->color = next;
+            d->length = 0;
+        }
+        d->length += end - at;
+    }
+}
+
+static uint64_t finish(const digesting *d)
+{
+    return digest_run(d->digest, d->length, d->color, d->wide);
+}
+
+uint64_t image_digest(const image *image)
+{
+    digesting d = begin(image);
+    add_rows(&d, image);
+    return finish(&d);
+}
+
+static bool digest_rows(image_source *source, uint8_t *room, uint64_t *digest)
+{
+    const image *about = image_source_about(source);
+    digesting d = begin(about);
+    for (image rows; image_source_next(source, image_band_rows(about), room, &rows);)
+        add_rows(&d, &rows);
+    *digest = finish(&d);
+    return !image_source_failed(source);
+}
+
+bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, image_error *error)
+{
+    image_source *source = image_source_open(path, background, false, error);
+    if (!source)
+        return false;
+    *about = *image_source_about(source);
+    about->pixels = NULL;
+    uint8_t *room = malloc(image_source_room(source, image_band_rows(about)) + 1);
+    const bool done = room && digest_rows(source, room, digest);
+    if (!room)
+        snprintf(error->text, sizeof error->text, "%.400s: there is no memory", path);
+    free(room);
+    image_source_close(source);
+    return done;
+}
