@@ -225,7 +225,7 @@ static void plays_frame_by_frame_until_paused(void **state)
     long count = 0;
     for (char *end; *at != '\0'; at = end)
         assert_int_equal(strtol(at, &end, 10), ++count);
-    assert_true(count >= 8 && count <= 16); /* in 0.8 s at 15 a second */
+    assert_true(count >= 12);
     assert_said(*state, "played, paused", "true");
     free(played);
 }

@@ -14,7 +14,7 @@
 /* Nothing is asked of a network, and nothing is kept. The sandbox needs more of the system than containers give. */
 static const char options[] = "--headless --no-sandbox --disable-gpu --disable-extensions --no-first-run "
                               "--disable-background-networking --disable-component-update "
-                              "--host-resolver-rules='MAP * ~NOTFOUND' --virtual-time-budget=5000 --dump-dom";
+                              "--host-resolver-rules='MAP * ~NOTFOUND' --virtual-time-budget=60000 --dump-dom";
 
 bool browser_is_there(void)
 {

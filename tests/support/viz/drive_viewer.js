@@ -9,6 +9,17 @@ function say(what, value)
 }
 
 const wait = ms => new Promise(done => setTimeout(done, ms));
+
+/* Machines are slow and fast: what comes is waited for. */
+async function until(isSo, what)
+{
+    for (let i = 0; !isSo(); i++) {
+        if (i > 500)
+            throw new Error(`waited for ${what}`);
+        await wait(10);
+    }
+}
+
 const tickShown = () => document.querySelector('[data-fact="tick"]').textContent;
 
 function press(key)
@@ -97,22 +108,27 @@ function sayPointer()
 
 async function sayFrame(name)
 {
-    await wait(500);
-    const frame = document.querySelector("#stage img");
-    say(name, `${tickShown()} ${frame.getAttribute("src")} ${frame.naturalWidth}x${frame.naturalHeight}`);
+    const shown = () => document.querySelector("#stage img");
+    const file = `frame_${tickShown().padStart(6, "0")}.png`;
+    await until(() => shown()?.getAttribute("src") === file && shown().naturalWidth > 0, file);
+    say(name, `${tickShown()} ${shown().getAttribute("src")} ${shown().naturalWidth}x${shown().naturalHeight}`);
 }
 
-async function sayPlayed(name)
+const isPlaying = () => document.body.classList.contains("playing");
+
+/* Until it ends by itself, or so many ticks were seen. */
+async function sayPlayed(name, most)
 {
     const seen = [];
+    let last = tickShown();
     press(" ");
-    for (let i = 0; i < 80; i++) {
-        await wait(10);
-        if (seen.at(-1) !== tickShown())
-            seen.push(tickShown());
-    }
+    await until(() => {
+        if (last !== tickShown())
+            seen.push(last = tickShown());
+        return seen.length >= most || !isPlaying();
+    }, name);
     say(name, seen.join(" "));
-    if (document.body.classList.contains("playing"))
+    if (isPlaying())
         press(" ");
     const paused = tickShown();
     await wait(500);
@@ -123,16 +139,16 @@ async function sayAddress()
 {
     press("3");
     slideTo(41);
-    await wait(500);
+    await until(() => location.hash.startsWith("#t=41"), "address");
     say("address", location.hash);
     location.hash = "#t=12&filter=full,split,unheard-of";
-    await wait(100);
+    await until(() => tickShown() === "12", "from address");
     say("from address", `${tickShown()} ${document.querySelectorAll('[aria-pressed="true"]').length}`);
     location.hash = "#t=99999999";
-    await wait(100);
+    await until(() => tickShown() !== "12", "beyond the end");
     say("beyond the end", tickShown());
     location.hash = "#t=nonsense";
-    await wait(100);
+    await until(() => tickShown() === "0", "from nonsense");
     say("from nonsense", tickShown());
 }
 
@@ -156,10 +172,10 @@ async function drive()
     sayPointer();
     await sayFrame("frame");
     press("Home");
-    await sayPlayed("played");
+    await sayPlayed("played", 12);
     press("Home");
     press("3");
-    await sayPlayed("played collided");
+    await sayPlayed("played collided", Infinity);
     press("0");
     await sayAddress();
     sayHelp();
@@ -172,4 +188,4 @@ async function drive()
 
 const errors = [];
 addEventListener("error", event => errors.push(event.message));
-drive();
+drive().catch(error => { document.body.textContent = error.message; });
