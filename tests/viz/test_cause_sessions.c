@@ -1,92 +1,6 @@
 /* test_cause_sessions.c - in what two sessions differ, and the line that says so: every part of a session in turn. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "cause_words.h"
 #include "fixture.h"
-#include "game_fixture.h"
-#include "text_stream.h"
-
-#define SAME_TICKS "the same happens in all ticks that both have"
-
-/* A session that a test may change in any part. */
-typedef struct variant {
-    octree_session session;
-    octree_body bodies[16];
-    octree_edit edits[8];
-    octree_query queries[4];
-    octree_shape shapes[8];
-} variant;
-
-static const octree_body some_bodies[] = {
-    {1, {1, 2, 3}, {0, 0, 0}}, {2, {-4, 5, -6}, {0, 0, 0}}, {3, {7, 7, 7}, {0, 0, 0}}, {4, {8, 7, 7}, {0, 0, 0}}};
-
-static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {1, {1, 2, 4}, {0, 0, 0}}},
-                                         {2, OCTREE_EDIT_INSERT, {9, {9, 9, 9}, {0, 0, 0}}},
-                                         {4, OCTREE_EDIT_REMOVE, {2, {0, 0, 0}, {0, 0, 0}}}};
-
-static const octree_shape some_shapes[] = {
-    {.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {1, 2, 3}},
-    {.tick = 2, .kind = OCTREE_SHAPE_LABEL, .at = {4, 5, 6}, .text = "start"},
-    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_BOX, .at = {-1, -1, -1}, .to = {1, 1, 1}},
-    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_SEGMENT, .at = {0, 0, 0}, .to = {9, 9, 9}}};
-
-static void make_variant(variant *v)
-{
-    *v = (variant){.session = small_session(v->bodies, 4)};
-    memcpy(v->bodies, some_bodies, sizeof some_bodies);
-    memcpy(v->edits, some_edits, sizeof some_edits);
-    v->queries[0] = (octree_query){.tick = 3, .kind = OCTREE_QUERY_RADIUS, .radius = 5};
-    v->queries[1] =
-        (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-5, -5, -5}, {5, 5, 5}}};
-    v->session.keys = "wdwa";
-    v->session.ticks = 6;
-    v->session.edits = v->edits;
-    v->session.edit_count = 3;
-    v->session.queries = v->queries;
-    v->session.query_count = 2;
-    memcpy(v->shapes, some_shapes, sizeof some_shapes);
-    v->session.shapes = v->shapes;
-    v->session.shape_count = sizeof some_shapes / sizeof *some_shapes;
-}
-
-static char *headline_of(const variant *a, const variant *b)
-{
-    const cause_wanted wanted = {.first = 1};
-    record_error error = {""};
-    char *text;
-    cause c;
-    text_stream s;
-    if (!cause_find(&a->session, &b->session, NULL, &wanted, NULL, NULL, &c, &error))
-        fail_msg("%s", error.text);
-    assert_true(text_stream_begin(&s));
-    cause_print_headline(s.stream, &c);
-    assert_true(text_stream_end(&s, &text));
-    cause_release(&c);
-    return text;
-}
-
-/* Of a session and the same with one change; what `prepare` does is done to both. */
-static void assert_says_of(void prepare(variant *v), void change(variant *v), const char *expected)
-{
-    static variant a, b;
-    make_variant(&a);
-    make_variant(&b);
-    if (prepare) {
-        prepare(&a);
-        prepare(&b);
-    }
-    change(&b);
-    char *text = headline_of(&a, &b);
-    if (strcmp(text ? text : "", expected) != 0)
-        fail_msg("it says \"%s\" and not \"%s\"", text ? text : "", expected);
-    free(text);
-}
-
-static void assert_says(void change(variant *v), const char *expected)
-{
-    assert_says_of(NULL, change, expected);
-}
+#include "session_variant.h"
 
 /* ---- Options ------------------------------------------------------------------------------------------------- */
 
@@ -256,8 +170,9 @@ static void push_body(variant *v)
 
 static void swap_bodies(variant *v)
 {
-    v->bodies[0] = some_bodies[1];
-    v->bodies[1] = some_bodies[0];
+    const octree_body first = v->bodies[0];
+    v->bodies[0] = v->bodies[1];
+    v->bodies[1] = first;
 }
 
 static void move_all(variant *v)
@@ -351,8 +266,9 @@ static void faster_edit(variant *v)
 
 static void swap_edits(variant *v)
 {
-    v->edits[0] = some_edits[1];
-    v->edits[1] = some_edits[0];
+    const octree_edit first = v->edits[0];
+    v->edits[0] = v->edits[1];
+    v->edits[1] = first;
 }
 
 /* What a removal says of a place means nothing. */
@@ -421,99 +337,6 @@ static void queries_are_named_by_kind_and_tick(void **state)
     assert_says(idle_query, "");
 }
 
-/* ---- Shapes -------------------------------------------------------------------------------------------------- */
-
-/* Put a shape before the i-th. */
-static void insert_shape(variant *v, size_t i, octree_shape shape)
-{
-    memmove(v->shapes + i + 1, v->shapes + i, (v->session.shape_count - i) * sizeof *v->shapes);
-    v->shapes[i] = shape;
-    v->session.shape_count++;
-}
-
-static void one_more_shape(variant *v)
-{
-    insert_shape(v, 0, (octree_shape){.tick = 1, .kind = OCTREE_SHAPE_LABEL, .at = {7, 8, 9}, .text = "a goal"});
-}
-
-static void one_shape_fewer(variant *v)
-{
-    v->session.shape_count--;
-}
-
-/* Two ticks, one more in front in each: the others are the same. */
-static void two_more_shapes(variant *v)
-{
-    insert_shape(v, 2, (octree_shape){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_POINT, .at = {7, 7, 7}});
-    insert_shape(v, 0, (octree_shape){.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {8, 8, 8}});
-}
-
-static void larger_shape(variant *v)
-{
-    v->shapes[2].to[1] = 5;
-}
-
-static void longer_shape(variant *v)
-{
-    v->shapes[3].to[0] = 5;
-}
-
-static void moved_shape(variant *v)
-{
-    v->shapes[0].at[0] = 5;
-}
-
-static void moved_label(variant *v)
-{
-    v->shapes[1].at[0] = 5;
-}
-
-static void other_label(variant *v)
-{
-    strcpy(v->shapes[1].text, "a text as long as labels may be: 46 characters");
-}
-
-static void other_kind_of_shape(variant *v)
-{
-    v->shapes[3].kind = OCTREE_SHAPE_POINT;
-}
-
-/* A point has one place, and no text. */
-static void idle_shape(variant *v)
-{
-    v->shapes[0].to[0] = 8;
-    v->shapes[0].text[0] = 'x';
-    v->shapes[1].to[1] = 7;
-}
-
-static void shape_and_length(variant *v)
-{
-    shorter(v);
-    one_shape_fewer(v);
-}
-
-static void shapes_are_named_by_kind_tick_and_place(void **state)
-{
-    (void)state;
-    assert_says(one_more_shape, "one more label shown at tick 1 (\"a goal\"); " SAME_TICKS);
-    assert_says(one_shape_fewer, "one segment fewer shown at every tick ((0, 0, 0) to (9, 9, 9)); " SAME_TICKS);
-    assert_says(two_more_shapes, "one more point shown at tick 2 ((8, 8, 8)), one more point shown at every tick "
-                                 "((7, 7, 7)); " SAME_TICKS);
-    assert_says(larger_shape, "another box shown at every tick ((-1, -1, -1) to (1, 5, 1), was (-1, -1, -1) to "
-                              "(1, 1, 1)); " SAME_TICKS);
-    assert_says(longer_shape, "another segment shown at every tick ((0, 0, 0) to (5, 9, 9), was (0, 0, 0) to "
-                              "(9, 9, 9)); " SAME_TICKS);
-    assert_says(moved_shape, "another point shown at tick 2 ((5, 2, 3), was (1, 2, 3)); " SAME_TICKS);
-    assert_says(moved_label, "another label shown at tick 2 ((5, 5, 6), was (4, 5, 6)); " SAME_TICKS);
-    assert_says(other_label, "another label shown at tick 2 (\"a text as long as labels may be: 46 characters\", was "
-                             "\"start\"); " SAME_TICKS);
-    assert_says(other_kind_of_shape, "one more point shown at every tick ((0, 0, 0)), one segment fewer shown at every "
-                                     "tick ((0, 0, 0) to (9, 9, 9)); " SAME_TICKS);
-    assert_says(shape_and_length, "another last tick (5, was 6), one segment fewer shown at every tick ((0, 0, 0) to "
-                                  "(9, 9, 9)); " SAME_TICKS);
-    assert_says(idle_shape, "");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -526,7 +349,6 @@ int main(void)
         cmocka_unit_test(keys_are_named_by_their_ticks),
         cmocka_unit_test(edits_are_named_by_tick_and_point),
         cmocka_unit_test(queries_are_named_by_kind_and_tick),
-        cmocka_unit_test(shapes_are_named_by_kind_tick_and_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,79 @@
+/* session_variant.c - see session_variant.h. */
+#include "session_variant.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cause_words.h"
+#include "fixture.h"
+#include "game_fixture.h"
+#include "text_stream.h"
+
+static const octree_body some_bodies[] = {
+    {1, {1, 2, 3}, {0, 0, 0}}, {2, {-4, 5, -6}, {0, 0, 0}}, {3, {7, 7, 7}, {0, 0, 0}}, {4, {8, 7, 7}, {0, 0, 0}}};
+
+static const octree_edit some_edits[] = {{2, OCTREE_EDIT_MOVE, {1, {1, 2, 4}, {0, 0, 0}}},
+                                         {2, OCTREE_EDIT_INSERT, {9, {9, 9, 9}, {0, 0, 0}}},
+                                         {4, OCTREE_EDIT_REMOVE, {2, {0, 0, 0}, {0, 0, 0}}}};
+
+static const octree_shape some_shapes[] = {
+    {.tick = 2, .kind = OCTREE_SHAPE_POINT, .at = {1, 2, 3}},
+    {.tick = 2, .kind = OCTREE_SHAPE_LABEL, .at = {4, 5, 6}, .text = "start"},
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_BOX, .at = {-1, -1, -1}, .to = {1, 1, 1}},
+    {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_SEGMENT, .at = {0, 0, 0}, .to = {9, 9, 9}}};
+
+static void make_variant(variant *v)
+{
+    *v = (variant){.session = small_session(v->bodies, 4)};
+    memcpy(v->bodies, some_bodies, sizeof some_bodies);
+    memcpy(v->edits, some_edits, sizeof some_edits);
+    v->queries[0] = (octree_query){.tick = 3, .kind = OCTREE_QUERY_RADIUS, .radius = 5};
+    v->queries[1] =
+        (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .box = {{-5, -5, -5}, {5, 5, 5}}};
+    v->session.keys = "wdwa";
+    v->session.ticks = 6;
+    v->session.edits = v->edits;
+    v->session.edit_count = 3;
+    v->session.queries = v->queries;
+    v->session.query_count = 2;
+    memcpy(v->shapes, some_shapes, sizeof some_shapes);
+    v->session.shapes = v->shapes;
+    v->session.shape_count = sizeof some_shapes / sizeof *some_shapes;
+}
+
+static char *headline_of(const variant *a, const variant *b)
+{
+    const cause_wanted wanted = {.first = 1};
+    record_error error = {""};
+    char *text;
+    cause c;
+    text_stream s;
+    if (!cause_find(&a->session, &b->session, NULL, &wanted, NULL, NULL, &c, &error))
+        fail_msg("%s", error.text);
+    assert_true(text_stream_begin(&s));
+    cause_print_headline(s.stream, &c);
+    assert_true(text_stream_end(&s, &text));
+    cause_release(&c);
+    return text;
+}
+
+void assert_says_of(void prepare(variant *v), void change(variant *v), const char *expected)
+{
+    static variant a, b;
+    make_variant(&a);
+    make_variant(&b);
+    if (prepare) {
+        prepare(&a);
+        prepare(&b);
+    }
+    change(&b);
+    char *text = headline_of(&a, &b);
+    if (strcmp(text ? text : "", expected) != 0)
+        fail_msg("it says \"%s\" and not \"%s\"", text ? text : "", expected);
+    free(text);
+}
+
+void assert_says(void change(variant *v), const char *expected)
+{
+    assert_says_of(NULL, change, expected);
+}
