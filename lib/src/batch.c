@@ -17,7 +17,8 @@ static bool sort_items(batch *b)
     morton_item *spare = take_array(b->tree, b->room, sizeof *spare);
     if (!spare)
         return false;
-    morton_sort(b->items, spare, b->count);
+    const size_t loose = b->tree->root.count > 0 ? 0 : batch_loose(b->tree); /* its nodes part what leaves would hold */
+    b->repeated = morton_sort(b->items, spare, b->count, 0, loose);
     give_array(b->tree, spare, b->room, sizeof *spare);
     return true;
 }
@@ -27,9 +28,11 @@ static void collect(batch *b)
     const octree_box world = b->tree->def.world;
     for (size_t i = 0; i < b->point_count; i++) {
         const double *position = b->points[i].position;
-        b->statuses[i] = box_contains(&world, position) ? OCTREE_OK : check_position(b->tree, position);
-        if (b->statuses[i] == OCTREE_OK)
+        const octree_status status = box_contains(&world, position) ? OCTREE_OK : check_position(b->tree, position);
+        if (status == OCTREE_OK)
             b->items[b->count++] = (morton_item){morton_code(b->tree->axes, position), (uint32_t)i, false};
+        if (b->statuses)
+            b->statuses[i] = status;
     }
 }
 
@@ -41,11 +44,7 @@ octree_status batch_begin(batch *b, octree *tree, const octree_point *points, si
     if (count >= UINT32_MAX)
         return OCTREE_TOO_MANY;
     b->items = take_array(tree, count, sizeof *b->items);
-    if (!statuses) {
-        b->owns_statuses = true;
-        b->statuses = take_array(tree, count, sizeof *b->statuses);
-    }
-    if (!b->items || !b->statuses)
+    if (!b->items)
         return OCTREE_NO_MEMORY;
     collect(b);
     return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
@@ -54,16 +53,6 @@ octree_status batch_begin(batch *b, octree *tree, const octree_point *points, si
 void batch_end(batch *b)
 {
     give_array(b->tree, b->items, b->room, sizeof *b->items);
-    if (b->owns_statuses)
-        give_array(b->tree, b->statuses, b->point_count, sizeof *b->statuses);
-}
-
-size_t batch_done(const batch *b)
-{
-    size_t done = 0;
-    for (size_t i = 0; i < b->point_count; i++)
-        done += b->statuses[i] == OCTREE_OK;
-    return done;
 }
 
 size_t batch_share(const morton_item *items, size_t count, unsigned depth)

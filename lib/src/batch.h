@@ -9,11 +9,11 @@ typedef struct batch {
     octree *tree;
     const octree_point *points;
     const octree_point *stored; /* of the leaf whose points are among the items, when there is one */
-    octree_status *statuses;    /* the caller's, or of its own: one a point */
-    bool owns_statuses;
+    octree_status *statuses;    /* the caller's, one a point; may be null */
     size_t point_count;
-    morton_item *items; /* those that lie in the world, by code, then by place */
+    morton_item *items; /* those that lie in the world, by code; loose where a new tree will have leaves */
     size_t count, room;
+    bool repeated; /* some items may have one code */
 } batch;
 
 /* OK, NO_MEMORY or TOO_MANY. Statuses are OK, or say why a point is not among the items. */
@@ -27,12 +27,15 @@ static inline const octree_point *batch_point(const batch *b, const morton_item 
 
 static inline void batch_set(const batch *b, const morton_item *item, octree_status status)
 {
-    if (!item->stored)
+    if (!item->stored && b->statuses)
         b->statuses[item->place] = status;
 }
 
-/* The number of points whose status is OK. */
-size_t batch_done(const batch *b);
+/* How many items of a cell may be left loose where nothing is stored yet: they become a leaf. */
+static inline size_t batch_loose(const octree *tree)
+{
+    return tree->def.leaf_capacity < MORTON_LOOSE ? tree->def.leaf_capacity : MORTON_LOOSE;
+}
 
 /* How many of the sorted items lie in an octant of a cell of this depth that begins with the first of them. */
 size_t batch_share(const morton_item *items, size_t count, unsigned depth);

@@ -3,6 +3,8 @@
 #include "point.h"
 #include "search.h"
 
+#define FEW 32 /* neighbours */
+
 /* The reach goes with the worst of k; until there are k, with the radius. Nodes have the slack of exact mode in fast
  * mode too: the bound of epsilon rests on it, and the order in which siblings are taken. */
 static void set_reach(best *b)
@@ -89,27 +91,84 @@ static void rise(const best *b, const octree_neighbor *item, size_t at)
     heap[at] = *item;
 }
 
+/* A few neighbours are kept in descending order, which is a heap too. To move some along takes less time than to
+ * foresee wrongly which way a heap branches, and at the end nothing is left to sort. */
+static bool are_few(const best *b)
+{
+    return b->k <= FEW;
+}
+
+static void sink_in_order(const best *b, const octree_neighbor *item)
+{
+    octree_neighbor *heap = b->heap;
+    size_t at = 0;
+    for (; at + 1 < b->count && compare(b, item, &heap[at + 1]) < 0; at++)
+        heap[at] = heap[at + 1];
+    heap[at] = *item;
+}
+
+static void rise_in_order(const best *b, const octree_neighbor *item, size_t at)
+{
+    octree_neighbor *heap = b->heap;
+    for (; at > 0 && compare(b, &heap[at - 1], item) < 0; at--)
+        heap[at] = heap[at - 1];
+    heap[at] = *item;
+}
+
+static void add(best *b, const octree_neighbor *item)
+{
+    if (are_few(b))
+        rise_in_order(b, item, b->count++);
+    else
+        rise(b, item, b->count++);
+}
+
+static void replace_worst(const best *b, const octree_neighbor *item)
+{
+    if (are_few(b))
+        sink_in_order(b, item);
+    else
+        sink(b, item, b->count);
+}
+
 void best_consider(best *b, const octree_point *point, double square)
 {
     if (is_skipped(b, point) || !is_within_radius(b, point, square))
         return;
     const octree_neighbor found = {*point, square};
     if (b->count < b->k)
-        rise(b, &found, b->count++);
+        add(b, &found);
     else if (compare(b, &found, &b->heap[0]) < 0)
-        sink(b, &found, b->count);
+        replace_worst(b, &found);
     else
         return;
     set_reach(b);
 }
 
-void best_finish(const best *b)
+static void reverse(const best *b)
+{
+    for (size_t i = 0; i < b->count / 2; i++) {
+        const octree_neighbor kept = b->heap[i];
+        b->heap[i] = b->heap[b->count - 1 - i];
+        b->heap[b->count - 1 - i] = kept;
+    }
+}
+
+static void sort_heap(const best *b)
 {
     for (size_t left = b->count; left-- > 1;) {
         const octree_neighbor last = b->heap[left];
         b->heap[left] = b->heap[0];
         sink(b, &last, left);
     }
+}
+
+void best_finish(const best *b)
+{
+    if (are_few(b))
+        reverse(b);
+    else
+        sort_heap(b);
     for (size_t i = 0; i < b->count; i++) {
         const double distance = metric_distance(b->metric.target, b->heap[i].point.position);
         /* The order is the real numbers'; rounding must not make it look otherwise. */

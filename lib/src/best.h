@@ -1,7 +1,8 @@
 /* best.h - the k best neighbours found so far, decided by the real numbers. Private.
  *
- * A heap in the caller's array, the worst on top. Squared distances in doubles decide whenever their proven error
- * allows (metric.h), exact arithmetic decides the rest: so rounding never picks a neighbour.
+ * A heap in the caller's array, the worst on top; of few, in descending order. Squared distances in doubles decide
+ * whenever their proven error allows (metric.h), exact arithmetic decides the rest: so rounding never picks a
+ * neighbour.
  */
 #ifndef OCTREE_BEST_H
 #define OCTREE_BEST_H

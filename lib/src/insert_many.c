@@ -5,6 +5,7 @@
 #include "tune.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct insertion {
     octree *tree;
@@ -65,28 +66,17 @@ static bool build(insertion *in, cell c, morton_item *items, size_t count, node 
     return build_children(in, NULL, c, items, count, made);
 }
 
-static int by_code(const void *a, const void *b)
-{
-    const uint64_t p = ((const morton_item *)a)->code, q = ((const morton_item *)b)->code;
-    return (p > q) - (p < q);
-}
-
-/* A leaf's points and its share of the batch, in one order by code where the cell can be divided; where it cannot, as
- * in a crowd, nobody reads the order. */
+/* A leaf's points and its share of the batch, in one order where the cell can be divided; where it cannot, as in a
+ * crowd, nobody reads the order. There is room for twice as many. */
 static void merge_items(const octree *tree, const node *leaf, cell c, const morton_item *items, size_t count,
                         morton_item *all)
 {
+    const size_t sum = leaf->count + count;
     for (uint32_t i = 0; i < leaf->count; i++)
         all[i] = (morton_item){morton_code(tree->axes, leaf_points(leaf)[i].position), i, true};
+    memcpy(all + leaf->count, items, count * sizeof *items);
     if (may_split(tree, c))
-        qsort(all, leaf->count, sizeof *all, by_code);
-    size_t stored = leaf->count, new = count;
-    for (size_t last = stored + new; new > 0; last--) {
-        if (stored > 0 && all[stored - 1].code > items[new - 1].code)
-            all[last - 1] = all[--stored];
-        else
-            all[last - 1] = items[--new];
-    }
+        morton_sort(all, all + sum, sum, c.depth, batch_loose(tree));
 }
 
 /* Leave out those that the leaf holds already. Returns how many are left. */
@@ -110,7 +100,7 @@ static bool add_to_leaf(insertion *in, const node *old, cell c, morton_item *ite
     count = drop_stored(in, old, items, count);
     if (count == 0)
         return true;
-    const size_t room = (old->count + count) * sizeof(morton_item);
+    const size_t room = 2 * (old->count + count) * sizeof(morton_item);
     morton_item *all = arena_take(&in->tree->memory, room);
     if (!all)
         return false;
@@ -174,32 +164,37 @@ typedef struct repetition {
     uint32_t place, first;
 } repetition;
 
-static bool note_repetitions(insertion *in, const placed *sorted, size_t count)
+/* Of sorted points of one code the first of each becomes an item, the others are noted. */
+static bool note_repetitions(insertion *in, const placed *sorted, size_t count, morton_item *items, size_t *left)
 {
-    for (size_t i = 1, first = 0; i < count; i++) {
-        if (octree_compare_points(&sorted[first].point, &sorted[i].point) != 0) {
-            first = i;
+    const placed *first = NULL;
+    for (const placed *p = sorted; p < sorted + count; p++) {
+        if (!first || octree_compare_points(&first->point, &p->point) != 0) {
+            first = p;
+            items[(*left)++].place = p->place;
             continue;
         }
         repetition *r = list_append(&in->tree->memory, &in->repetitions, sizeof *r);
         if (!r)
             return false;
-        *r = (repetition){sorted[i].place, sorted[first].place};
-        in->batch->statuses[r->place] = OCTREE_DUPLICATE;
+        *r = (repetition){p->place, first->place};
+        if (in->batch->statuses)
+            in->batch->statuses[p->place] = OCTREE_DUPLICATE;
     }
     return true;
 }
 
-/* Items of one code: find those that repeat an earlier one. */
-static bool find_repetitions(insertion *in, const morton_item *items, size_t count)
+/* Leave out those of the items of one code that repeat an earlier one. *left receives how many are left. */
+static bool drop_alike(insertion *in, morton_item *items, size_t count, size_t *left)
 {
+    *left = 0;
     placed *sorted = arena_take(&in->tree->memory, count * sizeof *sorted);
     if (!sorted)
         return false;
     for (size_t i = 0; i < count; i++)
         sorted[i] = (placed){*batch_point(in->batch, &items[i]), items[i].place};
     qsort(sorted, count, sizeof *sorted, compare_placed);
-    const bool ok = note_repetitions(in, sorted, count);
+    const bool ok = note_repetitions(in, sorted, count, items, left);
     arena_give(&in->tree->memory, sorted, count * sizeof *sorted);
     return ok;
 }
@@ -209,18 +204,13 @@ static bool drop_repetitions(insertion *in)
 {
     batch *b = in->batch;
     size_t left = 0;
-    for (size_t start = 0, end; start < b->count; start = end) {
+    for (size_t start = 0, end, some; start < b->count; start = end, left += some) {
         for (end = start + 1; end < b->count && b->items[end].code == b->items[start].code; end++)
             ;
-        if (end - start == 1) {
-            b->items[left++] = b->items[start];
-            continue;
-        }
-        if (!find_repetitions(in, b->items + start, end - start))
+        some = 1;
+        if (end - start > 1 && !drop_alike(in, b->items + start, end - start, &some))
             return false;
-        for (size_t i = start; i < end; i++)
-            if (b->statuses[b->items[i].place] == OCTREE_OK)
-                b->items[left++] = b->items[i];
+        memmove(b->items + left, b->items + start, some * sizeof *b->items);
     }
     b->count = left;
     return true;
@@ -230,9 +220,10 @@ static bool drop_repetitions(insertion *in)
 static void judge_repetitions(const insertion *in)
 {
     const repetition *all = in->repetitions.items;
-    for (size_t i = 0; i < in->repetitions.count; i++)
-        if (in->batch->statuses[all[i].first] == OCTREE_FULL)
-            in->batch->statuses[all[i].place] = OCTREE_FULL;
+    octree_status *statuses = in->batch->statuses;
+    for (size_t i = 0; statuses && i < in->repetitions.count; i++)
+        if (statuses[all[i].first] == OCTREE_FULL)
+            statuses[all[i].place] = OCTREE_FULL;
 }
 
 static octree_status insert_batch(insertion *in)
@@ -240,7 +231,7 @@ static octree_status insert_batch(insertion *in)
     octree *tree = in->tree;
     batch *b = in->batch;
     node root;
-    if (!drop_repetitions(in))
+    if (b->repeated && !drop_repetitions(in))
         return OCTREE_NO_MEMORY;
     if (b->count > UINT32_MAX - tree->root.count)
         return OCTREE_TOO_MANY;
@@ -263,11 +254,12 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
         return OCTREE_NULL_ARGUMENT;
     batch b;
     insertion in = {.tree = tree, .batch = &b, .journal = {.tree = tree}};
+    const uint32_t before = tree->root.count;
     octree_status status = batch_begin(&b, tree, points, count, statuses);
     if (status == OCTREE_OK)
         status = insert_batch(&in);
     if (status == OCTREE_OK && inserted)
-        *inserted = batch_done(&b);
+        *inserted = tree->root.count - before;
     list_release(&tree->memory, &in.repetitions, sizeof(repetition));
     batch_end(&b);
     tune_if_due(tree);

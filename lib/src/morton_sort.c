@@ -1,16 +1,16 @@
-/* morton_sort.c - a radix sort from the highest digit down: what shares its first digits soon fits a cache. */
+/* morton_sort.c - a radix sort from the world down to small cells: what lies in one cell soon fits a cache. */
 #include "morton_sort.h"
+#include "plane.h"
 
 #include <string.h>
 
-#define DIGIT_BITS 8
-#define DIGITS (1u << DIGIT_BITS)
-#define FEW 32 /* sorted by insertion */
+#define FEW 16   /* sorted by insertion */
+#define LEVELS 3 /* of cells that a pass goes down, at most: it writes to 8^3 places */
 
-static unsigned digit_of(const morton_item *item, unsigned shift)
-{
-    return (unsigned)(item->code << 1 >> shift) & (DIGITS - 1); /* 63 bits */
-}
+typedef struct sorter {
+    size_t loose;
+    bool repeated; /* some items may have one code */
+} sorter;
 
 static void insertion_sort(morton_item *items, size_t count)
 {
@@ -23,50 +23,91 @@ static void insertion_sort(morton_item *items, size_t count)
     }
 }
 
-/* Move the items to where their digit begins. ends[d] becomes the end of digit d. */
-static void scatter(const morton_item *from, morton_item *to, size_t count, unsigned shift, uint32_t ends[DIGITS])
+static bool is_among(const morton_item *items, size_t count, uint64_t code)
+{
+    for (size_t i = 0; i < count; i++)
+        if (items[i].code == code)
+            return true;
+    return false;
+}
+
+/* Whether two of up to MORTON_LOOSE items have one code. Of a code 12 bits of a product (Knuth's multiplicative hash)
+ * are noted: most often no two are alike, and nothing is compared. */
+static bool has_repetition(const morton_item *items, size_t count)
+{
+    uint64_t noted[(1u << 12) / 64] = {0};
+    for (size_t i = 0; i < count; i++) {
+        const unsigned hash = (unsigned)(items[i].code * UINT64_C(0x9e3779b97f4a7c15) >> 52);
+        const uint64_t bit = UINT64_C(1) << hash % 64;
+        if ((noted[hash / 64] & bit) && is_among(items, i, items[i].code))
+            return true;
+        noted[hash / 64] |= bit;
+    }
+    return false;
+}
+
+/* The items of a cell with `left` levels below it that is not gone into. */
+static void finish(sorter *s, morton_item *items, size_t count, unsigned left)
+{
+    if (left > 0 && count <= s->loose && !has_repetition(items, count))
+        return;
+    s->repeated = true;
+    if (left > 0)
+        insertion_sort(items, count);
+}
+
+/* As many levels as bring a cell's items down to a few a cell. */
+static unsigned levels_for(const sorter *s, size_t count, unsigned left)
+{
+    const size_t wanted = s->loose > 4 ? s->loose : 4;
+    unsigned levels = 1;
+    while (levels < left && levels < LEVELS && count >> 3 * levels > wanted)
+        levels++;
+    return levels;
+}
+
+/* Move the items to where their digit begins. ends[d], the number of those with digit d, becomes the end of them. */
+static void scatter(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
+                    uint32_t ends[])
 {
     uint32_t next = 0;
-    for (unsigned digit = 0; digit < DIGITS; digit++) {
+    for (unsigned digit = 0; digit < digits; digit++) {
         const uint32_t here = ends[digit];
         ends[digit] = next;
         next += here;
     }
     for (size_t i = 0; i < count; i++)
-        to[ends[digit_of(&from[i], shift)]++] = from[i];
+        to[ends[from[i].code >> shift & (digits - 1)]++] = from[i];
 }
 
-/* Sort by the digits from `shift` down, into `to` or in place. */
-static void sort(morton_item *items, morton_item *other, size_t count, unsigned shift, bool in_place)
+/* Sort the items of a cell with `left` levels below it, into `other` or in place. */
+static void sort(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
+                 uint32_t ends[])
 {
-    if (count <= FEW) {
-        insertion_sort(items, count);
+    if (left == 0 || count <= FEW || count <= s->loose) {
+        finish(s, items, count, left);
         if (!in_place)
             memcpy(other, items, count * sizeof *items);
         return;
     }
-    uint32_t ends[DIGITS] = {0};
+    const unsigned levels = levels_for(s, count, left), digits = 1u << 3 * levels, shift = 3 * (left - levels);
+    memset(ends, 0, digits * sizeof *ends);
     for (size_t i = 0; i < count; i++)
-        ends[digit_of(&items[i], shift)]++;
-    if (ends[digit_of(&items[0], shift)] == count) { /* all alike */
-        if (shift > 0)
-            sort(items, other, count, shift - DIGIT_BITS, in_place);
-        else if (!in_place)
-            memcpy(other, items, count * sizeof *items);
+        ends[items[i].code >> shift & (digits - 1)]++;
+    if (ends[items[0].code >> shift & (digits - 1)] == count) { /* all alike */
+        sort(s, items, other, count, left - levels, in_place, ends);
         return;
     }
-    scatter(items, other, count, shift, ends);
-    uint32_t start = 0;
-    for (unsigned digit = 0; digit < DIGITS; digit++) {
-        if (shift > 0)
-            sort(other + start, items + start, ends[digit] - start, shift - DIGIT_BITS, !in_place);
-        else if (in_place)
-            memcpy(items + start, other + start, (ends[digit] - start) * sizeof *items);
-        start = ends[digit];
-    }
+    scatter(items, other, count, shift, digits, ends);
+    for (uint32_t digit = 0, start = 0; digit < digits; start = ends[digit++])
+        if (ends[digit] > start)
+            sort(s, other + start, items + start, ends[digit] - start, left - levels, !in_place, ends + digits);
 }
 
-void morton_sort(morton_item *items, morton_item *spare, size_t count)
+bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t loose)
 {
-    sort(items, spare, count, 64 - DIGIT_BITS, true);
+    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* one part a pass that is under way */
+    sorter s = {.loose = loose};
+    sort(&s, items, spare, count, OCTREE_MAX_DEPTH - depth, true, ends);
+    return s.repeated;
 }

@@ -13,8 +13,14 @@ typedef struct morton_item {
     bool stored;    /* in a leaf */
 } morton_item;
 
-/* Sort by code; items of one code stay in their order. `spare` is room for as many items. Cost: O(count), for up to
- * eight passes. */
-void morton_sort(morton_item *items, morton_item *spare, size_t count);
+/* As many items as may be left loose. */
+#define MORTON_LOOSE 64
+
+/* Sort the items of a cell of this depth by code. The items of a cell that holds at most `loose` of them, up to
+ * MORTON_LOOSE, lie together in any order, those of one code side by side: what becomes a leaf is not worth sorting.
+ * False when no two items have one code, true when some may. `spare` is room for as many items. Cost: O(count), for up
+ * to 21 passes, most often two or three.
+ */
+bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t loose);
 
 #endif

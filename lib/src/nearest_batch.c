@@ -102,7 +102,7 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
         nearest_keys(tree, targets[i], keys);
         turns[i] = (morton_item){morton_interleave(keys), (uint32_t)i, false};
     }
-    morton_sort(turns, turns + count, count);
+    morton_sort(turns, turns + count, count, 0, 0);
     ask_in_turn(tree, targets, turns, count, &search, neighbors, found);
     allocator->release(turns, size, allocator->context);
     return OCTREE_OK;

@@ -112,11 +112,12 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
     if (!tree || (!points && count))
         return OCTREE_NULL_ARGUMENT;
     batch b;
+    const uint32_t before = tree->root.count;
     octree_status status = batch_begin(&b, tree, points, count, statuses);
     if (status == OCTREE_OK)
         status = remove_batch(tree, &b);
     if (status == OCTREE_OK && removed)
-        *removed = batch_done(&b);
+        *removed = before - tree->root.count;
     batch_end(&b);
     return status;
 }

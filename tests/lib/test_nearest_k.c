@@ -85,7 +85,7 @@ static void k_is_cut_to_the_points_that_count(void **state)
 {
     (void)state;
     enum { n = 100 };
-    static const size_t asked[] = {0, 1, 2, n - 1, n, n + 1, UINT32_MAX, SIZE_MAX / 2, SIZE_MAX};
+    static const size_t asked[] = {0, 1, 2, 32, 33, n - 1, n, n + 1, UINT32_MAX, SIZE_MAX / 2, SIZE_MAX};
     uint64_t random = 1;
     brute all = {0};
     brute_scatter(&all, &random, n, 50, UINT64_MAX);
