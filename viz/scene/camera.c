@@ -11,6 +11,12 @@
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* of the camera that follows: half the window is seen at this distance a unit */
 
+/* Of a box whose size is told from its middle: so far aside at most, and from the eye, for the roundings to be small;
+ * and what they are in pixels, at most. */
+#define ASIDE 1e3
+#define FARTHEST 1e100
+#define DOUBT 1e-6
+
 /* Taylor series on [0, pi/4], where eight terms are beyond a double's precision. */
 static void turn_octant(double angle, double *cosine, double *sine)
 {
@@ -213,4 +219,39 @@ double camera_box_pixels(const camera *c, const octree_box *box)
         }
     }
     return fmax(high[0] - low[0], high[1] - low[1]);
+}
+
+/* From the middle of a box, at (x, y, depth), a corner that is d away has its picture off by
+ *   zoom (d.right - x / depth d.forward) / (depth + d.forward)
+ * across, and likewise along. What is above the line is greatest at one of two opposite corners, where it has the same
+ * size; what is below it lies between the depths of the nearest and the farthest corner. So it is known within the
+ * quotient of these how large the box appears, which for a small one is nearly 1. Roundings are far below DOUBT where
+ * no corner is beside or behind the eye. */
+static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
+{
+    double low[3], middle[3], half[3], across = 0, along = 0;
+    camera_unit(c, box->min, low);
+    camera_unit(c, box->max, half);
+    for (int i = 0; i < 3; i++) {
+        middle[i] = (low[i] + half[i]) / 2 - c->eye[i];
+        half[i] = (half[i] - low[i]) / 2;
+    }
+    const double x = dot(middle, c->right), y = dot(middle, c->up), depth = dot(middle, c->forward);
+    const double reach = half_span(c->forward, half), most = ASIDE * depth, doubt = DOUBT * (1 + pixels);
+    const bool before = depth - reach > 2 * c->near && depth < FARTHEST && fabs(x) < most && fabs(y) < most;
+    if (!before)
+        return camera_box_pixels(c, box) < pixels;
+    for (int i = 0; i < 3; i++) {
+        across += fabs(c->right[i] * depth - x * c->forward[i]) * half[i];
+        along += fabs(c->up[i] * depth - y * c->forward[i]) * half[i];
+    }
+    const double widest = 2 * c->zoom * (across > along ? across : along) / depth;
+    if (widest < (pixels - doubt) * (depth - reach))
+        return true;
+    return !(widest > (pixels + doubt) * (depth + reach)) && camera_box_pixels(c, box) < pixels;
+}
+
+bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)
+{
+    return c->perspective ? is_seen_below(c, box, pixels) : parallel_box_pixels(c, box) < pixels;
 }

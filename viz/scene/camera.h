@@ -45,6 +45,9 @@ void camera_project(const camera *c, const double seen[3], double pixel[2]);
  * in the box appears no larger. Infinite where some of it is nearer than `near`. */
 double camera_box_pixels(const camera *c, const octree_box *box);
 
+/* Whether that is less than so many pixels: sooner, for a box that is not just about as large. */
+bool camera_box_is_below(const camera *c, const octree_box *box, double pixels);
+
 /* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */
 void camera_turn(double turns, double *cosine, double *sine);
 

@@ -145,7 +145,7 @@ static void add_box(tree_walk *w, const octree_node *node)
 static bool is_small(const tree_walk *w, const octree_node *node)
 {
     const scene *s = w->scene;
-    return w->small[node->depth] || (s->view.lod > 0 && camera_box_pixels(&s->camera, &node->box) < s->view.lod);
+    return w->small[node->depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &node->box, s->view.lod));
 }
 
 static void show_node(tree_walk *w, const octree_node *node)
