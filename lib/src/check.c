@@ -106,33 +106,20 @@ static uint64_t digest_node(const node *n, octree_address address)
     return sum;
 }
 
-typedef struct addressed {
-    const node *node;
-    octree_address address;
-} addressed;
-
-/* Nodes and points are summed, so that the order in which they are met does not count: leaves at once. */
+/* Nodes and points are summed, so that the order in which they are met does not count. */
 static uint64_t digest_nodes(const octree *tree)
 {
-    addressed inner[STACK_ROOM];
-    size_t size = 0;
     uint64_t sum = digest_node(&tree->root, OCTREE_ROOT);
-    inner[size++] = (addressed){&tree->root, OCTREE_ROOT};
-    while (size > 0) {
-        const addressed next = inner[--size];
-        const unsigned children = bits_count8(next.node->octants);
+    inner_stack stack;
+    inner_stack_begin(&stack, tree);
+    while (stack.size > 0) {
+        const inner next = inner_stack_next(&stack);
         const node *child = children_of(next.node);
-        for (unsigned i = 0; i < children; i++)
+        for (unsigned i = bits_count8(next.node->octants); i-- > 0;)
             prefetch(child[i].below);
-        for (unsigned octant = 0; octant < 8; octant++) {
-            const octree_address address = next.address << 3 | octant;
-            if (!(next.node->octants >> octant & 1))
-                continue;
-            sum += digest_node(child, address);
-            if (child->octants)
-                inner[size++] = (addressed){child, address};
-            child++;
-        }
+        for (unsigned octant = 0; octant < 8; octant++)
+            if (next.node->octants >> octant & 1)
+                sum += digest_node(child++, next.address << 3 | octant);
     }
     return sum;
 }
