@@ -24,12 +24,14 @@ void scene_release(scene *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Room for one more item, or null: then the scene says so. */
+/* Room for so many items, or null: then the scene says so. */
 static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
 {
-    if (count < *room)
+    if (count <= *room)
         return items;
-    const size_t wanted = *room ? 2 * *room : 64;
+    size_t wanted = *room ? 2 * *room : 64;
+    while (wanted < count)
+        wanted *= 2;
     void *grown = wanted <= SIZE_MAX / size ? realloc(items, wanted * size) : NULL;
     if (grown)
         *room = wanted;
@@ -41,7 +43,7 @@ static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size
 /* The body of every scene_add: `array` is one of the scene's. */
 #define APPEND(s, array, item)                                                                                         \
     do {                                                                                                               \
-        void *grown = grow(s, (array).items, (array).count, &(array).room, sizeof *(array).items);                     \
+        void *grown = grow(s, (array).items, (array).count + 1, &(array).room, sizeof *(array).items);                 \
         if (grown) {                                                                                                   \
             (array).items = grown;                                                                                     \
             (array).items[(array).count++] = (item);                                                                   \
@@ -81,6 +83,24 @@ void scene_add_marker(scene *s, scene_marker marker)
 {
     if (admits(s, marker.look, all_finite(marker.at, 3)))
         APPEND(s, s->markers, marker);
+}
+
+void scene_add_points(scene *s, scene_look look, const octree_point *points, size_t count)
+{
+    if (!view_shows(&s->view, look.layer))
+        return;
+    void *grown = grow(s, s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
+    if (!grown)
+        return;
+    s->markers.items = grown;
+    for (size_t i = 0; i < count; i++) {
+        const double *at = points[i].position;
+        const bool finite = all_finite(at, 3);
+        s->markers.items[s->markers.count] =
+            (scene_marker){.id = points[i].id, .at = {at[0], at[1], at[2]}, .look = look};
+        s->markers.count += finite;
+        s->refused += !finite;
+    }
 }
 
 void scene_add_label(scene *s, scene_label label)
