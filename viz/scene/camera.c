@@ -64,11 +64,6 @@ static void look(camera *c, double azimuth, double elevation)
     memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
 /* Stand back from a point, in unit coordinates. */
 static void stand(camera *c, const double target[3], double distance)
 {
@@ -102,7 +97,7 @@ static double fit(const camera *c, camera_window window, double distance)
                  along = fmax(half_span(c->up, c->half), THINNEST);
     const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
     const double smaller = window.width < window.height ? window.width : window.height;
-    const double square = dot(c->half, c->half);
+    const double square = camera_dot(c->half, c->half);
     if (c->perspective)
         return smaller / (2 * MARGIN_OF_BALL) * sqrt(distance * distance / square - 1);
     return x < y ? x : y;
@@ -124,12 +119,6 @@ static void measure(camera *c, const octree_box *world)
         c->half[i] = extent[i] / c->size;
 }
 
-void camera_unit(const camera *c, const double position[3], double result[3])
-{
-    for (int i = 0; i < 3; i++)
-        result[i] = 2 * ((position[i] * c->scale - c->origin[i]) / c->size) - c->half[i];
-}
-
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
@@ -145,28 +134,10 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     stand(&c, target, distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2;
-    const double middle = -dot(c.eye, c.forward), span = half_span(c.forward, c.half);
+    const double middle = -camera_dot(c.eye, c.forward), span = half_span(c.forward, c.half);
     c.near_depth = middle - span > c.near ? middle - span : c.near;
     c.far_depth = middle + span;
     return c;
-}
-
-void camera_transform(const camera *c, const double position[3], double result[3])
-{
-    double from_eye[3];
-    camera_unit(c, position, from_eye);
-    for (int i = 0; i < 3; i++)
-        from_eye[i] -= c->eye[i];
-    result[0] = dot(from_eye, c->right);
-    result[1] = dot(from_eye, c->up);
-    result[2] = dot(from_eye, c->forward);
-}
-
-void camera_project(const camera *c, const double seen[3], double pixel[2])
-{
-    const double scale = c->perspective ? c->zoom / seen[2] : c->zoom;
-    pixel[0] = c->middle[0] + seen[0] * scale;
-    pixel[1] = c->middle[1] - seen[1] * scale;
 }
 
 /* Under parallel rays a box appears as large wherever it is. */
@@ -236,7 +207,8 @@ static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
         middle[i] = (low[i] + half[i]) / 2 - c->eye[i];
         half[i] = (half[i] - low[i]) / 2;
     }
-    const double x = dot(middle, c->right), y = dot(middle, c->up), depth = dot(middle, c->forward);
+    const double x = camera_dot(middle, c->right), y = camera_dot(middle, c->up),
+                 depth = camera_dot(middle, c->forward);
     const double reach = half_span(c->forward, half), most = ASIDE * depth, doubt = DOUBT * (1 + pixels);
     const bool before = depth - reach > 2 * c->near && depth < FARTHEST && fabs(x) < most && fabs(y) < most;
     if (!before)
