@@ -281,6 +281,8 @@ static void sort_stretches(stretch *line, size_t count)
 /* The edges of a line that are as they were. */
 static bool copy_edges(edge_list *list, const line *of)
 {
+    if (of->count == 0)
+        return true;
     if (!make_room(list, of->count))
         return false;
     memcpy(list->items + list->count, list->before + of->first, of->count * sizeof *list->items);
