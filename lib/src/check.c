@@ -29,20 +29,42 @@ static bool is_inside(const octree *tree, const double position[3])
     return inside;
 }
 
+/* By the planes, which is what a key is found by; then it is in the world too, whose last cells are closed. */
+static bool is_in_cell(const octree_box *bounds, cell c, const double position[3])
+{
+    bool inside = true;
+    for (int i = 0; i < 3; i++) {
+        const bool closed = c.low[i] + cell_size(c.depth) == PLANE_GRID;
+        inside &= bounds->min[i] <= position[i];
+        inside &= position[i] < bounds->max[i] || (closed && position[i] == bounds->max[i]);
+    }
+    return inside;
+}
+
+/* Whether a leaf's point is there before its own index too. */
+static bool is_repeated(const node *n, uint32_t index)
+{
+    const octree_point *points = leaf_points(n), *point = &points[index];
+    if (n->room == LEAF_CROWD)
+        return leaf_find(n, point->position, point->id) != index;
+    for (uint32_t i = 0; i < index; i++)
+        if (points[i].id == point->id && same_position(points[i].position, point->position))
+            return true;
+    return false;
+}
+
 static const char *check_leaf(const octree *tree, const node *n, cell c)
 {
-    const octree_address own = cell_address(c);
+    const octree_box bounds = cell_bounds(tree->axes, c);
     if (n->count > tree->def.leaf_capacity && may_split(tree, c))
         return "a leaf that could split is over its capacity";
     if (n->count > tree->def.leaf_capacity && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
     for (uint32_t i = 0; i < n->count; i++) {
-        const octree_point *point = &leaf_points(n)[i];
-        if (!is_inside(tree, point->position))
-            return "a point is outside the world";
-        if (morton_address(morton_code(tree->axes, point->position), c.depth) != own)
-            return "a point is not in its leaf's cell";
-        if (leaf_find(n, point->position, point->id) != i)
+        const double *position = leaf_points(n)[i].position;
+        if (!is_in_cell(&bounds, c, position))
+            return is_inside(tree, position) ? "a point is not in its leaf's cell" : "a point is outside the world";
+        if (is_repeated(n, i))
             return "a pair of position and id is stored twice";
     }
     return NULL;
@@ -70,6 +92,7 @@ const char *octree_check(const octree *tree, octree_address *where)
     return NULL;
 }
 
+/* A node, and of a leaf its points. */
 static uint64_t digest_node(const node *n, octree_address address)
 {
     uint64_t sum = octree_digest_word(octree_digest_word(OCTREE_DIGEST_START, address), n->octants == 0);
@@ -84,20 +107,28 @@ static uint64_t digest_node(const node *n, octree_address address)
 }
 
 /* Nodes and points are summed, so that the order in which they are met does not count. */
+static uint64_t digest_nodes(const octree *tree)
+{
+    uint64_t sum = digest_node(&tree->root, OCTREE_ROOT);
+    inner_stack stack;
+    inner_stack_begin(&stack, tree);
+    while (stack.size > 0) {
+        const inner next = inner_stack_next(&stack);
+        const node *child = children_of(next.node);
+        for (unsigned i = bits_count8(next.node->octants); i-- > 0;)
+            prefetch(child[i].below);
+        for (unsigned octant = 0; octant < 8; octant++)
+            if (next.node->octants >> octant & 1)
+                sum += digest_node(child++, next.address << 3 | octant);
+    }
+    return sum;
+}
+
 uint64_t octree_digest(const octree *tree)
 {
     if (!tree || !float_mode_is_default())
         return 0;
-    uint64_t sum = 0;
-    node_stack stack = {.size = 0};
-    stack_push(&stack, &tree->root, root_cell());
-    while (stack.size > 0) {
-        const stacked next = stack_pop(&stack);
-        sum += digest_node(next.node, cell_address(next.cell));
-        if (next.node->octants)
-            stack_push_children(&stack, next);
-    }
-    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, sum);
+    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, digest_nodes(tree));
     digest = octree_digest_word(digest, tree->def.leaf_capacity);
     digest = octree_digest_word(digest, tree->def.max_depth);
     for (int i = 0; i < 3; i++) {

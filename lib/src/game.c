@@ -3,6 +3,7 @@
 #include "float_mode.h"
 #include "game_parts.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Edits, queries and shapes begin with their tick. */
@@ -47,10 +48,25 @@ static size_t first_standing(const void *items, size_t size, size_t count)
     return count;
 }
 
+/* Along one axis; of a body that is refused for its velocity, 0. */
+static double speed_of(const octree_body *body)
+{
+    double speed = 0;
+    for (int i = 0; i < 3; i++) {
+        const double along = fabs(body->velocity[i]);
+        if (!isfinite(along))
+            return 0;
+        speed = along > speed ? along : speed;
+    }
+    return speed;
+}
+
 static octree_status load_bodies(octree_game *game)
 {
     const octree_session *session = game->session;
     for (size_t i = 0; i < session->body_count; i++) {
+        const double speed = speed_of(&session->bodies[i]);
+        game->fastest = speed > game->fastest ? speed : game->fastest;
         const octree_status status = game_add_body(game, &session->bodies[i]);
         if (status == OCTREE_DUPLICATE || status == OCTREE_NO_MEMORY)
             return status;
@@ -225,6 +241,11 @@ const octree *octree_game_tree(const octree_game *game)
 const octree_session *octree_game_session(const octree_game *game)
 {
     return game ? game->session : NULL;
+}
+
+double octree_game_fastest(const octree_game *game)
+{
+    return game ? game->fastest : 0;
 }
 
 const char *octree_event_name(octree_event event)

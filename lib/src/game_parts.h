@@ -14,6 +14,7 @@ struct octree_game {
     size_t next_query;
     size_t next_shape;
     size_t standing, standing_shapes; /* the first query, and the first shape, of every tick */
+    double fastest; /* of the session's bodies, along one axis */
     bool quit;
     uint64_t set_version; /* the tree's version that `inner` was filled from */
     bool has_set;

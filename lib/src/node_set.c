@@ -13,17 +13,12 @@ static bool append(arena *memory, list *set, octree_address address)
 bool node_set_fill(arena *memory, list *set, const octree *tree)
 {
     set->count = 0;
-    node_stack stack = {.size = 0};
-    stack_push(&stack, &tree->root, root_cell());
-    while (stack.size > 0) {
-        const stacked next = stack_pop(&stack);
-        if (next.node->octants == 0)
-            continue;
-        if (!append(memory, set, cell_address(next.cell)))
-            return false;
-        stack_push_children(&stack, next);
-    }
-    return true;
+    inner_stack stack;
+    inner_stack_begin(&stack, tree);
+    bool ok = true;
+    while (ok && stack.size > 0)
+        ok = append(memory, set, inner_stack_next(&stack).address);
+    return ok;
 }
 
 /* Pre-order: by the place of the cell's lowest corner, the larger cell first. */

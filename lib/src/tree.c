@@ -161,15 +161,31 @@ cell path_cell(uint64_t code, unsigned depth)
     return c;
 }
 
-/* A large tree does not fit the caches: what is below each child is on its way before the child's turn comes. */
+/* A large tree does not fit the caches: what is below each child is on its way before the child's turn comes. Who asks
+ * for cells asks for points. */
 void stack_push_children(node_stack *stack, stacked parent)
 {
     const node *child = children_of(parent.node) + bits_count8(parent.node->octants);
     for (unsigned octant = 8; octant-- > 0;)
         if (parent.node->octants >> octant & 1) {
             stack_push(stack, --child, cell_child(parent.cell, octant));
+            if (child->octants)
+                prefetch(child->below);
+            else
+                leaf_prefetch(child);
+        }
+}
+
+inner inner_stack_next(inner_stack *stack)
+{
+    const inner next = stack->items[--stack->size];
+    const node *child = children_of(next.node) + bits_count8(next.node->octants);
+    for (unsigned octant = 8; octant-- > 0;)
+        if (next.node->octants >> octant & 1 && (--child)->octants) {
+            stack->items[stack->size++] = (inner){child, next.address << 3 | octant};
             prefetch(child->below);
         }
+    return next;
 }
 
 void node_release(octree *tree, node *n)

@@ -131,6 +131,28 @@ static inline stacked stack_pop(node_stack *stack)
 /* Push the children so that they are popped in ascending order of octants. */
 void stack_push_children(node_stack *stack, stacked parent);
 
+/* Inner nodes still to be visited, with their addresses: for those who look at all children of a node at once, and ask
+ * for no cells. */
+typedef struct inner {
+    const node *node;
+    octree_address address;
+} inner;
+
+typedef struct inner_stack {
+    size_t size;
+    inner items[STACK_ROOM];
+} inner_stack;
+
+/* With the root alone, or, where that is a leaf, with nothing. */
+static inline void inner_stack_begin(inner_stack *stack, const octree *tree)
+{
+    stack->size = tree->root.octants != 0;
+    stack->items[0] = (inner){&tree->root, OCTREE_ROOT};
+}
+
+/* Pop a node, and push those of its children that are inner nodes, to be popped in ascending order of octants. */
+inner inner_stack_next(inner_stack *stack);
+
 /* Free a node's children or points, and all below; the node itself is the caller's. */
 void node_release(octree *tree, node *n);
 

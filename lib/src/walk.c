@@ -86,13 +86,14 @@ octree_status octree_statistics(const octree *tree, octree_stats *stats)
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
     *stats = (octree_stats){.points = tree->root.count, .memory = tree->memory.bytes};
-    node_stack stack = {.size = 0};
-    stack_push(&stack, &tree->root, root_cell());
+    count_node(stats, &tree->root, 0);
+    inner_stack stack;
+    inner_stack_begin(&stack, tree);
     while (stack.size > 0) {
-        const stacked next = stack_pop(&stack);
-        count_node(stats, next.node, next.cell.depth);
-        if (next.node->octants)
-            stack_push_children(&stack, next);
+        const inner next = inner_stack_next(&stack);
+        const unsigned depth = octree_address_depth(next.address) + 1, children = bits_count8(next.node->octants);
+        for (unsigned i = 0; i < children; i++)
+            count_node(stats, &children_of(next.node)[i], depth);
     }
     return OCTREE_OK;
 }

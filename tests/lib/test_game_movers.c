@@ -154,6 +154,23 @@ static void a_body_that_its_leaf_refuses_is_told_where_it_stays(void **state)
     octree_game_destroy(game);
 }
 
+static void the_fastest_body_is_known_from_the_start(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 1, .position = {1, 1, 1}},
+                                         {.id = 2, .position = {2, 2, 2}, .velocity = {1, -7, 2}},
+                                         {.id = 3, .position = {3, 3, 3}, .velocity = {NAN, 50, 0}},
+                                         {.id = 4, .position = {4, 4, 4}, .velocity = {0, 0, -INFINITY}}};
+    const double fastest[] = {0, 7, 7, 7};
+    for (size_t count = 1; count <= 4; count++) {
+        octree_session session = small_session(bodies, count);
+        octree_game *game = start_game(&session);
+        assert_true(octree_game_fastest(game) == fastest[count - 1]);
+        octree_game_destroy(game);
+    }
+    assert_true(octree_game_fastest(NULL) == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +180,7 @@ int main(void)
         cmocka_unit_test(a_body_too_fast_to_follow_is_at_rest),
         cmocka_unit_test(edits_begin_and_end_motion),
         cmocka_unit_test(a_body_that_its_leaf_refuses_is_told_where_it_stays),
+        cmocka_unit_test(the_fastest_body_is_known_from_the_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -218,6 +218,43 @@ static void neither_place_nor_scale_changes_a_bit_of_a_pixel(void **state)
     }
 }
 
+/* A box of any size anywhere in a world, or one that is as small as it can be. */
+static octree_box some_box(const octree_box *world, uint64_t *random)
+{
+    octree_box box;
+    const double part = ldexp(1, -(int)random_below(random, 60));
+    for (int i = 0; i < 3; i++) {
+        const double extent = world->max[i] - world->min[i], at = random_between(random, 0, 1);
+        box.min[i] = world->min[i] + at * extent;
+        box.max[i] = fmin(box.min[i] + part * extent, world->max[i]);
+    }
+    return box;
+}
+
+static void a_box_is_below_just_what_it_appears_smaller_than(void **state)
+{
+    (void)state;
+    static const double near[] = {1e-15, 1e-12, 1e-9, 1e-7, 1e-4, 0.01, 0.3, 0.9};
+    static const double places[][2] = {{0, 1}, {1e15, 1}, {0, 1e-290}, {-1e300, 1e298}, {7, 1e-14}};
+    uint64_t random = 5;
+    for (int i = 0; i < 60000; i++) {
+        const double *place = places[random_below(&random, 5)];
+        octree_box world = {{-1000, -700, -10}, {1000, 1000, 1000}};
+        for (int j = 0; j < 3; j++) {
+            world.min[j] = place[0] + place[1] * world.min[j];
+            world.max[j] = place[0] + place[1] * world.max[j];
+        }
+        const camera c =
+            camera_of((view_camera)random_below(&random, CAMERA_COUNT), &world, world.min, random_below(&random, 480));
+        const octree_box box = some_box(&world, &random);
+        const double size = camera_box_pixels(&c, &box), off = near[random_below(&random, 8)];
+        const double pixels[] = {
+            size, nextafter(size, 0), nextafter(size, 1e300), size * (1 + off), size * (1 - off), 0, 2};
+        for (size_t j = 0; j < sizeof pixels / sizeof pixels[0]; j++)
+            assert_int_equal(camera_box_is_below(&c, &box, pixels[j]), size < pixels[j]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -229,6 +266,7 @@ int main(void)
         cmocka_unit_test(the_axes_point_where_the_names_of_the_cameras_say),
         cmocka_unit_test(the_camera_that_follows_looks_at_the_player),
         cmocka_unit_test(only_the_orbit_turns_and_only_the_follower_moves),
+        cmocka_unit_test(a_box_is_below_just_what_it_appears_smaller_than),
         cmocka_unit_test(neither_place_nor_scale_changes_a_bit_of_a_pixel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

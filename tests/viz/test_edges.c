@@ -254,6 +254,37 @@ static void what_was_merged_before_leaves_no_trace(void **state)
     edges_release(&used);
 }
 
+/* As under a view's lod: of one list of boxes some are shown, now these and now those. */
+static void boxes_that_come_and_go_leave_no_trace(void **state)
+{
+    (void)state;
+    uint64_t random = 11;
+    edge_list used = {0};
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        scene all = random_boxes(seed, 200), s = {.view = view_default()};
+        for (int frame = 0; frame < 30; frame++) {
+            const uint64_t shown = random_below(&random, 101), moved = frame % 10 == 9 ? GRID * (uint64_t)frame : 0;
+            edge_list fresh = {0};
+            scene_clear(&s);
+            for (size_t i = 0; i < all.boxes.count; i++) {
+                for (int axis = 0; axis < 3; axis++) {
+                    all.boxes.items[i].box.min[axis] += (double)moved;
+                    all.boxes.items[i].box.max[axis] += (double)moved;
+                }
+                if (random_below(&random, 100) < shown)
+                    scene_add_box(&s, all.boxes.items[i]);
+            }
+            assert_true(edges_merge(&used, &s, 0, LAYER_DIAGRAM + 1));
+            assert_true(edges_merge(&fresh, &s, 0, LAYER_DIAGRAM + 1));
+            assert_same_edges(&used, &fresh);
+            edges_release(&fresh);
+        }
+        scene_release(&all);
+        scene_release(&s);
+    }
+    edges_release(&used);
+}
+
 static void layers_one_by_one_have_the_edges_of_all_together(void **state)
 {
     (void)state;
@@ -358,6 +389,7 @@ int main(void)
         cmocka_unit_test(ids_are_of_boxes_that_the_edge_belongs_to),
         cmocka_unit_test(the_order_of_the_boxes_does_not_matter),
         cmocka_unit_test(what_was_merged_before_leaves_no_trace),
+        cmocka_unit_test(boxes_that_come_and_go_leave_no_trace),
         cmocka_unit_test(layers_one_by_one_have_the_edges_of_all_together),
         cmocka_unit_test(a_full_subdivision_has_one_edge_a_line_of_its_grid),
         cmocka_unit_test(a_gap_between_two_boxes_stays_a_gap),

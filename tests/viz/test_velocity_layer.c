@@ -112,7 +112,7 @@ static void each_mover_has_its_arrow_and_nothing_else_has(void **state)
         for (;; play_tick(game)) {
             build_tick(&s, &v, game);
             assert_int_equal(octree_game_tick(game)->mover_count, BODIES / 5 * 4);
-            check_tick(&s, game, velocity_ticks(&session));
+            check_tick(&s, game, velocity_ticks(game));
             if (octree_game_over(game))
                 break;
         }
@@ -142,7 +142,7 @@ static void an_arrow_shows_so_many_ticks_that_it_can_be_seen(void **state)
         octree_game *game = start_game(&session);
         scene s = {0};
         build_tick(&s, &v, game);
-        assert_int_equal(velocity_ticks(&session), cases[i].ticks);
+        assert_int_equal(velocity_ticks(game), cases[i].ticks);
         assert_true(says(&s, cases[i].text));
         check_tick(&s, game, cases[i].ticks);
         scene_release(&s);

@@ -1,6 +1,7 @@
 /* edges.c - see edges.h. A box has twelve edges; on a tree most of them are shared. They are gathered by the line that
  * they lie on, compared by the very doubles of the planes, and each line is swept once. Most are not even gathered: a
- * tree's boxes come from the root down, and what lies on an edge of a parent is covered by the stretch before it. */
+ * tree's boxes come from the root down, and what lies on an edge of a parent is covered by the stretch before it. And
+ * from one frame to the next a line keeps its edges, unless a box on it came or went. */
 #include "edges.h"
 
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 typedef struct stretch {
     double from, to;
     uint64_t id;
-    size_t line; /* its place in the set of lines */
+    uint32_t line; /* its place in the set of lines */
     scene_look look;
     uint8_t depth;
 } stretch;
@@ -37,24 +38,28 @@ static int compare_stretches(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-static edge *append_edge(edge_list *list)
+static bool make_room(edge_list *list, size_t count)
 {
-    if (list->count == list->room) {
-        const size_t room = list->room ? 2 * list->room : 256;
-        edge *items = room <= SIZE_MAX / sizeof *items ? realloc(list->items, room * sizeof *items) : NULL;
-        if (!items)
-            return NULL;
-        list->items = items;
-        list->room = room;
-    }
-    return &list->items[list->count++];
+    size_t room = list->room ? list->room : 256;
+    while (room - list->count < count)
+        room *= 2;
+    if (room == list->room)
+        return true;
+    edge *items = room <= SIZE_MAX / 2 / sizeof *items ? realloc(list->items, room * sizeof *items) : NULL;
+    if (!items)
+        return false;
+    list->items = items;
+    list->room = room;
+    return true;
 }
 
 void edges_release(edge_list *list)
 {
     lines_release(&list->lines);
-    free(list->boxes);
+    merged_boxes_release(&list->boxes);
+    free(list->order);
     free(list->items);
+    free(list->before);
     memset(list, 0, sizeof *list);
 }
 
@@ -74,9 +79,9 @@ static bool emit(edge_list *list, const stretch *of, double from, double to, boo
         last->ends[1][axis] = to;
         return true;
     }
-    edge *added = append_edge(list);
-    if (!added)
+    if (!make_room(list, 1))
         return false;
+    edge *added = &list->items[list->count++];
     *added = (edge){.id = of->id, .look = of->look, .depth = of->depth};
     for (int end = 0; end < 2; end++) {
         added->ends[end][axis] = end ? to : from;
@@ -109,6 +114,8 @@ static double next_change(const stretch *line, size_t count, size_t begun, const
  * that a line costs little more than its length times the depth of the tree. */
 static bool sweep_line(edge_list *list, const stretch *line, size_t count)
 {
+    if (count == 0)
+        return true;
     const unsigned axis = line_key_axis(&list->lines.items[line[0].line].key);
     size_t first = 0;
     bool same_line = false;
@@ -161,60 +168,96 @@ static bool append_stretch(stretch_list *all, const stretch *it)
     return true;
 }
 
-static bool collect_edge(stretch_list *all, line_set *lines, const scene_box *box, unsigned axis, unsigned corner)
+static bool collect_edge(stretch_list *all, line *on, uint32_t place, const scene_box *box, unsigned axis)
 {
-    const line_key key = line_key_of(box, axis, corner);
-    const size_t place = lines_find(lines, &key);
-    if (place == SIZE_MAX)
-        return false;
-    line *on = &lines->items[place];
     const stretch it = {.from = box->box.min[axis],
                         .to = box->box.max[axis],
                         .id = box->id,
                         .line = place,
                         .look = box->look,
                         .depth = box->depth};
-    if (on->count && is_covered(&it, &all->items[on->last]))
+    if (on->last != LINE_NONE && is_covered(&it, &all->items[on->last]))
         return true;
-    on->last = all->count;
-    on->count++;
+    on->last = (uint32_t)all->count;
+    on->next++; /* a count, so far */
     return append_stretch(all, &it);
 }
 
-/* Edges along axes of no extent are dots on others, but for a box that is a dot itself. */
-static bool collect_box(stretch_list *all, line_set *lines, const scene_box *box)
+/* The stretches of all lines that are changed. */
+static bool collect(stretch_list *all, edge_list *list)
 {
-    bool ok = true, dot = true;
-    for (unsigned axis = 0; axis < 3; axis++)
-        for (unsigned corner = 0; ok && corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++) {
-            ok = collect_edge(all, lines, box, axis, corner);
-            dot = false;
+    bool ok = true;
+    line_set *lines = &list->lines;
+    for (size_t i = 0; i < lines->count; i++)
+        if (lines->changed[i]) {
+            lines->items[i].next = 0;
+            lines->items[i].last = LINE_NONE;
         }
-    return ok && (!dot || collect_edge(all, lines, box, 0, 0));
+    const box_arrays *boxes = &list->boxes.now;
+    for (size_t i = 0; ok && i < boxes->count; i++)
+        for (unsigned edge = 0; ok && edge < BOX_EDGES; edge++) {
+            const uint32_t place = boxes->lines[i].of[edge];
+            if (place != LINE_NONE && lines->changed[place])
+                ok = collect_edge(all, &lines->items[place], place, &boxes->boxes[i], edge / 4);
+        }
+    return ok && all->count <= UINT32_MAX;
 }
 
-/* The lines in their order, by way of pointers. Null when there is no memory. */
-static line **sort_lines(line_set *lines)
+/* The lines that came last, in their order, by way of pointers. Null when there is no memory. */
+static const line **sort_new_lines(const edge_list *list)
 {
-    line **sorted = malloc(lines->count * sizeof *sorted);
-    for (size_t i = 0; sorted && i < lines->count; i++)
-        sorted[i] = &lines->items[i];
+    const line_set *lines = &list->lines;
+    const size_t count = lines->count - list->ordered;
+    const line **sorted = malloc((count + 1) * sizeof *sorted);
+    for (size_t i = 0; sorted && i < count; i++)
+        sorted[i] = &lines->items[list->ordered + i];
     if (sorted)
-        qsort(sorted, lines->count, sizeof *sorted, compare_lines);
+        qsort(sorted, count, sizeof *sorted, compare_lines);
     return sorted;
 }
 
-/* Stretches side by side with those of their line, line by line in their order. Null when there is no memory. */
-static stretch *gather(const stretch_list *all, line_set *lines, line *const *sorted)
+/* Put the lines that came last between the others, from the last one on. */
+static void merge_order(edge_list *list, const line *const *sorted)
 {
-    stretch *gathered = malloc(all->count * sizeof *gathered);
-    size_t next = 0;
-    for (size_t i = 0; i < lines->count; i++) {
-        sorted[i]->last = next; /* from here on: where its next stretch goes */
-        next += sorted[i]->count;
+    const line *lines = list->lines.items;
+    size_t old = list->ordered, new = list->lines.count - old;
+    for (size_t at = list->lines.count; new > 0;) {
+        const bool comes = old == 0 || line_key_compare(&lines[list->order[old - 1]].key, &sorted[new - 1]->key) < 0;
+        list->order[--at] = comes ? (uint32_t)(sorted[--new] - lines) : list->order[--old];
+    }
+    list->ordered = list->lines.count;
+}
+
+static bool order_lines(edge_list *list)
+{
+    if (list->ordered == list->lines.count)
+        return true;
+    const line **sorted = sort_new_lines(list);
+    uint32_t *order = sorted ? realloc(list->order, list->lines.room * sizeof *order) : NULL;
+    if (order) {
+        list->order = order;
+        merge_order(list, sorted);
+    }
+    free(sorted);
+    return order != NULL;
+}
+
+/* Stretches side by side with those of their line, line by line in their order. Null when there is no memory. */
+static stretch *gather(const stretch_list *all, edge_list *list)
+{
+    stretch *gathered = malloc((all->count + 1) * sizeof *gathered);
+    line *lines = list->lines.items;
+    uint32_t next = 0;
+    for (size_t i = 0; i < list->ordered; i++) {
+        const uint32_t place = list->order[i];
+        if (!list->lines.changed[place])
+            continue;
+        const uint32_t count = lines[place].next;
+        lines[place].next = next;
+        next += count;
     }
     for (size_t i = 0; gathered && i < all->count; i++)
-        gathered[lines->items[all->items[i].line].last++] = all->items[i];
+        gathered[lines[all->items[i].line].next++] = all->items[i];
     return gathered;
 }
 
@@ -235,82 +278,78 @@ static void sort_stretches(stretch *line, size_t count)
     }
 }
 
-static bool sweep_lines(edge_list *list, stretch *gathered, line *const *sorted)
+/* The edges of a line that are as they were. */
+static bool copy_edges(edge_list *list, const line *of)
 {
-    bool ok = true;
-    for (size_t i = 0; ok && i < list->lines.count; i++) {
-        const size_t count = sorted[i]->count;
-        sort_stretches(gathered, count);
-        ok = sweep_line(list, gathered, count);
-        gathered += count;
-    }
-    return ok;
-}
-
-static bool merge_boxes(edge_list *list)
-{
-    stretch_list all = {0};
-    bool ok = true;
-    list->count = 0;
-    lines_clear(&list->lines);
-    for (size_t i = 0; ok && i < list->box_count; i++)
-        ok = collect_box(&all, &list->lines, &list->boxes[i]);
-    line **sorted = ok && all.count ? sort_lines(&list->lines) : NULL;
-    stretch *gathered = sorted ? gather(&all, &list->lines, sorted) : NULL;
-    ok = ok && (all.count == 0 || (gathered && sweep_lines(list, gathered, sorted)));
-    free(gathered);
-    free(sorted);
-    free(all.items);
-    return ok;
-}
-
-static bool same_box(const scene_box *a, const scene_box *b)
-{
-    return a->id == b->id && a->depth == b->depth && same_look(a->look, b->look) &&
-           memcmp(&a->box, &b->box, sizeof a->box) == 0;
-}
-
-static bool keep_box(edge_list *list, size_t at, const scene_box *box)
-{
-    if (at == list->box_room) {
-        const size_t room = at ? 2 * at : 64;
-        scene_box *boxes = room <= SIZE_MAX / sizeof *boxes ? realloc(list->boxes, room * sizeof *boxes) : NULL;
-        if (!boxes)
-            return false;
-        list->boxes = boxes;
-        list->box_room = room;
-    }
-    list->boxes[at] = *box;
+    if (of->count == 0)
+        return true;
+    if (!make_room(list, of->count))
+        return false;
+    memcpy(list->items + list->count, list->before + of->first, of->count * sizeof *list->items);
+    list->count += of->count;
     return true;
 }
 
-/* Keep the boxes of these layers; *same tells whether they are those that are kept already. */
-static bool keep_boxes(edge_list *list, const scene *s, unsigned first, unsigned behind, bool *same)
+/* Line by line in their order: what is gathered of those that are changed, and the edges before of all others. */
+static bool sweep_lines(edge_list *list, stretch *gathered)
 {
-    size_t count = 0;
     bool ok = true;
-    *same = true;
-    for (size_t i = 0; ok && i < s->boxes.count; i++) {
-        const scene_box *box = &s->boxes.items[i];
-        if (box->look.layer < first || box->look.layer >= behind)
-            continue;
-        if (count >= list->box_count || !same_box(&list->boxes[count], box)) {
-            *same = false;
-            ok = keep_box(list, count, box);
+    uint32_t begin = 0;
+    for (size_t i = 0; ok && i < list->ordered; i++) {
+        line *on = &list->lines.items[list->order[i]];
+        uint8_t *changed = &list->lines.changed[list->order[i]];
+        const size_t first = list->count;
+        if (*changed) {
+            sort_stretches(gathered + begin, on->next - begin);
+            ok = sweep_line(list, gathered + begin, on->next - begin);
+            begin = on->next;
+            on->count = (uint32_t)(list->count - first);
+        } else {
+            ok = copy_edges(list, on);
         }
-        count += ok;
+        on->first = (uint32_t)first;
+        *changed = false;
     }
-    *same = *same && count == list->box_count;
-    list->box_count = count;
     return ok;
+}
+
+static void swap_arrays(edge_list *list)
+{
+    edge *const items = list->items;
+    const size_t room = list->room;
+    list->items = list->before;
+    list->room = list->before_room;
+    list->before = items;
+    list->before_room = room;
+    list->count = 0;
+}
+
+static bool merge_lines(edge_list *list)
+{
+    stretch_list all = {0};
+    swap_arrays(list);
+    const bool ok = order_lines(list) && collect(&all, list);
+    stretch *gathered = ok ? gather(&all, list) : NULL;
+    const bool swept = gathered && sweep_lines(list, gathered);
+    free(gathered);
+    free(all.items);
+    return swept;
+}
+
+static void forget(edge_list *list)
+{
+    lines_clear(&list->lines);
+    list->boxes.now.count = list->ordered = list->count = 0;
 }
 
 bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned behind)
 {
-    bool same;
-    if (keep_boxes(list, s, first, behind, &same) && (same || merge_boxes(list)))
+    if (merged_boxes_are(&list->boxes, s, first, behind))
         return true;
-    list->box_count = 0; /* what is there is not theirs */
-    list->count = 0;
+    if (list->lines.idle > list->lines.count / 2)
+        forget(list);
+    if (merged_boxes_become(&list->boxes, &list->lines, s, first, behind) && merge_lines(list))
+        return true;
+    forget(list);
     return false;
 }

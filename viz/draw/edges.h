@@ -2,7 +2,7 @@
 #ifndef DRAW_EDGES_H
 #define DRAW_EDGES_H
 
-#include "lines.h"
+#include "merged_boxes.h"
 #include "scene.h"
 
 /* A stretch of a line of the world that has one colour. */
@@ -16,9 +16,12 @@ typedef struct edge {
 typedef struct edge_list {
     edge *items;
     size_t count, room;
-    line_set lines;   /* while they are merged */
-    scene_box *boxes; /* what was merged last: the same again need not be */
-    size_t box_count, box_room;
+    merged_boxes boxes; /* what was merged last: the same again need not be */
+    line_set lines;     /* that their edges lie on, */
+    uint32_t *order;    /* and the places of those in the order of painting; */
+    size_t ordered;     /* so many, the first ones: those that came last are not among them yet */
+    edge *before;       /* the edges of the last time, while they are merged */
+    size_t before_room;
 } edge_list;
 
 void edges_release(edge_list *list);
@@ -26,7 +29,7 @@ void edges_release(edge_list *list);
 /* Fill a list with the edges of all boxes of the layers [first, behind). Where boxes of one layer, style and width
  * share a stretch, the shallowest gives it its colour; stretches of one depth and colour that meet are one. They come
  * by layer, style, width and axis, and then by where their lines are. False when there is no memory. Cost: O(n log n)
- * for n boxes, and O(n) where they are those of the last time. */
+ * for n boxes; where most are those of the last time, O(n) and the lines of the others, and where all are, O(n). */
 bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned behind);
 
 #endif

@@ -1,5 +1,6 @@
 /* lines.c - see lines.h: a hash table with open addressing, at most half full. */
 #include "lines.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,7 +8,7 @@
 
 void lines_clear(line_set *set)
 {
-    set->count = 0;
+    set->count = set->idle = 0;
     if (set->size)
         memset(set->table, 0, set->size * sizeof *set->table);
 }
@@ -15,6 +16,7 @@ void lines_clear(line_set *set)
 void lines_release(line_set *set)
 {
     free(set->items);
+    free(set->changed);
     free(set->table);
     memset(set, 0, sizeof *set);
 }
@@ -43,6 +45,10 @@ static bool grow(line_set *set)
     if (!items)
         return false;
     set->items = items;
+    uint8_t *changed = realloc(set->changed, room);
+    if (!changed)
+        return false;
+    set->changed = changed;
     uint32_t *table = calloc(size, sizeof *table);
     if (!table)
         return false;
@@ -59,10 +65,11 @@ static bool grow(line_set *set)
     return true;
 }
 
-size_t lines_find(line_set *set, const line_key *key)
+/* The place of a line, which may be new. */
+static uint32_t find(line_set *set, const line_key *key)
 {
     if (set->count == set->room && !grow(set))
-        return SIZE_MAX;
+        return LINE_NONE;
     size_t at = place_of(set, key);
     for (; set->table[at]; at = (at + 1) & (set->size - 1)) {
         const line_key *found = &set->items[set->table[at] - 1].key;
@@ -71,5 +78,22 @@ size_t lines_find(line_set *set, const line_key *key)
     }
     set->items[set->count] = (line){.key = *key};
     set->table[at] = (uint32_t)(set->count + 1);
-    return set->count++;
+    set->idle++;
+    return (uint32_t)set->count++;
+}
+
+uint32_t lines_use(line_set *set, const line_key *key)
+{
+    const uint32_t place = find(set, key);
+    if (place == LINE_NONE)
+        return LINE_NONE;
+    set->idle -= set->items[place].users++ == 0;
+    set->changed[place] = true;
+    return place;
+}
+
+void lines_leave(line_set *set, uint32_t place)
+{
+    set->idle += --set->items[place].users == 0;
+    set->changed[place] = true;
 }

@@ -255,7 +255,7 @@ static void say_velocity(teller *t, uint64_t id)
         say_point(t, id, body->position);
         say(t, ": ");
         say_place(t, body->velocity);
-        say(t, " a tick, drawn for %u", velocity_ticks(octree_game_session(t->game)));
+        say(t, " a tick, drawn for %u", velocity_ticks(t->game));
     }
 }
 

@@ -11,6 +11,12 @@
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* of the camera that follows: half the window is seen at this distance a unit */
 
+/* Of a box whose size is told from its middle: so far aside at most, and from the eye, for the roundings to be small;
+ * and what they are in pixels, at most. */
+#define ASIDE 1e3
+#define FARTHEST 1e100
+#define DOUBT 1e-6
+
 /* Taylor series on [0, pi/4], where eight terms are beyond a double's precision. */
 static void turn_octant(double angle, double *cosine, double *sine)
 {
@@ -58,11 +64,6 @@ static void look(camera *c, double azimuth, double elevation)
     memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
 /* Stand back from a point, in unit coordinates. */
 static void stand(camera *c, const double target[3], double distance)
 {
@@ -96,7 +97,7 @@ static double fit(const camera *c, camera_window window, double distance)
                  along = fmax(half_span(c->up, c->half), THINNEST);
     const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
     const double smaller = window.width < window.height ? window.width : window.height;
-    const double square = dot(c->half, c->half);
+    const double square = camera_dot(c->half, c->half);
     if (c->perspective)
         return smaller / (2 * MARGIN_OF_BALL) * sqrt(distance * distance / square - 1);
     return x < y ? x : y;
@@ -118,12 +119,6 @@ static void measure(camera *c, const octree_box *world)
         c->half[i] = extent[i] / c->size;
 }
 
-void camera_unit(const camera *c, const double position[3], double result[3])
-{
-    for (int i = 0; i < 3; i++)
-        result[i] = 2 * ((position[i] * c->scale - c->origin[i]) / c->size) - c->half[i];
-}
-
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
@@ -139,28 +134,10 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     stand(&c, target, distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2;
-    const double middle = -dot(c.eye, c.forward), span = half_span(c.forward, c.half);
+    const double middle = -camera_dot(c.eye, c.forward), span = half_span(c.forward, c.half);
     c.near_depth = middle - span > c.near ? middle - span : c.near;
     c.far_depth = middle + span;
     return c;
-}
-
-void camera_transform(const camera *c, const double position[3], double result[3])
-{
-    double from_eye[3];
-    camera_unit(c, position, from_eye);
-    for (int i = 0; i < 3; i++)
-        from_eye[i] -= c->eye[i];
-    result[0] = dot(from_eye, c->right);
-    result[1] = dot(from_eye, c->up);
-    result[2] = dot(from_eye, c->forward);
-}
-
-void camera_project(const camera *c, const double seen[3], double pixel[2])
-{
-    const double scale = c->perspective ? c->zoom / seen[2] : c->zoom;
-    pixel[0] = c->middle[0] + seen[0] * scale;
-    pixel[1] = c->middle[1] - seen[1] * scale;
 }
 
 /* Under parallel rays a box appears as large wherever it is. */
@@ -213,4 +190,40 @@ double camera_box_pixels(const camera *c, const octree_box *box)
         }
     }
     return fmax(high[0] - low[0], high[1] - low[1]);
+}
+
+/* From the middle of a box, at (x, y, depth), a corner that is d away has its picture off by
+ *   zoom (d.right - x / depth d.forward) / (depth + d.forward)
+ * across, and likewise along. What is above the line is greatest at one of two opposite corners, where it has the same
+ * size; what is below it lies between the depths of the nearest and the farthest corner. So it is known within the
+ * quotient of these how large the box appears, which for a small one is nearly 1. Roundings are far below DOUBT where
+ * no corner is beside or behind the eye. */
+static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
+{
+    double low[3], middle[3], half[3], across = 0, along = 0;
+    camera_unit(c, box->min, low);
+    camera_unit(c, box->max, half);
+    for (int i = 0; i < 3; i++) {
+        middle[i] = (low[i] + half[i]) / 2 - c->eye[i];
+        half[i] = (half[i] - low[i]) / 2;
+    }
+    const double x = camera_dot(middle, c->right), y = camera_dot(middle, c->up),
+                 depth = camera_dot(middle, c->forward);
+    const double reach = half_span(c->forward, half), most = ASIDE * depth, doubt = DOUBT * (1 + pixels);
+    const bool before = depth - reach > 2 * c->near && depth < FARTHEST && fabs(x) < most && fabs(y) < most;
+    if (!before)
+        return camera_box_pixels(c, box) < pixels;
+    for (int i = 0; i < 3; i++) {
+        across += fabs(c->right[i] * depth - x * c->forward[i]) * half[i];
+        along += fabs(c->up[i] * depth - y * c->forward[i]) * half[i];
+    }
+    const double widest = 2 * c->zoom * (across > along ? across : along) / depth;
+    if (widest < (pixels - doubt) * (depth - reach))
+        return true;
+    return !(widest > (pixels + doubt) * (depth + reach)) && camera_box_pixels(c, box) < pixels;
+}
+
+bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)
+{
+    return c->perspective ? is_seen_below(c, box, pixels) : parallel_box_pixels(c, box) < pixels;
 }

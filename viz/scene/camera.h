@@ -32,18 +32,44 @@ typedef struct camera {
 /* The camera of a tick: it depends on nothing but the view, the world, the player and the number of the tick. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
 
+static inline double camera_dot(const double a[3], const double b[3])
+{
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
 /* To unit coordinates: 2 (p - origin) / size - half. */
-void camera_unit(const camera *c, const double position[3], double result[3]);
+static inline void camera_unit(const camera *c, const double position[3], double result[3])
+{
+    for (int i = 0; i < 3; i++)
+        result[i] = 2 * ((position[i] * c->scale - c->origin[i]) / c->size) - c->half[i];
+}
 
 /* To camera coordinates: right, up, and depth along forward, from the eye; unit lengths. */
-void camera_transform(const camera *c, const double position[3], double result[3]);
+static inline void camera_transform(const camera *c, const double position[3], double result[3])
+{
+    double from_eye[3];
+    camera_unit(c, position, from_eye);
+    for (int i = 0; i < 3; i++)
+        from_eye[i] -= c->eye[i];
+    result[0] = camera_dot(from_eye, c->right);
+    result[1] = camera_dot(from_eye, c->up);
+    result[2] = camera_dot(from_eye, c->forward);
+}
 
 /* Camera coordinates to pixels, y down. The depth must be at least `near` under perspective. */
-void camera_project(const camera *c, const double seen[3], double pixel[2]);
+static inline void camera_project(const camera *c, const double seen[3], double pixel[2])
+{
+    const double scale = c->perspective ? c->zoom / seen[2] : c->zoom;
+    pixel[0] = c->middle[0] + seen[0] * scale;
+    pixel[1] = c->middle[1] - seen[1] * scale;
+}
 
 /* How large a box appears: the longer side, in pixels, of the smallest upright rectangle around its picture. What lies
  * in the box appears no larger. Infinite where some of it is nearer than `near`. */
 double camera_box_pixels(const camera *c, const octree_box *box);
+
+/* Whether that is less than so many pixels: sooner, for a box that is not just about as large. */
+bool camera_box_is_below(const camera *c, const octree_box *box, double pixels);
 
 /* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */
 void camera_turn(double turns, double *cosine, double *sine);

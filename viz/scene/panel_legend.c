@@ -76,12 +76,7 @@ typedef struct legend_subject {
 
 static bool has_movers(const octree_game *game)
 {
-    const octree_session *session = octree_game_session(game);
-    bool moves = octree_game_tick(game)->mover_count > 0;
-    for (size_t i = 0; !moves && i < session->body_count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            moves = moves || session->bodies[i].velocity[axis] != 0;
-    return moves;
+    return octree_game_tick(game)->mover_count > 0 || octree_game_fastest(game) > 0;
 }
 
 /* Of a session that keys play, those of queries that it never asks are left out; the nearest point is asked for by a
@@ -394,7 +389,7 @@ void write_tick_legend(pen *p, const octree_game *game)
                                       .max_depth = session->tree.max_depth,
                                       .swept = session->player.sweep,
                                       .tick = octree_game_tick(game),
-                                      .velocity_ticks = velocity_ticks(session)});
+                                      .velocity_ticks = velocity_ticks(game)});
 }
 
 void write_tree_legend(pen *p, const octree *tree, const tree_look *about)

@@ -25,10 +25,10 @@ void scene_release(scene *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Room for one more item, or null: then the scene says so. */
+/* Room for so many items, or null: then the scene says so. */
 static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
 {
-    void *grown = grow_by_one(items, count, room, 64, size);
+    void *grown = grow_to(items, count, room, 64, size);
     if (!grown)
         s->out_of_memory = true;
     return grown;
@@ -37,7 +37,7 @@ static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size
 /* The body of every scene_add: `array` is one of the scene's. */
 #define APPEND(s, array, item)                                                                                         \
     do {                                                                                                               \
-        void *grown = grow(s, (array).items, (array).count, &(array).room, sizeof *(array).items);                     \
+        void *grown = grow(s, (array).items, (array).count + 1, &(array).room, sizeof *(array).items);                 \
         if (grown) {                                                                                                   \
             (array).items = grown;                                                                                     \
             (array).items[(array).count++] = (item);                                                                   \
@@ -77,6 +77,24 @@ void scene_add_marker(scene *s, scene_marker marker)
 {
     if (admits(s, marker.look, all_finite(marker.at, 3)))
         APPEND(s, s->markers, marker);
+}
+
+void scene_add_points(scene *s, scene_look look, const octree_point *points, size_t count)
+{
+    if (count == 0 || !view_shows(&s->view, look.layer))
+        return;
+    void *grown = grow(s, s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
+    if (!grown)
+        return;
+    s->markers.items = grown;
+    for (size_t i = 0; i < count; i++) {
+        const double *at = points[i].position;
+        const bool finite = all_finite(at, 3);
+        s->markers.items[s->markers.count] =
+            (scene_marker){.id = points[i].id, .at = {at[0], at[1], at[2]}, .look = look};
+        s->markers.count += finite;
+        s->refused += !finite;
+    }
 }
 
 void scene_add_label(scene *s, scene_label label)

@@ -145,6 +145,9 @@ void scene_add_marker(scene *s, scene_marker marker);
 void scene_add_label(scene *s, scene_label label);
 void scene_add_panel(scene *s, scene_panel panel);
 
+/* The same for a marker on each of many points, with their ids. */
+void scene_add_points(scene *s, scene_look look, const octree_point *points, size_t count);
+
 /* A digest of the whole draw list, camera and size included: the same on every machine. */
 uint64_t scene_digest(const scene *s);
 

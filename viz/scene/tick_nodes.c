@@ -19,7 +19,7 @@ bool tick_node_shown(scene *s, const octree *tree, octree_address address, octre
                               .box = octree_cell_box(&world, address)};
     if (!filter_shows_node(f, &world, node))
         return false;
-    const bool small = lies_in_a_shown_one(f, node->depth) && camera_box_pixels(&s->camera, &node->box) < s->view.lod;
+    const bool small = lies_in_a_shown_one(f, node->depth) && camera_box_is_below(&s->camera, &node->box, s->view.lod);
     s->tally.small_met += small;
     return !small;
 }

@@ -40,20 +40,22 @@ static void thin_points(tree_walk *w)
     s->markers.count = kept;
 }
 
-static void add_point(tree_walk *w, const octree_point *point)
+/* These are in the order in which they are shown. */
+static void add_sorted(tree_walk *w, const octree_point *points, size_t count)
 {
     scene *s = w->scene;
-    if (thinning_drops(w->sieve, point->id)) {
-        s->tally.thinned++;
-        return;
-    }
-    const scene_look look = scene_layer_look(LAYER_POINTS, STYLE_SOLID, w->point_width);
-    scene_marker marker = {.id = point->id, .look = look};
-    memcpy(marker.at, point->position, sizeof marker.at);
-    scene_add_marker(s, marker);
-    s->tally.points++;
+    scene_add_points(s, scene_layer_look(LAYER_POINTS, STYLE_SOLID, w->point_width), points, count);
+    s->tally.points += count;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
         thin_points(w);
+}
+
+static bool are_sorted(const octree_point *points, size_t count)
+{
+    for (size_t i = 1; i < count; i++)
+        if (octree_compare_points(&points[i - 1], &points[i]) > 0)
+            return false;
+    return true;
 }
 
 /* Few, and often in order already. */
@@ -68,25 +70,45 @@ static void sort_few(octree_point *points, size_t count)
     }
 }
 
+/* Whether a point is shown, by the filter and the budget. */
+static bool takes_point(tree_walk *w, const octree_point *point)
+{
+    if (!filter_shows_point(&w->scene->view.filter, point->position))
+        return false;
+    const bool out = thinning_drops(w->sieve, point->id);
+    w->scene->tally.thinned += out;
+    return !out;
+}
+
+/* Those of a leaf's points that are shown, sorted, by way of memory for all of them. */
+static void add_some(tree_walk *w, const octree_node *leaf, octree_point *some, size_t most_few)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < leaf->count; i++)
+        if (takes_point(w, &leaf->points[i]))
+            some[count++] = leaf->points[i];
+    if (count <= most_few)
+        sort_few(some, count);
+    else
+        qsort(some, count, sizeof *some, octree_compare_points);
+    add_sorted(w, some, count);
+}
+
 /* A leaf's points come in no stated order: sort them, so that a scene does not depend on the tree's history. */
 static void add_points(tree_walk *w, const octree_node *leaf)
 {
     enum { FEW = 32 };
-    octree_point few[FEW], *sorted = leaf->count <= FEW ? few : malloc(leaf->count * sizeof *sorted);
-    if (!sorted) {
-        w->scene->out_of_memory = true;
+    if (!w->sieve && !filter_is_on(&w->scene->view.filter) && are_sorted(leaf->points, leaf->count)) {
+        add_sorted(w, leaf->points, leaf->count);
         return;
     }
-    memcpy(sorted, leaf->points, leaf->count * sizeof *sorted);
-    if (sorted == few)
-        sort_few(few, leaf->count);
+    octree_point few[FEW], *some = leaf->count <= FEW ? few : malloc(leaf->count * sizeof *some);
+    if (some)
+        add_some(w, leaf, some, FEW);
     else
-        qsort(sorted, leaf->count, sizeof *sorted, octree_compare_points);
-    for (size_t i = 0; i < leaf->count; i++)
-        if (filter_shows_point(&w->scene->view.filter, sorted[i].position))
-            add_point(w, &sorted[i]);
-    if (sorted != few)
-        free(sorted);
+        w->scene->out_of_memory = true;
+    if (some != few)
+        free(some);
 }
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
@@ -145,7 +167,7 @@ static void add_box(tree_walk *w, const octree_node *node)
 static bool is_small(const tree_walk *w, const octree_node *node)
 {
     const scene *s = w->scene;
-    return w->small[node->depth] || (s->view.lod > 0 && camera_box_pixels(&s->camera, &node->box) < s->view.lod);
+    return w->small[node->depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &node->box, s->view.lod));
 }
 
 static void show_node(tree_walk *w, const octree_node *node)

@@ -9,20 +9,11 @@
 #define PART 10      /* of the world's longest side: the fastest arrow */
 #define CROWD 1000.0 /* boxes and points for which there is one arrow: some hundreds can be told apart */
 
-static double fastest(const octree_session *session)
-{
-    double speed = 0;
-    for (size_t i = 0; i < session->body_count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            speed = fmax(speed, fabs(session->bodies[i].velocity[axis]));
-    return speed;
-}
-
-unsigned velocity_ticks(const octree_session *session)
+unsigned velocity_ticks(const octree_game *game)
 {
     static const unsigned choices[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000};
-    const octree_box *world = &session->tree.world;
-    const double speed = fastest(session);
+    const octree_box *world = &octree_game_session(game)->tree.world;
+    const double speed = octree_game_fastest(game);
     double half = 0; /* of the longest side, which may be more than a double holds */
     unsigned ticks = 1;
     for (int axis = 0; axis < 3; axis++)
@@ -107,7 +98,7 @@ static size_t most_arrows(const view *v)
 void add_velocities(scene *s, const octree_game *game)
 {
     const octree_tick *tick = octree_game_tick(game);
-    const double ticks = velocity_ticks(octree_game_session(game));
+    const double ticks = velocity_ticks(game);
     uint64_t sieve = s->tally.one_in - 1; /* those of points that are left out are left out with them */
     if (!view_shows(&s->view, LAYER_VELOCITIES) || tick->mover_count == 0)
         return;

@@ -7,7 +7,7 @@
 
 /* The ticks whose way an arrow shows: so many of 1, 2, 5, 10 ... 1000 that the arrow of the fastest of the session's
  * bodies is no longer than a tenth of the world's longest side, or 1. The same at every tick. */
-unsigned velocity_ticks(const octree_session *session);
+unsigned velocity_ticks(const octree_game *game);
 
 /* A segment for each point that moves and that the view shows, with its id: from where it is along its velocity, up to
  * the world's bounds, where it bounces. What is beyond the view's budget is left out and counted, which is a

@@ -255,6 +255,10 @@ const octree *octree_game_tree(const octree_game *game);
 /* The session as it was given. */
 const octree_session *octree_game_session(const octree_game *game);
 
+/* The greatest speed along one axis that a body of the session begins with, in world units a tick; 0 where all are at
+ * rest, and for null. Velocities that are refused, since they are not finite, do not count. Cost: O(1). */
+double octree_game_fastest(const octree_game *game);
+
 #ifdef __cplusplus
 }
 #endif
