@@ -56,9 +56,9 @@ static bool is_repeated(const node *n, uint32_t index)
 static const char *check_leaf(const octree *tree, const node *n, cell c)
 {
     const octree_box bounds = cell_bounds(tree->axes, c);
-    if (n->count > tree->def.leaf_capacity && may_split(tree, c))
+    if (!fits_leaf(tree, n->count) && may_split(tree, c))
         return "a leaf that could split is over its capacity";
-    if (n->count > tree->def.leaf_capacity && tree->def.full_leaf == OCTREE_REFUSE)
+    if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
     for (uint32_t i = 0; i < n->count; i++) {
         const double *position = leaf_points(n)[i].position;
