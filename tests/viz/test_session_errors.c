@@ -146,6 +146,10 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"tree\":{\"full\":true}}", "2: tree.full: expected \"refuse\" or \"grow\", found true"},
         {HEADER "\"player\":{\"stepp\":0}}",
          "2: player: unknown member \"stepp\"; known: id, body, position, step, box_size, sweep"},
+        {HEADER "\"player\":{\"body\":true,\"id\":1,\"position\":[500,0,0]}}",
+         "2: player: unknown member \"position\"; known: id, body, box_size, sweep"},
+        {HEADER "\"player\":{\"step\":5,\n\"body\":true}}",
+         "2: player: unknown member \"step\"; known: id, body, box_size, sweep"},
         {HEADER "\"player\":{\"step\":-1}}", "2: player.step: expected a number that is not negative, found -1"},
         {HEADER "\"player\":{\"sweep\":1}}", "2: player.sweep: expected true or false, found 1"},
         {HEADER "\"player\":{\"box_size\":\"big\"}}", "2: player.box_size: expected a number that is not negative, "
