@@ -207,6 +207,28 @@ static void digest_writes_what_diff_takes(void **state)
     assert_trouble(&result, "2.png: ");
 }
 
+/* A digest of one picture is compared with one picture, whatever this is called. */
+static void digest_of_a_picture_is_compared_with_a_picture(void **state)
+{
+    const twins p = make_pair(state);
+    const place one = place_in(*state, "one.digest"), two = place_in(*state, "two.digest");
+    const place folder = gallery_make(*state, "folder", "a.png c.png");
+    command_result result = run_octreel(NULL, "digest %s -o %s", p.a.path, one.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", one.path, p.a.path);
+    assert_ends(&result, 0, "same: 1 frame, 1 the same by its pixels\n");
+    result = run_octreel(NULL, "diff %s %s", one.path, p.b.path);
+    assert_ends(&result, 1, "different: 1 of 1 frame\n  b.png: pixels differ: digest ");
+    result = run_octreel(NULL, "diff %s %s", p.a.path, one.path);
+    assert_ends(&result, 0, "same: 1 frame, 1 the same by its pixels\n");
+    result = run_octreel(NULL, "digest %s -o %s", folder.path, two.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", two.path, p.a.path);
+    assert_trouble(&result, "a picture is compared with a picture, or the digest of one: ");
+}
+
 static void help_teaches(void **state)
 {
     (void)state;
@@ -247,6 +269,7 @@ int main(void)
         WITH_FOLDER(json_is_said_in_trouble_too),
         WITH_FOLDER(long_lists_are_cut_for_people_and_not_for_programs),
         WITH_FOLDER(digest_writes_what_diff_takes),
+        WITH_FOLDER(digest_of_a_picture_is_compared_with_a_picture),
         cmocka_unit_test(help_teaches),
         WITH_FOLDER(imagemagick_counts_the_same_pixels),
     };
