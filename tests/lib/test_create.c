@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "counting_allocator.h"
 #include "octree/game.h"
 #include "octree/sample.h"
 
@@ -123,6 +124,11 @@ static void create_refuses_capacity_zero_and_unlisted_options(void **state)
     tree = (octree *)&def;
     assert_int_equal(octree_create(&def, &tree), OCTREE_BAD_OPTION);
     assert_null(tree);
+    def = define(cube(0, 1), 1, 5, OCTREE_REFUSE);
+    def.allocator.release = counting_allocator_use(&(counting_allocator){0}).release;
+    assert_int_equal(octree_create(&def, &tree), OCTREE_BAD_OPTION);
+    assert_non_null(strstr(octree_status_text(OCTREE_BAD_OPTION), "enumeration"));
+    assert_non_null(strstr(octree_status_text(OCTREE_BAD_OPTION), "allocator"));
 }
 
 static void an_empty_tree_is_one_leaf(void **state)

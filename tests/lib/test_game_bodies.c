@@ -106,14 +106,17 @@ static void bodies_that_the_tree_refuses_are_refusals_of_tick_zero(void **state)
                                          {.id = 2, .position = {NAN, 0, 0}},
                                          {.id = 3, .position = {5, 5, 5}},
                                          {.id = 4, .position = {5, 5, 5}},
-                                         {.id = 5, .position = {5, 5, 5}}};
-    static const octree_status why[] = {OCTREE_OUTSIDE, OCTREE_NOT_FINITE, OCTREE_FULL};
-    static const uint64_t ids[] = {1, 2, 5};
-    octree_session session = small_session(bodies, 5);
+                                         {.id = 5, .position = {5, 5, 5}},
+                                         {.id = 6, .position = {-5, 5, 5}, .velocity = {NAN, 0, 0}},
+                                         {.id = 7, .position = {-5, 5, 5}, .velocity = {0, 0, -INFINITY}}};
+    static const octree_status why[] = {OCTREE_OUTSIDE, OCTREE_NOT_FINITE, OCTREE_FULL, OCTREE_NOT_FINITE,
+                                        OCTREE_NOT_FINITE};
+    static const uint64_t ids[] = {1, 2, 5, 6, 7};
+    octree_session session = small_session(bodies, 7);
     octree_game *game = start_game(&session);
     const octree_tick *tick = octree_game_tick(game);
-    assert_int_equal(tick->refusal_count, 3);
-    for (size_t i = 0; i < 3; i++) {
+    assert_int_equal(tick->refusal_count, 5);
+    for (size_t i = 0; i < 5; i++) {
         assert_int_equal(tick->refusals[i].why, why[i]);
         assert_int_equal(tick->refusals[i].id, ids[i]);
     }
@@ -159,17 +162,18 @@ static void an_edit_that_cannot_be_made_is_a_refusal(void **state)
         {1, OCTREE_EDIT_REMOVE, {.id = 9}},
         {1, OCTREE_EDIT_MOVE, {.id = 9, .position = {1, 1, 1}}},
         {1, OCTREE_EDIT_MOVE, {.id = 1, .position = {0, 0, -11}}},
+        {1, OCTREE_EDIT_INSERT, {.id = 8, .position = {-5, 5, 5}, .velocity = {0, INFINITY, 0}}},
     };
     static const octree_status why[] = {OCTREE_DUPLICATE, OCTREE_DUPLICATE, OCTREE_OUTSIDE, OCTREE_NOT_FINITE,
-                                        OCTREE_NOT_FOUND, OCTREE_NOT_FOUND, OCTREE_OUTSIDE};
+                                        OCTREE_NOT_FOUND, OCTREE_NOT_FOUND, OCTREE_OUTSIDE, OCTREE_NOT_FINITE};
     octree_session session = small_session(bodies, 1);
     session.edits = edits;
-    session.edit_count = 7;
+    session.edit_count = 8;
     octree_game *game = start_game(&session);
     const octree_tick *tick = play_key(game, '.');
-    assert_int_equal(tick->refusal_count, 7);
+    assert_int_equal(tick->refusal_count, 8);
     assert_int_equal(tick->events, OCTREE_EVENT_REFUSED); /* of the edits, only what lay outside is an event */
-    for (size_t i = 0; i < 7; i++) {
+    for (size_t i = 0; i < 8; i++) {
         assert_int_equal(tick->refusals[i].why, why[i]);
         assert_int_equal(tick->refusals[i].id, edits[i].body.id);
     }

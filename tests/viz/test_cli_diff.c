@@ -56,6 +56,9 @@ static void tolerance_is_printed_with_every_verdict(void **state)
         {"--max-delta 0.0026", "forgiven: colours within 0.0026 YIQ\n", 1},
         {"--ignore 0,0,3,16 --ignore 3,3,9,1", "the 3x16 pixels at (0,0), the 9x1 pixels at (3,3)\n", 0},
         {"--ignore 0,0,3,16", "2 of 384 pixels differ, 3 more in what is ignored; worst 0.0027 YIQ at (3,3)", 1},
+        {"--ignore 24,0,9,9 --ignore 0,15,9,9",
+         "forgiven: the 9x9 pixels at (24,0), outside every frame that was compared, the 9x9 pixels at (0,15)\n", 1},
+        {"--ignore 0,16,1,1", "forgiven: the 1x1 pixels at (0,16), outside every frame that was compared\n", 1},
         {"--antialias --max-pixels 5 --max-delta 0.001", "up to 5 pixels a frame, colours within 0.001 YIQ, anti-al",
          0},
         {"--max-delta 1", "b.png: forgiven: 0 pixels count; 5 of 384 pixels differ, 5 of them close; worst 0.0027", 0},
@@ -80,6 +83,8 @@ static void trouble_is_said_and_is_status_2(void **state)
         {"--ignore 1,2,3", "--ignore takes left, top, width and height"},
         {"--ignore 1,2,0,4", "--ignore takes left, top, width and height"},
         {"--ignore 1,2,3,4,5", "--ignore takes left, top, width and height"},
+        {"--ignore 0,0,99999999999,1", "each at most 2147483647"},
+        {"--ignore 0,0,0,0", "the last two at least 1"},
         {"--ignore-layer nodes", "--ignore-layer takes text"},
         {"--ignore-layer text", "recordings alone"},
         {"--background red", "--background takes a colour"},
@@ -207,6 +212,28 @@ static void digest_writes_what_diff_takes(void **state)
     assert_trouble(&result, "2.png: ");
 }
 
+/* A digest of one picture is compared with one picture, whatever this is called. */
+static void digest_of_a_picture_is_compared_with_a_picture(void **state)
+{
+    const twins p = make_pair(state);
+    const place one = place_in(*state, "one.digest"), two = place_in(*state, "two.digest");
+    const place folder = gallery_make(*state, "folder", "a.png c.png");
+    command_result result = run_octreel(NULL, "digest %s -o %s", p.a.path, one.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", one.path, p.a.path);
+    assert_ends(&result, 0, "same: 1 frame, 1 the same by its pixels\n");
+    result = run_octreel(NULL, "diff %s %s", one.path, p.b.path);
+    assert_ends(&result, 1, "different: 1 of 1 frame\n  b.png: pixels differ: digest ");
+    result = run_octreel(NULL, "diff %s %s", p.a.path, one.path);
+    assert_ends(&result, 0, "same: 1 frame, 1 the same by its pixels\n");
+    result = run_octreel(NULL, "digest %s -o %s", folder.path, two.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s", two.path, p.a.path);
+    assert_trouble(&result, "a picture is compared with a picture, or the digest of one: ");
+}
+
 static void help_teaches(void **state)
 {
     (void)state;
@@ -247,6 +274,7 @@ int main(void)
         WITH_FOLDER(json_is_said_in_trouble_too),
         WITH_FOLDER(long_lists_are_cut_for_people_and_not_for_programs),
         WITH_FOLDER(digest_writes_what_diff_takes),
+        WITH_FOLDER(digest_of_a_picture_is_compared_with_a_picture),
         cmocka_unit_test(help_teaches),
         WITH_FOLDER(imagemagick_counts_the_same_pixels),
     };

@@ -352,6 +352,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--depth 2:5", "--depths"},
         {"--depth 3 --depths 4", "the tree ends at depth 3"},
         {"second.txt", "one file"},
+        {"--node root --node 3", "--node names one node, not root and 3"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
     file_write_text(points.path, "1 2 3\n");
@@ -362,6 +363,28 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
     }
     command_result result = run_octreel(NULL, "inspect -o %s", picture.path);
     assert_trouble(&result, "takes a point cloud");
+}
+
+static void what_is_said_of_a_picture_is_refused_without_one(void **state)
+{
+    static const char *const rows[][2] = {
+        {"--size 64x64", "--size is about a picture, and none is made without -o"},
+        {"--labels --camera top", "--camera is about a picture"},
+        {"--depths 1:2 --json", "--depths is about a picture"},
+        {"--camera-from nowhere", "--camera-from is about a picture"},
+        {"--context egl", "--context is about a picture"},
+        {"--context egl --any-renderer --nodes nodes.csv", "--any-renderer is about a picture"},
+    };
+    const place points = place_in(*state, "points.txt");
+    file_write_text(points.path, "1 2 3\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "inspect %s %s", points.path, rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+    }
+    command_result result = run_octreel(NULL, "inspect %s", points.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "fullest leaf 1 point\n"));
+    command_release(&result);
 }
 
 /* What has no extent is seen all the same. */
@@ -449,6 +472,7 @@ int main(void)
         IN_FOLDER(picture_is_whole_and_traced),
         IN_FOLDER(bad_clouds_are_refused_with_file_and_reason),
         IN_FOLDER(options_that_do_not_fit_are_refused_in_one_sentence),
+        IN_FOLDER(what_is_said_of_a_picture_is_refused_without_one),
         IN_FOLDER(clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures),
         IN_FOLDER(clouds_and_places_that_are_none_are_refused_in_one_sentence),
         IN_FOLDER(what_is_no_file_is_not_replaced_by_a_picture),

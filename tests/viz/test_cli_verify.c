@@ -39,6 +39,20 @@ static void recording_of_the_program_is_identical_by_every_context(void **state)
     }
 }
 
+static void one_tick_is_one_and_not_several(void **state)
+{
+    const place folder = place_in(*state, "film"), session = place_in(*state, "one.json");
+    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 1}");
+    command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, folder.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, ": 1 tick, 1 frame, "));
+    command_release(&result);
+    result = run_octreel(NULL, "verify %s", folder.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, ": identical: 1 tick, 1 frame\n"));
+    command_release(&result);
+}
+
 static void finding_is_a_line_and_ends_with_1(void **state)
 {
     const place folder = film_short(*state);
@@ -172,6 +186,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(identical_recording_is_said_in_one_line),
         IN_FOLDER(recording_of_the_program_is_identical_by_every_context),
+        IN_FOLDER(one_tick_is_one_and_not_several),
         IN_FOLDER(finding_is_a_line_and_ends_with_1),
         IN_FOLDER(another_renderer_can_differ_in_pixels_alone),
         IN_FOLDER(json_is_one_object),

@@ -177,7 +177,7 @@ static void pcd_headers_that_cannot_be_followed_are_refused(void **state)
         {TYPES "WIDTH 4294967296\nHEIGHT 4294967296\nPOINTS 0\nDATA ascii\n",
          "a.pcd:7: WIDTH 4294967296 times HEIGHT 4294967296 is not POINTS 0"},
         {TYPES "COUNT 1 2 1\nPOINTS 1\nDATA ascii\n", "a.pcd:6: y has a COUNT of 2, which must be 1"},
-        {FIELDS "SIZE 4 2 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n", "a.pcd:5: field 2 is a float of 2 bytes"},
+        {FIELDS "SIZE 4 2 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n", "a.pcd:5: field 2 is a float of 2 bytes, not 4 or 8"},
     };
     (void)state;
     assert_refuses_each("a.pcd", rows, sizeof rows / sizeof *rows);

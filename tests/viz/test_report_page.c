@@ -70,8 +70,10 @@ static void write_page_of(comparison_of *made, const char *folder, meddler *medd
 static void write_page(const char *a, const char *b, const char *folder, const char *cause, const char *headline)
 {
     comparison_of made = assert_compared(a, b, NULL);
-    if (cause)
+    if (cause) {
         made.result.pairs[0].cause = strdup(cause);
+        made.result.pairs[0].difference.counted.worst_delta = 0.84341; /* 0.8434 would not forgive it */
+    }
     if (headline)
         made.result.headline = strdup(headline);
     write_page_of(&made, folder, NULL);
@@ -138,7 +140,7 @@ static void cause_is_the_headline_beside_the_picture(void **state)
     assert_said(state, "details 0", "7 pixels: 5 of node 0/3/7; text: 2");
     assert_said(state, "details 5", "none");
     assert_said_part(state, "facts 0",
-                     "pixels; 7 of 384, 1.8\xe2\x80\xaf%; worst; 0.0027 YIQ at 0, 3; channels; by up to 1 of "
+                     "pixels; 7 of 384, 1.8\xe2\x80\xaf%; worst; 0.8435 YIQ at 0, 3; channels; by up to 1 of "
                      "255; within; 0, 3 to 6, 3; size; 24 \xc3\x97 16; files; ");
 }
 

@@ -44,7 +44,7 @@ static void text_that_is_no_stream_of_objects_is_refused(void **state)
     static const refusal rows[] = {
         {"", "1: holds no session"},
         {"\n \n", "3: holds no session"},
-        {"hello", "1: '[' or '{' expected near 'hello'"},
+        {"hello", "1: '{' expected near 'hello'"},
         {"[1]", "1: expected an object, found a list of 1"},
         {"{}", "1: is no session: the first object has no \"octreel\": \"session\""},
         {"\n{\"tick\":0}", "2: is no session: "},
@@ -53,11 +53,11 @@ static void text_that_is_no_stream_of_objects_is_refused(void **state)
         {HEADER "\"points\":[[1,2,3],\n", "3: ']' expected near end of file"},
         {HEADER "\"ticks\":NaN}", "2: invalid token near 'NaN'"},
         {HEADER "\"ticks\":1,\n\"ticks\":2}", "3: duplicate object key near '\"ticks\"'"},
-        {HEADER "\"ticks\":1}\n\n x", "4: '[' or '{' expected near 'x'"},
-        {HEADER "\"ticks\":1}\n}", "3: '[' or '{' expected near '}'"},
+        {HEADER "\"ticks\":1}\n\n x", "4: '{' expected near 'x'"},
+        {HEADER "\"ticks\":1}\n}", "3: '{' expected near '}'"},
         {HEADER "\"ticks\":1}\n[]", "3: expected an object, found a list of 0"},
         {HEADER "\"ticks\":1}\n" HEADER "\"ticks\":1}", "3: a second header; what follows the first are objects"},
-        {HEADER "\"keys\":\"\\u0000\"}", "2: \\u0000 is not allowed"},
+        {HEADER "\"keys\":\"\\u0000\"}", "2: a text cannot hold \\u0000 near '"},
         {HEADER "\"keys\":\"\xff\"}", "2: unable to decode byte 0xff"},
         {HEADER "\x1b[31m", "2: string or '}' expected near '?'"},
     };
@@ -78,6 +78,10 @@ static void shapes_that_are_none_are_refused(void **state)
         {HEADER "\"shapes\":{}}", "2: shapes: expected a list of shapes, found an object"},
         {HEADER "\"shapes\":[{\"ball\":1}]}", "2: shapes[0]: expected {\"box\": ...}, {\"segment\": ...}, "
                                               "{\"point\": ...} or {\"label\": ...}"},
+        {HEADER "\"shapes\":[{\"point\":[1,2,3],\"label\":\"a\"}]}",
+         "2: shapes[0]: expected one of {\"box\": ...}, {\"segment\": ...}, {\"point\": ...} or {\"label\": ...}, "
+         "found "
+         "\"point\" and \"label\" together"},
         {HEADER "\"shapes\":[{\"point\":[1,2]}]}", "2: shapes[0].point: expected"},
         {HEADER "\"shapes\":[{\"segment\":[1,2,3]}]}",
          "2: shapes[0].segment: expected two places [[x, y, z], [x, y, z]], found a list of 3"},
@@ -146,6 +150,10 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"tree\":{\"full\":true}}", "2: tree.full: expected \"refuse\" or \"grow\", found true"},
         {HEADER "\"player\":{\"stepp\":0}}",
          "2: player: unknown member \"stepp\"; known: id, body, position, step, box_size, sweep"},
+        {HEADER "\"player\":{\"body\":true,\"id\":1,\"position\":[500,0,0]}}",
+         "2: player: unknown member \"position\"; known: id, body, box_size, sweep"},
+        {HEADER "\"player\":{\"step\":5,\n\"body\":true}}",
+         "2: player: unknown member \"step\"; known: id, body, box_size, sweep"},
         {HEADER "\"player\":{\"step\":-1}}", "2: player.step: expected a number that is not negative, found -1"},
         {HEADER "\"player\":{\"sweep\":1}}", "2: player.sweep: expected true or false, found 1"},
         {HEADER "\"player\":{\"box_size\":\"big\"}}", "2: player.box_size: expected a number that is not negative, "
@@ -196,6 +204,7 @@ static void bad_points_are_refused(void **state)
          "100000000, found -1"},
         {HEADER "\"points\":{\"sample\":\"uniform\",\"count\":100000001}}", "2: points.count: expected a whole number"},
         {HEADER "\"points\":{\"file\":\"a\",\"count\":1}}", "2: points: unknown member \"count\"; known: file"},
+        {HEADER "\"points\":{\"file\":\"\"}}", "2: points.file: expected the name of a file, found \"\""},
         {HEADER "\"points\":{\"file\":7}}", "2: points.file: expected the name of a file, found 7"},
         {HEADER "\"velocities\":3}", "2: velocities: expected a list of [id, vx, vy, vz] or {\"speed\": ..., \"seed\": "
                                      "...}, found 3"},
@@ -240,6 +249,10 @@ static void bad_ticks_are_refused(void **state)
          "3: edits[0].remove: expected a whole number from 0 to"},
         {START "{\"tick\":1,\"queries\":[{\"rnge\":1}]}",
          "3: queries[0]: expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": ...}"},
+        {START "{\"tick\":1,\"queries\":[{\"radius\":1,\"knearest\":2,\"at\":\"player\"}]}",
+         "3: queries[0]: expected one of {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": "
+         "...}, "
+         "found \"knearest\" and \"radius\" together"},
         {START "{\"tick\":1,\"queries\":[{\"nearest\":1}]}",
          "3: queries[0].nearest: expected \"player\" or three numbers "
          "[x, y, z], found 1"},

@@ -44,6 +44,25 @@ static void header_alone_is_the_default_world(void **state)
     session_release(&file);
 }
 
+/* As a cloud's; errors count lines as before. */
+static void byte_order_mark_before_the_header_is_passed_over(void **state)
+{
+    static const char text[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":1,\n\"ticks\":7}",
+                      twice[] = "\xef\xbb\xbf\xef\xbb\xbf{}", alone[] = "\xef\xbb\xbf",
+                      bad[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":1,\n\"ticks\":\"a\"}";
+    session_file file;
+    session_error error;
+    (void)state;
+    assert_true(session_parse("s.json", "", text, sizeof text - 1, &file, &error));
+    assert_int_equal(file.session.ticks, 7);
+    session_release(&file);
+    assert_false(session_parse("s.json", "", twice, sizeof twice - 1, &file, &error));
+    assert_false(session_parse("s.json", "", alone, sizeof alone - 1, &file, &error));
+    assert_string_equal(error.text, "s.json:1: holds no session");
+    assert_false(session_parse("s.json", "", bad, sizeof bad - 1, &file, &error));
+    assert_non_null(strstr(error.text, "s.json:2: ticks: "));
+}
+
 static void player_follows_the_world_and_the_box_the_step(void **state)
 {
     session_file file = parse(HEADER ",\"player\":{\"id\":3},\"world\":{\"min\":[0,0,0],\"max\":[8,4,80]}}");
@@ -258,6 +277,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(header_alone_is_the_default_world),
+        cmocka_unit_test(byte_order_mark_before_the_header_is_passed_over),
         cmocka_unit_test(player_follows_the_world_and_the_box_the_step),
         cmocka_unit_test(player_may_be_a_body_or_nobody),
         cmocka_unit_test(extreme_worlds_have_a_player_inside),

@@ -32,6 +32,8 @@ int cmd_accept(int argc, char **argv)
         return trouble("accept takes a reference and what is new; octreel accept --help tells more");
     if (getenv("CI"))
         return trouble("nothing is accepted where CI is set in the environment: references change by hand alone");
+    if (!check_names("accept", argv + optind, argc - optind))
+        return EXIT_TROUBLE;
     const accept_options all = {
         .reference = argv[optind],
         .frames = argv[optind + 1],

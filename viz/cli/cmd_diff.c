@@ -108,16 +108,16 @@ static bool take_option(arguments *a, int option)
         return read_color("--background", optarg, &a->options.background);
     case 'o':
         a->folder = optarg;
-        return true;
+        return check_name("-o", optarg);
     case 'j':
         a->json = true;
         return true;
     case 'u':
         a->junit = optarg;
-        return true;
+        return check_name("--junit", optarg);
     case 'm':
         a->markdown = optarg;
-        return true;
+        return check_name("--markdown", optarg);
     default:
         fputs("octreel diff --help tells what it takes\n", stderr);
         return false;
@@ -235,7 +235,7 @@ int cmd_diff(int argc, char **argv)
         status = fputs(help, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
     else if (ok && argc - optind != 2)
         status = trouble("diff takes a reference and what is compared with it; octreel diff --help tells more");
-    else if (ok && check_outputs(&a))
+    else if (ok && check_names("diff", argv + optind, 2) && check_outputs(&a))
         status = compare(&a, (const char *[]){argv[optind], argv[optind + 1]});
     free(a.ignored);
     return status;

@@ -71,5 +71,7 @@ int cmd_digest(int argc, char **argv)
     }
     if (argc - optind != 1)
         return trouble("digest takes one folder of frames; octreel digest --help tells more");
+    if (!check_names("digest", argv + optind, 1) || (path && !check_name("-o", path)))
+        return EXIT_TROUBLE;
     return digest_it(argv[optind], path, background);
 }

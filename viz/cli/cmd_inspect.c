@@ -45,6 +45,7 @@ typedef struct arguments {
     size_t query_count;
     octree_def def;
     bool has_world, json;
+    const char *who_draws; /* the option that says so; null: none does */
     view_options view_options;
     view view;
     renderer_choice renderer;
@@ -128,6 +129,15 @@ static bool take_query(arguments *a, int option)
                            : read_range(optarg, query);
 }
 
+static bool take_node(arguments *a, const char *address)
+{
+    if (a->node)
+        trouble("--node names one node, not %s and %s", a->node, address);
+    const bool first = !a->node;
+    a->node = address;
+    return first;
+}
+
 static bool take_option(arguments *a, int option)
 {
     if (take_view_option(&a->view_options, option))
@@ -135,13 +145,12 @@ static bool take_option(arguments *a, int option)
     switch (option) {
     case 'o':
         a->picture.given = optarg;
-        return true;
+        return check_name("-o", optarg);
     case 'n':
-        a->node = optarg;
-        return true;
+        return take_node(a, optarg);
     case 'N':
         a->nodes.given = optarg;
-        return true;
+        return check_name("--nodes", optarg);
     case 'j':
         a->json = true;
         return true;
@@ -155,8 +164,10 @@ static bool take_option(arguments *a, int option)
     case 'b':
         return take_query(a, option);
     case OPTION_CONTEXT:
+        a->who_draws = "context";
         return read_context(optarg, &a->renderer);
     case OPTION_ANY_RENDERER:
+        a->who_draws = "any-renderer";
         return a->renderer.any_renderer = true;
     default:
         fputs("octreel inspect --help tells what it takes\n", stderr);
@@ -218,8 +229,8 @@ static bool write_nodes(const report *r, record_error *error)
 /* A node or answers are printed alone, without the statistics. */
 static void print(const report *r)
 {
-    const char *name = inspect_base_name(r->cloud);
     const arguments *a = r->a;
+    const char *name = inspect_told_name(r->cloud, a->clouds, a->cloud_count);
     if (a->node)
         inspect_print_node(&r->node, name, a->json, stdout);
     if (a->query_count)
@@ -297,9 +308,22 @@ static int inspect_all(const arguments *a)
     return worst;
 }
 
+/* What is said of a picture must not be lost because nobody asked for one. */
+static bool check_picture(const arguments *a)
+{
+    const char *first = first_view_option(&a->view_options);
+    first = first ? first : a->who_draws;
+    if (a->picture.given || !first)
+        return true;
+    trouble("--%s is about a picture, and none is made without -o", first);
+    return false;
+}
+
 static int check_and_inspect(arguments *a)
 {
     record_error error;
+    if (!check_names("inspect", a->clouds, (int)a->cloud_count) || !check_picture(a))
+        return EXIT_TROUBLE;
     if (!check_renderer(&a->renderer) || !read_view(&a->view_options, &a->view))
         return EXIT_TROUBLE;
     if (!inspect_output_check(&a->picture, a->clouds, a->cloud_count, &error) ||

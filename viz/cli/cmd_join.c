@@ -57,5 +57,5 @@ int cmd_join(int argc, char **argv)
     }
     if (argc - optind != 1)
         return trouble("join takes the folder of one recording; octreel join --help tells more");
-    return join_it(argv[optind], json);
+    return check_names("join", argv + optind, 1) ? join_it(argv[optind], json) : EXIT_TROUBLE;
 }

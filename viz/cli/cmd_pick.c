@@ -99,7 +99,7 @@ int cmd_pick(int argc, char **argv)
         return trouble("pick takes a frame and two coordinates, as in frames/frame_000041.png 312 200; octreel pick "
                        "--help tells more");
     a.frame = argv[optind];
-    if (!read_pixels("X", argv[optind + 1], MOST_PLACE, &a.pick.x) ||
+    if (!check_names("pick", argv + optind, 1) || !read_pixels("X", argv[optind + 1], MOST_PLACE, &a.pick.x) ||
         !read_pixels("Y", argv[optind + 2], MOST_PLACE, &a.pick.y))
         return EXIT_TROUBLE;
     return check_renderer(&a.pick.renderer) ? pick_it(&a) : EXIT_TROUBLE;

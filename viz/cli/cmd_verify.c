@@ -84,5 +84,5 @@ int cmd_verify(int argc, char **argv)
     if (argc - optind != 1)
         return trouble("verify takes the folder of one recording; octreel verify --help tells more");
     a.folder = argv[optind];
-    return check_renderer(&a.verify.renderer) ? verify_it(&a) : EXIT_TROUBLE;
+    return check_names("verify", argv + optind, 1) && check_renderer(&a.verify.renderer) ? verify_it(&a) : EXIT_TROUBLE;
 }

@@ -33,6 +33,10 @@ int cmd_accept(int argc, char **argv);
 /* "octreel: " and a sentence on stderr; EXIT_TROUBLE. */
 int trouble(const char *format, ...);
 
+/* Names of files and folders, of an option or of a command, must not be empty; false with the sentence said. */
+bool check_name(const char *option, const char *name);
+bool check_names(const char *command, char *const *names, int count);
+
 /* Values of options: each says what is wrong with `text` on stderr and returns false when it does not fit. */
 bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
 bool read_box(const char *option, const char *text, octree_box *box);                  /* six numbers, min <= max */
@@ -60,6 +64,9 @@ void join_options(const struct option *own, struct option all[COMMAND_OPTIONS]);
 
 /* Take an option that getopt_long found; false when it is none of a view's. */
 bool take_view_option(view_options *given, int option);
+
+/* The name of the first of them that was given; null: none was. */
+const char *first_view_option(const view_options *given);
 
 /* Change a command's own default view to the one that was asked for; false, with the sentence said, when a value does
  * not fit. */

@@ -10,11 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* One line, whatever the names of files in it hold. */
 static void say(const char *format, va_list arguments)
 {
-    fputs("octreel: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    char sentence[1 << 14];
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    for (char *at = sentence; *at; at++)
+        if ((unsigned char)*at < ' ' || *at == 127)
+            *at = '?';
+    fprintf(stderr, "octreel: %s\n", sentence);
 }
 
 int trouble(const char *format, ...)
@@ -34,6 +38,19 @@ static bool refuse(const char *format, ...)
     say(format, arguments);
     va_end(arguments);
     return false;
+}
+
+bool check_name(const char *option, const char *name)
+{
+    return *name || refuse("%s takes a name, and the one that it is given is empty", option);
+}
+
+bool check_names(const char *command, char *const *names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!check_name(command, names[i]))
+            return false;
+    return true;
 }
 
 /* ---- Values ------------------------------------------------------------------------------------------------- */
@@ -98,7 +115,10 @@ bool read_rectangle(const char *option, const char *text, image_rectangle *recta
     for (int i = 0; ok && i < 4; i++, at++)
         ok = take_number(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
     if (!ok || values[2] == 0 || values[3] == 0)
-        return refuse("%s takes left, top, width and height in pixels, as in 10,20,300,40, not \"%s\"", option, text);
+        return refuse(
+            "%s takes left, top, width and height in pixels, as in 10,20,300,40, each at most %d and the last "
+            "two at least 1, not \"%s\"",
+            option, INT32_MAX, text);
     *rectangle = (image_rectangle){(int)values[0], (int)values[1], (int)values[2], (int)values[3]};
     return true;
 }
@@ -342,6 +362,14 @@ bool take_view_option(view_options *given, int option)
         return false;
     given->values[option - VIEW_OPTION] = optarg ? optarg : "";
     return true;
+}
+
+const char *first_view_option(const view_options *given)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (given->values[i])
+            return rows[i].name;
+    return NULL;
 }
 
 bool read_view(const view_options *given, view *v)

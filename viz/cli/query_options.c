@@ -40,7 +40,7 @@ bool read_nearest(const char *text, octree_query *query)
         return false;
     }
     if (count == 4 && !(values[3] >= 1 && values[3] < 0x1p53 && values[3] == floor(values[3]))) {
-        trouble("--nearest: the number of neighbours is whole and at least 1, not so in \"%s\"", text);
+        trouble("--nearest: the number of neighbours is whole, from 1 to %.0f, not so in \"%s\"", 0x1p53 - 1, text);
         return false;
     }
     *query = (octree_query){.kind = count == 4 ? OCTREE_QUERY_KNEAREST : OCTREE_QUERY_NEAREST};

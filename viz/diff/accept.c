@@ -2,6 +2,7 @@
 #include "accept.h"
 #include "copy_file.h"
 #include "digest_file.h"
+#include "escaped.h"
 #include "report.h"
 #include "same_bytes.h"
 
@@ -163,7 +164,7 @@ static void say(const accepting *a, const diff_pair *pair, action what)
     if (what == CHANGED)
         diff_print_pair(a->out, pair);
     else
-        fputs(diff_pair_name(pair), a->out);
+        write_escaped(a->out, diff_pair_name(pair), escape_nothing);
     if (what == ADDED)
         fprintf(a->out, ": %dx%d", pair->about[1].width, pair->about[1].height);
     fputc('\n', a->out);

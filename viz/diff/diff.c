@@ -74,11 +74,23 @@ static bool same_color(image_color a, image_color b)
     return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
+/* A picture, or digests that may be those of one: then a name does not matter. */
+static bool is_one(const diff_side *side)
+{
+    return side->kind == DIFF_PICTURE || (side->kind == DIFF_DIGESTS && side->count == 1);
+}
+
+/* One picture is compared with one picture. */
+static bool is_single(const diff_side *a, const diff_side *b)
+{
+    return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && is_one(a) && is_one(b);
+}
+
 static bool check_sides(const diff_side *a, const diff_side *b, const diff_options *options, record_error *error)
 {
     const diff_side *const sides[2] = {a, b};
-    if ((a->kind == DIFF_PICTURE) != (b->kind == DIFF_PICTURE))
-        return record_fail(error, "a picture is compared with a picture: %s is one, %s is not",
+    if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single(a, b))
+        return record_fail(error, "a picture is compared with a picture, or the digest of one: %s is one, %s is not",
                            a->kind == DIFF_PICTURE ? a->path : b->path, a->kind == DIFF_PICTURE ? b->path : a->path);
     if (a->count + b->count == 0)
         return record_fail(error, "there is nothing to compare: neither %s nor %s has a PNG in it", a->path, b->path);
@@ -95,12 +107,12 @@ static bool check_sides(const diff_side *a, const diff_side *b, const diff_optio
     return true;
 }
 
-/* Two pictures are a pair whatever their names. */
+/* What is single is a pair whatever the names. */
 static int order_of(const diff_side *a, size_t i, const diff_side *b, size_t j)
 {
     if (i == a->count || j == b->count)
         return i == a->count ? 1 : -1;
-    return a->kind == DIFF_PICTURE ? 0 : strcmp(a->frames[i].name, b->frames[j].name);
+    return is_single(a, b) ? 0 : strcmp(a->frames[i].name, b->frames[j].name);
 }
 
 static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *result, record_error *error)

@@ -1,6 +1,7 @@
 /* digest_file.c - see digest_file.h. */
 #include "digest_file.h"
 #include "parallel.h"
+#include "printable.h"
 #include "whole_file.h"
 
 #include <inttypes.h>
@@ -124,12 +125,21 @@ bool digest_file_read(diff_side *side, record_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------- */
 
+static bool fail_name(const diff_side *side, const char *name, record_error *error)
+{
+    char *shown = strdup(name);
+    record_fail(error, "%s: the name \"%s\" has a character that a line cannot hold", side->path,
+                shown ? make_printable(shown) : "");
+    free(shown);
+    return false;
+}
+
 bool digest_file_write(FILE *out, const diff_side *side, record_error *error)
 {
     const image_color ground = side->background;
     for (size_t i = 0; i < side->count; i++)
         if (holds_control(side->frames[i].name))
-            return record_fail(error, "%s: a file's name has a character that a line cannot hold", side->path);
+            return fail_name(side, side->frames[i].name, error);
     fprintf(out, "%s\nbackground %02x%02x%02x\n", FIRST_LINE, ground.r, ground.g, ground.b);
     for (size_t i = 0; i < side->count; i++) {
         const diff_frame *frame = &side->frames[i];

@@ -8,6 +8,7 @@
 #define ESCAPE_ROOM 16
 typedef const char *escape(const char *text, const char *at, char room[ESCAPE_ROOM]);
 
+escape escape_nothing;  /* in a line for people, say on a terminal */
 escape escape_xml;      /* inside an attribute or an element */
 escape escape_xml_text; /* inside an element, where lines may end */
 escape escape_markdown; /* inside a line, a cell of a table, or an element of HTML */

@@ -1,5 +1,6 @@
 /* report.c - a comparison for people. See report.h. */
 #include "report.h"
+#include "escaped.h"
 #include "explain.h"
 
 #include <inttypes.h>
@@ -15,6 +16,14 @@ const char *diff_verdict_name(diff_verdict verdict)
 double diff_shown_delta(double delta)
 {
     return ceil(delta * 1e4) / 1e4;
+}
+
+/* Names and what is quoted may hold anything; a line stays one. */
+static void print_line(FILE *out, const char *beginning, const char *text)
+{
+    fputs(beginning, out);
+    write_escaped(out, text, escape_nothing);
+    fputc('\n', out);
 }
 
 /* ---- One pair ------------------------------------------------------------------------------------------------ */
@@ -86,7 +95,8 @@ void diff_print_difference(FILE *out, const diff_pair *pair)
 
 void diff_print_pair(FILE *out, const diff_pair *pair)
 {
-    fprintf(out, "%s: ", diff_pair_name(pair));
+    write_escaped(out, diff_pair_name(pair), escape_nothing);
+    fputs(": ", out);
     diff_print_difference(out, pair);
 }
 
@@ -142,7 +152,7 @@ static void print_pairs(FILE *out, const diff_result *result)
         diff_print_pair(out, &result->pairs[i]);
         fputc('\n', out);
         if (result->pairs[i].cause)
-            fprintf(out, "    %s\n", result->pairs[i].cause);
+            print_line(out, "    ", result->pairs[i].cause);
     }
     if (listed > DIFF_REPORT_LINES)
         fprintf(out, "  ... and %zu more; --json lists all\n", listed - DIFF_REPORT_LINES);
@@ -157,7 +167,7 @@ static void print_unexplained(FILE *out, const diff_result *result)
     if (more)
         fprintf(out, "  %zu of these %s left unexplained; --causes all tells more\n", more, more == 1 ? "is" : "are");
     if (result->explanation && *result->explanation->tracer.untraced)
-        fprintf(out, "  nothing is traced to what is drawn: %s\n", result->explanation->tracer.untraced);
+        print_line(out, "  nothing is traced to what is drawn: ", result->explanation->tracer.untraced);
 }
 
 static bool any_transparent(const diff_result *result)
@@ -173,6 +183,20 @@ static void separate(FILE *out, bool *first)
 {
     fputs(*first ? "forgiven: " : ", ", out);
     *first = false;
+}
+
+/* A rectangle that forgives nothing is a slip of the pen, most likely. */
+static bool is_outside(const image_rectangle *r, const diff_result *result)
+{
+    bool compared = false;
+    for (size_t i = 0; i < result->count; i++)
+        for (int side = 0; side < 2; side++) {
+            const frame_digest *about = &result->pairs[i].about[side];
+            compared = compared || about->width > 0;
+            if (r->x < about->width && r->y < about->height)
+                return false;
+        }
+    return compared;
 }
 
 void diff_print_tolerance(FILE *out, const diff_report *report)
@@ -195,7 +219,8 @@ void diff_print_tolerance(FILE *out, const diff_report *report)
     for (size_t i = 0; i < t->ignored_count; i++) {
         const image_rectangle *r = &t->ignored[i];
         separate(out, &first);
-        fprintf(out, "the %dx%d pixels at (%d,%d)", r->width, r->height, r->x, r->y);
+        fprintf(out, "the %dx%d pixels at (%d,%d)%s", r->width, r->height, r->x, r->y,
+                is_outside(r, report->result) ? ", outside every frame that was compared" : "");
     }
     if (report->options->ignore_text) {
         separate(out, &first);
@@ -212,11 +237,14 @@ void diff_report_text(FILE *out, const diff_report *report)
     diff_print_verdict(out, report->result);
     fputc('\n', out);
     if (report->result->headline)
-        fprintf(out, "%s\n", report->result->headline);
+        print_line(out, "", report->result->headline);
     print_pairs(out, report->result);
     print_unexplained(out, report->result);
     diff_print_tolerance(out, report);
     fputc('\n', out);
-    if (report->evidence)
-        fprintf(out, "evidence: %s/" EVIDENCE_PAGE "\n", report->evidence->folder);
+    if (report->evidence) {
+        fputs("evidence: ", out);
+        write_escaped(out, report->evidence->folder, escape_nothing);
+        fputs("/" EVIDENCE_PAGE "\n", out);
+    }
 }

@@ -264,8 +264,8 @@ static bool lay_out(pcd_reader *reader)
     for (size_t i = 0; i < reader->field_count; i++) {
         const pcd_field *field = &reader->fields[i];
         if (field->type.kind == CLOUD_FLOAT && field->type.size < 4)
-            return cloud_fail_line(reader->file, reader->lines.number, "field %zu is a float of %u bytes", i + 1,
-                                   field->type.size);
+            return cloud_fail_line(reader->file, reader->lines.number, "field %zu is a float of %u bytes, not 4 or 8",
+                                   i + 1, field->type.size);
         if (field->axis >= 0 && field->count != 1)
             return cloud_fail_line(reader->file, reader->lines.number, "%c has a COUNT of %" PRIu64 ", which must be 1",
                                    "xyz"[field->axis], field -> count);

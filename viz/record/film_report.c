@@ -84,8 +84,9 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
         report_json(out, summary, folder, seconds);
         return;
     }
-    fprintf(out, "%s: %" PRIu64 " ticks, %" PRIu64 " frames, %.1f s, %.0f frames a second\n", folder, summary->ticks,
-            summary->frames, seconds, rate_of(summary, seconds));
+    fprintf(out, "%s: %" PRIu64 " tick%s, %" PRIu64 " frame%s, %.1f s, %.0f frames a second\n", folder, summary->ticks,
+            summary->ticks == 1 ? "" : "s", summary->frames, summary->frames == 1 ? "" : "s", seconds,
+            rate_of(summary, seconds));
     if (summary->left_out)
         fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n",
                 summary->left_out);

@@ -11,6 +11,15 @@ const char *inspect_base_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
+const char *inspect_told_name(const char *cloud, char *const *clouds, size_t count)
+{
+    const char *name = inspect_base_name(cloud);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(clouds[i], cloud) != 0 && strcmp(inspect_base_name(clouds[i]), name) == 0)
+            return cloud;
+    return name;
+}
+
 static bool ends_in(const char *text, const char *ending)
 {
     const size_t length = strlen(text), tail = strlen(ending);

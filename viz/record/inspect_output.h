@@ -23,4 +23,7 @@ char *inspect_output_path(const inspect_output *output, const char *cloud, recor
 /* The last part of a path. */
 const char *inspect_base_name(const char *path);
 
+/* What a cloud is called among several: that last part, or its whole path where another one's ends in the same. */
+const char *inspect_told_name(const char *cloud, char *const *clouds, size_t count);
+
 #endif

@@ -79,3 +79,22 @@ bool session_expected(session_reader *reader, const json_t *value, const json_pl
     describe(value, found, sizeof found);
     return session_fail(reader, at, "expected %s, found %s", what, found);
 }
+
+bool session_fail_parsed(session_reader *reader, const json_error_t *parsed)
+{
+    static const char *const words[][2] = {
+        {"'[' or '{' expected", "'{' expected"},
+        {"\\u0000 is not allowed without JSON_ALLOW_NUL", "a text cannot hold \\u0000"},
+    };
+    char reason[sizeof parsed->text + 32];
+    const char *rest = parsed->text, *ours = "";
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (strncmp(parsed->text, words[i][0], strlen(words[i][0])) != 0)
+            continue;
+        ours = words[i][1];
+        rest = parsed->text + strlen(words[i][0]);
+    }
+    snprintf(reason, sizeof reason, "%s%s", ours, rest);
+    const size_t line = parsed->line > 1 ? (size_t)parsed->line - 1 : 0;
+    return session_fail_line(reader, reader->line + line, "", reason);
+}

@@ -14,7 +14,8 @@
  * player is what they have when they are left out; but position is the world's centre, step a fortieth of its longest
  * side, and box_size three fifths of step. With "sweep": true collisions are tested all the way from tick to tick, and
  * not at the end of the step alone. With "body": true the player is the point with its id, whenever there is one: edits
- * and velocity move it, and keys do not. With null there is nobody, and nothing collides.
+ * and velocity move it, keys do not, and it has neither "position" nor "step". With null there is nobody, and nothing
+ * collides. A byte order mark may stand before all.
  *
  * Then, where there are any, the ticks in ascending order:
  *   {"tick": 3, "edits": [{"insert": {"id": 9, "position": [x, y, z], "velocity": [vx, vy, vz]}}, {"remove": 9},

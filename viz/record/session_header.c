@@ -127,6 +127,7 @@ static bool read_is_body(session_reader *reader, json_t *value, const json_place
     return true;
 }
 
+/* Where a body is, and how far it goes, is said by the point with its id. */
 static bool read_player(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     static const session_member members[] = {
@@ -138,11 +139,19 @@ static bool read_player(session_reader *reader, json_t *value, const json_place 
         {"sweep", session_read_bool, offsetof(octree_player, sweep), false},
         {0},
     };
+    static const session_member body_members[] = {
+        {"id", session_read_id, offsetof(octree_player, id), false},
+        {"body", read_is_body, 0, false},
+        {"box_size", session_read_positive, offsetof(octree_player, box_size), false},
+        {"sweep", session_read_bool, offsetof(octree_player, sweep), false},
+        {0},
+    };
+    const bool is_body = json_is_true(json_object_get(value, "body"));
     if (json_is_null(value)) {
         *(octree_player *)into = (octree_player){.kind = OCTREE_PLAYER_NONE};
         return true;
     }
-    return session_read_members(reader, value, at, members, into);
+    return session_read_members(reader, value, at, is_body ? body_members : members, into);
 }
 
 /* ---- Keys and ticks ----------------------------------------------------------------------------------------- */

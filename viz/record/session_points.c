@@ -124,7 +124,7 @@ static char *path_in_folder(const char *folder, const char *file)
 static bool read_file(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     (void)into;
-    if (!json_is_string(value))
+    if (!json_is_string(value) || json_string_length(value) == 0)
         return session_expected(reader, value, at, "the name of a file");
     cloud cloud;
     cloud_error reason;

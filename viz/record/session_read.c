@@ -40,7 +40,7 @@ static bool read_object(session_reader *reader, bool (*read)(session_reader *rea
     if (!object && parsed.line < 1)
         return session_fail_line(reader, reader->line, "", "out of memory");
     if (!object)
-        return session_fail_line(reader, reader->line + (size_t)parsed.line - 1, "", parsed.text);
+        return session_fail_parsed(reader, &parsed);
     bool done = json_is_object(object) ? read(reader, object) : session_expected(reader, object, NULL, "an object");
     json_decref(object);
     pass(reader, (size_t)parsed.position);
@@ -59,8 +59,17 @@ static bool check_text(session_reader *reader)
     return session_fail_line(reader, reader->line, "", "holds a NUL byte, so it is no text");
 }
 
+/* The byte order mark that some editors put before UTF-8. */
+static void skip_mark(session_reader *reader)
+{
+    static const char mark[] = "\xef\xbb\xbf";
+    if (reader->limit - reader->object >= 3 && memcmp(reader->object, mark, 3) == 0)
+        reader->object += 3;
+}
+
 static bool read_stream(session_reader *reader)
 {
+    skip_mark(reader);
     if (!check_text(reader))
         return false;
     if (!find_object(reader))

@@ -55,6 +55,25 @@ bool session_read_members(session_reader *reader, json_t *object, const json_pla
     return true;
 }
 
+int session_read_kind(session_reader *reader, json_t *object, const json_place *at,
+                      const session_member kinds[][SESSION_KIND_MEMBERS], int count, const char *forms)
+{
+    int found = count;
+    for (int kind = 0; kind < count; kind++) {
+        if (!json_object_get(object, kinds[kind][0].name))
+            continue;
+        if (found < count) {
+            session_fail(reader, at, "expected one of %s, found \"%s\" and \"%s\" together", forms,
+                         kinds[found][0].name, kinds[kind][0].name);
+            return count;
+        }
+        found = kind;
+    }
+    if (found == count)
+        session_fail(reader, at, "expected %s", forms);
+    return found;
+}
+
 bool session_read_elements(session_reader *reader, json_t *list, const json_place *at, const char *expected,
                            session_value_reader *read, void *into)
 {

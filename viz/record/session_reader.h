@@ -49,6 +49,13 @@ typedef struct session_member {
 bool session_read_members(session_reader *reader, json_t *object, const json_place *at, const session_member *table,
                           void *into);
 
+/* An object is of one kind among several, whose members begin with one that bears the kind's name. Its number; `count`
+ * where it is none of them or two at once, which is an error. `forms` tells what they look like: "{...}, {...} or
+ * {...}". */
+#define SESSION_KIND_MEMBERS 3
+int session_read_kind(session_reader *reader, json_t *object, const json_place *at,
+                      const session_member kinds[][SESSION_KIND_MEMBERS], int count, const char *forms);
+
 /* Read each element of a list, which may be long, with the same reader and the same `into`. */
 bool session_read_elements(session_reader *reader, json_t *list, const json_place *at, const char *expected,
                            session_value_reader *read, void *into);
@@ -84,6 +91,10 @@ void *session_append(session_reader *reader, const json_place *at, session_list 
 
 /* Write the error about a place, a printf format, and return false. */
 bool session_fail(session_reader *reader, const json_place *at, const char *format, ...);
+
+/* Write what the parser of JSON says of a text that is none. Of its own settings it must not speak, nor of a list,
+ * which has no place among the objects of a file. Returns false. */
+bool session_fail_parsed(session_reader *reader, const json_error_t *parsed);
 
 /* Write "expected <what>, found <the value>" and return false. */
 bool session_expected(session_reader *reader, const json_t *value, const json_place *at, const char *what);

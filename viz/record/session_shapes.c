@@ -43,7 +43,7 @@ static bool read_text(session_reader *reader, json_t *value, const json_place *a
 }
 
 /* The members of each kind of shape; the first bears its name. */
-static const session_member shape_members[OCTREE_SHAPE_KINDS][3] = {
+static const session_member shape_members[OCTREE_SHAPE_KINDS][SESSION_KIND_MEMBERS] = {
     [OCTREE_SHAPE_BOX] = {{"box", read_box, 0, true}},
     [OCTREE_SHAPE_SEGMENT] = {{"segment", read_segment, 0, true}},
     [OCTREE_SHAPE_POINT] = {{"point", session_read_vector, offsetof(octree_shape, at), true}},
@@ -53,12 +53,10 @@ static const session_member shape_members[OCTREE_SHAPE_KINDS][3] = {
 
 static bool read_shape(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
-    int kind = 0;
-    while (kind < OCTREE_SHAPE_KINDS && !json_object_get(value, shape_members[kind][0].name))
-        kind++;
+    const int kind = session_read_kind(reader, value, at, shape_members, OCTREE_SHAPE_KINDS,
+                                       "{\"box\": ...}, {\"segment\": ...}, {\"point\": ...} or {\"label\": ...}");
     if (kind == OCTREE_SHAPE_KINDS)
-        return session_fail(reader, at,
-                            "expected {\"box\": ...}, {\"segment\": ...}, {\"point\": ...} or {\"label\": ...}");
+        return false;
     octree_shape *shape = session_append(reader, at, into, sizeof *shape);
     if (!shape)
         return false;

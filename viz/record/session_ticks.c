@@ -109,7 +109,7 @@ static bool read_k(session_reader *reader, json_t *value, const json_place *at, 
 }
 
 /* The members of each kind of query; the first bears its name. */
-static const session_member query_members[OCTREE_QUERY_KINDS][3] = {
+static const session_member query_members[OCTREE_QUERY_KINDS][SESSION_KIND_MEMBERS] = {
     [OCTREE_QUERY_RANGE] = {{"range", read_box, 0, true}, {"at", read_player, 0, false}},
     [OCTREE_QUERY_NEAREST] = {{"nearest", read_target, 0, true}},
     [OCTREE_QUERY_KNEAREST] = {{"knearest", read_k, offsetof(octree_query, k), true}, {"at", read_target, 0, true}},
@@ -120,12 +120,11 @@ static const session_member query_members[OCTREE_QUERY_KINDS][3] = {
 static bool read_query(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     session_list *list = into;
-    int kind = 0;
-    while (kind < OCTREE_QUERY_KINDS && !json_object_get(value, query_members[kind][0].name))
-        kind++;
+    const int kind =
+        session_read_kind(reader, value, at, query_members, OCTREE_QUERY_KINDS,
+                          "{\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": ...}");
     if (kind == OCTREE_QUERY_KINDS)
-        return session_fail(reader, at,
-                            "expected {\"range\": ...}, {\"nearest\": ...}, {\"knearest\": ...} or {\"radius\": ...}");
+        return false;
     octree_query *query = session_append(reader, at, list, sizeof *query);
     if (!query)
         return false;

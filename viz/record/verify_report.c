@@ -19,10 +19,16 @@ static const char *const beginnings[VERIFY_KINDS] = {
     [VERIFY_PIXELS] = ", only in its pixels",
 };
 
+static const char *plural(uint64_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
 static void print_people(FILE *out, const char *folder, const verify_report *report)
 {
     if (report->count == 0)
-        fprintf(out, "%s: identical: %" PRIu64 " ticks, %" PRIu64 " frames\n", folder, report->ticks, report->frames);
+        fprintf(out, "%s: identical: %" PRIu64 " tick%s, %" PRIu64 " frame%s\n", folder, report->ticks,
+                plural(report->ticks), report->frames, plural(report->frames));
     for (size_t i = 0; i < report->count; i++) {
         const verify_finding *finding = &report->findings[i];
         fprintf(out, "%s: ", folder);

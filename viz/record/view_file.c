@@ -282,7 +282,7 @@ static bool parse(session_reader *reader, recorded *into)
     json_error_t parsed;
     json_t *object = json_loadb(reader->object, (size_t)(reader->limit - reader->object), flags, &parsed);
     if (!object)
-        return session_fail_line(reader, parsed.line > 1 ? (size_t)parsed.line : 1, "", parsed.text);
+        return session_fail_parsed(reader, &parsed);
     const bool done = session_read_members(reader, object, NULL, members, into);
     json_decref(object);
     return done;

@@ -207,7 +207,8 @@ typedef struct octree_tick {
 
 typedef struct octree_game octree_game;
 
-/* Start a session and play tick 0. Bodies that the tree refuses are refusals of tick 0.
+/* Start a session and play tick 0. Bodies that the tree refuses, and those whose velocity is not finite (NOT_FINITE),
+ * are not in the game, and are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
  * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
  * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; NO_MEMORY. *game is then null. Cost: one insertion
@@ -234,7 +235,8 @@ typedef struct octree_input {
 
 /* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes behind
  * it. The arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
- * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create, of which nothing is played. */
+ * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create, of which nothing is played. A
+ * body that cannot be inserted or moved, for its place or its velocity, is no error: it is a refusal of the tick. */
 octree_status octree_game_play(octree_game *game, const octree_input *input);
 
 /* What octree_game_play would say of this input, its key apart. Cost: O(edits + queries + shapes). */

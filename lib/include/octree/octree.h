@@ -45,7 +45,7 @@ extern "C" {
     X(BAD_RANGE, "bad_range", "the box's min is above its max")                                                        \
     X(BAD_SIZE, "bad_size", "a size must not be negative")                                                             \
     X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
-    X(BAD_OPTION, "bad_option", "an enumeration has a value that is not listed in the header")                         \
+    X(BAD_OPTION, "bad_option", "an enumeration has an unlisted value, or one allocator function lacks the other")     \
     X(BAD_TEXT, "bad_text", "a text must be printable ASCII that ends within its room")                                \
     X(BAD_ORDER, "bad_order", "edits, queries and shapes must be in ascending order of their ticks")                   \
     X(FLOAT_MODE, "float_mode", "the thread's floating-point mode is not the default: nearest rounding, subnormals")   \

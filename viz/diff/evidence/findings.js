@@ -94,6 +94,12 @@ function sizesOf({reference_size: expected, frame_size: actual})
         sizes.map(([name, size]) => [name, sides(size)]);
 }
 
+/* Rounded up, as all reports have it: what is shown is enough to forgive it. */
+function shownDelta(delta)
+{
+    return (Math.ceil(delta * 1e4) / 1e4).toFixed(4);
+}
+
 /* Names and values, for people. */
 function factsOf(finding)
 {
@@ -101,7 +107,7 @@ function factsOf(finding)
     if (tally.pixels > 0) {
         facts.push(["pixels", `${grouped(tally.pixels)} of ${grouped(finding.frame_size[0] * finding.frame_size[1])}, ` +
                               share(tally.pixels, finding.frame_size)]);
-        facts.push(["worst", `${tally.worst_delta.toFixed(4)} YIQ at ${pair(tally.worst_at)}`]);
+        facts.push(["worst", `${shownDelta(tally.worst_delta)} YIQ at ${pair(tally.worst_at)}`]);
         facts.push(["channels", `by up to ${tally.largest_channel} of ${finding.channel_range}`]);
         facts.push(["within", `${pair(tally.min)} to ${pair(tally.max)}`]);
     }

@@ -1,0 +1,102 @@
+/* test_cli_names.c - names on the command line: empty ones, those that a terminal would obey, and two that are alike.
+ */
+#include <string.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "fixture.h"
+#include "galleries.h"
+#include "tick_lines.h"
+
+static void an_empty_name_is_refused_in_one_sentence(void **state)
+{
+    static const char *const rows[][2] = {
+        {"diff '' a.png", "diff takes a name"},
+        {"diff a.png ''", "diff takes a name"},
+        {"diff a.png a.png -o ''", "-o takes a name"},
+        {"diff a.png a.png --junit ''", "--junit takes a name"},
+        {"diff a.png a.png --markdown=", "--markdown takes a name"},
+        {"digest ''", "digest takes a name"},
+        {"digest a.png -o ''", "-o takes a name"},
+        {"inspect ''", "inspect takes a name"},
+        {"inspect p.xyz ''", "inspect takes a name"},
+        {"inspect p.xyz -o ''", "-o takes a name"},
+        {"inspect p.xyz --nodes ''", "--nodes takes a name"},
+        {"verify ''", "verify takes a name"},
+        {"join ''", "join takes a name"},
+        {"pick '' 1 1", "pick takes a name"},
+        {"accept '' a.png", "accept takes a name"},
+        {"record -o ''", "the folder's name is empty"},
+    };
+    const temp_folder *folder = *state;
+    gallery_write(place_in(folder, "a.png").path, 1, 0);
+    file_write_text(place_in(folder, "p.xyz").path, "1 2 3\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_script("cd %s && env -u CI %s %s", folder->name, octreel_program(), rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+        assert_int_equal(temp_folder_count(folder), 2);
+    }
+}
+
+#define HOSTILE "x\x1b[31m\ny.png"
+
+static void assert_plain(const command_result *result, int status)
+{
+    assert_int_equal(result->status, status);
+    assert_null(strchr(result->out, '\x1b'));
+    assert_null(strstr(result->out, "\ny.png"));
+    assert_null(strchr(result->err, '\x1b'));
+    assert_null(strstr(result->err, "\ny.png"));
+}
+
+static void control_characters_do_not_reach_the_terminal(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "1.png");
+    gallery_write(place_below(a.path, HOSTILE).path, 3, 0);
+    gallery_write(place_below(b.path, HOSTILE).path, 3, 5);
+    command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
+    assert_plain(&result, 1);
+    assert_non_null(strstr(result.out, "y.png: 5 of 384 pixels differ"));
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s/%s %s", a.path, HOSTILE "none", b.path);
+    assert_plain(&result, 2);
+    command_release(&result);
+    result = run_octreel(NULL, "digest %s", a.path);
+    assert_trouble(&result, "the name \"x?[31m?y.png\" has a character that a line cannot hold");
+}
+
+static void clouds_of_one_name_are_told_by_their_paths(void **state)
+{
+    static const char *const modes[] = {"", "--node root", "--nearest 1,2,3"};
+    const place sub = place_in(*state, "sub"), a = place_in(*state, "p.xyz"), b = place_in(*state, "sub/p.xyz");
+    const place other = place_in(*state, "q.xyz");
+    assert_int_equal(mkdir(sub.path, 0777), 0);
+    file_write_text(a.path, "1 2 3\n");
+    file_write_text(b.path, "4 5 6\n");
+    file_write_text(other.path, "7 8 9\n");
+    for (size_t i = 0; i < 3; i++) {
+        command_result result = run_octreel(NULL, "inspect %s %s %s --json %s", a.path, b.path, other.path, modes[i]);
+        const place *const paths[] = {&a, &b};
+        char named[1100];
+        assert_done(&result);
+        for (int cloud = 0; cloud < 2; cloud++) {
+            snprintf(named, sizeof named, "\"cloud\": \"%s\"", paths[cloud]->path);
+            if (!strstr(result.out, named))
+                fail_msg("%s does not say %s", result.out, named);
+        }
+        assert_non_null(strstr(result.out, "\"cloud\": \"q.xyz\""));
+        command_release(&result);
+    }
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(an_empty_name_is_refused_in_one_sentence),
+        IN_FOLDER(control_characters_do_not_reach_the_terminal),
+        IN_FOLDER(clouds_of_one_name_are_told_by_their_paths),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
