@@ -19,7 +19,7 @@ const shownFrame = () => document.body.dataset.frame;
 async function until(isSo, what)
 {
     for (let i = 0; !isSo(); i++) {
-        if (i > 500)
+        if (i > 100000)
             throw new Error(`waited for ${what}`);
         await wait(1);
     }

@@ -10,13 +10,14 @@ function say(what, value)
 
 const wait = ms => new Promise(done => setTimeout(done, ms));
 
-/* Machines are slow and fast: what comes is waited for. */
+/* What comes is waited for, for as long as it takes. The browser's clock is no measure of that: it jumps ahead whenever
+ * the page waits, while a picture is decoded by processes whose time is another. */
 async function until(isSo, what)
 {
     for (let i = 0; !isSo(); i++) {
-        if (i > 500)
+        if (i > 100000)
             throw new Error(`waited for ${what}`);
-        await wait(10);
+        await wait(1);
     }
 }
 
