@@ -61,6 +61,9 @@ void join_options(const struct option *own, struct option all[COMMAND_OPTIONS]);
 /* Take an option that getopt_long found; false when it is none of a view's. */
 bool take_view_option(view_options *given, int option);
 
+/* Whether any of them was given. */
+bool has_view_option(const view_options *given);
+
 /* Change a command's own default view to the one that was asked for; false, with the sentence said, when a value does
  * not fit. */
 bool read_view(const view_options *given, view *v);

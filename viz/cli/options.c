@@ -344,6 +344,14 @@ bool take_view_option(view_options *given, int option)
     return true;
 }
 
+bool has_view_option(const view_options *given)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (given->values[i])
+            return true;
+    return false;
+}
+
 bool read_view(const view_options *given, view *v)
 {
     for (size_t i = 0; i < ROWS; i++)

@@ -203,9 +203,7 @@ static void check_end_of_lines(verifying *v)
 /* What begins as a frame does, and is none of this recording. */
 static bool is_too_many(const verifying *v, const char *name)
 {
-    uint64_t tick;
-    return strncmp(name, "frame_", 6) == 0 &&
-           !(frame_parse_name(name, &tick) && tick < v->replay.ticks && tick % v->replay.film.every == 0);
+    return strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, v->replay.ticks, v->replay.film.every);
 }
 
 /* The first of them by name, whatever the order of the folder. */
