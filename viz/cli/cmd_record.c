@@ -198,6 +198,8 @@ int cmd_record(int argc, char **argv)
         return trouble("record takes one session, not also \"%s\"", argv[optind + 1]);
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
+    if (!*a.film.folder)
+        return trouble("the folder's name is empty");
     a.session = argv[optind];
     return check_renderer(&a.film.renderer) && read_film(&a) ? play(&a) : EXIT_TROUBLE;
 }
