@@ -111,6 +111,39 @@ static void json_names_the_pictures(void **state)
     command_release(&result);
 }
 
+/* As long as the name of a file may be, and alike up to their last letter. */
+static void overlong_names_have_evidence_too(void **state)
+{
+    const place a = gallery_make(*state, "a", "0.png 1.png"), b = gallery_make(*state, "b", "0.png 1.png");
+    const place out = place_in(*state, "out");
+    for (int i = 0; i < 2; i++) {
+        char name[256], *digit = name + 250;
+        memset(name, 'x', 250);
+        memcpy(digit, i ? "1.png" : "0.png", sizeof "0.png");
+        gallery_write(place_below(b.path, digit).path, 1, 4);
+        assert_int_equal(rename(place_below(a.path, digit).path, place_below(a.path, name).path), 0);
+        assert_int_equal(rename(place_below(b.path, digit).path, place_below(b.path, name).path), 0);
+    }
+    for (int again = 0; again < 2; again++) { /* the second run removes what the first one left */
+        command_result result = run_octreel(NULL, "diff %s %s -o %s --json", a.path, b.path, out.path);
+        assert_int_equal(result.status, 1);
+        assert_string_equal(result.err, "");
+        json_t *object = json_read(result.out);
+        const json_t *findings = json_member(object, "findings");
+        assert_int_equal(json_array_size(findings), 2);
+        for (size_t i = 0; i < 2; i++) {
+            const json_t *pictures = json_member(json_array_get(findings, i), "evidence");
+            assert_members(pictures, "expected actual difference side");
+            assert_true(file_exists(json_string_value(json_member(pictures, "side"))));
+        }
+        json_decref(object);
+        command_release(&result);
+        listing left = folder_list(out.path);
+        assert_int_equal(left.count, 10); /* eight pictures, the page and the marker */
+        listing_release(&left);
+    }
+}
+
 /* One report on standard output in place of the words, whole and alone. */
 static void dash_is_standard_output(void **state)
 {
@@ -190,6 +223,7 @@ int main(void)
         WITH_FOLDER(all_is_written_where_nothing_differs),
         WITH_FOLDER(all_is_written_where_a_frame_cannot_be_read),
         WITH_FOLDER(json_names_the_pictures),
+        WITH_FOLDER(overlong_names_have_evidence_too),
         WITH_FOLDER(dash_is_standard_output),
         WITH_FOLDER(places_that_cannot_be_written_are_trouble),
         WITH_FOLDER(full_disk_is_trouble_and_leaves_only_whole_files),

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "edits.h"
 #include "images.h"
@@ -54,6 +55,28 @@ static void frame_that_is_no_file_is_not_waited_for(void **state)
         assert_int_equal(mkfifo(frame.path, 0600), 0);
         assert_found(&folder, VERIFY_FRAME, ticks[i], "is not a regular file");
     }
+}
+
+/* Nobody can say whether it differs. */
+static void frame_that_may_not_be_read_is_trouble(void **state)
+{
+    const temp_folder *own = *state;
+    const place folder = film_short(*state), frame = place_below(folder.path, "frame_000003.png");
+    assert_int_equal(chmod(frame.path, 0), 0);
+    assert_int_equal(chmod(folder.path, 0755), 0);
+    assert_int_equal(chmod(own->name, 0755), 0);
+    const bool root = geteuid() == 0;
+    if (root && seteuid(65534) != 0)
+        skip(); /* root of a container that has no other user */
+    const verify_options options = {0};
+    verify_report report;
+    record_error error = {""};
+    const bool verified = verify_recording(folder.path, &options, &report, &error);
+    if (root)
+        assert_int_equal(seteuid(0), 0);
+    assert_false(verified);
+    assert_non_null(strstr(error.text, frame.path));
+    assert_non_null(strstr(error.text, ": cannot be read: Permission denied"));
 }
 
 static void frame_that_was_cut_is_found_wherever(void **state)
@@ -161,15 +184,11 @@ static void frames_that_are_too_many_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(frame_that_is_stored_otherwise_is_identical),
-        IN_FOLDER(frame_that_is_missing_is_named),
-        IN_FOLDER(frame_that_is_no_file_is_not_waited_for),
-        IN_FOLDER(frame_that_was_cut_is_found_wherever),
-        IN_FOLDER(frame_in_the_place_of_another_is_found),
-        IN_FOLDER(frame_of_another_recording_is_found),
-        IN_FOLDER(frame_without_its_texts_is_found),
-        IN_FOLDER(frame_that_was_painted_over_is_found),
-        IN_FOLDER(only_pixels_are_told_with_both_renderers),
+        IN_FOLDER(frame_that_is_stored_otherwise_is_identical), IN_FOLDER(frame_that_is_missing_is_named),
+        IN_FOLDER(frame_that_is_no_file_is_not_waited_for),     IN_FOLDER(frame_that_may_not_be_read_is_trouble),
+        IN_FOLDER(frame_that_was_cut_is_found_wherever),        IN_FOLDER(frame_in_the_place_of_another_is_found),
+        IN_FOLDER(frame_of_another_recording_is_found),         IN_FOLDER(frame_without_its_texts_is_found),
+        IN_FOLDER(frame_that_was_painted_over_is_found),        IN_FOLDER(only_pixels_are_told_with_both_renderers),
         IN_FOLDER(frames_that_are_too_many_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

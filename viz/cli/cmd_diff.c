@@ -202,14 +202,38 @@ static int report(const arguments *a, diff_report *all)
     return verdict == DIFF_TROUBLE ? tell_trouble(all->result) : statuses[verdict];
 }
 
+static const char *file_of(const char *path)
+{
+    return is_stdout(path) ? NULL : path;
+}
+
+/* What is written may not take the place of what is compared, nor a report that of another. */
+static bool check_files(const arguments *a, const diff_side sides[2], record_error *error)
+{
+    char *page = a->folder ? folder_path(a->folder, EVIDENCE_PAGE) : NULL;
+    const output_file outputs[] = {{"-o", page}, {"--junit", file_of(a->junit)}, {"--markdown", file_of(a->markdown)}};
+    const size_t count = sizeof outputs / sizeof outputs[0];
+    bool ok = outputs_apart(outputs, count, error);
+    for (size_t i = 0; ok && i < count; i++)
+        ok = diff_side_spared(&sides[0], &outputs[i], error) && diff_side_spared(&sides[1], &outputs[i], error);
+    free(page);
+    return ok;
+}
+
+/* What cannot be compared leaves no evidence. */
+static bool check(const arguments *a, const diff_side sides[2], record_error *error)
+{
+    return diff_check(&sides[0], &sides[1], &a->options, error) && check_files(a, sides, error) &&
+           (!a->folder || evidence_prepare(a->folder, &sides[0], &sides[1], error));
+}
+
 static int compare(const arguments *a, const char *paths[2])
 {
     diff_side sides[2] = {{0}, {0}};
     diff_result result = {0};
     record_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
-                    (!a->folder || evidence_prepare(a->folder, &sides[0], &sides[1], &error)) &&
-                    diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
+                    check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
                     diff_explain(&sides[0], &sides[1], a->causes, &result, &error);
     diff_report all = {.a = &sides[0], .b = &sides[1], .options = &a->options, .result = &result};
     const int status = ok ? report(a, &all) : trouble("%s", error.text);

@@ -37,6 +37,7 @@ static bool write_file(const diff_side *side, const char *path, record_error *er
 
 static int digest_it(const char *folder, const char *path, image_color background)
 {
+    const output_file output = {"-o", path};
     diff_side side;
     record_error error;
     if (!diff_side_open(&side, folder, &error))
@@ -46,7 +47,8 @@ static int digest_it(const char *folder, const char *path, image_color backgroun
         status = trouble("%s: it is a file of digests already", folder);
     else if (side.count == 0)
         status = trouble("%s: there is no PNG in it", folder);
-    else if (!digest_all(&side, background, &error) || !write_file(&side, path, &error))
+    else if (!diff_side_spared(&side, &output, &error) || !digest_all(&side, background, &error) ||
+             !write_file(&side, path, &error))
         status = trouble("%s", error.text);
     diff_side_release(&side);
     return status;

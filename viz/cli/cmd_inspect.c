@@ -327,7 +327,8 @@ static int check_and_inspect(arguments *a)
     if (!check_renderer(&a->renderer) || !read_view(&a->view_options, &a->view))
         return EXIT_TROUBLE;
     if (!inspect_output_check(&a->picture, a->clouds, a->cloud_count, &error) ||
-        !inspect_output_check(&a->nodes, a->clouds, a->cloud_count, &error))
+        !inspect_output_check(&a->nodes, a->clouds, a->cloud_count, &error) ||
+        !inspect_outputs_spare((const inspect_output[]){a->picture, a->nodes}, a->clouds, a->cloud_count, &error))
         return trouble("%s", error.text);
     return inspect_all(a);
 }

@@ -7,8 +7,6 @@
 
 #include <getopt.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 static const char help[] =
     "usage: octreel record [SESSION] -o DIR [OPTION ...]\n\n"
@@ -24,7 +22,7 @@ static const char help[] =
     "      --jobs N          processes that film at the same time (default: one a core, fewer for a few frames); the\n"
     "                        bytes are the same\n"
     "      --resume          complete what is in DIR; frames that are there and right are kept. Without SESSION and\n"
-    "                        without options, those of DIR are taken\n";
+    "                        without options, those of DIR are taken. What is not of this recording is refused\n";
 
 static const char more_help[] =
     "      --json            print a summary as JSON on stdout\n"
@@ -120,12 +118,17 @@ static int film_it(arguments *a, const octree_session *session)
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
 
-static bool has_file(const char *folder, const char *name)
+/* The file of the folder without which nothing says what a recording is that is resumed without a word about that on
+ * the command line; null where nothing is missing. */
+static const char *find_missing(const arguments *a)
 {
-    char *path = folder_path(folder, name);
-    const bool there = path && access(path, F_OK) == 0;
-    free(path);
-    return there;
+    const char *folder = a->film.folder;
+    if (!a->film.resume || a->session || a->keys || a->film.every || first_view_option(&a->view))
+        return NULL;
+    if (!folder_has(folder, "recording.json"))
+        return "recording.json";
+    const bool played = folder_has(folder, "session.json") || folder_has(folder, "session.json.live");
+    return played ? NULL : "session.json";
 }
 
 /* A recording that is resumed stands for what the command line leaves out. */
@@ -133,7 +136,12 @@ static bool read_film(arguments *a)
 {
     record_error error;
     uint64_t every = 1;
-    if (a->film.resume && has_file(a->film.folder, "recording.json") &&
+    const char *missing = find_missing(a);
+    if (missing) {
+        trouble("%s: holds no recording that could be resumed (%s is missing)", a->film.folder, missing);
+        return false;
+    }
+    if (a->film.resume && folder_has(a->film.folder, "recording.json") &&
         !view_read_recording(a->film.folder, &a->film.view, &every, &error)) {
         trouble("%s", error.text);
         return false;
@@ -148,9 +156,9 @@ static bool read_session(const arguments *a, session_file *file, record_error *e
     session_error unread;
     uint64_t digest;
     const octree_session paper = octree_session_default();
-    if (!a->session && a->film.resume && has_file(a->film.folder, "session.json"))
+    if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json"))
         return read_session_file(a->film.folder, file, &digest, error);
-    if (!a->session && a->film.resume && has_file(a->film.folder, "session.json.live"))
+    if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json.live"))
         return read_live_session(a->film.folder, file, error);
     const bool ok = a->session ? session_read(a->session, file, &unread) : session_copy(&paper, file, &unread);
     return ok || record_fail(error, "%s", unread.text);
@@ -190,6 +198,8 @@ int cmd_record(int argc, char **argv)
         return trouble("record takes one session, not also \"%s\"", argv[optind + 1]);
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
+    if (!*a.film.folder)
+        return trouble("the folder's name is empty");
     a.session = argv[optind];
     return check_renderer(&a.film.renderer) && read_film(&a) ? play(&a) : EXIT_TROUBLE;
 }

@@ -86,7 +86,7 @@ static bool is_single(const diff_side *a, const diff_side *b)
     return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && is_one(a) && is_one(b);
 }
 
-static bool check_sides(const diff_side *a, const diff_side *b, const diff_options *options, record_error *error)
+bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, record_error *error)
 {
     const diff_side *const sides[2] = {a, b};
     if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single(a, b))
@@ -203,7 +203,7 @@ bool diff_run(const diff_side *a, const diff_side *b, const diff_options *option
               record_error *error)
 {
     *result = (diff_result){0};
-    if (!check_sides(a, b, options, error) || !make_pairs(a, b, result, error))
+    if (!diff_check(a, b, options, error) || !make_pairs(a, b, result, error))
         return false;
     pending p = {.pairs = malloc(result->count * sizeof *p.pairs), .options = options};
     bool ok = p.pairs || record_fail(error, "there is no memory for %zu frames", result->count);

@@ -1,5 +1,6 @@
 /* evidence.c - see evidence.h. */
 #include "evidence.h"
+#include "output_file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -16,22 +17,6 @@ static const char marker_text[] = "octreel evidence 1\n"
                                   "*.expected.png, *.actual.png, *.difference.png and *.side.png.\n";
 
 /* ---- The folder ---------------------------------------------------------------------------------------------- */
-
-static bool same_file(const struct stat *a, const struct stat *b)
-{
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
-}
-
-/* The folder in which a path lies. */
-static bool stat_parent(const char *path, struct stat *status)
-{
-    char *parent = strdup(path), *slash = parent ? strrchr(parent, '/') : NULL;
-    if (slash)
-        slash[slash == parent ? 1 : 0] = 0;
-    const bool is = parent && stat(slash ? parent : ".", status) == 0;
-    free(parent);
-    return is;
-}
 
 static bool check_apart(const char *folder, const diff_side *side, record_error *error)
 {

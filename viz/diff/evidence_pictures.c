@@ -1,9 +1,12 @@
 /* evidence_pictures.c - see evidence_pictures.h. */
 #include "evidence_pictures.h"
 #include "copy_file.h"
+#include "octree/digest.h"
 #include "parallel.h"
 #include "read_pair.h"
 
+#include <inttypes.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -28,14 +31,30 @@ static size_t stem_length(const char *name)
     return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
 }
 
-/* The word goes before the suffix, which stays as it is: names that were unlike stay so. */
+/* What is put behind a stem at most, also while it is written. */
+#define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
+
+/* How much of a stem fits into the name of a file, whole letters of UTF-8. */
+static size_t fitting_length(const char *stem)
+{
+    size_t length = NAME_MAX - (sizeof LONGEST_ENDING - 1);
+    while (length > 0 && ((unsigned char)stem[length] & 0xc0) == 0x80)
+        length--;
+    return length;
+}
+
+/* The word goes before the suffix, which stays as it is: names that were unlike stay so. A name that would be too long
+ * has a digest of itself in place of its end. */
 char *evidence_name(const char *frame, evidence_picture picture)
 {
-    const size_t stem = stem_length(frame), size = strlen(frame) + strlen(evidence_word(picture)) + sizeof "..png";
-    char *name = malloc(size);
+    const size_t stem = stem_length(frame), size = strlen(frame) + sizeof LONGEST_ENDING;
+    const bool fits = stem + sizeof ".difference.png.part" - 1 <= NAME_MAX;
+    char digest[24] = "", *name = malloc(size);
+    if (!fits)
+        snprintf(digest, sizeof digest, "~%016" PRIx64, octree_digest_bytes(OCTREE_DIGEST_START, frame, strlen(frame)));
     if (name)
-        snprintf(name, size, "%.*s.%s%s", (int)stem, frame, evidence_word(picture),
-                 frame[stem] ? frame + stem : ".png");
+        snprintf(name, size, "%.*s%s.%s%s", (int)(fits ? stem : fitting_length(frame)), frame, digest,
+                 evidence_word(picture), frame[stem] ? frame + stem : ".png");
     return name;
 }
 

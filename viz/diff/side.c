@@ -160,3 +160,25 @@ const diff_frame *diff_side_find(const diff_side *side, const char *name)
     const diff_frame wanted = {.name = (char *)name};
     return side->count ? bsearch(&wanted, side->frames, side->count, sizeof wanted, by_name) : NULL;
 }
+
+static bool fact_spared(const diff_side *side, const char *name, const output_file *output, record_error *error)
+{
+    char *path = folder_path(side->path, name);
+    const bool ok = path ? output_spares(output, path, error) : record_fail(error, "there is no memory");
+    free(path);
+    return ok;
+}
+
+/* What is not there yet takes the place of nothing: a folder may have many frames to ask. */
+bool diff_side_spared(const diff_side *side, const output_file *output, record_error *error)
+{
+    struct stat status;
+    if (!output->path || stat(output->path, &status) != 0)
+        return true;
+    bool ok = side->kind != DIFF_DIGESTS || output_spares(output, side->path, error);
+    for (size_t i = 0; ok && i < side->count; i++)
+        ok = !side->frames[i].path || output_spares(output, side->frames[i].path, error);
+    for (size_t i = 0; ok && side->kind == DIFF_RECORDING && folder_fact_name(i); i++)
+        ok = fact_spared(side, folder_fact_name(i), output, error);
+    return ok;
+}

@@ -4,6 +4,7 @@
 
 #include "folder.h"
 #include "image.h"
+#include "output_file.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -35,6 +36,10 @@ typedef struct diff_side {
  * below left out; a recording for its frames. False when it is none of the four; side is then empty. */
 bool diff_side_open(diff_side *side, const char *path, record_error *error);
 void diff_side_release(diff_side *side);
+
+/* False, with a sentence, where an output is a file that is read for this side: a frame, the file of digests, or one of
+ * a recording's files beside its frames. */
+bool diff_side_spared(const diff_side *side, const output_file *output, record_error *error);
 
 /* "picture", "folder", "recording", "digests". */
 const char *diff_kind_name(diff_kind kind);

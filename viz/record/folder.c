@@ -36,6 +36,15 @@ char *folder_path(const char *folder, const char *name)
     return path;
 }
 
+bool folder_has(const char *folder, const char *name)
+{
+    struct stat status;
+    char *path = folder_path(folder, name);
+    const bool there = path && stat(path, &status) == 0;
+    free(path);
+    return there;
+}
+
 static bool make_one(const char *path, record_error *error)
 {
     struct stat status;
@@ -76,8 +85,7 @@ const char *folder_fact_name(size_t i)
     return i < RECORDING_FILES ? recording_files[i] : NULL;
 }
 
-/* What tells a folder that was filmed into. */
-static bool belongs_to_recording(const char *name)
+bool folder_is_name(const char *name)
 {
     uint64_t first, last;
     for (size_t i = 0; i < RECORDING_FILES; i++)
@@ -93,7 +101,7 @@ static bool check_empty(const char *folder, record_error *error)
         return record_fail(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
     bool ok = true;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
-        if (belongs_to_recording(entry->d_name))
+        if (folder_is_name(entry->d_name))
             ok = record_fail(error, "%s: already holds a recording (%s); choose another folder, or remove it", folder,
                              entry->d_name);
     closedir(entries);
@@ -177,16 +185,31 @@ void folder_abandon(const char *folder)
     }
 }
 
-/* "session.json.part" and the like. */
-static bool is_unfinished(const char *name)
+/* What stands behind the name of a file while it is written, or of a session while a program makes it: "part", "live",
+ * or the writer's word of folder_write_once(), which is a part's name. */
+static bool is_of_writer(const char *ending)
 {
+    char word[PART_NAME];
+    uint64_t first, last;
+    const size_t length = strlen(ending), part = sizeof ".part" - 1;
+    if (strcmp(ending, "part") == 0 || strcmp(ending, "live") == 0)
+        return true;
+    const bool also = length > part && strcmp(ending + length - part, ".part") == 0;
+    snprintf(word, sizeof word, "%.*s", (int)(also ? length - part : length), ending);
+    return part_parse_name(word, &first, &last);
+}
+
+bool folder_is_unfinished(const char *name)
+{
+    const char *end = strrchr(name, '.');
+    if (strncmp(name, "frame_", 6) == 0)
+        return end && strcmp(end, ".part") == 0;
     for (size_t i = 0; i < RECORDING_FILES; i++) {
         const size_t length = strlen(recording_files[i]);
         if (strncmp(name, recording_files[i], length) == 0 && name[length] == '.')
-            return true;
+            return is_of_writer(name + length + 1);
     }
-    const char *end = strrchr(name, '.');
-    return strncmp(name, "frame_", 6) == 0 && strcmp(end ? end : "", ".part") == 0;
+    return false;
 }
 
 static bool remove_entry(const char *folder, const char *name, record_error *error)
@@ -205,7 +228,7 @@ bool folder_sweep(const char *folder, record_error *error)
         return record_fail(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
     bool ok = true;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
-        if (is_unfinished(entry->d_name) || part_parse_name(entry->d_name, &first, &last))
+        if (folder_is_unfinished(entry->d_name) || part_parse_name(entry->d_name, &first, &last))
             ok = remove_entry(folder, entry->d_name, error);
     closedir(entries);
     return ok;

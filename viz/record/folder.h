@@ -26,12 +26,23 @@ void folder_abandon(const char *folder);
 /* The names of a recording's files beside its frames; null beyond the last. */
 const char *folder_fact_name(size_t i);
 
+/* Whether a name is that of one of these files, of a part's lines, or begins as a frame's: what tells a folder that was
+ * filmed into. */
+bool folder_is_name(const char *name);
+
+/* Whether a name is that of a file that was half written when something killed who wrote it: "session.json.part" and
+ * the like, and the session of a program that died. */
+bool folder_is_unfinished(const char *name);
+
 /* Remove what a recording that is whole has no more use for: the lines of its parts, and files that were half written
  * when something killed who wrote them. */
 bool folder_sweep(const char *folder, record_error *error);
 
 /* "folder/name"; owned by the caller, null when there is no memory. */
 char *folder_path(const char *folder, const char *name);
+
+/* Whether the folder has anything of this name. */
+bool folder_has(const char *folder, const char *name);
 
 /* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. What is there already and is
  * no regular file, a pipe say, is written to as it is. */
@@ -54,5 +65,9 @@ bool folder_write(const char *folder, const char *name, const char *bytes, size_
  * and *same says whether it has these bytes. `writer` is a word that no other of them has. */
 bool folder_write_once(const char *folder, const char *name, const char *writer, const char *bytes, size_t size,
                        bool *same, record_error *error);
+
+/* The same without writing: what is not there is the same. */
+bool folder_compare(const char *folder, const char *name, const char *bytes, size_t size, bool *same,
+                    record_error *error);
 
 #endif

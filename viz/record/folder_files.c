@@ -30,9 +30,10 @@ static bool put_file(const memory_file *file, const folder_place *place, const c
                      record_error *error)
 {
     bool same;
-    if (!place->writer)
+    if (!place->writer && !place->look)
         return folder_write(place->folder, name, file->bytes, file->size, error);
-    if (!folder_write_once(place->folder, name, place->writer, file->bytes, file->size, &same, error))
+    if (!(place->look ? folder_compare(place->folder, name, file->bytes, file->size, &same, error)
+                      : folder_write_once(place->folder, name, place->writer, file->bytes, file->size, &same, error)))
         return false;
     return same || !unlike || record_fail(error, "%s/%s: %s", place->folder, name, unlike);
 }

@@ -11,6 +11,7 @@
 typedef struct folder_place {
     const char *folder;
     const char *writer; /* of folder_write_once(), where the folder may be that of a recording already; else null */
+    bool look;          /* nothing is written: what is there must have these bytes */
 } folder_place;
 
 /* session.json; *digest is that of its bytes. */

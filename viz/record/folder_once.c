@@ -61,3 +61,15 @@ bool folder_write_once(const char *folder, const char *name, const char *writer,
     free(path);
     return ok;
 }
+
+bool folder_compare(const char *folder, const char *name, const char *bytes, size_t size, bool *same,
+                    record_error *error)
+{
+    char *path = folder_path(folder, name);
+    *same = true;
+    if (!path)
+        return record_fail(error, "there is no memory");
+    const bool ok = access(path, F_OK) != 0 || compare(path, bytes, size, same, error);
+    free(path);
+    return ok;
+}

@@ -18,6 +18,9 @@ char *frame_name(uint64_t tick, char name[FRAME_NAME]);
 /* The tick of a frame's name; false for any other name. */
 bool frame_parse_name(const char *name, uint64_t *tick);
 
+/* Whether it is that of a frame of a recording with so many ticks, of which each every-th is filmed. */
+bool frame_is_name(const char *name, uint64_t ticks, uint64_t every);
+
 /* Where a frame comes from; its texts say so. */
 typedef struct frame_origin {
     uint64_t tick, session, scene; /* its number, and the digests of session.json and of the tick's scene */
@@ -49,7 +52,11 @@ bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, reco
  * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
 bool frame_check(const char *folder, frame_origin *origin, record_error *error);
 
-/* The same for a file of any name. */
+/* The same by its texts alone, in a folder that may be somebody else's: true also where there is no frame, and of one
+ * whose session was not known yet when it was drawn. */
+bool frame_claim(const char *folder, const frame_origin *origin, record_error *error);
+
+/* frame_check() for a file of any name. */
 bool frame_check_file(const char *path, frame_origin *origin, record_error *error);
 
 #endif

@@ -1,5 +1,6 @@
 /* inspect_output.c - see inspect_output.h. */
 #include "inspect_output.h"
+#include "output_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +58,7 @@ bool inspect_output_check(inspect_output *output, char *const *clouds, size_t co
     return !output->folder || check_names(output, clouds, count, error);
 }
 
-char *inspect_output_path(const inspect_output *output, const char *cloud, record_error *error)
+static char *path_of(const inspect_output *output, const char *cloud, record_error *error)
 {
     const char *name = inspect_base_name(cloud);
     const size_t size = strlen(output->given) + strlen(name) + strlen(output->ending) + 2;
@@ -72,8 +73,38 @@ char *inspect_output_path(const inspect_output *output, const char *cloud, recor
     }
     const char *between = ends_in(output->given, "/") ? "" : "/";
     snprintf(path, size, "%s%s%s%s", output->given, between, name, output->ending);
-    if (folder_make(output->given, error))
+    return path;
+}
+
+char *inspect_output_path(const inspect_output *output, const char *cloud, record_error *error)
+{
+    char *path = path_of(output, cloud, error);
+    if (!path || !output->folder || folder_make(output->given, error))
         return path;
     free(path);
     return NULL;
+}
+
+/* The files of one cloud. Those of two have other names, or other endings. */
+static bool files_spare(const output_file files[2], char *const *clouds, size_t count, record_error *error)
+{
+    bool ok = outputs_apart(files, 2, error);
+    for (size_t i = 0; ok && i < count; i++)
+        ok = output_spares(&files[0], clouds[i], error) && output_spares(&files[1], clouds[i], error);
+    return ok;
+}
+
+bool inspect_outputs_spare(const inspect_output outputs[2], char *const *clouds, size_t count, record_error *error)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < count; i++) {
+        char *paths[2] = {NULL, NULL};
+        for (int k = 0; ok && k < 2; k++)
+            ok = !outputs[k].given || (paths[k] = path_of(&outputs[k], clouds[i], error));
+        const output_file files[2] = {{outputs[0].option, paths[0]}, {outputs[1].option, paths[1]}};
+        ok = ok && files_spare(files, clouds, count, error);
+        free(paths[0]);
+        free(paths[1]);
+    }
+    return ok;
 }

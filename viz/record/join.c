@@ -140,10 +140,8 @@ static bool join_lines(joining *j, const octree_session *session, uint64_t sessi
 
 static bool check_renderer_file(const char *folder, record_error *error)
 {
-    char *path = folder_path(folder, "renderer.json");
-    const bool there = path && access(path, F_OK) == 0;
-    free(path);
-    return there || record_fail(error, "%s: renderer.json is missing; octreel record --resume writes it", folder);
+    return folder_has(folder, "renderer.json") ||
+           record_fail(error, "%s: renderer.json is missing; octreel record --resume writes it", folder);
 }
 
 static bool join_session(joining *j, const octree_session *session, uint64_t digest, record_error *error)

@@ -89,10 +89,7 @@ static bool miss_no_line(const char *folder, const part_list *list, uint64_t tic
 static bool is_there(const char *folder, uint64_t tick)
 {
     char name[FRAME_NAME];
-    char *path = folder_path(folder, frame_name(tick, name));
-    const bool there = path && access(path, F_OK) == 0;
-    free(path);
-    return there;
+    return folder_has(folder, frame_name(tick, name));
 }
 
 uint64_t missing_frames(const char *folder, uint64_t first, uint64_t last, uint64_t every, char text[MISSING_TEXT])
@@ -125,7 +122,7 @@ static bool hold_no_other_frame(const char *folder, uint64_t ticks, uint64_t eve
     bool ok = true;
     uint64_t tick;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
-        if (frame_parse_name(entry->d_name, &tick) && (tick >= ticks || tick % every != 0))
+        if (frame_parse_name(entry->d_name, &tick) && !frame_is_name(entry->d_name, ticks, every))
             ok = record_fail(error, "%s/%s: is no frame of this recording", folder, entry->d_name);
     closedir(entries);
     return ok;

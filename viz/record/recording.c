@@ -1,24 +1,21 @@
 /* recording.c - see recording.h. */
 #include "recording.h"
+#include "claim.h"
 #include "folder_files.h"
 #include "parts.h"
 #include "viewer.h"
-
-#include <stdlib.h>
-#include <unistd.h>
 
 static bool is_part(const recording *r)
 {
     return r->options->last != 0;
 }
 
-static bool write_files(const recording *r, const char *writer, const octree_session *session, const view *v,
+static bool write_files(const folder_place *place, uint64_t every, const octree_session *session, const view *v,
                         const renderer_info *info, uint64_t *digest, record_error *error)
 {
-    const folder_place place = {r->options->folder, writer};
     *digest = 0;
-    return write_recording_file(&place, v, r->options->every, error) &&
-           (!session || write_session_file(&place, session, digest, error)) && write_renderer_file(&place, info, error);
+    return write_recording_file(place, v, every, error) &&
+           (!session || write_session_file(place, session, digest, error)) && write_renderer_file(place, info, error);
 }
 
 static bool open_log(recording *r, record_error *error)
@@ -37,7 +34,8 @@ static bool begin_alone(recording *r, const octree_session *session, const view 
     record_error late;
     if (!folder_prepare(folder, error) || !open_log(r, error))
         return false;
-    if (write_files(r, NULL, session, v, info, digest, error))
+    const folder_place place = {.folder = folder};
+    if (write_files(&place, r->options->every, session, v, info, digest, error))
         return true;
     tick_log_close(&r->log, false, &late);
     folder_abandon(folder);
@@ -48,13 +46,9 @@ static bool begin_alone(recording *r, const octree_session *session, const view 
 static bool check_new_part(const recording *r, record_error *error)
 {
     char name[PART_NAME];
-    char *path = folder_path(r->options->folder, part_name(r->share.first, r->share.last, name));
-    if (!path)
-        return record_fail(error, "there is no memory");
-    const bool there = access(path, F_OK) == 0;
-    free(path);
-    return !there || record_fail(error, "%s: already holds this part (%s); --resume completes what is there of it",
-                                 r->options->folder, name);
+    return !folder_has(r->options->folder, part_name(r->share.first, r->share.last, name)) ||
+           record_fail(error, "%s: already holds this part (%s); --resume completes what is there of it",
+                       r->options->folder, name);
 }
 
 /* A folder that may be that of this recording already, and that others may be filming into. The log comes last: what is
@@ -63,9 +57,12 @@ static bool begin_shared(recording *r, const octree_session *session, const view
                          uint64_t *digest, record_error *error)
 {
     char writer[PART_NAME];
-    part_name(r->share.first, r->share.last, writer);
-    return folder_make(r->options->folder, error) && (r->options->resume || check_new_part(r, error)) &&
-           write_files(r, writer, session, v, info, digest, error) && open_log(r, error);
+    const film_options *o = r->options;
+    const folder_place look = {.folder = o->folder, .look = true},
+                       place = {.folder = o->folder, .writer = part_name(r->share.first, r->share.last, writer)};
+    return folder_make(o->folder, error) && (o->resume || check_new_part(r, error)) &&
+           write_files(&look, o->every, session, v, info, digest, error) && claim_folder(session, *digest, o, error) &&
+           write_files(&place, o->every, session, v, info, digest, error) && open_log(r, error);
 }
 
 bool recording_begin(recording *r, const octree_session *session, const view *v, const renderer_info *info,

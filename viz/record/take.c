@@ -21,7 +21,8 @@ bool take_open(take *t, const octree_session *session, const film_options *optio
     if (status != OCTREE_OK)
         return record_fail(error, "the session cannot be played: %s", octree_status_text(status));
     return grow_hot(t, error) && picture_fit(&t->view, octree_game_tree(t->game), error) &&
-           (frames == FRAMES_CHECK || picture_open(&t->picture, &t->view, &options->renderer, error));
+           (frames == FRAMES_CHECK || frames == FRAMES_CLAIM ||
+            picture_open(&t->picture, &t->view, &options->renderer, error));
 }
 
 void take_close(take *t)
@@ -48,17 +49,29 @@ bool take_scene(take *t, record_error *error)
            record_fail(error, "there is no memory for a scene");
 }
 
+static bool make_frame(take *t, frame_origin *origin, record_error *error)
+{
+    const char *folder = t->options->folder;
+    record_error unlike;
+    switch (t->frames) {
+    case FRAMES_CHECK:
+        return frame_check(folder, origin, error);
+    case FRAMES_CLAIM:
+        return frame_claim(folder, origin, error);
+    case FRAMES_KEEP:
+        return frame_check(folder, origin, &unlike) || draw_frame(t, origin, error);
+    default:
+        return draw_frame(t, origin, error);
+    }
+}
+
 static bool take_frame(take *t, film_step *step, record_error *error)
 {
-    record_error unlike;
     if (!take_scene(t, error))
         return false;
     t->extras.scene_digest = scene_digest(&t->scene);
     frame_origin origin = {.tick = step->tick, .session = t->session_digest, .scene = t->extras.scene_digest};
-    bool done = (t->frames == FRAMES_KEEP || t->frames == FRAMES_CHECK) &&
-                frame_check(t->options->folder, &origin, t->frames == FRAMES_CHECK ? error : &unlike);
-    if (!done && t->frames != FRAMES_CHECK)
-        done = draw_frame(t, &origin, error);
+    const bool done = make_frame(t, &origin, error);
     step->left_out = origin.left_out;
     step->over_budget = t->scene.tally.beyond || t->scene.tally.thinned;
     return done;

@@ -13,6 +13,7 @@ typedef enum take_frames {
     FRAMES_DRAW,  /* it is drawn */
     FRAMES_KEEP,  /* it is drawn, unless it is there already, whole and right */
     FRAMES_CHECK, /* it must be there, whole and right; there is no renderer */
+    FRAMES_CLAIM, /* where it is there it must say that it is this one, see frame_claim(); there is no renderer */
     FRAMES_SHOW,  /* it is drawn, and stays in take.picture */
 } take_frames;
 

@@ -152,6 +152,16 @@ static void tell_frame(verifying *v, const char *sentence, uint64_t tick)
     say(find(v, VERIFY_FRAME, tick), "%s", inside ? sentence + length + 1 : sentence);
 }
 
+/* What the disk or the rights do not let be read says nothing of what is in it. */
+static bool check_readable(const char *path, record_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return record_fail(error, "%s: cannot be read: %s", path, strerror(errno));
+    fclose(file);
+    return true;
+}
+
 static bool check_frame(verifying *v, const film_step *step, record_error *error)
 {
     char name[FRAME_NAME], *path = folder_path(v->folder, frame_name(step->tick, name));
@@ -160,11 +170,14 @@ static bool check_frame(verifying *v, const film_step *step, record_error *error
     record_error unlike;
     if (!path)
         return record_fail(error, "there is no memory");
+    bool ok = true;
     v->stopped = true;
     if (access(path, F_OK) != 0)
         say(find(v, VERIFY_FRAME, step->tick), "%s is missing", name);
     else if (!is_file(path))
         say(find(v, VERIFY_FRAME, step->tick), "%s is not a regular file", name);
+    else if (!check_readable(path, error))
+        v->stopped = ok = false;
     else if (!frame_check(v->folder, &origin, &unlike))
         tell_frame(v, unlike.text, step->tick);
     else if (origin.pixels != image_digest(&v->replay.take.picture.frame))
@@ -172,7 +185,7 @@ static bool check_frame(verifying *v, const film_step *step, record_error *error
     else
         v->stopped = false;
     free(path);
-    return true;
+    return ok;
 }
 
 /* A film_sink: false also at the first tick that differs. */
@@ -203,9 +216,7 @@ static void check_end_of_lines(verifying *v)
 /* What begins as a frame does, and is none of this recording. */
 static bool is_too_many(const verifying *v, const char *name)
 {
-    uint64_t tick;
-    return strncmp(name, "frame_", 6) == 0 &&
-           !(frame_parse_name(name, &tick) && tick < v->replay.ticks && tick % v->replay.film.every == 0);
+    return strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, v->replay.ticks, v->replay.film.every);
 }
 
 /* The first of them by name, whatever the order of the folder. */

@@ -1,0 +1,133 @@
+/* test_cli_outputs.c - what octreel writes does not take the place of what it reads, nor one of its files that of
+ * another, however they are named; and a command that is refused leaves nothing. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "fixture.h"
+#include "galleries.h"
+
+static const char points[] = "0 0 0\n1 2 3\n4 5 6\n";
+
+/* Run with the folder of the test as the current one. */
+static command_result run_in(void **state, const char *arguments)
+{
+    const temp_folder *own = *state;
+    return run_script("cd %s && %s %s", own->name, octreel_program(), arguments);
+}
+
+static void do_in(void **state, const char *arguments)
+{
+    command_result result = run_in(state, arguments);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void assert_refused(void **state, const char *arguments, const char *sentence)
+{
+    const temp_folder *own = *state;
+    const int count = (int)temp_folder_count(own);
+    command_result result = run_in(state, arguments);
+    assert_trouble(&result, sentence);
+    assert_int_equal(temp_folder_count(own), count);
+}
+
+static void assert_text(void **state, const char *name, const char *expected)
+{
+    char *text = file_read(place_in(*state, name).path, NULL);
+    assert_string_equal(text, expected);
+    free(text);
+}
+
+static void cloud_is_not_replaced(void **state)
+{
+    file_write_text(place_in(*state, "p.xyz").path, points);
+    file_write_text(place_in(*state, "q.xyz.png").path, points);
+    assert_int_equal(link(place_in(*state, "p.xyz").path, place_in(*state, "linked").path), 0);
+    assert_refused(state, "inspect p.xyz -o p.xyz", "-o p.xyz is the same file as p.xyz, which is read");
+    assert_refused(state, "inspect p.xyz -o ./p.xyz", "-o ./p.xyz is the same file as p.xyz, which is read");
+    assert_refused(state, "inspect p.xyz --nodes p.xyz", "--nodes p.xyz is the same file as p.xyz");
+    assert_refused(state, "inspect p.xyz --nodes linked", "--nodes linked is the same file as p.xyz");
+    file_write_text(place_in(*state, "q.xyz").path, points);
+    assert_refused(state, "inspect p.xyz q.xyz q.xyz.png -o ./", "is the same file as q.xyz.png, which is read");
+    assert_text(state, "p.xyz", points);
+    assert_text(state, "q.xyz.png", points);
+}
+
+static void two_outputs_of_a_cloud_are_two_files(void **state)
+{
+    file_write_text(place_in(*state, "p.xyz").path, points);
+    assert_refused(state, "inspect p.xyz -o n --nodes n", "--nodes n is the same file as -o n");
+    assert_refused(state, "inspect p.xyz -o ./n --nodes n", "--nodes n is the same file as -o ./n");
+    assert_refused(state, "inspect p.xyz -o new/p.xyz.csv --nodes new/", "is the same file as -o new/p.xyz.csv");
+    file_write_text(place_in(*state, "n").path, "");
+    assert_refused(state, "inspect p.xyz -o ./n --nodes n", "--nodes n is the same file as -o ./n");
+}
+
+static void frames_are_not_replaced_by_their_digests(void **state)
+{
+    gallery_make(*state, "a", "1.png 2.png");
+    gallery_make(*state, "b", "1.png 2.png");
+    assert_refused(state, "digest a -o a/2.png", "-o a/2.png is the same file as a/2.png, which is read");
+    assert_refused(state, "digest a/1.png -o a/1.png", "-o a/1.png is the same file as a/1.png, which is read");
+    assert_same_folders(place_in(*state, "a").path, place_in(*state, "b").path, NULL);
+    for (int i = 0; i < 2; i++)
+        do_in(state, "digest a -o a/digests"); /* one's own file beside the frames, for the second time too */
+}
+
+static void files_of_a_recording_are_not_replaced(void **state)
+{
+    do_in(state, "record --size 16x16 --keys w -o r");
+    assert_refused(state, "digest r -o r/ticks.jsonl", "is the same file as r/ticks.jsonl, which is read");
+    assert_refused(state, "diff r r --junit r/session.json", "is the same file as r/session.json, which is read");
+}
+
+static void reports_do_not_replace_what_is_compared(void **state)
+{
+    gallery_make(*state, "a", "1.png 2.png");
+    gallery_make(*state, "b", "1.png 2.png");
+    do_in(state, "digest a -o a.dig");
+    char *before = file_read(place_in(*state, "a.dig").path, NULL);
+    assert_refused(state, "diff a.dig b --junit a.dig", "--junit a.dig is the same file as a.dig, which is read");
+    assert_refused(state, "diff a/1.png b/2.png --markdown b/2.png", "--markdown b/2.png is the same file as b/2.png");
+    assert_refused(state, "diff a b --junit b/2.png", "--junit b/2.png is the same file as b/2.png, which is read");
+    assert_text(state, "a.dig", before);
+    assert_same_folders(place_in(*state, "a").path, place_in(*state, "b").path, NULL);
+    free(before);
+}
+
+static void two_reports_are_two_files(void **state)
+{
+    gallery_make(*state, "a", "1.png 2.png");
+    assert_refused(state, "diff a a --junit x --markdown x", "--markdown x is the same file as --junit x");
+    assert_refused(state, "diff a a --junit x --markdown a/../x", "--markdown a/../x is the same file as --junit x");
+    assert_refused(state, "diff a a -o ev --junit ev/report.html", "--junit ev/report.html is the same file as -o ev/");
+    do_in(state, "diff a a --junit /dev/null --markdown /dev/null");
+}
+
+static void refused_comparison_leaves_no_evidence(void **state)
+{
+    gallery_make(*state, "a", "1.png 2.png");
+    do_in(state, "digest a -o a.dig && mkdir none nil");
+    assert_refused(state, "diff a a/1.png -o ev", "a picture is compared with a picture");
+    assert_refused(state, "diff none nil -o ev", "there is nothing to compare");
+    assert_refused(state, "diff a.dig a --max-pixels 1 -o ev", "nothing can be forgiven");
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(cloud_is_not_replaced),
+        IN_FOLDER(two_outputs_of_a_cloud_are_two_files),
+        IN_FOLDER(frames_are_not_replaced_by_their_digests),
+        IN_FOLDER(files_of_a_recording_are_not_replaced),
+        IN_FOLDER(reports_do_not_replace_what_is_compared),
+        IN_FOLDER(two_reports_are_two_files),
+        IN_FOLDER(refused_comparison_leaves_no_evidence),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,178 @@
+/* test_resume_refuses.c - what octreel record --resume, and a part, do not touch: files of somebody else, of another
+ * session or view, and folders that say nothing of what was to be filmed. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "images.h"
+#include "recordings.h"
+
+#define SMALL "--size 64x48 --keys wwddeenn"
+
+static void record(const char *arguments, const char *folder)
+{
+    command_result result = run_octreel(NULL, "record %s -o %s", arguments, folder);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static place recorded(void **state, const char *name)
+{
+    const place folder = place_in(*state, name);
+    record(SMALL, folder.path);
+    return folder;
+}
+
+static place copy_of(void **state, const char *folder, const char *name)
+{
+    const place copy = place_in(*state, name);
+    command_result result = run_script("cp -r %s %s", folder, copy.path);
+    assert_done(&result);
+    command_release(&result);
+    return copy;
+}
+
+static void make_folder(const char *path)
+{
+    command_result result = run_script("mkdir %s", path);
+    assert_done(&result);
+    command_release(&result);
+}
+
+/* The folder stays as it is, to the byte. */
+static void assert_refused(void **state, const char *arguments, const char *folder, const char *sentence)
+{
+    static int count;
+    char name[16];
+    snprintf(name, sizeof name, "before%d", count++);
+    const place before = copy_of(state, folder, name);
+    command_result result = run_octreel(NULL, "record %s -o %s", arguments, folder);
+    assert_trouble(&result, sentence);
+    assert_same_folders(before.path, folder, NULL);
+}
+
+/* ---- Nobody has said what is filmed ------------------------------------------------------------------------- */
+
+static void folder_that_does_not_say_what_it_is_of_is_not_resumed(void **state)
+{
+    const place whole = recorded(state, "whole"), empty = place_in(*state, "empty");
+    const place blind = copy_of(state, whole.path, "blind"), mute = copy_of(state, whole.path, "mute");
+    remove(place_below(blind.path, "recording.json").path);
+    assert_refused(state, "--resume", blind.path,
+                   "holds no recording that could be resumed (recording.json is missing)");
+    remove(place_below(mute.path, "session.json").path);
+    assert_refused(state, "--resume", mute.path, "holds no recording that could be resumed (session.json is missing)");
+    make_folder(empty.path);
+    assert_refused(state, "--resume --jobs 2", empty.path, "(recording.json is missing)");
+}
+
+static void folder_that_is_not_there_is_not_resumed(void **state)
+{
+    const place folder = place_in(*state, "fligth");
+    command_result result = run_octreel(NULL, "record --resume -o %s", folder.path);
+    assert_trouble(&result, "holds no recording that could be resumed (recording.json is missing)");
+    assert_false(file_exists(folder.path));
+    result = run_script("%s record --resume -o ''", octreel_program());
+    assert_trouble(&result, "the folder's name is empty");
+}
+
+static void same_words_again_resume_what_has_just_begun(void **state)
+{
+    const place whole = recorded(state, "whole"), begun = place_in(*state, "begun");
+    make_folder(begun.path);
+    file_write_text(place_below(begun.path, "ticks.jsonl").path, "");
+    assert_refused(state, "--resume", begun.path, "(recording.json is missing)");
+    record("--resume " SMALL, begun.path);
+    assert_same_folders(whole.path, begun.path, NULL);
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------- */
+
+static void frames_of_another_view_are_not_replaced(void **state)
+{
+    static const char *const views[] = {"--size 80x48", "--size 64x48 --camera orbit", "--size 64x48 --labels",
+                                        "--size 64x48 --every 3"};
+    const place blind = recorded(state, "film");
+    remove(place_below(blind.path, "recording.json").path);
+    for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
+        char words[100];
+        snprintf(words, sizeof words, "--resume %s", views[i]);
+        assert_refused(state, words, blind.path,
+                       i < 3 ? "is no frame of this session and view" : "is no frame of this");
+    }
+}
+
+static void frames_of_another_session_are_not_replaced(void **state)
+{
+    const place whole = recorded(state, "whole"), mute = copy_of(state, whole.path, "film");
+    remove(place_below(mute.path, "session.json").path);
+    assert_refused(state, "--resume --size 64x48", mute.path, "is no frame of this session and view");
+    record("--resume " SMALL, mute.path);
+    assert_same_folders(whole.path, mute.path, NULL);
+}
+
+static void another_session_is_refused_before_a_file_is_written(void **state)
+{
+    const place film = recorded(state, "film");
+    remove(place_below(film.path, "recording.json").path);
+    assert_refused(state, "--resume --size 64x48 --keys wwd", film.path, "session.json: is another session");
+}
+
+static void surplus_frame_is_refused(void **state)
+{
+    static const char *const names[] = {"frame_000300.png", "frame_000009.png", "frame_cover.png"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "film%zu", i);
+        const place film = recorded(state, name);
+        file_write_text(place_below(film.path, names[i]).path, "mine");
+        assert_refused(state, "--resume", film.path,
+                       "is no frame of this recording: remove it, or choose another folder");
+    }
+}
+
+/* ---- Somebody else's files ---------------------------------------------------------------------------------- */
+
+static void files_of_somebody_else_are_not_replaced(void **state)
+{
+    static const char *const names[] = {"frame_000000.png", "index.html", "ticks.jsonl", "renderer.json"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char name[16], sentence[64];
+        snprintf(name, sizeof name, "site%zu", i);
+        snprintf(sentence, sizeof sentence, "holds %s, and no recording that could be completed", names[i]);
+        const place site = place_in(*state, name);
+        make_folder(site.path);
+        file_write_text(place_below(site.path, names[i]).path, "mine");
+        assert_refused(state, "--resume " SMALL, site.path, sentence);
+        assert_refused(state, "--ticks 0:2 " SMALL, site.path, sentence);
+    }
+}
+
+static void what_only_begins_as_a_file_of_a_recording_stays(void **state)
+{
+    const place film = recorded(state, "film"), mine = place_below(film.path, "index.html.bak");
+    file_write_text(mine.path, "mine");
+    record("--resume", film.path);
+    assert_true(file_exists(mine.path));
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(folder_that_does_not_say_what_it_is_of_is_not_resumed),
+        IN_FOLDER(folder_that_is_not_there_is_not_resumed),
+        IN_FOLDER(same_words_again_resume_what_has_just_begun),
+        IN_FOLDER(frames_of_another_view_are_not_replaced),
+        IN_FOLDER(frames_of_another_session_are_not_replaced),
+        IN_FOLDER(another_session_is_refused_before_a_file_is_written),
+        IN_FOLDER(surplus_frame_is_refused),
+        IN_FOLDER(files_of_somebody_else_are_not_replaced),
+        IN_FOLDER(what_only_begins_as_a_file_of_a_recording_stays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
