@@ -70,7 +70,7 @@ static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
         const view written = random_view(&random);
         view read;
         record_error error = {""};
-        assert_true(write_recording_file(&(folder_place){folder->name, NULL}, &written, 1, &error));
+        assert_true(write_recording_file(&(folder_place){.folder = folder->name}, &written, 1, &error));
         if (!view_read(folder->name, &read, &error))
             fail_msg("%s", error.text);
         assert_same_view(&written, &read);
