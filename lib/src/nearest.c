@@ -174,7 +174,9 @@ static void search_beside(search *s, frame *f, unsigned depth)
         step(s);
 }
 
-unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
+/* The codes of the cells beside that of this depth that a target is so close to that a search for k points is likely
+ * to go there: for one, within a quarter of the cell. Returns their number. */
+static unsigned codes_beside(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
     const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
     unsigned count = 0;
@@ -195,7 +197,7 @@ unsigned nearest_codes_beside(const uint32_t keys[3], unsigned depth, size_t k, 
 static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
-    const unsigned count = nearest_codes_beside(keys, way->depth, k, codes);
+    const unsigned count = codes_beside(keys, way->depth, k, codes);
     for (unsigned i = 0; i < count; i++) {
         unsigned depth = way->depth;
         while ((codes[i] ^ code) >> 3 * (OCTREE_MAX_DEPTH - depth))

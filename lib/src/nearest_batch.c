@@ -1,5 +1,4 @@
 /* nearest_batch.c - the nearest points of many targets, asked in the order of the tree. */
-#include "leaf.h"
 #include "morton_sort.h"
 #include "nearest.h"
 #include "search.h"
@@ -17,63 +16,10 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
     return status;
 }
 
-#define GROUP 16
-
-/* On the way to the leaf of a code. */
-typedef struct walker {
-    const node *node;
-    uint64_t code;
-    unsigned depth;
-} walker;
-
-/* Walk to the leaves level by level, all at once: what one walker after the other would wait for is then on its way for
- * all of them. */
-static void walk_to_leaves(walker *walkers, size_t count)
-{
-    for (bool deeper = true; deeper;) {
-        deeper = false;
-        for (size_t i = 0; i < count; i++) {
-            walker *w = &walkers[i];
-            const node *child = w->node->octants ? child_at(w->node, morton_octant(w->code, w->depth)) : NULL;
-            if (!child)
-                continue;
-            w->node = child;
-            w->depth++;
-            prefetch(child->below);
-            deeper = true;
-        }
-    }
-    for (size_t i = 0; i < count; i++)
-        if (walkers[i].node->octants == 0)
-            leaf_prefetch(walkers[i].node);
-}
-
-/* Ask for the memory that a few searches will begin with: the leaves that the targets lie in, then those beside them.
- */
-static void prefetch_group(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count)
-{
-    walker walkers[GROUP], beside[3 * GROUP];
-    size_t more = 0;
-    for (size_t i = 0; i < count; i++)
-        walkers[i] = (walker){&tree->root, turns[i].code, 0};
-    walk_to_leaves(walkers, count);
-    for (size_t i = 0; i < count; i++) {
-        uint32_t keys[3];
-        nearest_keys(tree, targets[turns[i].place], keys);
-        uint64_t codes[3];
-        const unsigned close = nearest_codes_beside(keys, walkers[i].depth, 1, codes);
-        for (unsigned j = 0; j < close; j++)
-            beside[more++] = (walker){&tree->root, codes[j], 0};
-    }
-    walk_to_leaves(beside, more);
-}
-
 static void ask_in_turn(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count,
                         const octree_search *how, octree_neighbor *neighbors, bool *found)
 {
     for (size_t i = 0; i < count; i++) {
-        if (i % GROUP == 0)
-            prefetch_group(tree, targets, turns + i, count - i < GROUP ? count - i : GROUP);
         octree_neighbor nearest;
         const uint32_t place = turns[i].place;
         const bool one = nearest_search(tree, targets[place], 1, -1, how, &nearest) == 1;
