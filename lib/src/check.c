@@ -21,14 +21,6 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
     return NULL;
 }
 
-static bool is_inside(const octree *tree, const double position[3])
-{
-    bool inside = true; /* NaN is not */
-    for (int i = 0; i < 3; i++)
-        inside &= tree->axes[i].min <= position[i] && position[i] <= tree->axes[i].max;
-    return inside;
-}
-
 /* By the planes, which is what a key is found by; then it is in the world too, whose last cells are closed. */
 static bool is_in_cell(const octree_box *bounds, cell c, const double position[3])
 {
@@ -63,7 +55,8 @@ static const char *check_leaf(const octree *tree, const node *n, cell c)
     for (uint32_t i = 0; i < n->count; i++) {
         const double *position = leaf_points(n)[i].position;
         if (!is_in_cell(&bounds, c, position))
-            return is_inside(tree, position) ? "a point is not in its leaf's cell" : "a point is outside the world";
+            return box_contains(&tree->def.world, position) ? "a point is not in its leaf's cell"
+                                                            : "a point is outside the world";
         if (is_repeated(n, i))
             return "a pair of position and id is stored twice";
     }

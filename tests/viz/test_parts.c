@@ -156,9 +156,7 @@ static void joining_that_is_stopped_changes_nothing(void **state)
     film_options options = stopped_after(small_film(parts.path), &ticks);
     film_summary summary;
     record_error error = {""};
-    command_result copied = run_script("cp -r %s %s", parts.path, copy.path);
-    assert_done(&copied);
-    command_release(&copied);
+    copy_folder(parts.path, copy.path);
     assert_true(join_parts(&options, &summary, &error));
     assert_int_equal(summary.ticks, 9);
     assert_int_equal(summary.total, TICKS);
@@ -338,9 +336,7 @@ static void assert_not_filmed(const octree_session *session, const film_options 
 static void part_of_another_recording_is_refused_and_changes_nothing(void **state)
 {
     const place parts = film_parts(state), copy = place_in(*state, "copy");
-    command_result copied = run_script("cp -r %s %s", parts.path, copy.path);
-    assert_done(&copied);
-    command_release(&copied);
+    copy_folder(parts.path, copy.path);
     const octree_session session = short_session(KEYS), other = short_session("wwd");
     film_options options = part_of(small_film(parts.path), 2, 4);
     assert_not_filmed(&other, &options, "session.json", "another session");

@@ -29,9 +29,7 @@ static place recorded(void **state, const char *name)
 static place copy_of(void **state, const char *folder, const char *name)
 {
     const place copy = place_in(*state, name);
-    command_result result = run_script("cp -r %s %s", folder, copy.path);
-    assert_done(&result);
-    command_release(&result);
+    copy_folder(folder, copy.path);
     return copy;
 }
 

@@ -56,7 +56,7 @@ static int digest_it(const char *folder, const char *path, image_color backgroun
 
 int cmd_digest(int argc, char **argv)
 {
-    image_color background = {255, 255, 255};
+    image_color background = IMAGE_WHITE;
     const char *path = NULL;
     optind = 1;
     for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {

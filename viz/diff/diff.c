@@ -31,7 +31,7 @@ diff_verdict diff_finding_verdict(diff_finding finding)
 
 diff_options diff_options_default(void)
 {
-    return (diff_options){.background = {255, 255, 255}};
+    return (diff_options){.background = IMAGE_WHITE};
 }
 
 const char *diff_pair_name(const diff_pair *pair)

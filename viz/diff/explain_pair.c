@@ -25,11 +25,10 @@ static origins read_origins(const diff_pair *pair)
 /* Whether a frame has the pixels that it says were drawn. */
 static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
 {
-    const image_color white = {255, 255, 255};
     image_error ignored;
     image about;
     uint64_t pixels;
-    return image_digest_png(frame->path, white, &about, &pixels, &ignored) && pixels == origin->pixels;
+    return image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored) && pixels == origin->pixels;
 }
 
 /* Two frames that say the same of their pixels, and differ in them: name what somebody changed. */

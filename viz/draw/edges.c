@@ -3,6 +3,7 @@
  * tree's boxes come from the root down, and what lies on an edge of a parent is covered by the stretch before it. And
  * from one frame to the next a line keeps its edges, unless a box on it came or went. */
 #include "edges.h"
+#include "grow.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,17 +41,10 @@ static int compare_stretches(const void *a, const void *b)
 
 static bool make_room(edge_list *list, size_t count)
 {
-    size_t room = list->room ? list->room : 256;
-    while (room - list->count < count)
-        room *= 2;
-    if (room == list->room)
-        return true;
-    edge *items = room <= SIZE_MAX / 2 / sizeof *items ? realloc(list->items, room * sizeof *items) : NULL;
-    if (!items)
-        return false;
-    list->items = items;
-    list->room = room;
-    return true;
+    edge *items = grow_to(list->items, list->count + count, &list->room, 256, sizeof *items);
+    if (items)
+        list->items = items;
+    return items != NULL;
 }
 
 void edges_release(edge_list *list)
@@ -156,14 +150,10 @@ static bool is_covered(const stretch *it, const stretch *by)
 
 static bool append_stretch(stretch_list *all, const stretch *it)
 {
-    if (all->count == all->room) {
-        const size_t room = all->room ? 2 * all->room : 1024;
-        stretch *items = room <= SIZE_MAX / sizeof *items ? realloc(all->items, room * sizeof *items) : NULL;
-        if (!items)
-            return false;
-        all->items = items;
-        all->room = room;
-    }
+    stretch *items = grow_by_one(all->items, all->count, &all->room, 1024, sizeof *items);
+    if (!items)
+        return false;
+    all->items = items;
     all->items[all->count++] = *it;
     return true;
 }

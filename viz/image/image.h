@@ -18,6 +18,9 @@ typedef struct image_color {
     uint8_t r, g, b;
 } image_color;
 
+/* What shines through where a picture is transparent, unless another colour is asked for. */
+#define IMAGE_WHITE ((image_color){255, 255, 255})
+
 typedef struct image_palette {
     image_color colors[256]; /* those from count on are never drawn: leave them zero */
     int count;               /* 1 to 256 */

@@ -28,7 +28,7 @@ bool image_read_png_over(const char *path, image_color background, image *image,
 
 bool image_read_png(const char *path, image *image, image_error *error)
 {
-    return image_read_png_over(path, (image_color){255, 255, 255}, image, error);
+    return image_read_png_over(path, IMAGE_WHITE, image, error);
 }
 
 /* ---- What can be told without the pixels --------------------------------------------------------------------- */

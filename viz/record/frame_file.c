@@ -75,10 +75,9 @@ static bool says_digest(const char *path, const char *keyword, uint64_t digest)
 
 static bool check_pixels(const char *path, frame_origin *origin, record_error *error)
 {
-    const image_color white = {255, 255, 255};
     image_error unread;
     image about;
-    if (!image_digest_png(path, white, &about, &origin->pixels, &unread))
+    if (!image_digest_png(path, IMAGE_WHITE, &about, &origin->pixels, &unread))
         return record_fail(error, "%s", unread.text);
     return says_digest(path, pixels_keyword, origin->pixels) ||
            record_fail(error, "%s: its pixels are not those that were drawn", path);

@@ -1,17 +1,10 @@
 /* session_errors.c - the sentences of the session reader: file, line, place and reason. */
 #include "number.h"
+#include "printable.h"
 #include "session_reader.h"
 
 #include <stdarg.h>
 #include <string.h>
-
-/* What a reason quotes from the file must not reach a terminal as it is. */
-static void make_printable(char *text)
-{
-    for (; *text; text++)
-        if (*text < ' ' || *text > '~')
-            *text = '?';
-}
 
 const char *session_name_end(const char *name)
 {
@@ -24,7 +17,7 @@ bool session_fail_line(session_reader *reader, size_t line, const char *where, c
 {
     char printable[340];
     snprintf(printable, sizeof printable, "%s%s%s", where, *where ? ": " : "", reason);
-    make_printable(printable);
+    make_printable(printable); /* what is quoted from the file must not reach a terminal as it is */
     snprintf(reader->error->text, sizeof reader->error->text, "%s:%zu: %s", session_name_end(reader->name), line,
              printable);
     return false;
