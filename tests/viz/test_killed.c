@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "commands.h"
 #include "files.h"
@@ -47,19 +46,6 @@ static uint64_t digest_folder(const char *folder)
     }
     listing_release(&names);
     return digest;
-}
-
-static void copy_folder(const char *from, const char *to)
-{
-    assert_int_equal(mkdir(to, 0777), 0);
-    listing names = folder_list(from);
-    for (size_t i = 0; i < names.count; i++) {
-        size_t size;
-        char *bytes = file_read(place_below(from, names.names[i]).path, &size);
-        file_write(place_below(to, names.names[i]).path, bytes, size);
-        free(bytes);
-    }
-    listing_release(&names);
 }
 
 static place remains_at(const remains *r, size_t i)

@@ -225,13 +225,6 @@ command_result run_script(const char *format, ...)
     return run_shell(line);
 }
 
-void copy_folder(const char *from, const char *to)
-{
-    command_result result = run_script("cp -r %s %s", from, to);
-    assert_done(&result);
-    command_release(&result);
-}
-
 bool program_is_there(const char *name)
 {
     char line[128];

@@ -32,9 +32,6 @@ command_result run_shell(const char *line);
 /* The same for the line that a format gives. */
 command_result run_script(const char *format, ...);
 
-/* Copy a folder with all that it holds; `to` is not there yet. */
-void copy_folder(const char *from, const char *to);
-
 /* Whether a shell finds a program of this name. */
 bool program_is_there(const char *name);
 

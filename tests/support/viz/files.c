@@ -119,6 +119,19 @@ int nested_folder_remove(void **state)
     return temp_folder_remove(state);
 }
 
+void copy_folder(const char *from, const char *to)
+{
+    assert_int_equal(mkdir(to, 0777), 0);
+    listing names = folder_list(from);
+    for (size_t i = 0; i < names.count; i++) {
+        size_t size;
+        char *bytes = file_read(place_below(from, names.names[i]).path, &size);
+        file_write(place_below(to, names.names[i]).path, bytes, size);
+        free(bytes);
+    }
+    listing_release(&names);
+}
+
 void assert_same_files(const char *a, const char *b)
 {
     size_t size_a, size_b;

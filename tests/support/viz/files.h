@@ -38,6 +38,9 @@ typedef struct listing {
 listing folder_list(const char *folder);
 void listing_release(listing *names);
 
+/* Copy the files of a folder into a new one. */
+void copy_folder(const char *from, const char *to);
+
 /* Both files hold the same bytes. */
 void assert_same_files(const char *a, const char *b);
 
