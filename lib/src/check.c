@@ -3,6 +3,8 @@
 #include "leaf.h"
 #include "octree/digest.h"
 
+#include <string.h>
+
 static const char *check_inner(const octree *tree, const node *n, cell c)
 {
     uint64_t below = 0;
@@ -21,16 +23,26 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
     return NULL;
 }
 
-/* By the planes, which is what a key is found by; then it is in the world too, whose last cells are closed. */
-static bool is_in_cell(const octree_box *bounds, cell c, const double position[3])
+/* The largest double below a finite one. */
+static double next_below(double value)
 {
-    bool inside = true;
-    for (int i = 0; i < 3; i++) {
-        const bool closed = c.low[i] + cell_size(c.depth) == PLANE_GRID;
-        inside &= bounds->min[i] <= position[i];
-        inside &= position[i] < bounds->max[i] || (closed && position[i] == bounds->max[i]);
-    }
-    return inside;
+    int64_t bits;
+    value += 0.0; /* -0.0 is +0.0 */
+    memcpy(&bits, &value, sizeof bits);
+    bits = value == 0 ? INT64_MIN + 1 : bits + (value < 0) - (value > 0);
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Where a cell's points may lie: by the planes, which is what a key is found by. A cell is open above, unless it is one
+ * of the world's last, which is closed; so what is in its cell is in the world too. */
+static octree_box room_of(const stacked *leaf)
+{
+    octree_box room = leaf->box;
+    for (int i = 0; i < 3; i++)
+        if (leaf->cell.low[i] + cell_size(leaf->cell.depth) != PLANE_GRID)
+            room.max[i] = next_below(room.max[i]);
+    return room;
 }
 
 /* Whether a leaf's point is there before its own index too. */
@@ -45,16 +57,17 @@ static bool is_repeated(const node *n, uint32_t index)
     return false;
 }
 
-static const char *check_leaf(const octree *tree, const node *n, cell c)
+static const char *check_leaf(const octree *tree, const stacked *leaf)
 {
-    const octree_box bounds = cell_bounds(tree->axes, c);
-    if (!fits_leaf(tree, n->count) && may_split(tree, c))
+    const node *n = leaf->node;
+    const octree_box room = room_of(leaf);
+    if (!fits_leaf(tree, n->count) && may_split(tree, leaf->cell))
         return "a leaf that could split is over its capacity";
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
     for (uint32_t i = 0; i < n->count; i++) {
         const double *position = leaf_points(n)[i].position;
-        if (!is_in_cell(&bounds, c, position))
+        if (!box_contains(&room, position))
             return box_contains(&tree->def.world, position) ? "a point is not in its leaf's cell"
                                                             : "a point is outside the world";
         if (is_repeated(n, i))
@@ -69,18 +82,17 @@ const char *octree_check(const octree *tree, octree_address *where)
         return "there is no tree";
     if (!float_mode_is_default())
         return octree_status_text(OCTREE_FLOAT_MODE);
-    node_stack stack = {.size = 0};
-    stack_push(&stack, &tree->root, root_cell());
+    node_stack stack;
+    stack_begin(&stack, tree);
     while (stack.size > 0) {
-        const stacked next = stack_pop(&stack);
-        const char *broken =
-            next.node->octants ? check_inner(tree, next.node, next.cell) : check_leaf(tree, next.node, next.cell);
+        const stacked *next = stack_pop(&stack);
+        const char *broken = next->node->octants ? check_inner(tree, next->node, next->cell) : check_leaf(tree, next);
         if (broken && where)
-            *where = cell_address(next.cell);
+            *where = next->address;
         if (broken)
             return broken;
-        if (next.node->octants)
-            stack_push_children(&stack, next);
+        if (next->node->octants)
+            stack_push_children(&stack);
     }
     return NULL;
 }

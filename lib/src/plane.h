@@ -127,9 +127,4 @@ static inline octree_address morton_address(uint64_t code, unsigned depth)
 /* Whether a word is the address of any cell: its highest bit is that of a depth. */
 bool is_address(octree_address address);
 
-static inline octree_address cell_address(cell c)
-{
-    return morton_address(morton_interleave(c.low), c.depth);
-}
-
 #endif

@@ -161,14 +161,29 @@ cell path_cell(uint64_t code, unsigned depth)
     return c;
 }
 
+/* The child's cell, whose planes are its parent's and those in the middle of it. */
+static void push_child(node_stack *stack, const stacked *parent, const node *child, unsigned octant,
+                       const double middle[3])
+{
+    stacked *top = &stack->items[stack->size++];
+    *top = (stacked){child, parent->address << 3 | octant, cell_child(parent->cell, octant), parent->box};
+    for (int i = 0; i < 3; i++)
+        *(octant & (4u >> i) ? &top->box.min[i] : &top->box.max[i]) = middle[i];
+}
+
 /* A large tree does not fit the caches: what is below each child is on its way before the child's turn comes. Who asks
  * for cells asks for points. */
-void stack_push_children(node_stack *stack, stacked parent)
+void stack_push_children(node_stack *stack)
 {
+    const stacked parent = stack->items[stack->size];
+    const uint32_t half = cell_size(parent.cell.depth + 1);
     const node *child = children_of(parent.node) + bits_count8(parent.node->octants);
+    double middle[3];
+    for (int i = 0; i < 3; i++)
+        middle[i] = plane_at(&stack->tree->axes[i], parent.cell.low[i] + half);
     for (unsigned octant = 8; octant-- > 0;)
         if (parent.node->octants >> octant & 1) {
-            stack_push(stack, --child, cell_child(parent.cell, octant));
+            push_child(stack, &parent, --child, octant, middle);
             if (child->octants)
                 prefetch(child->below);
             else

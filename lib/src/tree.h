@@ -110,26 +110,32 @@ octree_status check_position(const octree *tree, const double position[3]);
 
 typedef struct stacked {
     const node *node;
+    octree_address address;
     cell cell;
+    octree_box box; /* cell_bounds() of the cell: all but the middle planes is known from the parent's */
 } stacked;
 
 typedef struct node_stack {
+    const octree *tree;
     size_t size;
     stacked items[STACK_ROOM];
 } node_stack;
 
-static inline void stack_push(node_stack *stack, const node *n, cell c)
+/* With the root alone. */
+static inline void stack_begin(node_stack *stack, const octree *tree)
 {
-    stack->items[stack->size++] = (stacked){n, c};
+    stack->tree = tree;
+    stack->size = 1;
+    stack->items[0] = (stacked){&tree->root, OCTREE_ROOT, root_cell(), tree->def.world};
 }
 
-static inline stacked stack_pop(node_stack *stack)
+static inline const stacked *stack_pop(node_stack *stack)
 {
-    return stack->items[--stack->size];
+    return &stack->items[--stack->size];
 }
 
-/* Push the children so that they are popped in ascending order of octants. */
-void stack_push_children(node_stack *stack, stacked parent);
+/* Push the children of the node that was popped last, so that they are popped in ascending order of octants. */
+void stack_push_children(node_stack *stack);
 
 /* Inner nodes still to be visited, with their addresses: for those who look at all children of a node at once, and ask
  * for no cells. */

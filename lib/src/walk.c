@@ -2,14 +2,14 @@
 #include "float_mode.h"
 #include "leaf.h"
 
-static octree_node describe(const octree *tree, const node *n, cell c, octree_address address)
+static octree_node describe(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
 {
     return (octree_node){
         .address = address,
-        .depth = c.depth,
+        .depth = depth,
         .leaf = n->octants == 0,
         .octants = n->octants,
-        .box = cell_bounds(tree->axes, c),
+        .box = *bounds,
         .count = n->count,
         .points = n->octants ? NULL : leaf_points(n),
     };
@@ -21,16 +21,16 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    node_stack stack = {.size = 0};
-    stack_push(&stack, &tree->root, root_cell());
+    node_stack stack;
+    stack_begin(&stack, tree);
     while (stack.size > 0) {
-        const stacked next = stack_pop(&stack);
-        const octree_node seen = describe(tree, next.node, next.cell, cell_address(next.cell));
+        const stacked *next = stack_pop(&stack);
+        const octree_node seen = describe(next->node, next->address, next->cell.depth, &next->box);
         const octree_walk_order order = visit(&seen, context);
         if (order == OCTREE_WALK_STOP)
             break;
-        if (order == OCTREE_WALK_ON && next.node->octants)
-            stack_push_children(&stack, next);
+        if (order == OCTREE_WALK_ON && next->node->octants)
+            stack_push_children(&stack);
     }
     return OCTREE_OK;
 }
@@ -52,7 +52,8 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
             return OCTREE_NOT_FOUND;
         c = cell_child(c, octant);
     }
-    *result = describe(tree, n, c, address);
+    const octree_box bounds = cell_bounds(tree->axes, c);
+    *result = describe(n, address, c.depth, &bounds);
     return OCTREE_OK;
 }
 
@@ -63,7 +64,8 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
         return status;
     const uint64_t code = morton_code(tree->axes, position);
     const path way = path_to(tree, code);
-    *result = describe(tree, path_end(&way), path_cell(code, way.depth), morton_address(code, way.depth));
+    const octree_box bounds = cell_bounds(tree->axes, path_cell(code, way.depth));
+    *result = describe(path_end(&way), morton_address(code, way.depth), way.depth, &bounds);
     return OCTREE_OK;
 }
 
