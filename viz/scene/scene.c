@@ -140,40 +140,54 @@ static uint64_t digest_view(const scene *s)
     return digest_doubles(digest, c->middle, 2);
 }
 
+static uint64_t digest_box(const scene_box *box)
+{
+    const uint64_t digest = digest_look(OCTREE_DIGEST_START, box->id, box->look, box->depth);
+    return digest_doubles(digest_doubles(digest, box->box.min, 3), box->box.max, 3);
+}
+
+static uint64_t digest_segment(const scene_segment *segment)
+{
+    const uint64_t digest = digest_look(OCTREE_DIGEST_START, segment->id, segment->look, segment->in_picture);
+    return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
+}
+
+static uint64_t digest_marker(const scene_marker *marker)
+{
+    return digest_doubles(digest_look(OCTREE_DIGEST_START, marker->id, marker->look, marker->shape), marker->at, 3);
+}
+
+static uint64_t digest_label(const scene_label *label)
+{
+    uint64_t digest = digest_look(OCTREE_DIGEST_START, label->id, label->look, label->in_world);
+    digest = digest_doubles(digest, label->at, 3);
+    return octree_digest_bytes(digest, label->text, strlen(label->text));
+}
+
+static uint64_t digest_panel(const scene_panel *panel)
+{
+    uint64_t digest = digest_look(OCTREE_DIGEST_START, panel->id, panel->look, 0);
+    digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
+    return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
+}
+
+/* Elements are the terms of a polynomial, so that their order counts; each by itself, so that a processor works on
+ * several at once, which one long chain of words does not let it. */
+#define DIGEST_ALL(digest, array, digest_one)                                                                          \
+    do {                                                                                                               \
+        uint64_t sum = 0;                                                                                              \
+        for (size_t i = 0; i < (array).count; i++)                                                                     \
+            sum = sum * UINT64_C(0x9e3779b97f4a7c15) + digest_one(&(array).items[i]);                                  \
+        digest = octree_digest_word(octree_digest_word(digest, (array).count), sum);                                   \
+    } while (0)
+
 uint64_t scene_digest(const scene *s)
 {
     uint64_t digest = digest_view(s);
-    const size_t counts[] = {s->boxes.count, s->segments.count, s->markers.count, s->labels.count, s->panels.count};
-    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
-        digest = octree_digest_word(digest, counts[i]);
-    for (size_t i = 0; i < s->boxes.count; i++) {
-        const scene_box *box = &s->boxes.items[i];
-        digest = digest_look(digest, box->id, box->look, box->depth);
-        digest = digest_doubles(digest, box->box.min, 3);
-        digest = digest_doubles(digest, box->box.max, 3);
-    }
-    for (size_t i = 0; i < s->segments.count; i++) {
-        const scene_segment *segment = &s->segments.items[i];
-        digest = digest_look(digest, segment->id, segment->look, segment->in_picture);
-        digest = digest_doubles(digest, segment->ends[0], 3);
-        digest = digest_doubles(digest, segment->ends[1], 3);
-    }
-    for (size_t i = 0; i < s->markers.count; i++) {
-        const scene_marker *marker = &s->markers.items[i];
-        digest = digest_look(digest, marker->id, marker->look, marker->shape);
-        digest = digest_doubles(digest, marker->at, 3);
-    }
-    for (size_t i = 0; i < s->labels.count; i++) {
-        const scene_label *label = &s->labels.items[i];
-        digest = digest_look(digest, label->id, label->look, label->in_world);
-        digest = digest_doubles(digest, label->at, 3);
-        digest = octree_digest_bytes(digest, label->text, strlen(label->text));
-    }
-    for (size_t i = 0; i < s->panels.count; i++) {
-        const scene_panel *panel = &s->panels.items[i];
-        digest = digest_look(digest, panel->id, panel->look, 0);
-        digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
-        digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
-    }
+    DIGEST_ALL(digest, s->boxes, digest_box);
+    DIGEST_ALL(digest, s->segments, digest_segment);
+    DIGEST_ALL(digest, s->markers, digest_marker);
+    DIGEST_ALL(digest, s->labels, digest_label);
+    DIGEST_ALL(digest, s->panels, digest_panel);
     return digest;
 }
