@@ -84,7 +84,7 @@ static octree_status place_player(octree_game *game)
     if (player->kind != OCTREE_PLAYER_KEYS)
         return OCTREE_OK;
     memcpy(game->tick.player, player->position, sizeof game->tick.player);
-    return octree_insert(game->tree, player->position, player->id);
+    return game_insert(game, player->position, player->id);
 }
 
 static octree_status start(octree_game *game)
@@ -145,8 +145,7 @@ void octree_game_destroy(octree_game *game)
     list_release(&memory, &game->near, sizeof(octree_neighbor));
     list_release(&memory, &game->refusals, sizeof(octree_refusal));
     list_release(&memory, &game->answers, sizeof(octree_answer));
-    list_release(&memory, &game->inner, sizeof(octree_address));
-    list_release(&memory, &game->inner_before, sizeof(octree_address));
+    survey_release(&game->survey, &memory);
     list_release(&memory, &game->splits, sizeof(octree_address));
     list_release(&memory, &game->merges, sizeof(octree_address));
     list_release(&memory, &game->visits, sizeof(octree_visit));

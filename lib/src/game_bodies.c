@@ -40,7 +40,7 @@ octree_status game_add_body(octree_game *game, const octree_body *body)
     else if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->velocity[2]))
         status = OCTREE_NOT_FINITE;
     else
-        status = octree_insert(game->tree, body->position, body->id);
+        status = game_insert(game, body->position, body->id);
     if (status == OCTREE_OK && !bodies_add(&game->bodies, body, origin_tick(game)))
         return OCTREE_NO_MEMORY;
     return note_unless_done(game, body->id, status, body->position);
@@ -52,7 +52,7 @@ static octree_status remove_body(octree_game *game, const octree_edit *edit)
     moving_body *body = bodies_find(&game->bodies, edit->body.id);
     octree_status status = OCTREE_NOT_FOUND;
     if (body)
-        status = octree_remove(game->tree, body->position, body->id);
+        status = game_remove(game, body->position, body->id);
     if (status == OCTREE_OK)
         bodies_remove(&game->bodies, body);
     return note_unless_done(game, edit->body.id, status, nowhere);
@@ -63,7 +63,7 @@ static octree_status move_body(octree_game *game, const octree_edit *edit)
     moving_body *body = bodies_find(&game->bodies, edit->body.id);
     octree_status status = OCTREE_NOT_FOUND;
     if (body)
-        status = octree_move(game->tree, body->position, body->id, edit->body.position);
+        status = game_move(game, body->position, body->id, edit->body.position);
     if (status == OCTREE_OK) {
         body_store(body, edit->body.position, game->tick.number);
         memcpy(body->origin, edit->body.position, sizeof body->origin);
@@ -102,7 +102,7 @@ octree_status game_move_bodies(octree_game *game)
         body_position(body, &game->session->tree.world, game->tick.number, to);
         if (memcmp(to, body->position, sizeof to) == 0)
             continue;
-        const octree_status status = octree_move(game->tree, body->position, body->id, to);
+        const octree_status status = game_move(game, body->position, body->id, to);
         if (status == OCTREE_OK)
             body_store(body, to, game->tick.number);
         if (note_unless_done(game, body->id, status, to) == OCTREE_NO_MEMORY)

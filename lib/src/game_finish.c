@@ -1,29 +1,5 @@
-/* game_finish.c - how a tick ends: its queries, its splits and merges, and the tick as the caller sees it. */
+/* game_finish.c - how a tick ends: its queries, and the tick as the caller sees it. */
 #include "game_parts.h"
-#include "node_set.h"
-
-/* Splits and merges: the difference of the inner nodes of two ticks. */
-static octree_status compare_node_sets(octree_game *game)
-{
-    const bool first = !game->has_set;
-    if (!first && game->set_version == octree_version(game->tree))
-        return OCTREE_OK;
-    const list before = game->inner;
-    game->inner = game->inner_before;
-    game->inner_before = before;
-    game->has_set = true;
-    game->set_version = octree_version(game->tree);
-    if (!node_set_fill(&game->memory, &game->inner, game->tree))
-        return OCTREE_NO_MEMORY;
-    if (first)
-        return OCTREE_OK;
-    if (!node_set_subtract(&game->memory, &game->inner, &game->inner_before, &game->splits) ||
-        !node_set_subtract(&game->memory, &game->inner_before, &game->inner, &game->merges))
-        return OCTREE_NO_MEMORY;
-    game->tick.events |= game->splits.count ? OCTREE_EVENT_SPLIT : 0;
-    game->tick.events |= game->merges.count ? OCTREE_EVENT_MERGED : 0;
-    return OCTREE_OK;
-}
 
 static void publish(octree_game *game)
 {
@@ -48,7 +24,7 @@ octree_status game_finish_tick(octree_game *game, const octree_input *input)
     if (status == OCTREE_OK)
         status = game_ask(game, input);
     if (status == OCTREE_OK)
-        status = compare_node_sets(game);
+        status = game_survey(game);
     if (status == OCTREE_OK)
         status = game_show_shapes(game, input);
     if (status == OCTREE_OK)

@@ -3,6 +3,7 @@
 #define OCTREE_GAME_PARTS_H
 
 #include "bodies.h"
+#include "survey.h"
 
 struct octree_game {
     const octree_session *session;
@@ -14,29 +15,37 @@ struct octree_game {
     size_t next_query;
     size_t next_shape;
     size_t standing, standing_shapes; /* the first query, and the first shape, of every tick */
-    double fastest; /* of the session's bodies, along one axis */
+    double fastest;                   /* of the session's bodies, along one axis */
     bool quit;
-    uint64_t set_version; /* the tree's version that `inner` was filled from */
-    bool has_set;
+    survey survey;
+    bool surveyed; /* up to tick 0 at least */
     octree_tick tick;
-    list hits;                                /* octree_point */
-    list hit_from;                            /* double[3]: of each hit, when swept */
-    list found;                               /* octree_point: those of all answers, one after the other */
-    list near;                                /* octree_neighbor: the same */
-    list refusals;                            /* octree_refusal */
-    list answers;                             /* octree_answer */
-    list inner, inner_before, splits, merges; /* octree_address */
-    list visits;                              /* octree_visit: as they come, until game_finish_visits */
-    list hit_leaves;                          /* octree_address: the same */
-    list shapes;                              /* octree_shape */
-    list movers;                              /* octree_body */
-    bool lost_visits;                         /* there was no memory for one of them */
+    list hits;           /* octree_point */
+    list hit_from;       /* double[3]: of each hit, when swept */
+    list found;          /* octree_point: those of all answers, one after the other */
+    list near;           /* octree_neighbor: the same */
+    list refusals;       /* octree_refusal */
+    list answers;        /* octree_answer */
+    list splits, merges; /* octree_address */
+    list visits;         /* octree_visit: as they come, until game_finish_visits */
+    list hit_leaves;     /* octree_address: the same */
+    list shapes;         /* octree_shape */
+    list movers;         /* octree_body */
+    bool lost_visits;    /* there was no memory for one of them */
 };
 
 bool game_is_key(char key);
 
 /* OK, or what octree_game_create says of a session whose tree could be made. */
 octree_status game_check_session(const octree_session *session, const octree *tree);
+
+/* Change the tree: as octree_insert(), octree_remove() and octree_move(). */
+octree_status game_insert(octree_game *game, const double position[3], uint64_t id);
+octree_status game_remove(octree_game *game, const double position[3], uint64_t id);
+octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);
+
+/* The tick's splits and merges, and the digest and numbers of its tree. */
+octree_status game_survey(octree_game *game);
 
 /* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
 octree_status game_add_body(octree_game *game, const octree_body *body);
@@ -62,7 +71,7 @@ octree_status game_ask(octree_game *game, const octree_input *input);
 /* Let each answer point to its part of the lists, which do not grow any more. */
 void game_publish_answers(octree_game *game);
 
-/* The queries, the node sets, and the tick's arrays. At tick 0 the collision test too. */
+/* The queries, the survey, and the tick's arrays. At tick 0 the collision test too. */
 octree_status game_finish_tick(octree_game *game, const octree_input *input);
 
 /* Let the tick show its shapes and those of every tick. */

@@ -49,7 +49,7 @@ static octree_status refuse_step(octree_game *game, octree_status why, const dou
 static octree_status make_step(octree_game *game, const int64_t steps[3], const double to[3])
 {
     const uint64_t id = game->session->player.id;
-    const octree_status status = octree_move(game->tree, game->tick.player, id, to);
+    const octree_status status = game_move(game, game->tick.player, id, to);
     if (status == OCTREE_NO_MEMORY)
         return status;
     if (status != OCTREE_OK)

@@ -1,6 +1,6 @@
 /* node_set.c - see node_set.h. */
 #include "node_set.h"
-#include "tree.h"
+#include "bits.h"
 
 static bool append(arena *memory, list *set, octree_address address)
 {
@@ -8,17 +8,6 @@ static bool append(arena *memory, list *set, octree_address address)
     if (item)
         *item = address;
     return item != NULL;
-}
-
-bool node_set_fill(arena *memory, list *set, const octree *tree)
-{
-    set->count = 0;
-    inner_stack stack;
-    inner_stack_begin(&stack, tree);
-    bool ok = true;
-    while (ok && stack.size > 0)
-        ok = append(memory, set, inner_stack_next(&stack).address);
-    return ok;
 }
 
 /* Pre-order: by the place of the cell's lowest corner, the larger cell first. */

@@ -149,11 +149,11 @@ typedef struct inner_stack {
     inner items[STACK_ROOM];
 } inner_stack;
 
-/* With the root alone, or, where that is a leaf, with nothing. */
-static inline void inner_stack_begin(inner_stack *stack, const octree *tree)
+/* With a node alone, or, where that is a leaf, with nothing. */
+static inline void inner_stack_begin(inner_stack *stack, const node *n, octree_address address)
 {
-    stack->size = tree->root.octants != 0;
-    stack->items[0] = (inner){&tree->root, OCTREE_ROOT};
+    stack->size = n->octants != 0;
+    stack->items[0] = (inner){n, address};
 }
 
 /* Pop a node, and push those of its children that are inner nodes, to be popped in ascending order of octants. */

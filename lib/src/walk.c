@@ -1,6 +1,7 @@
 /* walk.c - looking at the nodes: one by one, by address, by position, and in numbers. */
 #include "float_mode.h"
 #include "leaf.h"
+#include "node_count.h"
 
 static octree_node describe(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
 {
@@ -69,18 +70,6 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
     return OCTREE_OK;
 }
 
-static void count_node(octree_stats *stats, const node *n, unsigned depth)
-{
-    stats->nodes++;
-    stats->nodes_at_depth[depth]++;
-    stats->depth = depth > stats->depth ? depth : stats->depth;
-    if (n->octants == 0) {
-        stats->leaves++;
-        stats->leaves_at_depth[depth]++;
-        stats->largest_leaf = n->count > stats->largest_leaf ? n->count : stats->largest_leaf;
-    }
-}
-
 octree_status octree_statistics(const octree *tree, octree_stats *stats)
 {
     if (!tree || !stats)
@@ -90,7 +79,7 @@ octree_status octree_statistics(const octree *tree, octree_stats *stats)
     *stats = (octree_stats){.points = tree->root.count, .memory = tree->memory.bytes};
     count_node(stats, &tree->root, 0);
     inner_stack stack;
-    inner_stack_begin(&stack, tree);
+    inner_stack_begin(&stack, &tree->root, OCTREE_ROOT);
     while (stack.size > 0) {
         const inner next = inner_stack_next(&stack);
         const unsigned depth = octree_address_depth(next.address) + 1, children = bits_count8(next.node->octants);

@@ -35,13 +35,13 @@ static void print_drawn(FILE *stream, const octree_tick *tick)
 /* As ticks.jsonl has it, without the digest of the tree: that knows of options, too. */
 static char *line_of(const octree_game *game)
 {
-    tick_extras extras = {.tree_digest = 0};
+    octree_tick tick = *octree_game_tick(game);
+    tick.tree_digest = 0;
     char *text;
     size_t size;
     FILE *stream = open_memstream(&text, &size);
     assert_non_null(stream);
-    octree_statistics(octree_game_tree(game), &extras.stats);
-    tick_write(stream, octree_game_tick(game), &extras);
+    tick_write(stream, &tick, &(tick_extras){.frame = NULL});
     print_drawn(stream, octree_game_tick(game));
     assert_int_equal(fclose(stream), 0);
     return text;

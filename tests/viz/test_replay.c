@@ -34,10 +34,7 @@ static void add_scenes(scene *s, const octree_game *game, uint64_t *all)
 
 static void add_line(FILE *out, const octree_game *game)
 {
-    const octree *tree = octree_game_tree(game);
-    tick_extras extras = {.tree_digest = octree_digest(tree)};
-    assert_int_equal(octree_statistics(tree, &extras.stats), OCTREE_OK);
-    tick_write(out, octree_game_tick(game), &extras);
+    tick_write(out, octree_game_tick(game), &(tick_extras){.frame = NULL});
 }
 
 static replay play(const octree_session *session)
@@ -75,7 +72,7 @@ static void the_default_session_replays_to_its_digests(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
-    assert_replays(&session, (replay){UINT64_C(0x1e9b8f8e0f49e676), UINT64_C(0x57117642bc11cb45)});
+    assert_replays(&session, (replay){UINT64_C(0x1e9b8f8e0f49e676), UINT64_C(0x8d3c3480728082ab)});
 }
 
 static void a_random_session_replays_to_its_digests(void **state)
@@ -83,7 +80,7 @@ static void a_random_session_replays_to_its_digests(void **state)
     (void)state;
     static random_session made;
     random_session_full(&made, 2);
-    assert_replays(&made.session, (replay){UINT64_C(0x6ac583f9fa7da02a), UINT64_C(0xb684bceab12d7065)});
+    assert_replays(&made.session, (replay){UINT64_C(0x6ac583f9fa7da02a), UINT64_C(0x2bb7777d190c7429)});
 }
 
 enum { BODIES = 60, TICKS = 120 };
@@ -117,7 +114,7 @@ static void a_session_that_rounds_everywhere_replays_to_its_digests(void **state
     session.ticks = TICKS;
     session.queries = queries;
     session.query_count = 2;
-    assert_replays(&session, (replay){UINT64_C(0xc7061f796fe89348), UINT64_C(0x5c2297dbde496f0f)});
+    assert_replays(&session, (replay){UINT64_C(0xc7061f796fe89348), UINT64_C(0x925ee21c4c2e6d97)});
 }
 
 int main(void)

@@ -120,7 +120,7 @@ static void check_line(const octree_game *game, const recount *met)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    tick_write(out, octree_game_tick(game), &(tick_extras){.tree_digest = 0});
+    tick_write(out, octree_game_tick(game), &(tick_extras){.frame = NULL});
     assert_int_equal(fclose(out), 0);
     json_t *line = json_read(text);
     const json_t *visits = json_member(line, "visits");

@@ -33,7 +33,7 @@ static bool compare_trees(const playing *p)
 {
     cause_facts facts = {0};
     if (p->same_rules)
-        return octree_digest(octree_game_tree(p->games[0])) != octree_digest(octree_game_tree(p->games[1]));
+        return octree_game_tick(p->games[0])->tree_digest != octree_game_tick(p->games[1])->tree_digest;
     cause_compare_trees(p->games[0], p->games[1], &facts);
     const bool unlike = cause_any(&facts) || facts.out_of_memory;
     cause_facts_release(&facts);

@@ -77,17 +77,6 @@ static bool take_frame(take *t, film_step *step, record_error *error)
     return done;
 }
 
-static void describe_tree(take *t)
-{
-    const octree *tree = octree_game_tree(t->game);
-    if (t->has_tree && t->tree_version == octree_version(tree))
-        return;
-    t->has_tree = true;
-    t->tree_version = octree_version(tree);
-    t->extras.tree_digest = octree_digest(tree);
-    octree_statistics(tree, &t->extras.stats);
-}
-
 /* In memory: a line is written in one piece, and may be sent or compared instead. */
 static bool take_line(take *t, film_step *step, record_error *error)
 {
@@ -109,7 +98,6 @@ bool take_tick(take *t, film_step *step, record_error *error)
     char name[FRAME_NAME];
     *step = (film_step){.tick = tick->number, .events = tick->events, .filmed = tick->number % t->options->every == 0};
     t->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
-    describe_tree(t);
     return (!step->filmed || take_frame(t, step, error)) && take_line(t, step, error);
 }
 

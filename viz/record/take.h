@@ -26,8 +26,6 @@ typedef struct take {
     heat heat; /* of all ticks that were played, whether they are taken or not; where the view shows it */
     picture picture;
     scene scene;
-    uint64_t tree_version; /* of the tree that `extras` describes */
-    bool has_tree;
     tick_extras extras;
     char *line;
 } take;

@@ -170,15 +170,15 @@ static void write_visits(json_writer *w, const octree_tick *tick)
     json_write_end_object(w);
 }
 
-static void write_tree(json_writer *w, const tick_extras *extras)
+static void write_tree(json_writer *w, const octree_tick *tick)
 {
     json_write_key(w, "tree");
     json_write_begin_object(w);
-    json_member_integer(w, "points", extras->stats.points);
-    json_member_integer(w, "nodes", extras->stats.nodes);
-    json_member_integer(w, "leaves", extras->stats.leaves);
-    json_member_integer(w, "depth", extras->stats.depth);
-    write_digest(w, "digest", extras->tree_digest);
+    json_member_integer(w, "points", tick->stats.points);
+    json_member_integer(w, "nodes", tick->stats.nodes);
+    json_member_integer(w, "leaves", tick->stats.leaves);
+    json_member_integer(w, "depth", tick->stats.depth);
+    write_digest(w, "digest", tick->tree_digest);
     json_write_end_object(w);
 }
 
@@ -206,7 +206,7 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
     write_refusals(w, tick);
     write_addresses(w, "splits", tick->splits, tick->split_count);
     write_addresses(w, "merges", tick->merges, tick->merge_count);
-    write_tree(w, extras);
+    write_tree(w, tick);
     if (extras->frame) {
         json_write_key(w, "frame");
         json_write_string(w, extras->frame);

@@ -8,8 +8,6 @@
 
 /* What a line says beyond the tick itself. */
 typedef struct tick_extras {
-    uint64_t tree_digest;
-    octree_stats stats;
     const char *frame;     /* the file's name, or null for a tick that was not filmed */
     uint64_t scene_digest; /* of that frame */
 } tick_extras;

@@ -38,14 +38,12 @@ static void write_world(pen *p, const octree_box *world)
     }
 }
 
-static void write_statistics(pen *p, const octree *tree)
+static void write_statistics(pen *p, const octree *tree, const octree_stats *stats)
 {
-    octree_stats stats;
-    octree_statistics(tree, &stats);
-    write_row(p, "points", "%zu", stats.points);
-    write_row(p, "nodes", "%zu", stats.nodes);
-    write_row(p, "leaves", "%zu", stats.leaves);
-    write_row(p, "depth", "%u of %zu", stats.depth, octree_definition(tree).max_depth);
+    write_row(p, "points", "%zu", stats->points);
+    write_row(p, "nodes", "%zu", stats->nodes);
+    write_row(p, "leaves", "%zu", stats->leaves);
+    write_row(p, "depth", "%u of %zu", stats->depth, octree_definition(tree).max_depth);
     write_row(p, "leaf", "up to %zu", octree_definition(tree).leaf_capacity);
 }
 
@@ -297,7 +295,7 @@ void add_tick_panel(scene *s, const octree_game *game, const finding *found)
     if (tick->swept)
         write_row(&p, "tested", "the whole way");
     p.y += LINE / 2;
-    write_statistics(&p, octree_game_tree(game));
+    write_statistics(&p, octree_game_tree(game), &octree_game_tick(game)->stats);
     write_left_out(&p);
     p.y += LINE / 2;
     if (tick->hit_count)
@@ -318,9 +316,11 @@ void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const 
         end_rows(&line);
         return;
     }
+    octree_stats stats;
     pen p = begin_panel(s);
     write_title(&p, about->title);
-    write_statistics(&p, tree);
+    octree_statistics(tree, &stats);
+    write_statistics(&p, tree, &stats);
     write_left_out(&p);
     p.y += LINE / 2;
     const octree_box world = octree_definition(tree).world;

@@ -190,6 +190,8 @@ typedef struct octree_tick {
     size_t split_count;
     const octree_address *merges; /* inner at the tick before and not now; in pre-order */
     size_t merge_count;
+    octree_stats stats;           /* of the tree after the tick: what octree_statistics() says of it */
+    uint64_t tree_digest;         /* and octree_digest() */
     const octree_answer *answers; /* n first, then the session's queries in their order */
     size_t answer_count;
     unsigned asked;             /* bits 1 << octree_query_kind: what was asked up to this tick */
@@ -218,7 +220,8 @@ void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key, whatever the session's keys say. Errors: NULL_ARGUMENT, FLOAT_MODE and BAD_KEY, of which
  * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(bodies that move + queries +
- * v log v for v visits; all bodies, when swept; nodes, when the tree changed). */
+ * v log v for v visits; all bodies, when swept; and where the tree changed its inner nodes, at 8 bytes each, and some
+ * thousand points about each change). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not

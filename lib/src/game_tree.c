@@ -1,0 +1,60 @@
+/* game_tree.c - a game's changes to its tree, of which the survey is told, and what it then says of them. */
+#include "game_parts.h"
+#include "node_set.h"
+
+static void touch(octree_game *game, const double place[3])
+{
+    survey_touch(&game->survey, &game->memory, game->tree, place);
+}
+
+octree_status game_insert(octree_game *game, const double position[3], uint64_t id)
+{
+    const octree_status status = octree_insert(game->tree, position, id);
+    if (status == OCTREE_OK)
+        touch(game, position);
+    return status;
+}
+
+octree_status game_remove(octree_game *game, const double position[3], uint64_t id)
+{
+    const octree_status status = octree_remove(game->tree, position, id);
+    if (status == OCTREE_OK)
+        touch(game, position);
+    return status;
+}
+
+octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3])
+{
+    const octree_status status = octree_move(game->tree, from, id, to);
+    if (status != OCTREE_OK)
+        return status;
+    touch(game, from);
+    touch(game, to);
+    return OCTREE_OK;
+}
+
+/* Splits and merges: the difference of the inner nodes of two ticks. */
+static octree_status compare_inner_nodes(octree_game *game)
+{
+    const survey *s = &game->survey;
+    if (!node_set_subtract(&game->memory, &s->inner, &s->inner_before, &game->splits) ||
+        !node_set_subtract(&game->memory, &s->inner_before, &s->inner, &game->merges))
+        return OCTREE_NO_MEMORY;
+    game->tick.events |= game->splits.count ? OCTREE_EVENT_SPLIT : 0;
+    game->tick.events |= game->merges.count ? OCTREE_EVENT_MERGED : 0;
+    return OCTREE_OK;
+}
+
+octree_status game_survey(octree_game *game)
+{
+    if (game->surveyed && game->survey.version == octree_version(game->tree))
+        return OCTREE_OK;
+    const bool first = !game->surveyed;
+    octree_status status = survey_update(&game->survey, &game->memory, game->tree);
+    if (status == OCTREE_OK && !first)
+        status = compare_inner_nodes(game);
+    game->surveyed = true;
+    game->tick.stats = game->survey.stats;
+    game->tick.tree_digest = game->survey.digest;
+    return status;
+}
