@@ -57,6 +57,11 @@ bool is_moving(const double velocity[3])
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
 
+bool is_finite_velocity(const double velocity[3])
+{
+    return isfinite(velocity[0]) && isfinite(velocity[1]) && isfinite(velocity[2]);
+}
+
 bool bodies_add(bodies *b, const octree_body *body, uint64_t tick)
 {
     if (!make_slots(b, b->items.count + 1))

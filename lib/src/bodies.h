@@ -31,8 +31,9 @@ static inline moving_body *bodies_items(const bodies *b)
     return b->items.items;
 }
 
-/* Whether a velocity is one. */
+/* Whether a velocity is one, and whether it can be told at all. */
 bool is_moving(const double velocity[3]);
+bool is_finite_velocity(const double velocity[3]);
 
 /* The body with this id, or null. */
 moving_body *bodies_find(const bodies *b, uint64_t id);

@@ -1,9 +1,7 @@
 /* game.c - the game loop: one tick after another, in the order that game.h states. */
-#include "bodies.h"
 #include "float_mode.h"
 #include "game_parts.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Edits, queries and shapes begin with their tick. */
@@ -48,32 +46,6 @@ static size_t first_standing(const void *items, size_t size, size_t count)
     return count;
 }
 
-/* Along one axis; of a body that is refused for its velocity, 0. */
-static double speed_of(const octree_body *body)
-{
-    double speed = 0;
-    for (int i = 0; i < 3; i++) {
-        const double along = fabs(body->velocity[i]);
-        if (!isfinite(along))
-            return 0;
-        speed = along > speed ? along : speed;
-    }
-    return speed;
-}
-
-static octree_status load_bodies(octree_game *game)
-{
-    const octree_session *session = game->session;
-    for (size_t i = 0; i < session->body_count; i++) {
-        const double speed = speed_of(&session->bodies[i]);
-        game->fastest = speed > game->fastest ? speed : game->fastest;
-        const octree_status status = game_add_body(game, &session->bodies[i]);
-        if (status == OCTREE_DUPLICATE || status == OCTREE_NO_MEMORY)
-            return status;
-    }
-    return OCTREE_OK;
-}
-
 /* Halves first: no world overflows. */
 static octree_status place_player(octree_game *game)
 {
@@ -94,7 +66,7 @@ static octree_status start(octree_game *game)
     if (status == OCTREE_OK)
         status = place_player(game);
     if (status == OCTREE_OK)
-        status = load_bodies(game);
+        status = game_load_bodies(game);
     game_find_player(game);
     const octree_input input = own_input(game, 0);
     if (status == OCTREE_OK)

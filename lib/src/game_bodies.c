@@ -1,7 +1,6 @@
 /* game_bodies.c - the first two parts of a tick: edits, and points that move by velocity. */
 #include "game_parts.h"
 
-#include <math.h>
 #include <string.h>
 
 octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
@@ -32,18 +31,26 @@ static uint64_t origin_tick(const octree_game *game)
     return game->tick.number ? game->tick.number - 1 : 0;
 }
 
-octree_status game_add_body(octree_game *game, const octree_body *body)
+octree_status game_check_body(const octree_game *game, const octree_body *body)
 {
-    octree_status status = OCTREE_OK;
     if (game_is_players(game, body->id) || bodies_find(&game->bodies, body->id))
-        status = OCTREE_DUPLICATE;
-    else if (!isfinite(body->velocity[0]) || !isfinite(body->velocity[1]) || !isfinite(body->velocity[2]))
-        status = OCTREE_NOT_FINITE;
-    else
-        status = game_insert(game, body->position, body->id);
+        return OCTREE_DUPLICATE;
+    return is_finite_velocity(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
+}
+
+octree_status game_settle_body(octree_game *game, const octree_body *body, octree_status status)
+{
     if (status == OCTREE_OK && !bodies_add(&game->bodies, body, origin_tick(game)))
         return OCTREE_NO_MEMORY;
     return note_unless_done(game, body->id, status, body->position);
+}
+
+static octree_status insert_body(octree_game *game, const octree_body *body)
+{
+    octree_status status = game_check_body(game, body);
+    if (status == OCTREE_OK)
+        status = game_insert(game, body->position, body->id);
+    return game_settle_body(game, body, status);
 }
 
 static octree_status remove_body(octree_game *game, const octree_edit *edit)
@@ -76,7 +83,7 @@ static octree_status apply_edit(octree_game *game, const octree_edit *edit)
 {
     switch (edit->kind) {
     case OCTREE_EDIT_INSERT:
-        return game_add_body(game, &edit->body);
+        return insert_body(game, &edit->body);
     case OCTREE_EDIT_REMOVE:
         return remove_body(game, edit);
     default:

@@ -47,8 +47,14 @@ octree_status game_move(octree_game *game, const double from[3], uint64_t id, co
 /* The tick's splits and merges, and the digest and numbers of its tree. */
 octree_status game_survey(octree_game *game);
 
-/* Insert a body into tree and game. Refusals by the tree are noted and returned; an id that is taken is DUPLICATE. */
-octree_status game_add_body(octree_game *game, const octree_body *body);
+/* Whether a body may be inserted at all: DUPLICATE for an id that is taken, NOT_FINITE for its velocity, OK. */
+octree_status game_check_body(const octree_game *game, const octree_body *body);
+
+/* Add a body that is in the tree, or that was refused with this status, which is noted and returned. */
+octree_status game_settle_body(octree_game *game, const octree_body *body, octree_status status);
+
+/* Insert the bodies of the session. DUPLICATE, NO_MEMORY or OK: refusals are noted. */
+octree_status game_load_bodies(octree_game *game);
 
 octree_status game_apply_edits(octree_game *game, const octree_input *input);
 octree_status game_move_bodies(octree_game *game);

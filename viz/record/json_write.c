@@ -3,7 +3,6 @@
 #include "number.h"
 #include "utf8.h"
 
-#include <inttypes.h>
 #include <math.h>
 
 static void break_line(json_writer *writer)
@@ -116,20 +115,25 @@ void json_write_string(json_writer *writer, const char *text)
 
 void json_write_number(json_writer *writer, double value)
 {
-    char text[NUMBER_TEXT];
+    char text[2 + NUMBER_TEXT] = ", ";
+    const bool follows = writer->comma && !writer->newline;
     if (!isfinite(value)) {
         json_write_null(writer);
         return;
     }
-    number_print(value, text);
-    write_word(writer, text);
+    number_print(value, text + 2);
+    writer->comma &= !follows; /* its comma is written with it: a session is numbers, most of it */
+    write_word(writer, follows ? text : text + 2);
 }
 
 void json_write_integer(json_writer *writer, uint64_t value)
 {
-    char text[24];
-    snprintf(text, sizeof text, "%" PRIu64, value);
-    write_word(writer, text);
+    char text[24], *at = text + sizeof text - 1;
+    *at = 0;
+    do
+        *--at = (char)('0' + value % 10);
+    while (value /= 10);
+    write_word(writer, at);
 }
 
 void json_write_bool(json_writer *writer, bool value)
