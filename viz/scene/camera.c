@@ -200,12 +200,12 @@ double camera_box_pixels(const camera *c, const octree_box *box)
  * no corner is beside or behind the eye. */
 static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
 {
-    double low[3], middle[3], half[3], across = 0, along = 0;
-    camera_unit(c, box->min, low);
-    camera_unit(c, box->max, half);
+    double middle[3], half[3], across = 0, along = 0;
+    const double per_unit = 1 / c->size;
     for (int i = 0; i < 3; i++) {
-        middle[i] = (low[i] + half[i]) / 2 - c->eye[i];
-        half[i] = (half[i] - low[i]) / 2;
+        const double low = box->min[i] * c->scale - c->origin[i], high = box->max[i] * c->scale - c->origin[i];
+        middle[i] = (low + high) * per_unit - c->half[i] - c->eye[i];
+        half[i] = (high - low) * per_unit;
     }
     const double x = camera_dot(middle, c->right), y = camera_dot(middle, c->up),
                  depth = camera_dot(middle, c->forward);
@@ -217,10 +217,10 @@ static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
         across += fabs(c->right[i] * depth - x * c->forward[i]) * half[i];
         along += fabs(c->up[i] * depth - y * c->forward[i]) * half[i];
     }
-    const double widest = 2 * c->zoom * (across > along ? across : along) / depth;
-    if (widest < (pixels - doubt) * (depth - reach))
+    const double widest = 2 * c->zoom * (across > along ? across : along);
+    if (widest < (pixels - doubt) * (depth - reach) * depth)
         return true;
-    return !(widest > (pixels + doubt) * (depth + reach)) && camera_box_pixels(c, box) < pixels;
+    return !(widest > (pixels + doubt) * (depth + reach) * depth) && camera_box_pixels(c, box) < pixels;
 }
 
 bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)
