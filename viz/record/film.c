@@ -3,6 +3,7 @@
 #include "film_jobs.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 /* A process takes as long to start as some ten small frames take to be filmed. */
@@ -65,18 +66,20 @@ unsigned film_default_jobs(const octree_session *session, const film_options *op
     return jobs < 1 ? 1 : jobs > FILM_MOST_JOBS ? FILM_MOST_JOBS : (unsigned)jobs;
 }
 
-static bool begin(take *t, recording *r, const octree_session *session, record_error *error)
+static bool begin(take *t, recording *r, record_error *error)
 {
-    if (!take_open(t, session, r->options, r->options->resume ? FRAMES_KEEP : FRAMES_DRAW, error))
+    if (!take_open(t, r->session, r->options, r->options->resume ? FRAMES_KEEP : FRAMES_DRAW, error) ||
+        !recording_prepare(r, error))
         return false;
     const renderer_info info = renderer_about(t->picture.renderer);
-    return recording_begin(r, session, &t->view, &info, &t->session_digest, error);
+    t->session_digest = r->written.digest;
+    return recording_begin(r, &t->view, &info, error);
 }
 
-static bool film_alone(recording *r, const octree_session *session, record_error *error)
+static bool film_alone(recording *r, record_error *error)
 {
     take t;
-    bool ok = begin(&t, r, session, error);
+    bool ok = begin(&t, r, error);
     if (ok)
         ok = recording_end(r, film_ticks(&t, &r->share, recording_add, r, error), error);
     take_close(&t);
@@ -86,12 +89,14 @@ static bool film_alone(recording *r, const octree_session *session, record_error
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   record_error *error)
 {
-    recording r = {.options = options, .summary = summary};
+    recording r = {.options = options, .summary = summary, .session = session};
     *summary = (film_summary){0};
     if (!find_share(session, options, &r.share, error))
         return false;
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = count_frames(&r.share, options->every);
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
-    return jobs > 1 ? film_by_jobs(&r, session, jobs, error) : film_alone(&r, session, error);
+    const bool ok = jobs > 1 ? film_by_jobs(&r, jobs, error) : film_alone(&r, error);
+    free(r.written.bytes);
+    return ok;
 }

@@ -82,7 +82,7 @@ static void close_others(const crew *c)
         close(c->jobs[i].link);
 }
 
-static bool start_job(crew *c, const octree_session *session, record_error *error)
+static bool start_job(crew *c, record_error *error)
 {
     int ends[2];
     const film_options *options = c->recording->options;
@@ -95,7 +95,7 @@ static bool start_job(crew *c, const octree_session *session, record_error *erro
         close_others(c);
         share.index = c->count;
         share.count = c->wanted;
-        do_job(&(job){0, ends[1], options}, session, &share);
+        do_job(&(job){0, ends[1], options}, c->recording->session, &share);
     }
     const int reason = errno;
     close(ends[1]);
@@ -170,16 +170,17 @@ static bool collect(crew *c, record_error *error)
     return ok;
 }
 
-static bool begin(crew *c, const octree_session *session, record_error *error)
+static bool begin(crew *c, record_error *error)
 {
-    uint64_t digest;
+    recording *r = c->recording;
     const job_ready *ready = (const job_ready *)(const void *)c->message.bytes;
     const renderer_info info = {
         .context = ready->context, .vendor = ready->vendor, .renderer = ready->renderer, .version = ready->version};
-    if (!recording_begin(c->recording, session, &ready->view, &info, &digest, error))
+    if (!recording_begin(r, &ready->view, &info, error))
         return false;
     for (unsigned i = 0; i < c->count && !c->dismissed; i++)
-        link_tell(c->jobs[i].link, &digest, sizeof digest); /* a job that has died is found by its silence */
+        link_tell(c->jobs[i].link, &r->written.digest,
+                  sizeof r->written.digest); /* a job that has died is found by its silence */
     return true;
 }
 
@@ -211,23 +212,26 @@ static bool name_missing(const recording *r, record_error *error)
                                     count > 1 ? "are" : "is");
 }
 
-static bool film(crew *c, const octree_session *session, bool *begun, record_error *error)
+/* While the jobs set up the game and what draws it, what is played is put into words. */
+static bool film(crew *c, bool *begun, record_error *error)
 {
     bool ok;
     while (c->count < c->wanted)
-        if (!start_job(c, session, error))
+        if (!start_job(c, error))
             return false;
+    if (!recording_prepare(c->recording, error))
+        return false;
     if (!expect(c, 0, MESSAGE_READY, &ok, error))
         return ok;
-    *begun = begin(c, session, error);
+    *begun = begin(c, error);
     return *begun && collect(c, error);
 }
 
-bool film_by_jobs(recording *r, const octree_session *session, unsigned jobs, record_error *error)
+bool film_by_jobs(recording *r, unsigned jobs, record_error *error)
 {
     crew c = {.recording = r, .wanted = jobs, .jobs = calloc(jobs, sizeof *c.jobs)};
     bool begun = false;
-    bool ok = c.jobs ? film(&c, session, &begun, error) : record_fail(error, "there is no memory");
+    bool ok = c.jobs ? film(&c, &begun, error) : record_fail(error, "there is no memory");
     const bool died = !ok && begun && c.message.kind == MESSAGE_NONE;
     end_jobs(&c);
     ok = begun ? recording_end(r, ok, error) : ok;

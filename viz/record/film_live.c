@@ -39,7 +39,7 @@ static bool begin(film_live *film, bool *drawn, record_error *error)
         return false;
     *drawn = true;
     const renderer_info info = renderer_about(t->picture.renderer);
-    film->begun = recording_begin(&film->recording, NULL, &t->view, &info, &t->session_digest, error);
+    film->begun = recording_begin(&film->recording, &t->view, &info, error);
     return film->begun && live_session_begin(&film->session, film->folder, error) && film_tick(film, error);
 }
 

@@ -25,15 +25,25 @@ static bool begin_file(memory_file *file, record_error *error)
     return file->stream || record_fail(error, "there is no memory");
 }
 
+/* False, and nothing is left of it, where there is no memory. */
+static bool close_file(memory_file *file, const char *name, record_error *error)
+{
+    const bool whole = !ferror(file->stream);
+    if (fclose(file->stream) == 0 && whole)
+        return true;
+    free(file->bytes);
+    return record_fail(error, "there is no memory for %s", name);
+}
+
 /* `unlike` is said of a file that is there with other bytes; null: those are as good. */
-static bool put_file(const memory_file *file, const folder_place *place, const char *name, const char *unlike,
+static bool put_file(const char *bytes, size_t size, const folder_place *place, const char *name, const char *unlike,
                      record_error *error)
 {
     bool same;
     if (!place->writer && !place->look)
-        return folder_write(place->folder, name, file->bytes, file->size, error);
-    if (!(place->look ? folder_compare(place->folder, name, file->bytes, file->size, &same, error)
-                      : folder_write_once(place->folder, name, place->writer, file->bytes, file->size, &same, error)))
+        return folder_write(place->folder, name, bytes, size, error);
+    if (!(place->look ? folder_compare(place->folder, name, bytes, size, &same, error)
+                      : folder_write_once(place->folder, name, place->writer, bytes, size, &same, error)))
         return false;
     return same || !unlike || record_fail(error, "%s/%s: %s", place->folder, name, unlike);
 }
@@ -41,23 +51,29 @@ static bool put_file(const memory_file *file, const folder_place *place, const c
 static bool end_file(memory_file *file, const folder_place *place, const char *name, const char *unlike,
                      record_error *error)
 {
-    const bool whole = !ferror(file->stream);
-    const bool closed = fclose(file->stream) == 0;
-    const bool ok = whole && closed ? put_file(file, place, name, unlike, error)
-                                    : record_fail(error, "there is no memory for %s", name);
+    if (!close_file(file, name, error))
+        return false;
+    const bool ok = put_file(file->bytes, file->size, place, name, unlike, error);
     free(file->bytes);
     return ok;
 }
 
-bool write_session_file(const folder_place *place, const octree_session *session, uint64_t *digest, record_error *error)
+bool make_session_bytes(const octree_session *session, session_bytes *made, record_error *error)
 {
     memory_file file;
     if (!begin_file(&file, error))
         return false;
     session_write(session, file.stream);
-    fflush(file.stream);
-    *digest = octree_digest_bytes(OCTREE_DIGEST_START, file.bytes, file.size);
-    return end_file(&file, place, "session.json", "is another session, or was changed by hand", error);
+    if (!close_file(&file, "session.json", error))
+        return false;
+    *made = (session_bytes){file.bytes, file.size, octree_digest_bytes(OCTREE_DIGEST_START, file.bytes, file.size)};
+    return true;
+}
+
+bool write_session_file(const folder_place *place, const session_bytes *session, record_error *error)
+{
+    return put_file(session->bytes, session->size, place, "session.json", "is another session, or was changed by hand",
+                    error);
 }
 
 /* That of octree_digest_bytes(), in pieces of whole words: a session may be large. */

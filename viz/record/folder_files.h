@@ -14,9 +14,18 @@ typedef struct folder_place {
     bool look;          /* nothing is written: what is there must have these bytes */
 } folder_place;
 
-/* session.json; *digest is that of its bytes. */
-bool write_session_file(const folder_place *place, const octree_session *session, uint64_t *digest,
-                        record_error *error);
+/* The bytes of session.json, and their digest. The caller frees the bytes. */
+typedef struct session_bytes {
+    char *bytes;
+    size_t size;
+    uint64_t digest;
+} session_bytes;
+
+/* Nearly all that is to be done for session.json. */
+bool make_session_bytes(const octree_session *session, session_bytes *made, record_error *error);
+
+/* And the rest. */
+bool write_session_file(const folder_place *place, const session_bytes *session, record_error *error);
 
 /* The same digest, of a file that is there. */
 bool digest_session_file(const char *path, uint64_t *digest, record_error *error);

@@ -5,17 +5,18 @@
 #include "parts.h"
 #include "viewer.h"
 
+#include <stdlib.h>
+
 static bool is_part(const recording *r)
 {
     return r->options->last != 0;
 }
 
-static bool write_files(const folder_place *place, uint64_t every, const octree_session *session, const view *v,
-                        const renderer_info *info, uint64_t *digest, record_error *error)
+static bool write_files(const recording *r, const folder_place *place, const view *v, const renderer_info *info,
+                        record_error *error)
 {
-    *digest = 0;
-    return write_recording_file(place, v, every, error) &&
-           (!session || write_session_file(place, session, digest, error)) && write_renderer_file(place, info, error);
+    return write_recording_file(place, v, r->options->every, error) &&
+           (!r->session || write_session_file(place, &r->written, error)) && write_renderer_file(place, info, error);
 }
 
 static bool open_log(recording *r, record_error *error)
@@ -27,15 +28,14 @@ static bool open_log(recording *r, record_error *error)
 }
 
 /* A folder of its own. The log comes first: who opened it has the folder. */
-static bool begin_alone(recording *r, const octree_session *session, const view *v, const renderer_info *info,
-                        uint64_t *digest, record_error *error)
+static bool begin_alone(recording *r, const view *v, const renderer_info *info, record_error *error)
 {
     const char *folder = r->options->folder;
     record_error late;
     if (!folder_prepare(folder, error) || !open_log(r, error))
         return false;
     const folder_place place = {.folder = folder};
-    if (write_files(&place, r->options->every, session, v, info, digest, error))
+    if (write_files(r, &place, v, info, error))
         return true;
     tick_log_close(&r->log, false, &late);
     folder_abandon(folder);
@@ -53,22 +53,28 @@ static bool check_new_part(const recording *r, record_error *error)
 
 /* A folder that may be that of this recording already, and that others may be filming into. The log comes last: what is
  * there stays unless the recording is this one. */
-static bool begin_shared(recording *r, const octree_session *session, const view *v, const renderer_info *info,
-                         uint64_t *digest, record_error *error)
+static bool begin_shared(recording *r, const view *v, const renderer_info *info, record_error *error)
 {
     char writer[PART_NAME];
     const film_options *o = r->options;
     const folder_place look = {.folder = o->folder, .look = true},
                        place = {.folder = o->folder, .writer = part_name(r->share.first, r->share.last, writer)};
     return folder_make(o->folder, error) && (o->resume || check_new_part(r, error)) &&
-           write_files(&look, o->every, session, v, info, digest, error) && claim_folder(session, *digest, o, error) &&
-           write_files(&place, o->every, session, v, info, digest, error) && open_log(r, error);
+           write_files(r, &look, v, info, error) && claim_folder(r->session, r->written.digest, o, error) &&
+           write_files(r, &place, v, info, error) && open_log(r, error);
 }
 
-bool recording_begin(recording *r, const octree_session *session, const view *v, const renderer_info *info,
-                     uint64_t *digest, record_error *error)
+bool recording_prepare(recording *r, record_error *error)
 {
-    return (is_part(r) || r->options->resume ? begin_shared : begin_alone)(r, session, v, info, digest, error);
+    return make_session_bytes(r->session, &r->written, error);
+}
+
+bool recording_begin(recording *r, const view *v, const renderer_info *info, record_error *error)
+{
+    const bool begun = (is_part(r) || r->options->resume ? begin_shared : begin_alone)(r, v, info, error);
+    free(r->written.bytes);
+    r->written.bytes = NULL;
+    return begun;
 }
 
 void summary_add(film_summary *summary, const film_step *step)

@@ -3,21 +3,27 @@
 #ifndef RECORD_RECORDING_H
 #define RECORD_RECORDING_H
 
+#include "folder_files.h"
 #include "take.h"
 #include "tick_log.h"
 
 typedef struct recording {
     const film_options *options;
     film_summary *summary;
-    film_share share; /* the ticks that there are to record */
+    film_share share;              /* the ticks that there are to record */
+    const octree_session *session; /* what is played; null where that is not known yet */
+    session_bytes written;         /* session.json, from when it is prepared until it is there; its digest stays */
     tick_log log;
 } recording;
 
-/* Make the folder and write what is known before the first tick. `v` is the view that is filmed, fitted to tick 0.
- * *digest becomes that of session.json. A null session is not known yet, and is not written; *digest is then 0. Where
- * it fails nothing is left but what was there. */
-bool recording_begin(recording *r, const octree_session *session, const view *v, const renderer_info *info,
-                     uint64_t *digest, record_error *error);
+/* Put the session into words, which is most of what is to be done before the first tick: no file is touched. The caller
+ * frees written.bytes, where they are still there. */
+bool recording_prepare(recording *r, record_error *error);
+
+/* Make the folder and write what is known before the first tick. `v` is the view that is filmed, fitted to tick 0. A
+ * session that is not known yet is not written. Where it fails nothing is left but what was
+ * there. */
+bool recording_begin(recording *r, const view *v, const renderer_info *info, record_error *error);
 
 /* Add the next tick: a film_sink, whose context is the recording. */
 bool recording_add(void *context, const film_step *step, record_error *error);
