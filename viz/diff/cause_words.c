@@ -1,5 +1,6 @@
 /* cause_words.c - see cause_words.h. */
 #include "cause_words.h"
+#include "plural.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -197,11 +198,11 @@ static void print_which(FILE *out, const cause_fact *fact)
 static void print_answer(FILE *out, const cause_fact *fact)
 {
     if (fact->gained)
-        fprintf(out, "%zu more hit%s", fact->gained, fact->gained == 1 ? "" : "s");
+        fprintf(out, "%zu more hit%s", fact->gained, plural(fact->gained));
     if (fact->gained && fact->lost)
         fprintf(out, " and %zu fewer", fact->lost);
     else if (fact->lost)
-        fprintf(out, "%zu hit%s fewer", fact->lost, fact->lost == 1 ? "" : "s");
+        fprintf(out, "%zu hit%s fewer", fact->lost, plural(fact->lost));
     fputs(" in ", out);
     print_which(out, fact);
 }
@@ -237,7 +238,7 @@ static void print_counts(FILE *out, const cause_fact *fact)
         fprintf(out, "other %ss %s", what, verb);
         return;
     }
-    fprintf(out, "%" PRIu64 " %s%s %s instead of %" PRIu64, fact->b.whole, what, fact->b.whole == 1 ? "" : "s", verb,
+    fprintf(out, "%" PRIu64 " %s%s %s instead of %" PRIu64, fact->b.whole, what, plural(fact->b.whole), verb,
             fact->a.whole);
 }
 
@@ -340,7 +341,7 @@ static void print_many(FILE *out, const cause_fact *const *picked, size_t count,
     const bool noun = strchr(p->before, ' ') == NULL;
     const size_t listed = count_told(count, brief);
     if (noun)
-        fprintf(out, "%s%s ", p->before, found == 1 ? "" : "s");
+        fprintf(out, "%s%s ", p->before, plural(found));
     else
         fprintf(out, "%" PRIu64 " %s", found, p->before);
     for (size_t i = 0; i < listed; i++) {

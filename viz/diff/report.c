@@ -2,6 +2,7 @@
 #include "report.h"
 #include "escaped.h"
 #include "explain.h"
+#include "plural.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -107,11 +108,6 @@ bool diff_is_listed(diff_finding finding)
     return finding != FOUND_SAME_BYTES && finding != FOUND_SAME_PIXELS;
 }
 
-static const char *plural(size_t count)
-{
-    return count == 1 ? "" : "s";
-}
-
 size_t diff_count_different(const diff_result *result)
 {
     size_t count = 0;
@@ -206,7 +202,7 @@ void diff_print_tolerance(FILE *out, const diff_report *report)
     bool first = true;
     if (t->max_pixels) {
         separate(out, &first);
-        fprintf(out, "up to %" PRIu64 " pixel%s a frame", t->max_pixels, plural((size_t)t->max_pixels));
+        fprintf(out, "up to %" PRIu64 " pixel%s a frame", t->max_pixels, plural(t->max_pixels));
     }
     if (t->max_delta > 0) {
         separate(out, &first);

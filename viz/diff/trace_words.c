@@ -1,5 +1,6 @@
 /* trace_words.c - see trace_words.h. */
 #include "trace_words.h"
+#include "plural.h"
 
 #include <inttypes.h>
 
@@ -20,7 +21,7 @@ void trace_print(FILE *out, const trace *t)
 {
     const size_t most = t->count < TRACE_TOLD ? t->count : TRACE_TOLD;
     uint64_t told = 0;
-    fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, t->pixels == 1 ? "" : "s");
+    fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural(t->pixels));
     for (int text = 0; text < 2; text++) /* what is written says what is drawn: it comes last */
         for (size_t i = 0; i < most; i++) {
             if ((t->parts[i].layer == LAYER_TEXT) != text)

@@ -2,6 +2,7 @@
 #include "element_words.h"
 #include "element_ids.h"
 #include "number.h"
+#include "plural.h"
 #include "velocity_layer.h"
 
 #include <inttypes.h>
@@ -54,7 +55,7 @@ static void say_box(teller *t, const octree_box *box)
 
 static void say_count(teller *t, size_t count, const char *of)
 {
-    say(t, "%zu %s%s", count, of, count == 1 ? "" : "s");
+    say(t, "%zu %s%s", count, of, plural(count));
 }
 
 /* ---- Nodes and points --------------------------------------------------------------------------------------- */

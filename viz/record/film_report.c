@@ -2,6 +2,7 @@
 #include "film_report.h"
 #include "film_commands.h"
 #include "json_write.h"
+#include "plural.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -85,8 +86,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
         return;
     }
     fprintf(out, "%s: %" PRIu64 " tick%s, %" PRIu64 " frame%s, %.1f s, %.0f frames a second\n", folder, summary->ticks,
-            summary->ticks == 1 ? "" : "s", summary->frames, summary->frames == 1 ? "" : "s", seconds,
-            rate_of(summary, seconds));
+            plural(summary->ticks), summary->frames, plural(summary->frames), seconds, rate_of(summary, seconds));
     if (summary->left_out)
         fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n",
                 summary->left_out);

@@ -2,6 +2,7 @@
 #include "inspect.h"
 #include "json_write.h"
 #include "number.h"
+#include "plural.h"
 
 #include <inttypes.h>
 
@@ -109,7 +110,7 @@ void inspect_print(const inspection *i, const char *name, FILE *out)
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
     fprintf(out, "  nodes     %zu, %zu of them leaves; deepest %u; fullest leaf %zu point%s\n", stats.nodes,
-            stats.leaves, stats.depth, stats.largest_leaf, stats.largest_leaf == 1 ? "" : "s");
+            stats.leaves, stats.depth, stats.largest_leaf, plural(stats.largest_leaf));
     fprintf(out, "  memory    %zu bytes, %.1f a point\n", stats.memory,
             stats.points ? (double)stats.memory / (double)stats.points : 0.0);
     print_depths(&stats, out);

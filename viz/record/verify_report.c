@@ -1,5 +1,6 @@
 /* verify_report.c - what verifying found; see verify.h. */
 #include "json_write.h"
+#include "plural.h"
 #include "verify.h"
 
 #include <inttypes.h>
@@ -18,11 +19,6 @@ static const char *const beginnings[VERIFY_KINDS] = {
     [VERIFY_FRAME] = " in its frame",
     [VERIFY_PIXELS] = ", only in its pixels",
 };
-
-static const char *plural(uint64_t count)
-{
-    return count == 1 ? "" : "s";
-}
 
 static void print_people(FILE *out, const char *folder, const verify_report *report)
 {

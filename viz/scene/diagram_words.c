@@ -4,6 +4,7 @@
 #include "diagram_place.h"
 #include "layout.h"
 #include "number_text.h"
+#include "plural.h"
 #include "text_space.h"
 
 #include <math.h>
@@ -68,7 +69,7 @@ static void write_way(writing *w, const octree_node *way)
     char address[OCTREE_ADDRESS_TEXT], text[SCENE_TEXT * 2];
     const size_t length =
         (size_t)snprintf(text, sizeof text, "%s of %zu point%s: %s", way->leaf ? "leaf" : "node", way->count,
-                         way->count == 1 ? "" : "s", octree_address_format(way->address, address));
+                         plural(way->count), octree_address_format(way->address, address));
     const size_t room = letters < SCENE_TEXT ? letters : SCENE_TEXT - 1;
     if (length > room)
         memcpy(text + room - 3, "...", 4);

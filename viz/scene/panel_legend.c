@@ -4,6 +4,7 @@
 #include "diagram_legend.h"
 #include "heat_layers.h"
 #include "panel_view.h"
+#include "plural.h"
 #include "velocity_layer.h"
 
 #include <assert.h>
@@ -264,13 +265,13 @@ static void count_in_words(char text[SCENE_TEXT], view_layer layer, const legend
         snprintf(text, SCENE_TEXT, "<> 1-%" PRIu64 "+ points", HEAT_LAST(HEAT_POINTS_SHIFT));
         break;
     case LAYER_SHAPES:
-        snprintf(text, SCENE_TEXT, "%zu shape%s", tick->shape_count, tick->shape_count == 1 ? "" : "s");
+        snprintf(text, SCENE_TEXT, "%zu shape%s", tick->shape_count, plural(tick->shape_count));
         break;
     case LAYER_ASKED:
         snprintf(text, SCENE_TEXT, "node %.42s", octree_address_format(about->asked, address));
         break;
     case LAYER_VELOCITIES:
-        snprintf(text, SCENE_TEXT, "velocity, %u tick%s", about->velocity_ticks, about->velocity_ticks == 1 ? "" : "s");
+        snprintf(text, SCENE_TEXT, "velocity, %u tick%s", about->velocity_ticks, plural(about->velocity_ticks));
         break;
     case LAYER_SPLITS:
         count_changes(text, "split", tick->splits, tick->split_count);

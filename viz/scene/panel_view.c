@@ -77,7 +77,9 @@ static void write_small(pen *p, const scene_tally *tally)
     const struct {
         size_t count;
         const char *what;
-    } kinds[] = {{tally->small, ""}, {tally->small_met, " met"}, {tally->arrows.small, " arrows"}};
+    } kinds[] = {{tally->small, ""},
+                 {tally->small_met, " met"},
+                 {tally->arrows.small, tally->arrows.small == 1 ? " arrow" : " arrows"}};
     char lod[NUMBER_WORDS];
     bool first = true;
     number_text(p->scene->view.lod, 3, lod);
