@@ -105,6 +105,8 @@ octree_status game_move_bodies(octree_game *game)
         return OCTREE_OK;
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         moving_body *body = &bodies_items(&game->bodies)[i];
+        if (!is_moving(body->velocity))
+            continue; /* its bits stay too: -0.0 plus nothing would be +0.0 */
         double to[3];
         body_position(body, &game->session->tree.world, game->tick.number, to);
         if (memcmp(to, body->position, sizeof to) == 0)

@@ -7,10 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SURVEY_PART 1024
+#define SURVEY_PART 512
 
-/* More places than this are not worth being told apart. */
-#define MOST_TOUCHED 4096
+/* More places than these are not worth being told apart: most parts would be looked at anyway. */
+static size_t most_touched(const octree *tree)
+{
+    enum { ALWAYS = 4096, POINTS = 64 };
+    const size_t some = tree->root.count / POINTS;
+    return some > ALWAYS ? some : ALWAYS;
+}
 
 /* A subtree of SURVEY_PART points or fewer whose parent has more, or a leaf. */
 typedef struct part {
@@ -34,7 +39,7 @@ void survey_touch(survey *s, arena *memory, const octree *tree, const double pla
 {
     if (!s->known)
         return;
-    uint64_t *code = s->touched.count < MOST_TOUCHED ? list_append(memory, &s->touched, sizeof *code) : NULL;
+    uint64_t *code = s->touched.count < most_touched(tree) ? list_append(memory, &s->touched, sizeof *code) : NULL;
     if (code)
         *code = morton_code(tree->axes, place);
     else

@@ -82,6 +82,28 @@ static void a_body_that_its_leaf_refuses_stays_and_is_told(void **state)
     octree_game_destroy(game);
 }
 
+static octree_walk_order find_minus_zero(const octree_node *node, void *context)
+{
+    size_t *found = context;
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        *found += node->points[i].id == 1 && signbit(node->points[i].position[0]);
+    return OCTREE_WALK_ON;
+}
+
+static void a_body_at_rest_keeps_its_bits_while_others_move(void **state)
+{
+    (void)state;
+    static const octree_body bodies[] = {{.id = 1, .position = {-0.0, 5, 0}},
+                                         {.id = 2, .position = {5, 5, 5}, .velocity = {1, 0, 0}}};
+    octree_session session = small_session(bodies, 2);
+    octree_game *game = start_game(&session);
+    size_t found = 0;
+    play_key(game, '.');
+    assert_int_equal(octree_walk(octree_game_tree(game), find_minus_zero, &found), OCTREE_OK);
+    assert_int_equal(found, 1);
+    octree_game_destroy(game);
+}
+
 static void a_waiting_player_is_hit_and_nothing_is_taken_back(void **state)
 {
     (void)state;
@@ -392,6 +414,7 @@ int main(void)
         cmocka_unit_test(a_body_that_meets_the_bounds_is_reflected),
         cmocka_unit_test(a_body_of_any_speed_stays_in_the_world),
         cmocka_unit_test(a_body_that_its_leaf_refuses_stays_and_is_told),
+        cmocka_unit_test(a_body_at_rest_keeps_its_bits_while_others_move),
         cmocka_unit_test(a_waiting_player_is_hit_and_nothing_is_taken_back),
         cmocka_unit_test(bodies_that_the_tree_refuses_are_refusals_of_tick_zero),
         cmocka_unit_test(edits_insert_remove_and_move_by_id),

@@ -82,17 +82,17 @@ static void assert_told(crowd_game *c)
 
 /* ---- What happens ------------------------------------------------------------------------------------------- */
 
-static void start_crowd(crowd_game *c, uint64_t seed, size_t capacity, double speed)
+static void start_crowd(crowd_game *c, uint64_t seed, size_t capacity, double speed, size_t count)
 {
     static double positions[BODIES][3];
     static octree_session session;
     session = (octree_session){.tree = define(cube(-100, 100), capacity, OCTREE_MAX_DEPTH, OCTREE_GROW),
                                .player = {.id = 0, .position = {1, 2, 3}, .step = 7, .box_size = 0},
                                .bodies = c->bodies,
-                               .body_count = BODIES};
-    *c = (crowd_game){.random = seed, .count = BODIES, .next_id = BODIES + 1};
-    assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, seed, &session.tree.world, BODIES, positions), OCTREE_OK);
-    for (size_t i = 0; i < BODIES; i++) {
+                               .body_count = count};
+    *c = (crowd_game){.random = seed, .count = count, .next_id = count + 1};
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, seed, &session.tree.world, count, positions), OCTREE_OK);
+    for (size_t i = 0; i < count; i++) {
         c->bodies[i] = (octree_body){.id = i + 1, .velocity = {i % 100 ? 0 : speed, 0, 0}};
         memcpy(c->bodies[i].position, positions[i], sizeof positions[i]);
     }
@@ -184,7 +184,7 @@ static void what_a_tick_touches_is_enough_to_tell_of_the_tree(void **state)
     (void)state;
     static const size_t capacities[] = {1, 8, 64, 2000};
     for (uint64_t seed = 1; seed <= 4; seed++) {
-        start_crowd(&crowd, seed, capacities[seed - 1], 0);
+        start_crowd(&crowd, seed, capacities[seed - 1], 0, BODIES);
         play_crowd(&crowd);
     }
 }
@@ -192,21 +192,32 @@ static void what_a_tick_touches_is_enough_to_tell_of_the_tree(void **state)
 static void bodies_that_move_by_themselves_are_told_of(void **state)
 {
     (void)state;
-    start_crowd(&crowd, 5, 8, 0.3);
+    start_crowd(&crowd, 5, 8, 0.3, BODIES);
     play_crowd(&crowd);
 }
 
 static void a_capacity_that_is_chosen_anew_is_told_of(void **state)
 {
     (void)state;
-    start_crowd(&crowd, 6, OCTREE_AUTO, 0);
-    play_crowd(&crowd);
+    size_t changes = 0;
+    start_crowd(&crowd, 6, OCTREE_AUTO, 0, 900);
+    while (crowd.count < BODIES + INSERTED) {
+        const size_t before = octree_definition(octree_game_tree(crowd.game)).leaf_capacity;
+        crowd.edit_count = 0;
+        insert_near(&crowd, 400, crowd.count < 5000 ? 100 : 3);
+        const octree_input input = {.edits = crowd.edits, .edit_count = crowd.edit_count};
+        assert_int_equal(octree_game_play(crowd.game, &input), OCTREE_OK);
+        assert_told(&crowd);
+        changes += octree_definition(octree_game_tree(crowd.game)).leaf_capacity != before;
+    }
+    assert_true(changes > 0);
+    octree_game_destroy(crowd.game);
 }
 
 static void all_that_is_removed_leaves_a_root_alone(void **state)
 {
     (void)state;
-    start_crowd(&crowd, 7, 8, 0);
+    start_crowd(&crowd, 7, 8, 0, BODIES);
     crowd.edit_count = 0;
     remove_some(&crowd, BODIES);
     const octree_input input = {.edits = crowd.edits, .edit_count = crowd.edit_count};

@@ -4,7 +4,7 @@
 
 #include "octree/octree.h"
 
-/* Write another place into a point that the tree stores, behind its back: the one at a position. Its leaf's address; the
+/* Write another place into the point that the tree stores at a position, behind its back. Its leaf's address; the
  * validator finds it there when the place is not in that leaf. */
 octree_address break_tree(const octree *tree, const double position[3], const double place[3]);
 

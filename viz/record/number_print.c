@@ -118,8 +118,8 @@ static bool goes_up(const expansion *x)
     return x->rest > FRACTION_ONE / 2 || (x->rest == FRACTION_ONE / 2 && odd);
 }
 
-/* Whether what was taken, rounded, reads back: it is no farther off than half the last bit. The number is not the lower
- * end of its power of two, below which bits are worth less: those have few digits, or so many that they are far off. */
+/* Whether what was taken, rounded, reads back: it is no farther off than half the last bit. It does not
+ * matter that below a power of two bits are worth less: those of this size have at most 14 digits. */
 static bool reads_back(const expansion *x)
 {
     const uint64_t off = goes_up(x) ? FRACTION_ONE - x->rest : x->rest;

@@ -21,8 +21,7 @@ typedef struct recording {
 bool recording_prepare(recording *r, record_error *error);
 
 /* Make the folder and write what is known before the first tick. `v` is the view that is filmed, fitted to tick 0. A
- * session that is not known yet is not written. Where it fails nothing is left but what was
- * there. */
+ * session that is not known yet is not written. Where it fails nothing is left but what was there. */
 bool recording_begin(recording *r, const view *v, const renderer_info *info, record_error *error);
 
 /* Add the next tick: a film_sink, whose context is the recording. */

@@ -81,9 +81,10 @@ static void tell_values(const json_place *at, const json_t *found, const json_t 
 {
     char place[128], texts[2][VALUE_TEXT];
     json_place_format(at, place, sizeof place);
-    snprintf(finding->text, sizeof finding->text, "%s is %s in ticks.jsonl, and %s when it is played again",
-             strcmp(place, "scene") == 0 ? "the digest of its scene" : place, value_text(found, texts[0]),
-             value_text(expected, texts[1]));
+    const bool scene = strcmp(place, "scene") == 0;
+    snprintf(finding->text, sizeof finding->text, "%s is %s in ticks.jsonl, and %s when it is played again%s",
+             scene ? "the digest of its scene" : place, value_text(found, texts[0]), value_text(expected, texts[1]),
+             scene ? " (or it is by another version of octreel)" : "");
 }
 
 static bool tell_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding);

@@ -213,15 +213,15 @@ typedef struct octree_game octree_game;
  * are not in the game, and are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
  * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
- * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; NO_MEMORY. *game is then null. Cost: one insertion
- * a body. */
+ * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; TOO_MANY (bodies for one tree); NO_MEMORY. *game is
+ * then null. Cost: one restructuring, as octree_insert_many, with some ninety bytes a body while it runs. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key, whatever the session's keys say. Errors: NULL_ARGUMENT, FLOAT_MODE and BAD_KEY, of which
- * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(bodies that move + queries +
- * v log v for v visits; all bodies, when swept; and where the tree changed its inner nodes, at 8 bytes each, and some
- * thousand points about each change). */
+ * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(queries + v
+ * log v for v visits; all bodies, where any has a velocity and when swept; and where the tree changed its inner nodes,
+ * at 8 bytes each, and some hundred points about each change, or, of very many changes, all points). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not
