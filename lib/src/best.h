@@ -25,6 +25,13 @@ typedef struct best {
 
 best best_make(const metric *m, const octree_search *how, double radius, octree_neighbor *room, size_t k);
 
+/* Of points among which one has this square, none beyond this is among the best, whether or not that one is taken. */
+static inline double best_reach_beside(const best *b, double square)
+{
+    const double reach = metric_above(square);
+    return b->k == 1 && b->how.skip == OCTREE_SKIP_NONE && reach < b->point_reach ? reach : b->point_reach;
+}
+
 /* Take in a point whose square is not beyond point_reach, if it counts and is better than the worst. */
 void best_consider(best *b, const octree_point *point, double square);
 

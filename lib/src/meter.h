@@ -3,7 +3,7 @@
 #define OCTREE_METER_H
 
 #include "bits.h"
-#include "octree/octree.h"
+#include "plane.h"
 
 typedef struct meter {
     octree_cost count;
@@ -21,6 +21,15 @@ static inline void meter_visit(meter *m, octree_address address)
 {
     m->count.nodes++;
     meter_trace(m, address, OCTREE_TOUCH_VISITED);
+}
+
+/* All nodes on the way from the root to the one at this depth in which a Morton code lies. */
+static inline void meter_way(meter *m, uint64_t code, unsigned last)
+{
+    m->count.nodes += last + 1;
+    if (m->how->trace)
+        for (unsigned depth = 0; depth <= last; depth++)
+            meter_trace(m, morton_address(code, depth), OCTREE_TOUCH_VISITED);
 }
 
 /* The children in these octants of a node are left out, with all below them. */

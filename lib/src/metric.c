@@ -28,6 +28,40 @@ metric metric_make(double scale, bool subnormal, const double target[3])
     return m;
 }
 
+#ifdef OCTREE_SSE2
+/* Of two at once, in ordinary worlds. */
+static inline __m128d square_pair(const double a[3], const double b[3], const __m128d target[3], __m128d scale)
+{
+    const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b), z = _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2]);
+    const __m128d x = _mm_sub_pd(_mm_mul_pd(_mm_unpacklo_pd(xy_a, xy_b), scale), target[0]);
+    const __m128d y = _mm_sub_pd(_mm_mul_pd(_mm_unpackhi_pd(xy_a, xy_b), scale), target[1]);
+    const __m128d up = _mm_sub_pd(_mm_mul_pd(z, scale), target[2]);
+    return _mm_add_pd(_mm_add_pd(_mm_mul_pd(x, x), _mm_mul_pd(y, y)), _mm_mul_pd(up, up));
+}
+#endif
+
+double metric_points(const metric *m, const octree_point *points, unsigned count, double squares[])
+{
+    double least = INFINITY;
+    unsigned i = 0;
+#ifdef OCTREE_SSE2
+    const __m128d target[3] = {_mm_set1_pd(m->scaled[0]), _mm_set1_pd(m->scaled[1]), _mm_set1_pd(m->scaled[2])};
+    const __m128d scale = _mm_set1_pd(m->scale);
+    __m128d least_two = _mm_set1_pd(INFINITY);
+    for (const unsigned paired = m->grain > 0 ? 0 : count & ~1u; i < paired; i += 2) {
+        const __m128d pair = square_pair(points[i].position, points[i + 1].position, target, scale);
+        least_two = _mm_min_pd(pair, least_two);
+        _mm_storeu_pd(&squares[i], pair);
+    }
+    least = _mm_cvtsd_f64(_mm_min_sd(_mm_unpackhi_pd(least_two, least_two), least_two));
+#endif
+    for (; i < count; i++) {
+        squares[i] = metric_point(m, points[i].position);
+        least = squares[i] < least ? squares[i] : least;
+    }
+    return least;
+}
+
 int metric_compare(const double target[3], const double a[3], const double b[3])
 {
     /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, less where coordinates agree. */

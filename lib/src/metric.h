@@ -10,6 +10,7 @@
 
 #include "float_rules.h"
 #include "octree/octree.h"
+#include "simd.h"
 #include "subnormal.h"
 
 typedef struct metric {
@@ -37,6 +38,25 @@ static inline double metric_point(const metric *m, const double p[3])
     const double y = metric_scaled(m, p[1]) - m->scaled[1];
     const double z = metric_scaled(m, p[2]) - m->scaled[2];
     return (x * x + y * y) + z * z;
+}
+
+/* The same of many, to the bit; returns the least. */
+double metric_points(const metric *m, const octree_point *points, unsigned count, double squares[]);
+
+/* Which of up to 64 squares are not beyond a reach: a bit each. Without branches: which way they go cannot be foreseen.
+ */
+static inline uint64_t metric_within(const double squares[], unsigned count, double reach)
+{
+    uint64_t within = 0;
+    unsigned i = 0;
+#ifdef OCTREE_SSE2
+    const __m128d bound = _mm_set1_pd(reach);
+    for (; i + 1 < count; i += 2)
+        within |= (uint64_t)_mm_movemask_pd(_mm_cmpngt_pd(_mm_loadu_pd(&squares[i]), bound)) << i;
+#endif
+    for (; i < count; i++)
+        within |= (uint64_t) !(squares[i] > reach) << i;
+    return within;
 }
 
 /* The scaled distance along one axis to an interval. */

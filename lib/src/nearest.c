@@ -11,6 +11,8 @@
 #include "leaf.h"
 #include "search.h"
 
+#define SCAN 64 /* points whose distances are taken at once */
+
 /* An inner node, and which of its children come next. */
 typedef struct frame {
     const node *node;
@@ -89,20 +91,28 @@ static void open_child(search *s, unsigned flip, const node *child)
     sort_flips(f);
 }
 
+static void scan_points(search *s, const octree_point *points, unsigned count)
+{
+    double squares[SCAN];
+    const double least = metric_points(&s->best.metric, points, count, squares);
+    if (least > s->best.point_reach)
+        return;
+    double reach = best_reach_beside(&s->best, least);
+    for (uint64_t left = metric_within(squares, count, reach); left; left &= left - 1) {
+        const unsigned i = bits_lowest(left);
+        if (squares[i] > reach)
+            continue;
+        best_consider(&s->best, &points[i], squares[i]);
+        reach = s->best.point_reach < reach ? s->best.point_reach : reach;
+    }
+}
+
 static void scan_leaf(search *s, const node *leaf)
 {
-    const octree_point *points = leaf_points(leaf);
     s->meter.count.leaves++;
     s->meter.count.points += leaf->count;
-    const metric m = s->best.metric;
-    double reach = s->best.point_reach;
-    for (uint32_t i = 0; i < leaf->count; i++) {
-        const double square = metric_point(&m, points[i].position);
-        if (square > reach)
-            continue;
-        best_consider(&s->best, &points[i], square);
-        reach = s->best.point_reach;
-    }
+    for (uint32_t i = 0; i < leaf->count; i += SCAN)
+        scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN ? leaf->count - i : SCAN);
 }
 
 /* The octants of the children that a frame has not come to. */
@@ -218,6 +228,25 @@ void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
     }
 }
 
+/* How many nodes from the root down are cut by no plane within reach of a target of the world: 20 less the highest bit
+ * in which the keys of the reach's two ends differ. Keys are trusted up to their doubt, and two more; where they cannot
+ * be, none. */
+static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
+{
+    const double reach = sqrt(s->best.node_reach) / s->best.metric.scale;
+    uint32_t differ = 0;
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &s->tree->axes[i];
+        const double width = reach * a->keys_per_unit + a->doubt + 2;
+        if (!(width < PLANE_GRID) || !(a->keys_per_unit > 0) || a->subnormal || s->root_squares[i] > 0)
+            return 0;
+        const uint32_t wide = (uint32_t)width + 1, low = keys[i] > wide ? keys[i] - wide : 0;
+        const uint32_t high = keys[i] + wide < PLANE_GRID ? keys[i] + wide : PLANE_GRID - 1;
+        differ |= low ^ high;
+    }
+    return differ ? OCTREE_MAX_DEPTH - 1 - bits_highest(differ) : OCTREE_MAX_DEPTH;
+}
+
 static void run_search(search *s)
 {
     const octree *tree = s->tree;
@@ -237,8 +266,7 @@ static void run_search(search *s)
     nearest_keys(tree, s->best.metric.target, keys);
     const uint64_t code = morton_interleave(keys);
     const path way = path_to(tree, code);
-    for (unsigned depth = 0; depth <= way.depth; depth++)
-        meter_visit(&s->meter, morton_address(code, depth));
+    meter_way(&s->meter, code, way.depth);
     unsigned depth = way.depth;
     if (way.nodes[depth]->octants) {
         depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
@@ -247,8 +275,13 @@ static void run_search(search *s)
         prefetch_beside(&way, code, keys, s->best.k);
         scan_leaf(s, way.nodes[depth]);
     }
+    const unsigned clear = nodes_out_of_reach(s, keys);
     while (depth-- > 0)
-        search_beside(s, measure_way(s, way.nodes[depth], code, keys, depth), depth);
+        if (depth >= clear)
+            search_beside(s, measure_way(s, way.nodes[depth], code, keys, depth), depth);
+        else
+            meter_prune(&s->meter, morton_address(code, depth),
+                        way.nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
 }
 
 size_t nearest_search(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,

@@ -16,12 +16,18 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
     return status;
 }
 
+#define AHEAD 4 /* the caller's arrays are read and written in the order of the tree: so many turns ahead */
+
 static void ask_in_turn(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count,
                         const octree_search *how, octree_neighbor *neighbors, bool *found)
 {
     for (size_t i = 0; i < count; i++) {
         octree_neighbor nearest;
         const uint32_t place = turns[i].place;
+        if (i + AHEAD < count) {
+            prefetch(&targets[turns[i + AHEAD].place]);
+            prefetch(&neighbors[turns[i + AHEAD].place]);
+        }
         const bool one = nearest_search(tree, targets[place], 1, -1, how, &nearest) == 1;
         if (one)
             neighbors[place] = nearest;
