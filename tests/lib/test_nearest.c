@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "brute.h"
 
@@ -245,6 +246,59 @@ static void nearest_agrees_with_a_scan_for_every_depth_and_capacity(void **state
         compare_with_scan(capacity, 8, 60);
 }
 
+/* Beside a plane of a random cell: the nearest point lies just behind it, as good as the leaf's own best. */
+static void assert_found_behind_a_plane(const octree_box *world, double size, uint64_t *random)
+{
+    const int axis = (int)random_below(random, 3), aside = (axis + 1) % 3;
+    octree *tree = make_tree(*world, 2, OCTREE_MAX_DEPTH, OCTREE_GROW);
+    double target[3], across[3], own[3];
+    for (int i = 0; i < 3; i++)
+        target[i] = random_between(random, world->min[i] / 2, world->max[i] / 2);
+    octree_address address = OCTREE_ROOT;
+    for (uint64_t depth = 1 + random_below(random, 9); depth > 0; depth--)
+        address = address << 3 | random_below(random, 8);
+    const octree_box cell = octree_cell_box(world, address);
+    const double plane = cell.min[axis] > world->min[axis] ? cell.min[axis] : cell.max[axis];
+    const double reach = ldexp(size, -(int)random_below(random, 12) - 12);
+    target[axis] = plane + 0.999 * reach;
+    memcpy(across, target, sizeof across);
+    memcpy(own, target, sizeof own);
+    across[axis] -= 0.9999 * reach;
+    own[aside] += 1.0001 * reach;
+    assert_int_equal(octree_insert(tree, own, 1), OCTREE_OK);
+    for (uint64_t id = 2; id < 20; id++) { /* so that the target's leaf is small, and far below that plane */
+        double far[3];
+        for (int i = 0; i < 3; i++)
+            far[i] = target[i] + reach * random_between(random, i == axis ? 2 : -6, 6);
+        assert_int_equal(octree_insert(tree, far, id), OCTREE_OK);
+    }
+    assert_int_equal(octree_insert(tree, across, 100), OCTREE_OK);
+    octree_neighbor nearest;
+    assert_int_equal(octree_nearest(tree, target, OCTREE_SKIP_NONE, 0, &nearest), OCTREE_OK);
+    assert_int_equal(nearest.point.id, 100);
+    octree_destroy(tree);
+}
+
+static void a_point_just_behind_any_plane_is_found(void **state)
+{
+    static const struct {
+        double low, high, size;
+    } worlds[] = {{-1, 1, 1},
+                  {-0.3, 40, 40},
+                  {-1e15, 1e15, 1e15},
+                  {-1e200, 1e200, 1e200},
+                  {-DBL_MAX, DBL_MAX, 0x1p1022},
+                  {-1e-300, 1e-300, 1e-300},
+                  {-0x1p-1030, 0x1p-1030, 0x1p-1031}};
+    uint64_t random = 8;
+    (void)state;
+    for (size_t i = 0; i < sizeof worlds / sizeof worlds[0]; i++) {
+        const octree_box world = cube(worlds[i].low, worlds[i].high);
+        for (int round = 0; round < 300; round++)
+            assert_found_behind_a_plane(&world, worlds[i].size, &random);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -254,6 +308,7 @@ int main(void)
         cmocka_unit_test(a_point_whose_squared_distance_underflows_is_not_coincident),
         cmocka_unit_test(ties_go_to_the_lowest_id_wherever_it_lies),
         cmocka_unit_test(the_target_may_lie_anywhere),
+        cmocka_unit_test(a_point_just_behind_any_plane_is_found),
         cmocka_unit_test(the_scale_of_the_world_does_not_matter),
         cmocka_unit_test(the_distance_along_one_axis_is_a_rounded_difference),
         cmocka_unit_test(nearest_is_the_true_one_where_squares_overflow_or_vanish),
