@@ -4,7 +4,6 @@
 #include "element_ids.h"
 #include "layout.h"
 
-
 void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick)
 {
     scene_clear(s);
