@@ -1,7 +1,7 @@
 /* survey.h - what a game tells of its tree after each tick: its digest, its numbers, and its inner nodes. Private.
  *
  * A tick touches few places, and all that it changes lies on the way from the root to them. So the tree is seen as
- * parts, subtrees of SURVEY_PART points or fewer, and the nodes above them; what is known of a part stays, unless a
+ * parts, subtrees of a few hundred points, and the nodes above them; what is known of a part stays, unless a
  * place in its cell was touched.
  */
 #ifndef OCTREE_SURVEY_H

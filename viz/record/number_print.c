@@ -65,9 +65,11 @@ enum {
 };
 
 #define FRACTION_ONE (UINT64_C(1) << FRACTION_BITS)
-#define SMALLEST_PLAIN                                                                                                 \
-    0x1p-7                 /* half of its last bit, and of any larger number's, is above the last of the fraction's */
-#define LARGEST_PLAIN 1e14 /* the 15th digit lies behind the point */
+
+/* From the first on, half of a number's last bit is above the last of the fraction's; up to the other, the 15th digit
+ * lies behind the point. */
+#define SMALLEST_PLAIN 0x1p-7
+#define LARGEST_PLAIN 1e14
 
 /* A number between them, exactly: the digits that were taken so far, and what they leave. */
 typedef struct expansion {
