@@ -8,63 +8,9 @@
 
 #include "brute.h"
 #include "game_fixture.h"
+#include "inner_nodes.h"
 #include "octree/digest.h"
 #include "random_session.h"
-
-enum { nodes_at_most = 4096 };
-
-/* The inner nodes of a tree, in pre-order. */
-typedef struct inner_nodes {
-    octree_address addresses[nodes_at_most];
-    size_t count;
-} inner_nodes;
-
-static octree_walk_order list_inner(const octree_node *node, void *context)
-{
-    inner_nodes *inner = context;
-    assert_true(inner->count < nodes_at_most);
-    if (!node->leaf)
-        inner->addresses[inner->count++] = node->address;
-    return OCTREE_WALK_ON;
-}
-
-static void look_at_inner(const octree *tree, inner_nodes *inner)
-{
-    inner->count = 0;
-    assert_int_equal(octree_walk(tree, list_inner, inner), OCTREE_OK);
-}
-
-static bool has(const inner_nodes *inner, octree_address address)
-{
-    for (size_t i = 0; i < inner->count; i++)
-        if (inner->addresses[i] == address)
-            return true;
-    return false;
-}
-
-/* The test fails unless `listed` is what is in `a` and not in `b`, in pre-order. */
-static void assert_difference(const inner_nodes *a, const inner_nodes *b, const octree_address *listed, size_t count)
-{
-    size_t at = 0;
-    for (size_t i = 0; i < a->count; i++) {
-        if (has(b, a->addresses[i]))
-            continue;
-        assert_true(at < count && listed[at] == a->addresses[i]);
-        at++;
-    }
-    assert_int_equal(at, count);
-}
-
-static void check_nodes(const octree_tick *tick, const octree *tree, inner_nodes *before)
-{
-    inner_nodes now;
-    look_at_inner(tree, &now);
-    assert_difference(&now, before, tick->splits, tick->split_count);
-    assert_difference(before, &now, tick->merges, tick->merge_count);
-    assert_true(((tick->events & OCTREE_EVENT_SPLIT) != 0) == (tick->split_count > 0));
-    assert_true(((tick->events & OCTREE_EVENT_MERGED) != 0) == (tick->merge_count > 0));
-    *before = now;
-}
 
 static void assert_same_points(const octree_point *points, size_t count, brute *expected)
 {
@@ -242,7 +188,7 @@ static void check_tick(const octree_game *game, last_tick *last)
         for (size_t i = 0; i < all.count; i++)
             brute_collect(&all.points[i], &last->points);
     check_player(tick, session, last->steps);
-    check_nodes(tick, tree, &last->nodes);
+    assert_splits_and_merges(tick, tree, &last->nodes);
     check_hits(tick, session, &last->points, &all);
     check_answers(tick, session, &all);
     brute_free(&last->points);
@@ -252,7 +198,8 @@ static void check_tick(const octree_game *game, last_tick *last)
 static void play_and_check(const octree_session *session)
 {
     octree_game *game = start_game(session);
-    last_tick last = {.steps = {0, 0, 0}};
+    static last_tick last;
+    last = (last_tick){.steps = {0, 0, 0}};
     look_at_inner(octree_game_tree(game), &last.nodes);
     for (uint64_t number = 0;; number++) {
         const octree_tick *tick = octree_game_tick(game);
