@@ -1,8 +1,7 @@
 /* check.c - the validator: every invariant of the nodes. */
+#include "exact.h"
 #include "float_mode.h"
 #include "leaf.h"
-
-#include <string.h>
 
 static const char *check_inner(const octree *tree, const node *n, cell c)
 {
@@ -22,17 +21,6 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
     return NULL;
 }
 
-/* The largest double below a finite one. */
-static double next_below(double value)
-{
-    int64_t bits;
-    value += 0.0; /* -0.0 is +0.0 */
-    memcpy(&bits, &value, sizeof bits);
-    bits = value == 0 ? INT64_MIN + 1 : bits + (value < 0) - (value > 0);
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* Where a cell's points may lie: by the planes, which is what a key is found by. A cell is open above, unless it is one
  * of the world's last, which is closed; so what is in its cell is in the world too. */
 static octree_box room_of(const stacked *leaf)
@@ -40,7 +28,7 @@ static octree_box room_of(const stacked *leaf)
     octree_box room = leaf->box;
     for (int i = 0; i < 3; i++)
         if (leaf->cell.low[i] + cell_size(leaf->cell.depth) != PLANE_GRID)
-            room.max[i] = next_below(room.max[i]);
+            room.max[i] = exact_step_down(room.max[i]);
     return room;
 }
 

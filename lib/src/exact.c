@@ -78,8 +78,7 @@ int exact_sign(exact_sum *sum)
     return carry < 0 ? -1 : any || carry > 0;
 }
 
-/* The neighbouring double towards minus infinity. */
-static double step_down(double value)
+double exact_step_down(double value)
 {
     uint64_t bits;
     if (value == 0)
@@ -102,7 +101,7 @@ double exact_add_down(double a, double b)
     const double sum = a + b;
     if (isinf(sum))
         return sum > 0 ? DBL_MAX : sum;
-    return sum_error(a, b, sum) < 0 ? step_down(sum) : sum;
+    return sum_error(a, b, sum) < 0 ? exact_step_down(sum) : sum;
 }
 
 double exact_add_up(double a, double b)

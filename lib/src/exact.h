@@ -32,4 +32,7 @@ int exact_sign(exact_sum *sum);
 double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 
+/* The neighbouring double towards minus infinity, of a finite one. */
+double exact_step_down(double value);
+
 #endif

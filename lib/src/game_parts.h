@@ -18,7 +18,6 @@ struct octree_game {
     double fastest;                   /* of the session's bodies, along one axis */
     bool quit;
     survey survey;
-    bool surveyed; /* up to tick 0 at least */
     octree_tick tick;
     list hits;           /* octree_point */
     list hit_from;       /* double[3]: of each hit, when swept */

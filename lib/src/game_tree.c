@@ -47,13 +47,12 @@ static octree_status compare_inner_nodes(octree_game *game)
 
 octree_status game_survey(octree_game *game)
 {
-    if (game->surveyed && game->survey.version == octree_version(game->tree))
+    const bool first = game->tick.number == 0;
+    if (!first && game->survey.version == octree_version(game->tree))
         return OCTREE_OK;
-    const bool first = !game->surveyed;
     octree_status status = survey_update(&game->survey, &game->memory, game->tree);
     if (status == OCTREE_OK && !first)
         status = compare_inner_nodes(game);
-    game->surveyed = true;
     game->tick.stats = game->survey.stats;
     game->tick.tree_digest = game->survey.digest;
     return status;

@@ -87,17 +87,19 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
 static unsigned scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
 {
     const ball *b = shape;
-    const metric m = b->metric;
     const double reach = b->reach;
+    double squares[REGION_SCAN];
     unsigned found = 0, left = 0;
+    if (metric_points(&b->metric, points, count, squares) > reach)
+        return 0;
     for (unsigned i = 0; i < count; i++) {
         hits[found] = (uint8_t)i;
-        found += !(metric_point(&m, points[i].position) > reach);
+        found += !(squares[i] > reach);
     }
     for (unsigned i = 0; i < found; i++) {
-        const octree_point *point = &points[hits[i]];
-        hits[left] = hits[i];
-        left += is_within(&m, b->mode, point, metric_point(&m, point->position), b->radius, b->square);
+        const unsigned hit = hits[i];
+        hits[left] = (uint8_t)hit;
+        left += is_within(&b->metric, b->mode, &points[hit], squares[hit], b->radius, b->square);
     }
     return left;
 }

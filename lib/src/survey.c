@@ -66,10 +66,10 @@ static void add_inner(surveying *w, octree_address address)
         w->out_of_memory = true;
 }
 
-static void look_at(part *p, const node *n, octree_address address)
+static void look_at(octree_stats *stats, uint64_t *sum, const node *n, octree_address address)
 {
-    count_node(&p->stats, n, octree_address_depth(address));
-    p->sum += digest_node(n, address);
+    count_node(stats, n, octree_address_depth(address));
+    *sum += digest_node(n, address);
 }
 
 static void look_below(surveying *w, part *p, const node *n)
@@ -80,11 +80,10 @@ static void look_below(surveying *w, part *p, const node *n)
         const inner next = inner_stack_next(&stack);
         const node *child = children_of(next.node);
         add_inner(w, next.address);
-        for (unsigned i = bits_count8(next.node->octants); i-- > 0;)
-            prefetch(child[i].below);
+        prefetch_below(next.node);
         for (unsigned octant = 0; octant < 8; octant++)
             if (next.node->octants >> octant & 1)
-                look_at(p, child++, next.address << 3 | octant);
+                look_at(&p->stats, &p->sum, child++, next.address << 3 | octant);
     }
 }
 
@@ -131,7 +130,7 @@ static void add_part(surveying *w, const node *n, octree_address address)
     if (kept) {
         keep_inner(w, before);
     } else {
-        look_at(p, n, address);
+        look_at(&p->stats, &p->sum, n, address);
         look_below(w, p, n);
     }
     p->first_inner = first_inner;
@@ -168,8 +167,7 @@ static void look_at_all(surveying *w)
             add_part(w, next.node, next.address);
             continue;
         }
-        count_node(&w->to->stats, next.node, octree_address_depth(next.address));
-        w->sum += digest_node(next.node, next.address);
+        look_at(&w->to->stats, &w->sum, next.node, next.address);
         add_inner(w, next.address);
         for (unsigned octant = 8; octant-- > 0;)
             if (next.node->octants >> octant & 1)

@@ -1,8 +1,8 @@
 /* survey.h - what a game tells of its tree after each tick: its digest, its numbers, and its inner nodes. Private.
  *
  * A tick touches few places, and all that it changes lies on the way from the root to them. So the tree is seen as
- * parts, subtrees of a few hundred points, and the nodes above them; what is known of a part stays, unless a
- * place in its cell was touched.
+ * parts, subtrees of a few hundred points, and the nodes above them; what is known of a part stays, unless a place in
+ * its cell was touched.
  */
 #ifndef OCTREE_SURVEY_H
 #define OCTREE_SURVEY_H

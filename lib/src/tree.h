@@ -57,6 +57,13 @@ static inline void prefetch(const void *memory)
 #endif
 }
 
+/* What is below each child of an inner node. */
+static inline void prefetch_below(const node *n)
+{
+    for (unsigned i = bits_count8(n->octants); i-- > 0;)
+        prefetch(((const node *)n->below)[i].below);
+}
+
 static inline unsigned child_index(const node *n, unsigned octant)
 {
     return bits_count8(n->octants & ((1u << octant) - 1));

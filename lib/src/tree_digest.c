@@ -24,8 +24,7 @@ static uint64_t digest_nodes(const octree *tree)
     while (stack.size > 0) {
         const inner next = inner_stack_next(&stack);
         const node *child = children_of(next.node);
-        for (unsigned i = bits_count8(next.node->octants); i-- > 0;)
-            prefetch(child[i].below);
+        prefetch_below(next.node);
         for (unsigned octant = 0; octant < 8; octant++)
             if (next.node->octants >> octant & 1)
                 sum += digest_node(child++, next.address << 3 | octant);

@@ -115,15 +115,13 @@ void json_write_string(json_writer *writer, const char *text)
 
 void json_write_number(json_writer *writer, double value)
 {
-    char text[2 + NUMBER_TEXT] = ", ";
-    const bool follows = writer->comma && !writer->newline;
+    char text[NUMBER_TEXT];
     if (!isfinite(value)) {
         json_write_null(writer);
         return;
     }
-    number_print(value, text + 2);
-    writer->comma &= !follows; /* its comma is written with it: a session is numbers, most of it */
-    write_word(writer, follows ? text : text + 2);
+    number_print(value, text);
+    write_word(writer, text);
 }
 
 void json_write_integer(json_writer *writer, uint64_t value)

@@ -219,9 +219,9 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
 void octree_game_destroy(octree_game *game);
 
 /* Play one tick with this key, whatever the session's keys say. Errors: NULL_ARGUMENT, FLOAT_MODE and BAD_KEY, of which
- * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(queries + v
- * log v for v visits; all bodies, where any has a velocity and when swept; and where the tree changed its inner nodes,
- * at 8 bytes each, and some hundred points about each change, or, of very many changes, all points). */
+ * nothing is played; NO_MEMORY, after which the game must not be stepped again. Cost: O(queries +
+ * v log v for v visits; all bodies, where any has a velocity and when swept; and where the tree changed its inner
+ * nodes, at 8 bytes each, and some hundred points about each change, or, of very many changes, all points). */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not
