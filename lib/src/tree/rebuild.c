@@ -1,18 +1,24 @@
 /* rebuild.c - the same points in another world, or with another capacity. */
 #include "rebuild.h"
-#include "search.h"
+#include "leaf.h"
 
-static bool copy_point(const octree_point *point, void *context)
-{
-    octree_point **next = context;
-    *(*next)++ = *point;
-    return true;
-}
+#include <string.h>
 
+/* Copy every point, leaf by leaf. Children are pushed so that leaves come in the order of their addresses. */
 static void copy_all(const octree *tree, octree_point *points)
 {
-    meter unused = {.how = NULL};
-    visit_all_below(&tree->root, &unused, copy_point, &points);
+    const node *pending[STACK_ROOM];
+    size_t size = 0;
+    pending[size++] = &tree->root;
+    while (size > 0) {
+        const node *next = pending[--size];
+        for (unsigned i = bits_count8(next->octants); i-- > 0;)
+            pending[size++] = &children_of(next)[i];
+        if (next->octants || next->count == 0)
+            continue;
+        memcpy(points, leaf_points(next), next->count * sizeof *points);
+        points += next->count;
+    }
 }
 
 /* Insert all into an empty tree, or say why one of them does not fit. */
