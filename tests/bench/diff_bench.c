@@ -89,7 +89,7 @@ static bool shift_palette(const bench *b, const char *from, const char *to)
 {
     char source[PATH_ROOM], target[PATH_ROOM];
     image picture;
-    image_error error = {""};
+    octreel_error error = {""};
     bool ok = image_read_png(path_in(b, from, source), &picture, &error);
     if (ok) {
         picture.palette.colors[0].g = (uint8_t)(picture.palette.colors[0].g + 32);

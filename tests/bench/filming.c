@@ -69,7 +69,7 @@ static void note_end(work *w)
 static bool film_octreel(work *w)
 {
     film_summary summary;
-    record_error error;
+    octreel_error error;
     const film_options options = {.folder = w->order->folder,
                                   .view = filmed_view(w->order->scene),
                                   .every = 1,
@@ -87,13 +87,13 @@ static bool film_octreel(work *w)
 static bool film_part(work *w, take *t, const char *again, double spent[3])
 {
     film_step step;
-    record_error error;
-    image_error unwritten;
+    octreel_error error;
+    octreel_error unwritten;
     const double start = worked();
     if (!take_tick(t, &step, &error))
         return fail(w, error.text);
     const double drawn = worked();
-    if (!frame_write(w->order->folder, &t->picture, &(frame_origin){.tick = step.tick}, &error))
+    if (!frame_write(w->order->folder, &t->picture.frame, &(frame_origin){.tick = step.tick}, &error))
         return fail(w, error.text);
     const double written = worked();
     if (!image_write_png(&t->picture.frame, again, NULL, 0, &unwritten))
@@ -107,8 +107,8 @@ static bool film_part(work *w, take *t, const char *again, double spent[3])
 static bool film_in_parts(work *w, take *t)
 {
     double spent[3] = {0};
-    record_error error;
-    char *again = folder_path(w->order->folder, "again.png");
+    octreel_error error;
+    char *again = path_join(w->order->folder, "again.png");
     bool ok = again || fail(w, "there is no memory");
     for (uint64_t i = 0; ok && i < w->order->frames; i++) {
         const double start = worked();
@@ -130,7 +130,7 @@ static bool film_in_parts(work *w, take *t)
 static bool film_parts(work *w)
 {
     take t;
-    record_error error;
+    octreel_error error;
     const film_options options = {.folder = w->order->folder, .view = filmed_view(w->order->scene), .every = 1};
     setenv("LP_NUM_THREADS", "0", 0); /* as in the processes of FILM_OCTREEL */
     const bool open = folder_make(options.folder, &error) && take_open(&t, w->session, &options, FRAMES_SHOW, &error);
@@ -151,7 +151,7 @@ static bool film_naive_tick(work *w, naive *n, octree_game *game, scene *s)
     if (!tick_scene_build(s, &v, game, NULL) || !naive_draw(n, s))
         return fail(w, "the naive way cannot draw");
     const double drawn = worked();
-    char *path = folder_path(w->order->folder, frame_name(tick, name));
+    char *path = path_join(w->order->folder, frame_name(tick, name));
     const bool written = path && naive_write(n, path);
     free(path);
     if (!written)
@@ -170,7 +170,7 @@ static bool film_naive(work *w)
     const char *why;
     scene s = {0};
     octree_game *game = NULL;
-    record_error error;
+    octreel_error error;
     setenv("LP_NUM_THREADS", "0", 1);
     w->apart = 1;
     naive *n = naive_open(v.width, v.height, &why);

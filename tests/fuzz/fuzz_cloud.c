@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const char *const names[] = {"fuzz", "fuzz.ply", "fuzz.pcd"};
     cloud cloud;
-    cloud_error error = {""};
+    octreel_error error = {""};
     if (size == 0)
         return 0;
     if (cloud_parse(names[data[0] % 3], data + 1, size - 1, &cloud, &error))

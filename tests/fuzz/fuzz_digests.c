@@ -10,7 +10,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static bool parse(const void *data, size_t size, diff_side *side)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     char *text = malloc(size + 1);
     if (!text)
         abort();
@@ -26,7 +26,7 @@ static bool parse(const void *data, size_t size, diff_side *side)
 
 static char *write_side(const diff_side *side, size_t *size)
 {
-    record_error error;
+    octreel_error error;
     char *text = NULL;
     FILE *out = open_memstream(&text, size);
     if (!out || !digest_file_write(out, side, &error) || fclose(out) != 0)

@@ -124,9 +124,9 @@ static bool read_rows(image_source *source, int rows, const image *whole)
 }
 
 /* Row by row the file is read, or fails, just as it does whole. */
-static void check_rows(const file *f, image_color background, const image *whole, const image_error *failed)
+static void check_rows(const file *f, image_color background, const image *whole, const octreel_error *failed)
 {
-    image_error error = {""};
+    octreel_error error = {""};
     FILE *stream = open_stream(f);
     image_source *source = image_source_open_stream(stream, f->size, "fuzz", background, false, &error);
     const bool ok = source && read_rows(source, 1 + (int)(f->size % 5), whole);
@@ -137,7 +137,7 @@ static void check_rows(const file *f, image_color background, const image *whole
 
 static bool read_file(const file *f, image_color background, image *read)
 {
-    image_error error = {""};
+    octreel_error error = {""};
     FILE *stream = open_stream(f);
     const bool ok = image_read_png_stream(stream, f->size, "fuzz", background, read, &error);
     fclose(stream);

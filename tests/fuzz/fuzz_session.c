@@ -23,7 +23,7 @@ static char *write_session(const octree_session *session, size_t *size)
 static void check_round_trip(const octree_session *session)
 {
     session_file again;
-    session_error error;
+    octreel_error error;
     size_t size, size_again;
     char *text = write_session(session, &size);
     if (session_parse("again", "", text, size, &again, &error)) {
@@ -42,7 +42,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     enum { MANY_POINTS = 1000 };
     session_file file;
-    session_error error = {""};
+    octreel_error error = {""};
     if (!session_parse("fuzz", "", (const char *)data, size, &file, &error) && error.text[0] == '\0')
         abort();
     if (file.session.body_count <= MANY_POINTS && file.session.tree.leaf_capacity > 0)

@@ -60,7 +60,7 @@ static image draw_samples(const scene *picture)
     const int samples = view_samples(&picture->view);
     const int width = picture->view.width * samples, height = picture->view.height * samples;
     image drawn;
-    draw_error why;
+    octreel_error why;
     renderer *r = renderer_open(width, height, &(renderer_choice){0}, &why);
     if (!r)
         stop("%s", why.text);

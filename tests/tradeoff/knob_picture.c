@@ -114,7 +114,7 @@ typedef struct drawing {
 static void draw(void *contestant)
 {
     drawing *d = contestant;
-    record_error why;
+    octreel_error why;
     subject_show(d->subject, &d->view, &d->scene);
     if (!picture_draw(&d->picture, &d->scene, &why))
         stop("%s", why.text);
@@ -146,7 +146,7 @@ static void measure_samples(const run *r, table *t, const char *name, const subj
 {
     drawing drawings[LODS];
     double ns[LODS];
-    record_error why;
+    octreel_error why;
     for (int i = 0; i < LODS; i++) {
         drawings[i] = (drawing){.subject = s, .view = view_with(samples[aa], lods[i])};
         if (!picture_open(&drawings[i].picture, &drawings[i].view, &(renderer_choice){0}, &why))

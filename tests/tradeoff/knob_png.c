@@ -140,7 +140,7 @@ static bytes read_whole(const char *path)
 static void add_recorder(const run *r, table *t, const char *name, const image *frame)
 {
     char path[4200];
-    image_error why;
+    octreel_error why;
     snprintf(path, sizeof path, "%s/png-recorder.png", r->folder);
     const double start = processor_time();
     if (!image_write_png(frame, path, NULL, 0, &why))
@@ -187,7 +187,7 @@ static void measure(const run *r, table *t)
         subject *s = subject_make(&kinds[i]);
         scene shown = {0};
         picture p;
-        record_error why;
+        octreel_error why;
         subject_show(s, &v, &shown);
         if (!picture_open(&p, &v, &(renderer_choice){0}, &why) || !picture_draw(&p, &shown, &why))
             stop("%s", why.text);

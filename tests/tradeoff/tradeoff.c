@@ -122,9 +122,9 @@ static options read_options(int argc, char **argv)
 static void make_loads(const options *o, workloads *loads)
 {
     cloud read = {0};
-    cloud_error cloud_why;
+    octreel_error cloud_why;
     session_file session = {0};
-    session_error session_why;
+    octreel_error session_why;
     if (o->cloud && !cloud_read(o->cloud, NULL, &read, &cloud_why))
         stop("%s", cloud_why.text);
     if (o->session && !session_read(o->session, &session, &session_why))

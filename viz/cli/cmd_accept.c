@@ -22,7 +22,7 @@ static const struct option options[] = {{"help", no_argument, NULL, 'h'}, {NULL,
 
 int cmd_accept(int argc, char **argv)
 {
-    record_error error;
+    octreel_error error;
     optind = 1;
     for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
         fputs(option == 'h' ? help : "octreel accept --help tells what it takes\n", option == 'h' ? stdout : stderr);

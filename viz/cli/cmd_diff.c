@@ -154,20 +154,20 @@ static bool check_outputs(const arguments *a)
     return false;
 }
 
-static bool write_report(const char *path, reporter *write, const diff_report *report, record_error *error)
+static bool write_report(const char *path, reporter *write, const diff_report *report, octreel_error *error)
 {
-    part_file file;
+    file_writer file;
     if (!path || is_stdout(path))
         return true;
-    if (!part_open(&file, path, error))
+    if (!file_writer_open(&file, path, error))
         return false;
     if (write(file.stream, report))
-        return part_close(&file, error);
-    record_fail(error, "%s: there is no memory to write it", path);
-    return part_abandon(&file);
+        return file_writer_close(&file, error);
+    error_set(error, "%s: there is no memory to write it", path);
+    return file_writer_abandon(&file);
 }
 
-static bool print_report(const arguments *a, const diff_report *report, record_error *error)
+static bool print_report(const arguments *a, const diff_report *report, octreel_error *error)
 {
     bool ok = true;
     if (a->json)
@@ -178,7 +178,7 @@ static bool print_report(const arguments *a, const diff_report *report, record_e
         ok = diff_report_markdown(stdout, report);
     else if (report->result->found[FOUND_UNREADABLE] < report->result->count) /* else nothing was compared */
         diff_report_text(stdout, report);
-    return ok || record_fail(error, "there is no memory to print the report");
+    return ok || error_set(error, "there is no memory to print the report");
 }
 
 static int report(const arguments *a, diff_report *all)
@@ -187,7 +187,7 @@ static int report(const arguments *a, diff_report *all)
         [DIFF_SAME] = EXIT_DONE, [DIFF_DIFFERENT] = EXIT_FINDING, [DIFF_TROUBLE] = EXIT_TROUBLE};
     const diff_verdict verdict = all->result->verdict;
     evidence e = {.folder = NULL};
-    record_error error;
+    octreel_error error;
     bool ok = true;
     if (a->folder) {
         ok = evidence_collect(&e, a->folder, all->result, all->options, &error);
@@ -208,9 +208,9 @@ static const char *file_of(const char *path)
 }
 
 /* What is written may not take the place of what is compared, nor a report that of another. */
-static bool check_files(const arguments *a, const diff_side sides[2], record_error *error)
+static bool check_files(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
-    char *page = a->folder ? folder_path(a->folder, EVIDENCE_PAGE) : NULL;
+    char *page = a->folder ? path_join(a->folder, EVIDENCE_PAGE) : NULL;
     const output_file outputs[] = {{"-o", page}, {"--junit", file_of(a->junit)}, {"--markdown", file_of(a->markdown)}};
     const size_t count = sizeof outputs / sizeof outputs[0];
     bool ok = outputs_apart(outputs, count, error);
@@ -221,7 +221,7 @@ static bool check_files(const arguments *a, const diff_side sides[2], record_err
 }
 
 /* What cannot be compared leaves no evidence. */
-static bool check(const arguments *a, const diff_side sides[2], record_error *error)
+static bool check(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     return diff_check(&sides[0], &sides[1], &a->options, error) && check_files(a, sides, error) &&
            (!a->folder || evidence_prepare(a->folder, &sides[0], &sides[1], error));
@@ -231,7 +231,7 @@ static int compare(const arguments *a, const char *paths[2])
 {
     diff_side sides[2] = {{0}, {0}};
     diff_result result = {0};
-    record_error error;
+    octreel_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
                     check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
                     diff_explain(&sides[0], &sides[1], a->causes, &result, &error);

@@ -25,21 +25,21 @@ static const struct option options[] = {
     {NULL, 0, NULL, 0},
 };
 
-static bool write_file(const diff_side *side, const char *path, record_error *error)
+static bool write_file(const diff_side *side, const char *path, octreel_error *error)
 {
-    part_file file;
+    file_writer file;
     if (!path)
         return digest_file_write(stdout, side, error);
-    if (!part_open(&file, path, error))
+    if (!file_writer_open(&file, path, error))
         return false;
-    return digest_file_write(file.stream, side, error) ? part_close(&file, error) : part_abandon(&file);
+    return digest_file_write(file.stream, side, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
 }
 
 static int digest_it(const char *folder, const char *path, image_color background)
 {
     const output_file output = {"-o", path};
     diff_side side;
-    record_error error;
+    octreel_error error;
     if (!diff_side_open(&side, folder, &error))
         return trouble("%s", error.text);
     int status = EXIT_DONE;

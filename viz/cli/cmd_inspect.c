@@ -200,7 +200,7 @@ typedef struct report {
     inspect_answers answers;
 } report;
 
-static bool draw(const report *r, record_error *error)
+static bool draw(const report *r, octreel_error *error)
 {
     film_summary drawn = {0};
     const tree_look about = {.title = inspect_base_name(r->cloud),
@@ -218,7 +218,7 @@ static bool draw(const report *r, record_error *error)
     return ok;
 }
 
-static bool write_nodes(const report *r, record_error *error)
+static bool write_nodes(const report *r, octreel_error *error)
 {
     char *path = inspect_output_path(&r->a->nodes, r->cloud, error);
     const bool ok = path && inspect_write_nodes(r->made, path, error);
@@ -242,7 +242,7 @@ static void print(const report *r)
 }
 
 /* Everything that can be refused comes before the first file is made. */
-static bool make_report(report *r, record_error *error)
+static bool make_report(report *r, octreel_error *error)
 {
     const arguments *a = r->a;
     if (a->node && !inspect_find_node(r->made, a->node, &r->node, error))
@@ -261,8 +261,8 @@ static int inspect_one(const arguments *a, const char *path, reading *so_far)
     const cloud_watch watch = {on_step, so_far};
     octree_def def = a->def;
     cloud points;
-    cloud_error unread;
-    record_error error;
+    octreel_error unread;
+    octreel_error error;
     inspection made;
     bool ok = cloud_read(path, &watch, &points, &unread);
     if (!ok) {
@@ -321,7 +321,7 @@ static bool check_picture(const arguments *a)
 
 static int check_and_inspect(arguments *a)
 {
-    record_error error;
+    octreel_error error;
     if (!check_names("inspect", a->clouds, (int)a->cloud_count) || !check_picture(a))
         return EXIT_TROUBLE;
     if (!check_renderer(&a->renderer) || !read_view(&a->view_options, &a->view))

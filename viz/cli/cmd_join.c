@@ -27,7 +27,7 @@ static int join_it(const char *folder, bool json)
     watch w = watch_begin("ticks");
     film_options film = {.folder = folder, .progress = watch_progress, .keep_going = watch_keep_going, .context = &w};
     film_summary summary;
-    record_error error;
+    octreel_error error;
     const bool ok = join_parts(&film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&w.progress);
     if (!ok)

@@ -53,7 +53,7 @@ static bool take_option(arguments *a, int option)
 {
     switch (option) {
     case 'r':
-        return read_pixels("--radius", optarg, DRAW_MAX_SIDE, &a->pick.radius);
+        return read_pixels("--radius", optarg, VIEW_MAX_SIDE, &a->pick.radius);
     case OPTION_CONTEXT:
         return read_context(optarg, &a->pick.renderer);
     case OPTION_ANY_RENDERER:
@@ -72,7 +72,7 @@ static bool take_option(arguments *a, int option)
 static int pick_it(const arguments *a)
 {
     pick found;
-    record_error error;
+    octreel_error error;
     if (!pick_frame(a->frame, &a->pick, &found, &error))
         return trouble("%s", error.text);
     pick_print(stdout, &found, a->json);

@@ -100,7 +100,7 @@ static int film_it(arguments *a, const octree_session *session)
 {
     watch w = watch_begin("ticks");
     film_summary summary;
-    record_error error;
+    octreel_error error;
     if (a->film.jobs == 0)
         a->film.jobs = film_default_jobs(session, &a->film);
     a->film.progress = watch_progress;
@@ -134,7 +134,7 @@ static const char *find_missing(const arguments *a)
 /* A recording that is resumed stands for what the command line leaves out. */
 static bool read_film(arguments *a)
 {
-    record_error error;
+    octreel_error error;
     uint64_t every = 1;
     const char *missing = find_missing(a);
     if (missing) {
@@ -151,9 +151,9 @@ static bool read_film(arguments *a)
     return read_view(&a->view, &a->film.view);
 }
 
-static bool read_session(const arguments *a, session_file *file, record_error *error)
+static bool read_session(const arguments *a, session_file *file, octreel_error *error)
 {
-    session_error unread;
+    octreel_error unread;
     uint64_t digest;
     const octree_session paper = octree_session_default();
     if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json"))
@@ -161,17 +161,17 @@ static bool read_session(const arguments *a, session_file *file, record_error *e
     if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json.live"))
         return read_live_session(a->film.folder, file, error);
     const bool ok = a->session ? session_read(a->session, file, &unread) : session_copy(&paper, file, &unread);
-    return ok || record_fail(error, "%s", unread.text);
+    return ok || error_set(error, "%s", unread.text);
 }
 
 static int play(arguments *a)
 {
     session_file file = {0};
-    session_error unknown;
-    record_error error;
+    octreel_error unknown;
+    octreel_error error;
     bool ok = read_session(a, &file, &error);
     if (ok && a->keys && !session_set_keys(&file, a->keys, &unknown))
-        ok = record_fail(&error, "%s", unknown.text);
+        ok = error_set(&error, "%s", unknown.text);
     const int status = ok ? film_it(a, &file.session) : trouble("%s", error.text);
     session_release(&file);
     return status;

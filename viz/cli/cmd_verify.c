@@ -56,7 +56,7 @@ static int verify_it(arguments *a)
 {
     progress p = progress_start("ticks");
     verify_report report;
-    record_error error;
+    octreel_error error;
     a->verify.progress = on_progress;
     a->verify.context = &p;
     const bool ok = verify_recording(a->folder, &a->verify, &report, &error);

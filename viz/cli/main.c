@@ -33,7 +33,7 @@ static int print_help(FILE *out)
 static bool print_renderer(draw_context kind)
 {
     const renderer_choice choice = {.context = kind};
-    draw_error error;
+    octreel_error error;
     renderer *r = renderer_open(16, 16, &choice, &error);
     if (!r) {
         printf("%s: %s\n", draw_context_name(kind), error.text);

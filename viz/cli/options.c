@@ -207,7 +207,7 @@ static bool read_size(const char *text, view *v)
 
 static bool read_camera_from(const char *text, view *v)
 {
-    record_error error;
+    octreel_error error;
     return view_read(text, v, &error) || refuse("%s", error.text);
 }
 
@@ -290,9 +290,9 @@ static bool read_region(const char *text, view *v)
 static bool read_lod(const char *text, view *v)
 {
     const char *limit = text + strlen(text), *end = text;
-    if (number_parse(text, limit, &end, &v->lod) && end == limit && v->lod >= 0 && v->lod <= DRAW_MAX_SIDE)
+    if (number_parse(text, limit, &end, &v->lod) && end == limit && v->lod >= 0 && v->lod <= VIEW_MAX_SIDE)
         return true;
-    return refuse("--lod takes pixels from 0 to %d, not \"%s\"", DRAW_MAX_SIDE, text);
+    return refuse("--lod takes pixels from 0 to %d, not \"%s\"", VIEW_MAX_SIDE, text);
 }
 
 static bool read_budget(const char *text, view *v)
@@ -309,7 +309,7 @@ static bool read_aa(const char *text, view *v)
 }
 
 #define SIZE NUMBER_DIGITS(VIEW_DEFAULT_WIDTH) "x" NUMBER_DIGITS(VIEW_DEFAULT_HEIGHT)
-#define MOST NUMBER_DIGITS(DRAW_MAX_SIDE)
+#define MOST NUMBER_DIGITS(VIEW_MAX_SIDE)
 #define LOD NUMBER_DIGITS(VIEW_DEFAULT_LOD)
 #define BUDGET NUMBER_DIGITS(VIEW_DEFAULT_BUDGET)
 

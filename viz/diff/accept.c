@@ -1,6 +1,6 @@
 /* accept.c - see accept.h. */
 #include "accept.h"
-#include "copy_file.h"
+#include "file.h"
 #include "digest_file.h"
 #include "escaped.h"
 #include "report.h"
@@ -34,15 +34,15 @@ static bool is_there(const char *path)
 }
 
 /* A reference that is to be made is an empty one of the kind that fits. */
-static bool open_sides(accepting *a, record_error *error)
+static bool open_sides(accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
     if (!diff_side_open(&a->frames, o->frames, error))
         return false;
     if (a->frames.kind == DIFF_DIGESTS)
-        return record_fail(error, "%s: pictures are accepted, not digests of them", o->frames);
+        return error_set(error, "%s: pictures are accepted, not digests of them", o->frames);
     if (a->frames.count == 0)
-        return record_fail(error, "%s: there is no PNG in it", o->frames);
+        return error_set(error, "%s: there is no PNG in it", o->frames);
     a->is_new = !is_there(o->reference);
     if (a->is_new) {
         a->reference = (diff_side){.path = o->reference, .kind = a->frames.kind};
@@ -51,8 +51,8 @@ static bool open_sides(accepting *a, record_error *error)
     if (!diff_side_open(&a->reference, o->reference, error))
         return false;
     if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
-        return record_fail(error, "%s is a recording, %s is none: its ticks would be those of other frames",
-                           o->reference, o->frames);
+        return error_set(error, "%s is a recording, %s is none: its ticks would be those of other frames", o->reference,
+                         o->frames);
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
         a->reference.kind = DIFF_RECORDING; /* an empty folder is to become one */
     return true;
@@ -66,12 +66,12 @@ static bool is_named(const accept_options *options, const char *name)
     return options->name_count == 0;
 }
 
-static bool check_names(const accepting *a, record_error *error)
+static bool check_names(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->options->name_count; i++)
         if (!diff_find(&a->result, a->options->names[i]))
-            return record_fail(error, "there is no frame %s, neither in %s nor in %s", a->options->names[i],
-                               a->frames.path, a->reference.path);
+            return error_set(error, "there is no frame %s, neither in %s nor in %s", a->options->names[i],
+                             a->frames.path, a->reference.path);
     return true;
 }
 
@@ -91,18 +91,18 @@ static action action_for(const diff_pair *pair)
 }
 
 /* A frame that cannot be read becomes no reference; a reference that cannot be read may be replaced. */
-static bool check_frame(const accepting *a, diff_pair *pair, record_error *error)
+static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
-    image_error unread;
+    octreel_error unread;
     return digest_frame(pair->b->path, a->reference.background, &pair->about[1], &unread) ||
-           record_fail(error, "%s", unread.text);
+           error_set(error, "%s", unread.text);
 }
 
-static bool decide(accepting *a, record_error *error)
+static bool decide(accepting *a, octreel_error *error)
 {
     a->actions = calloc(a->result.count, sizeof *a->actions);
     if (!a->actions)
-        return record_fail(error, "there is no memory for %zu frames", a->result.count);
+        return error_set(error, "there is no memory for %zu frames", a->result.count);
     for (size_t i = 0; i < a->result.count; i++) {
         diff_pair *pair = &a->result.pairs[i];
         a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair) : KEPT;
@@ -114,15 +114,15 @@ static bool decide(accepting *a, record_error *error)
 }
 
 /* Where not one reference has a frame, a wrong folder was given: its pictures are not to be lost. */
-static bool check_overlap(const accepting *a, record_error *error)
+static bool check_overlap(const accepting *a, octreel_error *error)
 {
     const size_t references = a->reference.count;
     return references == 0 || a->options->name_count > 0 || a->counts[REMOVED] < references ||
-           record_fail(error, "%s: all its %zu references would go, for %s has none of their names", a->reference.path,
-                       references, a->frames.path);
+           error_set(error, "%s: all its %zu references would go, for %s has none of their names", a->reference.path,
+                     references, a->frames.path);
 }
 
-static bool compare(accepting *a, record_error *error)
+static bool compare(accepting *a, octreel_error *error)
 {
     diff_options exact = diff_options_default();
     if (a->reference.kind == DIFF_DIGESTS)
@@ -135,25 +135,25 @@ static bool compare(accepting *a, record_error *error)
 
 /* ---- Doing it ------------------------------------------------------------------------------------------------ */
 
-static bool remove_file(const char *path, record_error *error)
+static bool remove_file(const char *path, octreel_error *error)
 {
-    return remove(path) == 0 || record_fail(error, "%s: cannot be removed: %s", path, strerror(errno));
+    return remove(path) == 0 || error_set(error, "%s: cannot be removed: %s", path, strerror(errno));
 }
 
-static bool copy_into(const char *from, const char *folder, const char *name, record_error *error)
+static bool copy_into(const char *from, const char *folder, const char *name, octreel_error *error)
 {
-    char *to = folder_path(folder, name);
-    const bool ok = to ? copy_file(from, to, error) : record_fail(error, "there is no memory");
+    char *to = path_join(folder, name);
+    const bool ok = to ? file_copy_to(from, to, error) : error_no_memory(error);
     free(to);
     return ok;
 }
 
-static bool write_picture(const accepting *a, const diff_pair *pair, action what, record_error *error)
+static bool write_picture(const accepting *a, const diff_pair *pair, action what, octreel_error *error)
 {
     if (what == REMOVED)
         return remove_file(pair->a->path, error);
     if (a->reference.kind == DIFF_PICTURE || pair->a)
-        return copy_file(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
+        return file_copy_to(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
     return copy_into(pair->b->path, a->reference.path, pair->b->name, error);
 }
 
@@ -170,7 +170,7 @@ static void say(const accepting *a, const diff_pair *pair, action what)
     fputc('\n', a->out);
 }
 
-static bool write_pictures(const accepting *a, record_error *error)
+static bool write_pictures(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->result.count; i++)
         if (a->actions[i] != KEPT && a->reference.kind != DIFF_DIGESTS &&
@@ -180,10 +180,10 @@ static bool write_pictures(const accepting *a, record_error *error)
 }
 
 /* The references that there are now, kept ones with the digests that they had. */
-static bool write_digests(const accepting *a, record_error *error)
+static bool write_digests(const accepting *a, octreel_error *error)
 {
     diff_side now = {.path = a->reference.path, .kind = DIFF_DIGESTS, .background = a->reference.background};
-    part_file file;
+    file_writer file;
     bool ok = true;
     for (size_t i = 0; ok && i < a->result.count; i++) {
         const diff_pair *pair = &a->result.pairs[i];
@@ -192,26 +192,26 @@ static bool write_digests(const accepting *a, record_error *error)
         else if (a->actions[i] == KEPT && pair->a)
             ok = diff_side_add(&now, pair->a->name, pair->a->digest, error);
     }
-    ok = ok && part_open(&file, now.path, error);
+    ok = ok && file_writer_open(&file, now.path, error);
     if (ok)
-        ok = digest_file_write(file.stream, &now, error) ? part_close(&file, error) : part_abandon(&file);
+        ok = digest_file_write(file.stream, &now, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
     diff_side_release(&now);
     return ok;
 }
 
-static bool copy_fact(const accepting *a, const char *name, record_error *error)
+static bool copy_fact(const accepting *a, const char *name, octreel_error *error)
 {
-    char *from = folder_path(a->frames.path, name), *to = folder_path(a->reference.path, name);
-    bool ok = (from && to) || record_fail(error, "there is no memory");
+    char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
+    bool ok = (from && to) || error_no_memory(error);
     if (ok && is_there(from) && !same_bytes(from, to))
-        ok = copy_file(from, to, error);
+        ok = file_copy_to(from, to, error);
     free(from);
     free(to);
     return ok;
 }
 
 /* What else is in a recording tells of its frames, and these tell of their session, though their pixels be the same. */
-static bool write_facts(const accepting *a, record_error *error)
+static bool write_facts(const accepting *a, octreel_error *error)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < a->result.count; i++)
@@ -222,7 +222,7 @@ static bool write_facts(const accepting *a, record_error *error)
     return ok;
 }
 
-static bool write_all(const accepting *a, record_error *error)
+static bool write_all(const accepting *a, octreel_error *error)
 {
     const bool whole = a->options->name_count == 0;
     const diff_kind kind = a->reference.kind;
@@ -250,7 +250,7 @@ static void tell(const accepting *a)
         fprintf(a->out, "Its ticks are still those of before; to take them over too, accept all frames.\n");
 }
 
-bool accept_frames(const accept_options *options, FILE *out, record_error *error)
+bool accept_frames(const accept_options *options, FILE *out, octreel_error *error)
 {
     accepting a = {.options = options, .out = out};
     const bool ok = open_sides(&a, error) && compare(&a, error) && write_all(&a, error);

@@ -16,6 +16,6 @@ typedef struct accept_options {
 /* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is; but
  * of a recording that is accepted whole, all files are taken over. What was done is said on `out` at the end. False
  * with a sentence: before anything is written when a side, a new frame or a name is no good. */
-bool accept_frames(const accept_options *options, FILE *out, record_error *error);
+bool accept_frames(const accept_options *options, FILE *out, octreel_error *error);
 
 #endif

@@ -8,7 +8,7 @@
 
 bool compare_bytes(diff_pair *pair)
 {
-    image_error error;
+    octreel_error error;
     bool ends;
     frame_digest about = {0};
     if (!pair->a->path || !pair->b->path || !same_bytes(pair->a->path, pair->b->path) ||
@@ -19,7 +19,7 @@ bool compare_bytes(diff_pair *pair)
     return true;
 }
 
-static void find_unreadable(diff_pair *pair, const image_error *error)
+static void find_unreadable(diff_pair *pair, const octreel_error *error)
 {
     pair->finding = FOUND_UNREADABLE;
     pair->trouble = strdup(error->text); /* without memory there is no sentence: reports can do without */
@@ -79,7 +79,7 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
     row_reader_start(&b.readers[1], pair->b->path, options->background, b.tolerance.antialias, true);
     row_reader_start(&b.readers[0], pair->a->path, options->background, b.tolerance.antialias, false);
     compare_rows(&b);
-    const image_error *trouble = row_reader_trouble(&b.readers[0]);
+    const octreel_error *trouble = row_reader_trouble(&b.readers[0]);
     trouble = trouble ? trouble : row_reader_trouble(&b.readers[1]);
     if (trouble)
         find_unreadable(pair, trouble);
@@ -92,7 +92,7 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
 static void compare_digests(diff_pair *pair, const diff_options *options)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
-    image_error error;
+    octreel_error error;
     for (int i = 0; i < 2; i++) {
         pair->about[i] = frames[i]->digest;
         if (frames[i]->path && !digest_frame(frames[i]->path, options->background, &pair->about[i], &error)) {

@@ -86,23 +86,23 @@ static bool is_single(const diff_side *a, const diff_side *b)
     return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && is_one(a) && is_one(b);
 }
 
-bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, record_error *error)
+bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error)
 {
     const diff_side *const sides[2] = {a, b};
     if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single(a, b))
-        return record_fail(error, "a picture is compared with a picture, or the digest of one: %s is one, %s is not",
-                           a->kind == DIFF_PICTURE ? a->path : b->path, a->kind == DIFF_PICTURE ? b->path : a->path);
+        return error_set(error, "a picture is compared with a picture, or the digest of one: %s is one, %s is not",
+                         a->kind == DIFF_PICTURE ? a->path : b->path, a->kind == DIFF_PICTURE ? b->path : a->path);
     if (a->count + b->count == 0)
-        return record_fail(error, "there is nothing to compare: neither %s nor %s has a PNG in it", a->path, b->path);
+        return error_set(error, "there is nothing to compare: neither %s nor %s has a PNG in it", a->path, b->path);
     for (int i = 0; i < 2; i++) {
         if (sides[i]->kind != DIFF_DIGESTS)
             continue;
         if (!is_exact(&options->tolerance) || options->ignore_text)
-            return record_fail(error, "%s: digests tell same from different and no more: nothing can be forgiven",
-                               sides[i]->path);
+            return error_set(error, "%s: digests tell same from different and no more: nothing can be forgiven",
+                             sides[i]->path);
         if (!same_color(sides[i]->background, options->background))
-            return record_fail(error, "%s: these digests are of another background: give --background %02x%02x%02x",
-                               sides[i]->path, sides[i]->background.r, sides[i]->background.g, sides[i]->background.b);
+            return error_set(error, "%s: these digests are of another background: give --background %02x%02x%02x",
+                             sides[i]->path, sides[i]->background.r, sides[i]->background.g, sides[i]->background.b);
     }
     return true;
 }
@@ -115,11 +115,11 @@ static int order_of(const diff_side *a, size_t i, const diff_side *b, size_t j)
     return is_single(a, b) ? 0 : strcmp(a->frames[i].name, b->frames[j].name);
 }
 
-static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *result, record_error *error)
+static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *result, octreel_error *error)
 {
     result->pairs = calloc(a->count + b->count, sizeof *result->pairs);
     if (!result->pairs)
-        return record_fail(error, "there is no memory for %zu frames", a->count + b->count);
+        return error_set(error, "there is no memory for %zu frames", a->count + b->count);
     for (size_t i = 0, j = 0; i < a->count || j < b->count;) {
         diff_pair *pair = &result->pairs[result->count++];
         const int order = order_of(a, i, b, j);
@@ -161,21 +161,21 @@ static void keep_undecided(pending *p)
 }
 
 /* Each pair has a list of its own: text is elsewhere in each frame. */
-static bool copy_ignored(const pending *p, record_error *error)
+static bool copy_ignored(const pending *p, octreel_error *error)
 {
     const image_tolerance *tolerance = &p->options->tolerance;
     for (size_t i = 0; i < p->count && tolerance->ignored_count > 0; i++) {
         diff_pair *pair = p->pairs[i];
         pair->ignored = malloc(tolerance->ignored_count * sizeof *pair->ignored);
         if (!pair->ignored)
-            return record_fail(error, "there is no memory for what is ignored");
+            return error_set(error, "there is no memory for what is ignored");
         memcpy(pair->ignored, tolerance->ignored, tolerance->ignored_count * sizeof *pair->ignored);
         pair->ignored_count = tolerance->ignored_count;
     }
     return true;
 }
 
-static bool compare_all(const diff_side *a, const diff_side *b, pending *p, record_error *error)
+static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octreel_error *error)
 {
     const unsigned cores = parallel_cores();
     const bool digests = a->kind == DIFF_DIGESTS || b->kind == DIFF_DIGESTS;
@@ -200,13 +200,13 @@ static void sum_up(diff_result *result)
 }
 
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
-              record_error *error)
+              octreel_error *error)
 {
     *result = (diff_result){0};
     if (!diff_check(a, b, options, error) || !make_pairs(a, b, result, error))
         return false;
     pending p = {.pairs = malloc(result->count * sizeof *p.pairs), .options = options};
-    bool ok = p.pairs || record_fail(error, "there is no memory for %zu frames", result->count);
+    bool ok = p.pairs || error_set(error, "there is no memory for %zu frames", result->count);
     for (size_t i = 0; ok && i < result->count; i++)
         if (result->pairs[i].a && result->pairs[i].b)
             p.pairs[p.count++] = &result->pairs[i];

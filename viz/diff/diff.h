@@ -64,7 +64,7 @@ typedef struct diff_result {
 
 /* False, with a sentence, when the sides cannot be compared at all: a picture with a folder, a tolerance for digests,
  * two empty folders. No picture is read. */
-bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, record_error *error);
+bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
 /* Compare b with the reference a. Identical files are told by their bytes, on all cores; what is left is decoded, each
  * pair on two cores, with as many pairs at a time as that leaves room for. Of a pair a few rows are in memory; both
@@ -72,7 +72,7 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
  * case. Both sides must outlive the result. False, with a sentence, when diff_check() says so, or there is no memory.
  */
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
-              record_error *error);
+              octreel_error *error);
 void diff_release(diff_result *result);
 
 /* The name of a pair: that of its new frame, or of the reference that has none. */

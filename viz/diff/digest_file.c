@@ -2,7 +2,7 @@
 #include "digest_file.h"
 #include "parallel.h"
 #include "printable.h"
-#include "whole_file.h"
+#include "file.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -74,31 +74,31 @@ static bool parse_frame(const char *line, frame_digest *digest, const char **nam
     return ok && *line && !holds_control(line) && !strchr(line, '/');
 }
 
-static bool take_line(diff_side *side, const char *line, size_t number, record_error *error)
+static bool take_line(diff_side *side, const char *line, size_t number, octreel_error *error)
 {
     frame_digest digest;
     const char *name;
     if (number == 1)
         return strcmp(line, FIRST_LINE) == 0 ||
-               record_fail(error, "%s:1: this version reads \"%s\" alone", side->path, FIRST_LINE);
+               error_set(error, "%s:1: this version reads \"%s\" alone", side->path, FIRST_LINE);
     if (number == 2)
         return parse_background(line, &side->background) ||
-               record_fail(error, "%s:2: expected a background, as in \"background ffffff\"", side->path);
+               error_set(error, "%s:2: expected a background, as in \"background ffffff\"", side->path);
     if (!parse_frame(line, &digest, &name))
-        return record_fail(error, "%s:%zu: expected a digest, a size and a name, as in \"%016d 1280x720 frame.png\"",
-                           side->path, number, 0);
+        return error_set(error, "%s:%zu: expected a digest, a size and a name, as in \"%016d 1280x720 frame.png\"",
+                         side->path, number, 0);
     if (side->count > 0 && strcmp(side->frames[side->count - 1].name, name) >= 0)
-        return record_fail(error, "%s:%zu: names must be in order, each but once", side->path, number);
+        return error_set(error, "%s:%zu: names must be in order, each but once", side->path, number);
     return diff_side_add(side, name, digest, error);
 }
 
-bool digest_file_parse(diff_side *side, char *text, size_t size, record_error *error)
+bool digest_file_parse(diff_side *side, char *text, size_t size, octreel_error *error)
 {
     char *const limit = text + size;
     size_t number = 0;
     side->kind = DIFF_DIGESTS;
     if (memchr(text, 0, size))
-        return record_fail(error, "%s: it holds a zero byte, so it is no text", side->path);
+        return error_set(error, "%s: it holds a zero byte, so it is no text", side->path);
     for (char *line = text, *next; line < limit; line = next) {
         char *end = line + strcspn(line, "\n");
         next = end + 1;
@@ -108,15 +108,15 @@ bool digest_file_parse(diff_side *side, char *text, size_t size, record_error *e
         if (!take_line(side, line, ++number, error))
             return false;
     }
-    return number >= 2 || record_fail(error, "%s: it ends before its second line", side->path);
+    return number >= 2 || error_set(error, "%s: it ends before its second line", side->path);
 }
 
-bool digest_file_read(diff_side *side, record_error *error)
+bool digest_file_read(diff_side *side, octreel_error *error)
 {
-    char *bytes, reason[WHOLE_FILE_REASON];
+    char *bytes, reason[FILE_REASON];
     size_t size;
-    if (!whole_file_read(side->path, &bytes, &size, reason))
-        return record_fail(error, "%s: %s", side->path, reason);
+    if (!file_read_whole(side->path, &bytes, &size, reason))
+        return error_set(error, "%s: %s", side->path, reason);
     bytes[size] = 0;
     const bool ok = digest_file_parse(side, bytes, size, error);
     free(bytes);
@@ -125,16 +125,16 @@ bool digest_file_read(diff_side *side, record_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------- */
 
-static bool fail_name(const diff_side *side, const char *name, record_error *error)
+static bool fail_name(const diff_side *side, const char *name, octreel_error *error)
 {
     char *shown = strdup(name);
-    record_fail(error, "%s: the name \"%s\" has a character that a line cannot hold", side->path,
-                shown ? make_printable(shown) : "");
+    error_set(error, "%s: the name \"%s\" has a character that a line cannot hold", side->path,
+              shown ? make_printable(shown) : "");
     free(shown);
     return false;
 }
 
-bool digest_file_write(FILE *out, const diff_side *side, record_error *error)
+bool digest_file_write(FILE *out, const diff_side *side, octreel_error *error)
 {
     const image_color ground = side->background;
     for (size_t i = 0; i < side->count; i++)
@@ -151,7 +151,7 @@ bool digest_file_write(FILE *out, const diff_side *side, record_error *error)
 
 /* ---- Digests of pictures ------------------------------------------------------------------------------------- */
 
-bool digest_frame(const char *path, image_color background, frame_digest *digest, image_error *error)
+bool digest_frame(const char *path, image_color background, frame_digest *digest, octreel_error *error)
 {
     image about;
     uint64_t pixels;
@@ -163,7 +163,7 @@ bool digest_frame(const char *path, image_color background, frame_digest *digest
 
 typedef struct digesting {
     diff_side *side;
-    image_error *errors; /* one a frame; empty where it was read */
+    octreel_error *errors; /* one a frame; empty where it was read */
 } digesting;
 
 static void digest_one(size_t i, void *context)
@@ -174,19 +174,19 @@ static void digest_one(size_t i, void *context)
         frame->digest = (frame_digest){0};
 }
 
-bool digest_all(diff_side *side, image_color background, record_error *error)
+bool digest_all(diff_side *side, image_color background, octreel_error *error)
 {
     if (side->kind == DIFF_DIGESTS)
         return true;
     digesting d = {side, calloc(side->count + 1, sizeof *d.errors)};
     if (!d.errors)
-        return record_fail(error, "there is no memory for the frames of %s", side->path);
+        return error_set(error, "there is no memory for the frames of %s", side->path);
     side->background = background;
     parallel_for(side->count, parallel_cores(), digest_one, &d);
     bool ok = true;
     for (size_t i = 0; ok && i < side->count; i++)
         if (side->frames[i].digest.width == 0)
-            ok = record_fail(error, "%s", d.errors[i].text);
+            ok = error_set(error, "%s", d.errors[i].text);
     free(d.errors);
     return ok;
 }

@@ -19,19 +19,19 @@
 #define DIGEST_FILE_BEGINNING "octreel-digests "
 
 /* Read the file at side->path into side. False with file, line and reason when it is none. */
-bool digest_file_read(diff_side *side, record_error *error);
+bool digest_file_read(diff_side *side, octreel_error *error);
 
 /* The same for text in memory, which is taken apart in place; it ends with a zero. */
-bool digest_file_parse(diff_side *side, char *text, size_t size, record_error *error);
+bool digest_file_parse(diff_side *side, char *text, size_t size, octreel_error *error);
 
 /* Write all frames of a side that has digests. False when a name has a character that no line can hold; whether the
  * stream took it all is left to the caller. */
-bool digest_file_write(FILE *out, const diff_side *side, record_error *error);
+bool digest_file_write(FILE *out, const diff_side *side, octreel_error *error);
 
 /* The digest of a picture. False with a sentence when it cannot be read. */
-bool digest_frame(const char *path, image_color background, frame_digest *digest, image_error *error);
+bool digest_frame(const char *path, image_color background, frame_digest *digest, octreel_error *error);
 
 /* Give every frame of a side its digest, on all cores. */
-bool digest_all(diff_side *side, image_color background, record_error *error);
+bool digest_all(diff_side *side, image_color background, octreel_error *error);
 
 #endif

@@ -7,7 +7,7 @@ typedef struct reading {
     const diff_frame *frames[2];
     image_color background;
     image *images;
-    image_error errors[2];
+    octreel_error errors[2];
     bool read[2];
 } reading;
 
@@ -17,7 +17,7 @@ static void read_one(size_t i, void *context)
     r->read[i] = image_read_png_over(r->frames[i]->path, r->background, &r->images[i], &r->errors[i]);
 }
 
-bool read_pair(const diff_pair *pair, image_color background, image images[2], image_error *error)
+bool read_pair(const diff_pair *pair, image_color background, image images[2], octreel_error *error)
 {
     reading r = {.frames = {pair->a, pair->b}, .background = background, .images = images};
     parallel_for(2, 2, read_one, &r);

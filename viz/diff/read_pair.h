@@ -6,6 +6,6 @@
 
 /* Decode both at the same time, over a background. The caller releases them; when false, with a sentence, both are
  * released. */
-bool read_pair(const diff_pair *pair, image_color background, image images[2], image_error *error);
+bool read_pair(const diff_pair *pair, image_color background, image images[2], octreel_error *error);
 
 #endif

@@ -170,7 +170,7 @@ bool row_reader_next(row_reader *r, image *band)
     return r->given;
 }
 
-const image_error *row_reader_trouble(const row_reader *r)
+const octreel_error *row_reader_trouble(const row_reader *r)
 {
     return r->error.text[0] ? &r->error : NULL;
 }

@@ -16,7 +16,7 @@ typedef struct row_reader {
     image_color background;
     bool whole;
     image_source *source; /* null: not opened yet, or it cannot be */
-    image_error error;    /* the sentence, where it fails */
+    octreel_error error;  /* the sentence, where it fails */
     int rows;             /* of a band */
     uint8_t *room;        /* of all bands, where the source has not all rows at hand */
     image bands[ROW_READER_BANDS];
@@ -45,6 +45,6 @@ const image *row_reader_about(row_reader *r);
 bool row_reader_next(row_reader *r, image *band);
 
 /* The sentence, when one of these failed, else null. */
-const image_error *row_reader_trouble(const row_reader *r);
+const octreel_error *row_reader_trouble(const row_reader *r);
 
 #endif

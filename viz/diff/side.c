@@ -44,10 +44,10 @@ static bool grow(diff_side *side)
 
 static char *path_of(const diff_side *side, const char *name)
 {
-    return side->kind == DIFF_PICTURE ? strdup(side->path) : folder_path(side->path, name);
+    return side->kind == DIFF_PICTURE ? strdup(side->path) : path_join(side->path, name);
 }
 
-bool diff_side_add(diff_side *side, const char *name, frame_digest digest, record_error *error)
+bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
 {
     diff_frame frame = {.name = strdup(name), .digest = digest};
     const bool has_path = side->kind != DIFF_DIGESTS;
@@ -59,7 +59,7 @@ bool diff_side_add(diff_side *side, const char *name, frame_digest digest, recor
     }
     free(frame.name);
     free(frame.path);
-    return record_fail(error, "there is no memory for the frames of %s", side->path);
+    return error_set(error, "there is no memory for the frames of %s", side->path);
 }
 
 static bool is_png_name(const char *name)
@@ -82,17 +82,17 @@ static bool belongs(const diff_side *side, const char *name)
 static bool is_recording(const char *folder)
 {
     struct stat status;
-    char *path = folder_path(folder, "recording.json");
+    char *path = path_join(folder, "recording.json");
     const bool is = path && stat(path, &status) == 0;
     free(path);
     return is;
 }
 
-static bool read_folder(diff_side *side, record_error *error)
+static bool read_folder(diff_side *side, octreel_error *error)
 {
     DIR *entries = opendir(side->path);
     if (!entries)
-        return record_fail(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
+        return error_set(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
     side->kind = is_recording(side->path) ? DIFF_RECORDING : DIFF_FOLDER;
     bool ok = true;
     errno = 0;
@@ -100,7 +100,7 @@ static bool read_folder(diff_side *side, record_error *error)
         if (belongs(side, entry->d_name))
             ok = diff_side_add(side, entry->d_name, (frame_digest){0}, error);
     if (ok && errno)
-        ok = record_fail(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
+        ok = error_set(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
     closedir(entries);
     if (side->count > 0)
         qsort(side->frames, side->count, sizeof *side->frames, by_name);
@@ -108,12 +108,12 @@ static bool read_folder(diff_side *side, record_error *error)
 }
 
 /* By their first bytes: a damaged picture is one still, and its reader tells what is wrong with it. */
-static bool read_file(diff_side *side, record_error *error)
+static bool read_file(diff_side *side, octreel_error *error)
 {
     char first[sizeof DIGEST_FILE_BEGINNING] = "";
     FILE *file = fopen(side->path, "rb");
     if (!file)
-        return record_fail(error, "%s: %s", side->path, strerror(errno));
+        return error_set(error, "%s: %s", side->path, strerror(errno));
     const size_t size = fread(first, 1, sizeof first - 1, file);
     fclose(file);
     if (size >= 4 && memcmp(first, "\x89PNG", 4) == 0) {
@@ -124,22 +124,22 @@ static bool read_file(diff_side *side, record_error *error)
         side->kind = DIFF_DIGESTS;
         return digest_file_read(side, error);
     }
-    return record_fail(error, "%s: it is no PNG, no folder and no file of digests", side->path);
+    return error_set(error, "%s: it is no PNG, no folder and no file of digests", side->path);
 }
 
-bool diff_side_open(diff_side *side, const char *path, record_error *error)
+bool diff_side_open(diff_side *side, const char *path, octreel_error *error)
 {
     struct stat status;
     bool ok;
     *side = (diff_side){.path = path};
     if (stat(path, &status) != 0)
-        ok = record_fail(error, "%s: %s", path, strerror(errno));
+        ok = error_set(error, "%s: %s", path, strerror(errno));
     else if (S_ISDIR(status.st_mode))
         ok = read_folder(side, error);
     else if (S_ISREG(status.st_mode))
         ok = read_file(side, error);
     else
-        ok = record_fail(error, "%s: it is neither a file nor a folder", path);
+        ok = error_set(error, "%s: it is neither a file nor a folder", path);
     if (!ok)
         diff_side_release(side);
     return ok;
@@ -161,16 +161,16 @@ const diff_frame *diff_side_find(const diff_side *side, const char *name)
     return side->count ? bsearch(&wanted, side->frames, side->count, sizeof wanted, by_name) : NULL;
 }
 
-static bool fact_spared(const diff_side *side, const char *name, const output_file *output, record_error *error)
+static bool fact_spared(const diff_side *side, const char *name, const output_file *output, octreel_error *error)
 {
-    char *path = folder_path(side->path, name);
-    const bool ok = path ? output_spares(output, path, error) : record_fail(error, "there is no memory");
+    char *path = path_join(side->path, name);
+    const bool ok = path ? output_spares(output, path, error) : error_no_memory(error);
     free(path);
     return ok;
 }
 
 /* What is not there yet takes the place of nothing: a folder may have many frames to ask. */
-bool diff_side_spared(const diff_side *side, const output_file *output, record_error *error)
+bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error)
 {
     struct stat status;
     if (!output->path || stat(output->path, &status) != 0)

@@ -4,7 +4,7 @@
 
 #include "folder.h"
 #include "image.h"
-#include "output_file.h"
+#include "folder.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -34,18 +34,18 @@ typedef struct diff_side {
 
 /* See what a path is. A folder stands for the PNG files in it, those with a dot before their name and those in folders
  * below left out; a recording for its frames. False when it is none of the four; side is then empty. */
-bool diff_side_open(diff_side *side, const char *path, record_error *error);
+bool diff_side_open(diff_side *side, const char *path, octreel_error *error);
 void diff_side_release(diff_side *side);
 
 /* False, with a sentence, where an output is a file that is read for this side: a frame, the file of digests, or one of
  * a recording's files beside its frames. */
-bool diff_side_spared(const diff_side *side, const output_file *output, record_error *error);
+bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error);
 
 /* "picture", "folder", "recording", "digests". */
 const char *diff_kind_name(diff_kind kind);
 
 /* Put a frame behind the others: a copy of its name, its path where the side's kind has paths, and its digest. */
-bool diff_side_add(diff_side *side, const char *name, frame_digest digest, record_error *error);
+bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
 
 /* The frame of this name, or null. */
 const diff_frame *diff_side_find(const diff_side *side, const char *name);

@@ -33,13 +33,13 @@ static uint64_t tick_of(const diff_frame *frame)
     return tick;
 }
 
-static bool ignore_in(replay *r, diff_pair *pair, const diff_frame *frame, record_error *error)
+static bool ignore_in(replay *r, diff_pair *pair, const diff_frame *frame, octreel_error *error)
 {
     rectangles to = {.pair = pair};
     if (!replay_to(r, tick_of(frame), error) || !replay_scene(r, error))
         return false;
     draw_text_boxes(&r->take.scene, add_rectangle, &to);
-    return !to.out_of_memory || record_fail(error, "there is no memory for what is ignored");
+    return !to.out_of_memory || error_set(error, "there is no memory for what is ignored");
 }
 
 static int by_tick(const void *a, const void *b)
@@ -49,7 +49,7 @@ static int by_tick(const void *a, const void *b)
 }
 
 /* Names are alike on both sides, so that one order by ticks serves both; beyond six digits it is not that of names. */
-static bool ignore_of(const diff_side *side, bool is_a, diff_pair **pairs, size_t count, record_error *error)
+static bool ignore_of(const diff_side *side, bool is_a, diff_pair **pairs, size_t count, octreel_error *error)
 {
     replay r;
     bool ok = replay_open(&r, side->path, error);
@@ -60,11 +60,11 @@ static bool ignore_of(const diff_side *side, bool is_a, diff_pair **pairs, size_
     return ok;
 }
 
-bool text_layer_ignore(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, record_error *error)
+bool text_layer_ignore(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, octreel_error *error)
 {
     if (a->kind != DIFF_RECORDING && b->kind != DIFF_RECORDING)
-        return record_fail(error, "where text is can be told of recordings alone: neither %s nor %s is one", a->path,
-                           b->path);
+        return error_set(error, "where text is can be told of recordings alone: neither %s nor %s is one", a->path,
+                         b->path);
     return count == 0 || ((a->kind != DIFF_RECORDING || ignore_of(a, true, pairs, count, error)) &&
                           (b->kind != DIFF_RECORDING || ignore_of(b, false, pairs, count, error)));
 }

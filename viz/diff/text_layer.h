@@ -6,6 +6,6 @@
 
 /* Add to each pair's ignored rectangles those that text covers in either frame. The sessions are played for it, nothing
  * is drawn. False, with a sentence, when neither side is a recording, or one cannot be played. */
-bool text_layer_ignore(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, record_error *error);
+bool text_layer_ignore(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, octreel_error *error);
 
 #endif

@@ -44,9 +44,9 @@ bool draw_context_built(draw_context kind)
 }
 
 /* The first kind that opens, in the order of draw_context; the first one's reason when none does. */
-static context *open_any(const renderer_choice *choice, draw_error *error)
+static context *open_any(const renderer_choice *choice, octreel_error *error)
 {
-    draw_error *reason = error, later;
+    octreel_error *reason = error, later;
     for (int i = DRAW_AUTO + 1; i < DRAW_CONTEXTS; i++) {
         context *c = kinds[i].open ? kinds[i].open(choice, reason) : NULL;
         if (c)
@@ -57,7 +57,7 @@ static context *open_any(const renderer_choice *choice, draw_error *error)
     return NULL;
 }
 
-context *context_open(const renderer_choice *choice, draw_error *error)
+context *context_open(const renderer_choice *choice, octreel_error *error)
 {
     if (choice->context == DRAW_AUTO)
         return open_any(choice, error);
@@ -68,7 +68,7 @@ context *context_open(const renderer_choice *choice, draw_error *error)
     return NULL;
 }
 
-void *context_load(const char *const *names, size_t count, const char *sentence, draw_error *error)
+void *context_load(const char *const *names, size_t count, const char *sentence, octreel_error *error)
 {
     void *library = NULL;
     for (size_t i = 0; !library && i < count; i++)

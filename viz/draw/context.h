@@ -23,7 +23,7 @@ struct context {
 };
 
 /* A kind opens a context and makes it current. Null, and a sentence, when it cannot be. */
-typedef context *context_opener(const renderer_choice *choice, draw_error *error);
+typedef context *context_opener(const renderer_choice *choice, octreel_error *error);
 context_opener context_osmesa_open, context_egl_open;
 
 /* The context of a choice; under DRAW_AUTO the first kind that opens. */
@@ -31,7 +31,7 @@ context_opener context_open;
 
 /* For the kinds: open the first library of these names that there is; null, with a sentence, when there is none. And
  * find one of its functions, which goes into *function, a pointer to a function of `size` bytes. */
-void *context_load(const char *const *names, size_t count, const char *sentence, draw_error *error);
+void *context_load(const char *const *names, size_t count, const char *sentence, octreel_error *error);
 bool context_symbol(void *library, const char *name, void *function, size_t size);
 
 #endif

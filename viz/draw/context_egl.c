@@ -117,7 +117,7 @@ static bool open_mesa(egl_context *c, bool any_renderer)
     return c->mesa && use(&c->face);
 }
 
-context *context_egl_open(const renderer_choice *choice, draw_error *error)
+context *context_egl_open(const renderer_choice *choice, octreel_error *error)
 {
     void *library = context_load(library_names, sizeof library_names / sizeof library_names[0],
                                  "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);

@@ -54,7 +54,7 @@ static bool open_mesa(osmesa_context *c, void *library)
     return c->mesa && use(&c->face);
 }
 
-context *context_osmesa_open(const renderer_choice *choice, draw_error *error)
+context *context_osmesa_open(const renderer_choice *choice, octreel_error *error)
 {
     (void)choice; /* it knows no other device than the processor */
     void *library = context_load(library_names, sizeof library_names / sizeof library_names[0],

@@ -7,15 +7,10 @@
 #ifndef DRAW_DRAW_H
 #define DRAW_DRAW_H
 
+#include "error.h"
 #include "scene.h"
 
-#define DRAW_MAX_SIDE 16384
-
 typedef struct renderer renderer;
-
-typedef struct draw_error {
-    char text[256]; /* one sentence */
-} draw_error;
 
 /* Kinds of off-screen contexts, in the order in which DRAW_AUTO tries those that are built. */
 typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
@@ -40,15 +35,15 @@ typedef struct renderer_info {
 } renderer_info;
 
 /* Open a context and a framebuffer of this size, samples counted. Null, and a sentence, when there is no such context,
- * when something else than llvmpipe would draw, or when the size is outside 1..DRAW_MAX_SIDE. Cost: some 10 ms and
+ * when something else than llvmpipe would draw, or when the size is outside 1..VIEW_MAX_SIDE. Cost: some 10 ms and
  * 85 MB. */
-renderer *renderer_open(int width, int height, const renderer_choice *choice, draw_error *error);
+renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error);
 void renderer_close(renderer *r);
 
 renderer_info renderer_about(const renderer *r);
 
 /* Draw a scene whose picture has the renderer's size in samples into width * height indices, rows from the top. */
-bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error);
+bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error *error);
 
 /* A rectangle of the picture, in its pixels; it may reach beyond the border. */
 typedef struct draw_box {
@@ -87,7 +82,7 @@ uint64_t draw_id_of(const scene *s, draw_element element);
 /* Draw a scene as renderer_draw() does, the same quads in the same order; but in place of its colour each sample gets
  * the number of the element that was painted there last. Where boxes share an edge that is the shallowest of those
  * which are there; where points share a quad, the one it was painted for: renderer_pixel() names them all. */
-bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, draw_error *error);
+bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error);
 
 /* What an element has to do with a pixel, which is view_samples() squared samples. */
 typedef struct draw_touch {
@@ -108,6 +103,6 @@ void draw_touches_release(draw_touches *list);
 
 /* Fill a list with all elements of a pixel of the picture, from the one on top to the one beneath all others: also
  * those that others cover. A zeroed list is an empty one. */
-bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, draw_error *error);
+bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, octreel_error *error);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-bool gl_load(gl *functions, const context *c, draw_error *error)
+bool gl_load(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;
 #define GL_LOOK_UP(result, name, parameters)                                                                           \

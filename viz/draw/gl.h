@@ -42,6 +42,6 @@ typedef struct gl {
 } gl;
 
 /* Look all of them up. False, and a sentence that names the first one that is missing. */
-bool gl_load(gl *functions, const context *c, draw_error *error);
+bool gl_load(gl *functions, const context *c, octreel_error *error);
 
 #endif

@@ -21,14 +21,14 @@ static uint64_t stroke_number(const scene *s, const painter *p, const quad *q)
            paint_edge_count(p);
 }
 
-static bool no_memory(draw_error *error)
+static bool no_memory(octreel_error *error)
 {
     snprintf(error->text, sizeof error->text, "there is no memory to tell what is drawn where");
     return false;
 }
 
 /* One byte of each sample's stroke. */
-static bool draw_byte(renderer *r, const scene *s, painter *p, unsigned shift, uint8_t *bytes, draw_error *error)
+static bool draw_byte(renderer *r, const scene *s, painter *p, unsigned shift, uint8_t *bytes, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
     const draw_box all = {0, 0, s->view.width * samples, s->view.height * samples};
@@ -37,7 +37,7 @@ static bool draw_byte(renderer *r, const scene *s, painter *p, unsigned shift, u
     return renderer_rasterise(r, p->quads.items, p->quads.count, &all, bytes, error);
 }
 
-static bool draw_strokes(renderer *r, const scene *s, painter *p, size_t size, uint32_t *numbers, draw_error *error)
+static bool draw_strokes(renderer *r, const scene *s, painter *p, size_t size, uint32_t *numbers, octreel_error *error)
 {
     const uint64_t largest =
         paint_edge_count(p) + s->segments.count + s->markers.count + s->panels.count + s->labels.count;
@@ -56,7 +56,7 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, size_t size, u
 }
 
 /* From strokes to elements. */
-static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, draw_error *error)
+static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, octreel_error *error)
 {
     const scene fine = paint_samples(s);
     const size_t width = (size_t)fine.view.width, size = width * (size_t)fine.view.height;
@@ -75,7 +75,7 @@ static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, draw
     return true;
 }
 
-bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, draw_error *error)
+bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error)
 {
     if (!renderer_fits(r, s, error))
         return false;

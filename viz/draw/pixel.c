@@ -131,7 +131,7 @@ static bool may_reach(const quad *q, const draw_box *part)
 }
 
 /* The samples that a quad covers, as bits; nothing but `ok` tells that they could not be found. */
-static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, draw_error *error)
+static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
     quad alone = *q;
@@ -172,7 +172,7 @@ static void add_quad(probe *p, const quad *q, unsigned bits)
     p->taken |= bits;
 }
 
-static bool probe_quads(renderer *r, probe *p, draw_error *error)
+static bool probe_quads(renderer *r, probe *p, octreel_error *error)
 {
     bool ok = true;
     for (size_t i = p->painter.quads.count; ok && i-- > 0;) {
@@ -184,7 +184,7 @@ static bool probe_quads(renderer *r, probe *p, draw_error *error)
     return ok;
 }
 
-static bool is_inside(const scene *s, int x, int y, draw_error *error)
+static bool is_inside(const scene *s, int x, int y, octreel_error *error)
 {
     if (x >= 0 && y >= 0 && x < s->view.width && y < s->view.height)
         return true;
@@ -193,7 +193,7 @@ static bool is_inside(const scene *s, int x, int y, draw_error *error)
     return false;
 }
 
-bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, draw_error *error)
+bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
     probe p = {.picture = s, .fine = paint_samples(s), .part = {x * samples, y * samples, samples, samples}};

@@ -5,10 +5,10 @@
 #include "quads.h"
 
 /* Whether a scene's picture has the renderer's size in samples; a sentence where it has not. */
-bool renderer_fits(const renderer *r, const scene *s, draw_error *error);
+bool renderer_fits(const renderer *r, const scene *s, octreel_error *error);
 
 /* Draw quads in this order on nothing but zeros, and read the bytes of a part of what is drawn; it lies within it. */
 bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw_box *part, uint8_t *bytes,
-                        draw_error *error);
+                        octreel_error *error);
 
 #endif

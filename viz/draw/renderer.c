@@ -34,7 +34,7 @@ struct renderer {
 };
 
 /* Only llvmpipe is known to give the same pixels everywhere. */
-static bool check_driver(renderer *r, bool any, draw_error *error)
+static bool check_driver(renderer *r, bool any, octreel_error *error)
 {
     const char *name = (const char *)r->gl.GetString(GL_RENDERER);
     if (name && (any || strncmp(name, "llvmpipe", 8) == 0))
@@ -46,16 +46,16 @@ static bool check_driver(renderer *r, bool any, draw_error *error)
     return false;
 }
 
-static bool check_size(int width, int height, draw_error *error)
+static bool check_size(int width, int height, octreel_error *error)
 {
-    if (width >= 1 && height >= 1 && width <= DRAW_MAX_SIDE && height <= DRAW_MAX_SIDE)
+    if (width >= 1 && height >= 1 && width <= VIEW_MAX_SIDE && height <= VIEW_MAX_SIDE)
         return true;
     snprintf(error->text, sizeof error->text, "a picture of %d x %d pixels cannot be drawn: each side must be 1 to %d",
-             width, height, DRAW_MAX_SIDE);
+             width, height, VIEW_MAX_SIDE);
     return false;
 }
 
-static bool make_framebuffer(renderer *r, draw_error *error)
+static bool make_framebuffer(renderer *r, octreel_error *error)
 {
     const gl *gl = &r->gl;
     GLint limits[2] = {0, 0}, largest = 0;
@@ -107,7 +107,7 @@ static void make_indices(renderer *r)
         r->indices[i] = i / 6 * 4 + corners[i % 6];
 }
 
-renderer *renderer_open(int width, int height, const renderer_choice *choice, draw_error *error)
+renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error)
 {
     if (!check_size(width, height, error))
         return NULL;
@@ -164,13 +164,13 @@ static void put_vertices(renderer *r, const quad *quads, size_t count)
                 (float)quads[i].x[j] * scale - 1, (float)quads[i].y[j] * scale - 1, {quads[i].color, 0, 0, 255}};
 }
 
-static bool fail(draw_error *error, const char *sentence)
+static bool fail(octreel_error *error, const char *sentence)
 {
     snprintf(error->text, sizeof error->text, "%s", sentence);
     return false;
 }
 
-bool renderer_fits(const renderer *r, const scene *s, draw_error *error)
+bool renderer_fits(const renderer *r, const scene *s, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
     return (s->view.width * samples == r->width && s->view.height * samples == r->height) ||
@@ -179,7 +179,7 @@ bool renderer_fits(const renderer *r, const scene *s, draw_error *error)
 
 /* Draw quads on a ground of one byte. */
 static bool send_quads(renderer *r, const quad *quads, size_t count, uint8_t ground, const draw_box *part,
-                       uint8_t *bytes, draw_error *error)
+                       uint8_t *bytes, octreel_error *error)
 {
     if (!r->context->use(r->context))
         return fail(error, "the renderer's context cannot be made current");
@@ -199,7 +199,7 @@ static bool send_quads(renderer *r, const quad *quads, size_t count, uint8_t gro
 }
 
 bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw_box *part, uint8_t *bytes,
-                        draw_error *error)
+                        octreel_error *error)
 {
     return send_quads(r, quads, count, 0, part, bytes, error);
 }
@@ -207,7 +207,7 @@ bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw
 /* Who rasterises for the canvas, and why it failed. */
 typedef struct sender {
     renderer *renderer;
-    draw_error *error;
+    octreel_error *error;
     bool failed;
 } sender;
 
@@ -223,7 +223,7 @@ static bool send_rows(void *context, const quad *quads, size_t count, uint8_t gr
     return !to->failed;
 }
 
-bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, draw_error *error)
+bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error *error)
 {
     sender to = {r, error, false};
     if (!renderer_fits(r, s, error))

@@ -9,7 +9,7 @@ static octreel_status begin(live *l, reel *r, batch *first)
     if (batch_apply(first, &start, &spare))
         status = reel_begin(r, l->settings, l->folder, &start, first, &l->error);
     else
-        record_fail(&l->error, "there is no memory");
+        error_set(&l->error, "there is no memory");
     points_release(&start);
     points_release(&spare);
     return status;
@@ -30,7 +30,7 @@ static void film_queue(live *l, reel *r)
 static void work(void *context)
 {
     live *l = context;
-    record_error late;
+    octreel_error late;
     reel r = {0};
     film_queue(l, &r);
     const bool failed = l->status != OCTREEL_OK;

@@ -14,7 +14,7 @@ typedef struct live {
     uint64_t ticks; /* that were put */
     /* The worker's, until the queue is broken or the worker has ended. */
     octreel_status status;
-    record_error error;
+    octreel_error error;
 } live;
 
 /* Start the worker. Errors: NO_MEMORY. */

@@ -16,7 +16,7 @@ struct octreel_recorder {
     bool had_tree;
     ring ring; /* most is 0 where ticks are filmed as they come */
     live live;
-    record_error error;
+    octreel_error error;
 };
 
 const char *octreel_status_text(octreel_status status)
@@ -60,7 +60,7 @@ static octreel_status open_folder(octreel_recorder *r, const octreel_recorder_de
     if (def->ring > 0)
         return OCTREEL_OK;
     if (!def->folder) {
-        record_fail(&r->error, "folder: there is none, and no ring");
+        error_set(&r->error, "folder: there is none, and no ring");
         return OCTREEL_NULL_ARGUMENT;
     }
     r->folder = strdup(def->folder);
@@ -77,7 +77,7 @@ static octreel_status start(octreel_recorder *r, const octreel_recorder_def *def
     if (status == OCTREEL_OK && r->ring.most == 0)
         status = live_start(&r->live, &r->settings, r->folder, def);
     if (status == OCTREEL_NO_MEMORY)
-        record_fail(&r->error, "%s", octreel_status_text(status));
+        error_set(&r->error, "%s", octreel_status_text(status));
     return status;
 }
 
@@ -124,7 +124,7 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
 /* Write the sentence of a status, and return it. */
 static octreel_status fail(octreel_recorder *r, octreel_status status)
 {
-    record_fail(&r->error, "%s", octreel_status_text(status));
+    error_set(&r->error, "%s", octreel_status_text(status));
     return status;
 }
 
@@ -144,7 +144,7 @@ static octreel_status check_queries(octreel_recorder *r, const octreel_tick_info
         const octree_status status = is_finite(&about->queries[i]) ? octree_input_check(&one) : OCTREE_NOT_FINITE;
         if (status == OCTREE_OK)
             continue;
-        record_fail(&r->error, "queries[%zu]: %s", i, octree_status_text(status));
+        error_set(&r->error, "queries[%zu]: %s", i, octree_status_text(status));
         return OCTREEL_BAD_QUERY;
     }
     return OCTREEL_OK;
@@ -157,7 +157,7 @@ static octreel_status check_shapes(octreel_recorder *r, const octreel_tick_info 
         const octree_status status = octree_input_check(&one);
         if (status == OCTREE_OK)
             continue;
-        record_fail(&r->error, "shapes[%zu]: %s", i, octree_status_text(status));
+        error_set(&r->error, "shapes[%zu]: %s", i, octree_status_text(status));
         return OCTREEL_BAD_SHAPE;
     }
     return OCTREEL_OK;
@@ -182,7 +182,7 @@ static octreel_status read_tree(octreel_recorder *r, const octree *tree)
         return fail(r, OCTREEL_OTHER_TREE);
     const octreel_status status = points_read(&r->next, &r->spare, tree, &clash);
     if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
-        record_fail(&r->error, "%s: %" PRIu64, octreel_status_text(status), clash);
+        error_set(&r->error, "%s: %" PRIu64, octreel_status_text(status), clash);
     else if (status != OCTREEL_OK)
         fail(r, status);
     return status;

@@ -23,14 +23,14 @@ static octree_body *make_bodies(const points *start)
     return bodies;
 }
 
-static octreel_status fail_memory(record_error *error, octreel_status status)
+static octreel_status fail_memory(octreel_error *error, octreel_status status)
 {
-    record_fail(error, "there is no memory");
+    error_no_memory(error);
     return status;
 }
 
 octreel_status reel_begin(reel *r, const settings *s, const char *folder, const points *start, batch *first,
-                          record_error *error)
+                          octreel_error *error)
 {
     bool drawn = true;
     film_options film = s->film;
@@ -59,7 +59,7 @@ octreel_status reel_begin(reel *r, const settings *s, const char *folder, const 
     return drawn ? OCTREEL_BAD_FOLDER : OCTREEL_CANNOT_DRAW;
 }
 
-octreel_status reel_tick(reel *r, batch *b, record_error *error)
+octreel_status reel_tick(reel *r, batch *b, octreel_error *error)
 {
     number_tick(b, ++r->tick);
     if (!edit_order_make(&r->order, b, r->tick))
@@ -74,7 +74,7 @@ octreel_status reel_tick(reel *r, batch *b, record_error *error)
     return film_live_tick(r->film, &input, error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
-octreel_status reel_end(reel *r, record_error *error)
+octreel_status reel_end(reel *r, octreel_error *error)
 {
     edit_order_release(&r->order);
     const bool ok = film_live_close(r->film, error);

@@ -16,12 +16,12 @@ typedef struct reel {
 /* Film tick 0 into a folder: these points, and the queries and shapes of a batch. Errors, with the sentence:
  * CANNOT_DRAW, BAD_FOLDER, NO_MEMORY; there is nothing to be ended then. */
 octreel_status reel_begin(reel *r, const settings *s, const char *folder, const points *start, batch *first,
-                          record_error *error);
+                          octreel_error *error);
 
 /* Film the next tick. Errors: BROKEN. */
-octreel_status reel_tick(reel *r, batch *b, record_error *error);
+octreel_status reel_tick(reel *r, batch *b, octreel_error *error);
 
 /* Complete the recording. Errors: BROKEN. */
-octreel_status reel_end(reel *r, record_error *error);
+octreel_status reel_end(reel *r, octreel_error *error);
 
 #endif

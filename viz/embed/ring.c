@@ -61,14 +61,14 @@ typedef struct writing {
     const settings *settings;
     const char *folder;
     octreel_status status;
-    record_error *error;
+    octreel_error *error;
 } writing;
 
 static void film_all(void *context)
 {
     writing *w = context;
     reel r;
-    record_error late;
+    octreel_error late;
     w->status = reel_begin(&r, w->settings, w->folder, &w->ring->start, w->ring->first, w->error);
     if (w->status != OCTREEL_OK)
         return;
@@ -78,12 +78,12 @@ static void film_all(void *context)
     w->status = w->status == OCTREEL_OK ? ended : w->status;
 }
 
-octreel_status ring_write(ring *r, const settings *s, const char *folder, record_error *error)
+octreel_status ring_write(ring *r, const settings *s, const char *folder, octreel_error *error)
 {
     writing w = {.ring = r, .settings = s, .folder = folder, .error = error};
     worker thread;
     if (!worker_start(&thread, film_all, &w)) {
-        record_fail(error, "a thread cannot be started");
+        error_set(error, "a thread cannot be started");
         return OCTREEL_NO_MEMORY;
     }
     worker_join(&thread);

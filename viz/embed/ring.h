@@ -21,6 +21,6 @@ void ring_release(ring *r);
 bool ring_put(ring *r, batch *b);
 
 /* Film it all into a folder, in a thread. Errors: those of a reel. */
-octreel_status ring_write(ring *r, const settings *s, const char *folder, record_error *error);
+octreel_status ring_write(ring *r, const settings *s, const char *folder, octreel_error *error);
 
 #endif

@@ -5,26 +5,26 @@
 #include <inttypes.h>
 #include <math.h>
 
-static octreel_status refuse(record_error *error, const char *option, const char *name)
+static octreel_status refuse(octreel_error *error, const char *option, const char *name)
 {
-    record_fail(error, "%s: there is no \"%s\"; octreel record --help lists what there is", option, name);
+    error_set(error, "%s: there is no \"%s\"; octreel record --help lists what there is", option, name);
     return OCTREEL_BAD_OPTION;
 }
 
 /* ---- The tree ----------------------------------------------------------------------------------------------- */
 
-static octreel_status settle_tree(settings *s, const octree_def *def, record_error *error)
+static octreel_status settle_tree(settings *s, const octree_def *def, octreel_error *error)
 {
     octree *tree;
     s->tree = *def;
     s->tree.allocator = (octree_allocator){0}; /* the program's may not be used from the worker */
     if (def->leaf_capacity == OCTREE_AUTO) {
-        record_fail(error, "tree: give the capacity in force, which is that of octree_definition(tree)");
+        error_set(error, "tree: give the capacity in force, which is that of octree_definition(tree)");
         return OCTREEL_BAD_OPTION;
     }
     const octree_status status = octree_create(&s->tree, &tree);
     if (status != OCTREE_OK) {
-        record_fail(error, "tree: %s", octree_status_text(status));
+        error_set(error, "tree: %s", octree_status_text(status));
         return status == OCTREE_NO_MEMORY ? OCTREEL_NO_MEMORY : OCTREEL_BAD_OPTION;
     }
     s->tree = octree_definition(tree);
@@ -46,21 +46,21 @@ bool settings_fit(const settings *s, const octree *tree)
 
 /* ---- The player --------------------------------------------------------------------------------------------- */
 
-static octreel_status settle_player(settings *s, const octree_player *player, record_error *error)
+static octreel_status settle_player(settings *s, const octree_player *player, octreel_error *error)
 {
     s->player = (octree_player){.kind = OCTREE_PLAYER_NONE};
     if (player->kind == OCTREE_PLAYER_NONE)
         return OCTREEL_OK;
     if (player->kind != OCTREE_PLAYER_BODY) {
-        record_fail(error, "player: it is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; keys are the program's own matter");
+        error_set(error, "player: it is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; keys are the program's own matter");
         return OCTREEL_BAD_OPTION;
     }
     if (!(player->box_size >= 0) || isinf(player->box_size)) {
-        record_fail(error, "player: box_size must be finite and not negative");
+        error_set(error, "player: box_size must be finite and not negative");
         return OCTREEL_BAD_OPTION;
     }
     if (player->id >= SESSION_ID_LIMIT) {
-        record_fail(error, "player: %s: %" PRIu64, octreel_status_text(OCTREEL_BAD_ID), player->id);
+        error_set(error, "player: %s: %" PRIu64, octreel_status_text(OCTREEL_BAD_ID), player->id);
         return OCTREEL_BAD_ID;
     }
     s->player = (octree_player){
@@ -70,7 +70,7 @@ static octreel_status settle_player(settings *s, const octree_player *player, re
 
 /* ---- The view ----------------------------------------------------------------------------------------------- */
 
-static octreel_status settle_names(view *v, const octreel_recorder_def *def, record_error *error)
+static octreel_status settle_names(view *v, const octreel_recorder_def *def, octreel_error *error)
 {
     const char *bad;
     if (!view_camera_parse(def->camera, &v->camera))
@@ -84,7 +84,7 @@ static octreel_status settle_names(view *v, const octreel_recorder_def *def, rec
     return OCTREEL_OK;
 }
 
-static octreel_status settle_numbers(view *v, const octreel_recorder_def *def, record_error *error)
+static octreel_status settle_numbers(view *v, const octreel_recorder_def *def, octreel_error *error)
 {
     const int aa = def->aa;
     v->width = def->width;
@@ -93,23 +93,23 @@ static octreel_status settle_numbers(view *v, const octreel_recorder_def *def, r
     v->lod = def->lod;
     v->budget = def->budget;
     v->aa = aa;
-    const bool sized = aa >= 1 && def->width >= 1 && def->height >= 1 && def->width <= DRAW_MAX_SIDE / aa &&
-                       def->height <= DRAW_MAX_SIDE / aa;
+    const bool sized = aa >= 1 && def->width >= 1 && def->height >= 1 && def->width <= VIEW_MAX_SIDE / aa &&
+                       def->height <= VIEW_MAX_SIDE / aa;
     if (aa != 1 && aa != 2 && aa != 4)
-        record_fail(error, "aa: there is no anti-aliasing by %d; there are 1, 2 and 4", aa);
+        error_set(error, "aa: there is no anti-aliasing by %d; there are 1, 2 and 4", aa);
     else if (!sized)
-        record_fail(error, "a frame of %d x %d pixels cannot be drawn: a side must be 1 to %d", def->width, def->height,
-                    DRAW_MAX_SIDE / aa);
-    else if (!(def->lod >= 0 && def->lod <= DRAW_MAX_SIDE))
-        record_fail(error, "lod: it must be 0 to %d pixels", DRAW_MAX_SIDE);
+        error_set(error, "a frame of %d x %d pixels cannot be drawn: a side must be 1 to %d", def->width, def->height,
+                  VIEW_MAX_SIDE / aa);
+    else if (!(def->lod >= 0 && def->lod <= VIEW_MAX_SIDE))
+        error_set(error, "lod: it must be 0 to %d pixels", VIEW_MAX_SIDE);
     else if (def->budget >= SESSION_ID_LIMIT)
-        record_fail(error, "budget: it must be below 2^53; 0 is none");
+        error_set(error, "budget: it must be below 2^53; 0 is none");
     else
         return OCTREEL_OK;
     return OCTREEL_BAD_OPTION;
 }
 
-static octreel_status settle_film(settings *s, const octreel_recorder_def *def, record_error *error)
+static octreel_status settle_film(settings *s, const octreel_recorder_def *def, octreel_error *error)
 {
     renderer_choice *choice = &s->film.renderer;
     s->film.every = def->every;
@@ -117,21 +117,21 @@ static octreel_status settle_film(settings *s, const octreel_recorder_def *def, 
     if (!draw_context_parse(def->context, &choice->context))
         return refuse(error, "context", def->context);
     if (choice->any_renderer && choice->context != DRAW_EGL)
-        record_fail(error, "any_renderer: it goes with the context \"egl\" alone");
+        error_set(error, "any_renderer: it goes with the context \"egl\" alone");
     else if (def->every < 1 || def->every > SESSION_LAST_TICK)
-        record_fail(error, "every: it must be 1 to %d", SESSION_LAST_TICK);
+        error_set(error, "every: it must be 1 to %d", SESSION_LAST_TICK);
     else if (def->queue_ticks < 1)
-        record_fail(error, "queue_ticks: the queue must hold at least one tick");
+        error_set(error, "queue_ticks: the queue must hold at least one tick");
     else
         return OCTREEL_OK;
     return OCTREEL_BAD_OPTION;
 }
 
-octreel_status settings_make(settings *s, const octreel_recorder_def *def, record_error *error)
+octreel_status settings_make(settings *s, const octreel_recorder_def *def, octreel_error *error)
 {
     *s = (settings){.film.view = view_default()};
     if (!def->camera || !def->layers || !def->color_by || !def->diagram || !def->context) {
-        record_fail(error, "a name in the definition is null; start from octreel_recorder_def_default()");
+        error_set(error, "a name in the definition is null; start from octreel_recorder_def_default()");
         return OCTREEL_NULL_ARGUMENT;
     }
     octreel_status status = settle_tree(s, &def->tree, error);

@@ -12,7 +12,7 @@ typedef struct settings {
 } settings;
 
 /* Errors: NULL_ARGUMENT, BAD_OPTION, BAD_ID, with the sentence. */
-octreel_status settings_make(settings *s, const octreel_recorder_def *def, record_error *error);
+octreel_status settings_make(settings *s, const octreel_recorder_def *def, octreel_error *error);
 
 /* Whether a tree has the world and the options that were settled on; null has any. */
 bool settings_fit(const settings *s, const octree *tree);

@@ -20,11 +20,11 @@ typedef struct playing {
     cause *found;
 } playing;
 
-static bool open_game(playing *p, int side, const octree_session *session, record_error *error)
+static bool open_game(playing *p, int side, const octree_session *session, octreel_error *error)
 {
     const octree_status status = octree_game_create(session, &p->games[side]);
-    return status == OCTREE_OK || record_fail(error, "the session of the %s cannot be played: %s",
-                                              side ? "frames" : "reference", octree_status_text(status));
+    return status == OCTREE_OK || error_set(error, "the session of the %s cannot be played: %s",
+                                            side ? "frames" : "reference", octree_status_text(status));
 }
 
 /* ---- One tick ------------------------------------------------------------------------------------------------ */
@@ -84,7 +84,7 @@ static void note(cause *c, uint64_t tick)
 }
 
 /* Trees are taken apart only where somebody wants to know. */
-static bool look_at(playing *p, record_error *error)
+static bool look_at(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};
     const uint64_t tick = octree_game_tick(games[0])->number;
@@ -108,20 +108,20 @@ static bool look_at(playing *p, record_error *error)
     cause_facts_release(&facts);
     p->found->compared++;
     if (!ok)
-        return record_fail(error, "there is no memory for what differs in tick %" PRIu64, tick);
+        return error_set(error, "there is no memory for what differs in tick %" PRIu64, tick);
     return !p->watch || p->watch(p->context, games, differs, error);
 }
 
 /* ---- All of them --------------------------------------------------------------------------------------------- */
 
-static bool advance(playing *p, record_error *error)
+static bool advance(playing *p, octreel_error *error)
 {
     for (int i = 0; i < 2; i++) {
         const octree_status status = octree_game_advance(p->games[i]);
         if (status != OCTREE_OK)
-            return record_fail(error, "tick %" PRIu64 " of the %s cannot be played: %s",
-                               octree_game_tick(p->games[i])->number + 1, i ? "frames" : "reference",
-                               octree_status_text(status));
+            return error_set(error, "tick %" PRIu64 " of the %s cannot be played: %s",
+                             octree_game_tick(p->games[i])->number + 1, i ? "frames" : "reference",
+                             octree_status_text(status));
     }
     return true;
 }
@@ -134,7 +134,7 @@ static bool same_rules(const octree *a, const octree *b)
 }
 
 bool cause_find(const octree_session *a, const octree_session *b, const cause_look look[2], const cause_wanted *wanted,
-                cause_watch *watch, void *context, cause *c, record_error *error)
+                cause_watch *watch, void *context, cause *c, octreel_error *error)
 {
     playing p = {.wanted = wanted, .watch = watch, .context = context, .found = c};
     *c = (cause){0};
@@ -143,7 +143,7 @@ bool cause_find(const octree_session *a, const octree_session *b, const cause_lo
         cause_compare_looks(&look[0], &look[1], &c->look);
     p.shows_heat = look && ((look[0].view.layers | look[1].view.layers) & VIEW_HEAT_LAYERS);
     bool ok = (!c->session.out_of_memory && !c->look.out_of_memory) ||
-              record_fail(error, "there is no memory for what differs");
+              error_set(error, "there is no memory for what differs");
     ok = ok && open_game(&p, 0, a, error) && open_game(&p, 1, b, error);
     p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
     for (bool over = false; ok && !over;) {

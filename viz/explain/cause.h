@@ -31,13 +31,13 @@ typedef struct cause {
 
 /* Called at each tick that both have, with the games at it, and whether what happened differs. False, with a sentence,
  * ends the playing. */
-typedef bool cause_watch(void *context, const octree_game *const games[2], bool differs, record_error *error);
+typedef bool cause_watch(void *context, const octree_game *const games[2], bool differs, octreel_error *error);
 
 /* Compare two sessions and play them side by side. `look` is what both are looked at with, or null: it adds what shows
  * in pictures alone. `watch` may be null. False with a sentence when one cannot be played; *c is to be released in any
  * case. */
 bool cause_find(const octree_session *a, const octree_session *b, const cause_look look[2], const cause_wanted *wanted,
-                cause_watch *watch, void *context, cause *c, record_error *error);
+                cause_watch *watch, void *context, cause *c, octreel_error *error);
 void cause_release(cause *c);
 
 /* The facts of a tick that is told in detail, or null. */

@@ -43,7 +43,7 @@ typedef struct watching {
 } watching;
 
 /* Lines that are the same, of ticks that are the same, are both right or both wrong. */
-static bool check_lines(explanation *e, const octree_game *const games[2], bool differs, record_error *error)
+static bool check_lines(explanation *e, const octree_game *const games[2], bool differs, octreel_error *error)
 {
     recorded *const sides[2] = {&e->sides[0], &e->sides[1]};
     const uint64_t tick = octree_game_tick(games[0])->number;
@@ -56,7 +56,7 @@ static bool check_lines(explanation *e, const octree_game *const games[2], bool 
     return recorded_check_line(sides[0], games[0], error) && recorded_check_line(sides[1], games[1], error);
 }
 
-static bool watch(void *context, const octree_game *const games[2], bool differs, record_error *error)
+static bool watch(void *context, const octree_game *const games[2], bool differs, octreel_error *error)
 {
     watching *w = context;
     const uint64_t tick = octree_game_tick(games[0])->number;
@@ -93,11 +93,11 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
     return true;
 }
 
-static bool play_both(explanation *e, const diff_result *result, uint64_t most, record_error *error)
+static bool play_both(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     const cause_look looks[2] = {e->sides[0].look, e->sides[1].look};
     watching w = {.e = e};
-    bool ok = list_pairs(&w, result, most) || record_fail(error, "there is no memory for %zu ticks", result->count);
+    bool ok = list_pairs(&w, result, most) || error_set(error, "there is no memory for %zu ticks", result->count);
     const cause_wanted wanted = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, w.ticks, w.count};
     ok = ok && cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, looks, &wanted,
                           watch, &w, &e->cause, error);
@@ -162,13 +162,13 @@ static void print_headline(FILE *out, const diff_result *result)
         fprintf(out, "%s: %s", diff_pair_name(first), first->cause);
 }
 
-static bool say(diff_result *result, record_error *error)
+static bool say(diff_result *result, octreel_error *error)
 {
     text_stream s;
     if (text_stream_begin(&s))
         print_headline(s.stream, result);
     const bool ok = text_stream_end(&s, &result->headline);
-    return ok || record_fail(error, "there is no memory for a headline");
+    return ok || error_set(error, "there is no memory for a headline");
 }
 
 /* ---- Both kinds of sides ------------------------------------------------------------------------------------- */
@@ -176,7 +176,7 @@ static bool say(diff_result *result, record_error *error)
 /* Whether a file is in one of them alone, or not the same in both. */
 static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
 {
-    char *paths[2] = {folder_path(a->path, name), folder_path(b->path, name)};
+    char *paths[2] = {path_join(a->path, name), path_join(b->path, name)};
     const bool there = paths[0] && paths[1] && (access(paths[0], F_OK) == 0 || access(paths[1], F_OK) == 0);
     const bool differs = there && !same_bytes(paths[0], paths[1]);
     free(paths[0]);
@@ -194,7 +194,7 @@ static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_re
             file_differs(a, b, "ticks.jsonl"));
 }
 
-static bool explain_pairs(diff_result *result, uint64_t most, record_error *error)
+static bool explain_pairs(diff_result *result, uint64_t most, octreel_error *error)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < result->count && most > 0; i++) {
@@ -206,27 +206,27 @@ static bool explain_pairs(diff_result *result, uint64_t most, record_error *erro
     return ok;
 }
 
-static bool explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, record_error *error)
+static bool explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, octreel_error *error)
 {
     explanation *e = NULL;
     bool ok = true;
     if (a->kind == DIFF_RECORDING && b->kind == DIFF_RECORDING) {
         e = result->explanation = calloc(1, sizeof *e);
-        ok = e || record_fail(error, "there is no memory");
+        ok = e || error_no_memory(error);
         ok = ok && recorded_open(&e->sides[0], a, error) && recorded_open(&e->sides[1], b, error) &&
              play_both(e, result, most, error);
     }
     return ok && explain_pairs(result, most, error) && say(result, error);
 }
 
-bool diff_explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, record_error *error)
+bool diff_explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, octreel_error *error)
 {
-    record_error why;
+    octreel_error why;
     if (most == 0 || !any_to_explain(a, b, result) || explain(a, b, most, result, &why))
         return true;
     explanation_free(result->explanation);
     result->explanation = NULL;
     result->verdict = DIFF_TROUBLE;
     result->trouble = strdup(why.text);
-    return result->trouble || record_fail(error, "%s", why.text);
+    return result->trouble || error_set(error, "%s", why.text);
 }

@@ -31,7 +31,7 @@ typedef struct explanation {
 /* Say why, of the first `most` pairs and ticks that differ; 0 says nothing. What goes wrong is result->trouble, and
  * makes the verdict one; false when there is no memory even for that. Two recordings whose frames are the same are
  * explained where their sessions, views or ticks are not. */
-bool diff_explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, record_error *error);
+bool diff_explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, octreel_error *error);
 void explanation_free(explanation *e);
 
 /* Whether a pair has something to explain. */

@@ -25,7 +25,7 @@ static origins read_origins(const diff_pair *pair)
 /* Whether a frame has the pixels that it says were drawn. */
 static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
 {
-    image_error ignored;
+    octreel_error ignored;
     image about;
     uint64_t pixels;
     return image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored) && pixels == origin->pixels;
@@ -133,11 +133,11 @@ static void print_cause(FILE *out, const explanation *e, diff_pair *pair)
         print_trace(out, e, tick);
 }
 
-bool explain_pair(const explanation *e, diff_pair *pair, record_error *error)
+bool explain_pair(const explanation *e, diff_pair *pair, octreel_error *error)
 {
     text_stream s;
     const bool begun = text_stream_begin(&s);
     if (begun)
         print_cause(s.stream, e, pair);
-    return (text_stream_end(&s, &pair->cause) && begun) || record_fail(error, "there is no memory for a cause");
+    return (text_stream_end(&s, &pair->cause) && begun) || error_set(error, "there is no memory for a cause");
 }

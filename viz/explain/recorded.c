@@ -12,7 +12,7 @@
 /* A longer line is not read to its end. */
 #define LONGEST_LINE ((size_t)1 << 26)
 
-static bool doubt(recorded *r, record_error *error, const char *format, ...)
+static bool doubt(recorded *r, octreel_error *error, const char *format, ...)
 {
     char text[1024];
     va_list arguments;
@@ -21,7 +21,7 @@ static bool doubt(recorded *r, record_error *error, const char *format, ...)
     va_end(arguments);
     char *copy = strdup(text);
     if (!copy)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     if (r->doubt_count < RECORDED_DOUBTS)
         r->doubts[r->doubt_count++] = copy;
     else
@@ -31,7 +31,7 @@ static bool doubt(recorded *r, record_error *error, const char *format, ...)
 
 /* ---- Opening ------------------------------------------------------------------------------------------------- */
 
-static bool check_session(recorded *r, record_error *error)
+static bool check_session(recorded *r, octreel_error *error)
 {
     uint64_t tick, filmed;
     if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
@@ -40,15 +40,15 @@ static bool check_session(recorded *r, record_error *error)
     return doubt(r, error, "%s/session.json is not the session that was filmed", r->side->path);
 }
 
-static bool open_lines(recorded *r, record_error *error)
+static bool open_lines(recorded *r, octreel_error *error)
 {
-    char *path = folder_path(r->side->path, "ticks.jsonl");
-    r->reading = path ? lines_open(&r->lines, path, error) : record_fail(error, "there is no memory");
+    char *path = path_join(r->side->path, "ticks.jsonl");
+    r->reading = path ? lines_open(&r->lines, path, error) : error_no_memory(error);
     free(path);
     return r->reading;
 }
 
-bool recorded_open(recorded *r, const diff_side *side, record_error *error)
+bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
 {
     *r = (recorded){.side = side};
     who_drew(side->path, r->drawn_by, sizeof r->drawn_by);
@@ -69,7 +69,7 @@ void recorded_close(recorded *r)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-bool recorded_read_line(recorded *r, uint64_t tick, record_error *error)
+bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error)
 {
     static const char *const words[] = {
         [LINE_WHOLE] = "",           [LINE_TORN] = "is torn within",       [LINE_LONG] = "has too long a line at",
@@ -117,7 +117,7 @@ static char *expected_line(const recorded *r, const octree_game *game, size_t *s
     return NULL;
 }
 
-bool recorded_check_line(recorded *r, const octree_game *game, record_error *error)
+bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *error)
 {
     const uint64_t tick = octree_game_tick(game)->number;
     verify_finding finding = {.kind = VERIFY_LINES};
@@ -126,7 +126,7 @@ bool recorded_check_line(recorded *r, const octree_game *game, record_error *err
         return true;
     char *expected = expected_line(r, game, &size);
     if (!expected)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     r->reading = line_same(&r->lines, expected, size, tick, &finding);
     free(expected);
     return r->reading || doubt(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",

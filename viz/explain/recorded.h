@@ -23,13 +23,13 @@ typedef struct recorded {
 
 /* Read it, all but its frames. False with a sentence when something is not there or cannot be read. *r is to be closed
  * in any case. */
-bool recorded_open(recorded *r, const diff_side *side, record_error *error);
+bool recorded_open(recorded *r, const diff_side *side, octreel_error *error);
 void recorded_close(recorded *r);
 
 /* Read the line of the next tick, whether it is right or not. False when there is none, and then there is a doubt. */
-bool recorded_read_line(recorded *r, uint64_t tick, record_error *error);
+bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error);
 
 /* Hold the line that was read last against the tick at which a game of its session is: a doubt where they differ. */
-bool recorded_check_line(recorded *r, const octree_game *game, record_error *error);
+bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *error);
 
 #endif

@@ -25,11 +25,11 @@ void tracer_close(tracer *t)
     *t = (tracer){0};
 }
 
-bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], record_error *error)
+bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error)
 {
     for (int i = 0; i < 2; i++)
         if ((sides[i].look.view.layers & VIEW_HEAT_LAYERS) && !heat_add_tick(&t->heats[i], games[i]))
-            return record_fail(error, "there is no memory for the heat of the nodes");
+            return error_set(error, "there is no memory for the heat of the nodes");
     return true;
 }
 
@@ -241,7 +241,7 @@ static bool pick(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
     const int samples = view_samples(&s->view);
-    draw_error why = {""};
+    octreel_error why = {""};
     if (!t->renderer && !*t->untraced)
         t->renderer = renderer_open(s->view.width * samples, s->view.height * samples, &choice, &why);
     if (t->renderer && renderer_pick(t->renderer, s, numbers, &why))
@@ -258,7 +258,7 @@ static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
     bool ok = true;
     for (int i = 0; i < 2; i++) {
         frame_origin origin;
-        image_error ignored;
+        octreel_error ignored;
         const view *v = &t->scenes[i].view;
         ok = ok && frame_read_origin(files[i]->path, &origin) && origin.scene == scene_digest(&t->scenes[i]) &&
              image_read_png(files[i]->path, &frames[i], &ignored) && frames[i].width == v->width &&
@@ -268,7 +268,7 @@ static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
 }
 
 static bool trace_frames(tracer *t, const octree_game *const games[2], const diff_pair *pair, const image frames[2],
-                         record_error *error)
+                         octreel_error *error)
 {
     const int samples = view_samples(&t->scenes[0].view);
     const size_t size = (size_t)frames[0].width * (size_t)frames[0].height * (size_t)(samples * samples);
@@ -286,11 +286,11 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
     }
     release_spots(&s);
     free(numbers);
-    return ok || record_fail(error, "there is no memory to trace what differs in %s", diff_pair_name(pair));
+    return ok || error_set(error, "there is no memory to trace what differs in %s", diff_pair_name(pair));
 }
 
 bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
-                     record_error *error)
+                     octreel_error *error)
 {
     const view *a = &sides[0].look.view, *b = &sides[1].look.view;
     image frames[2] = {{0}, {0}};
@@ -298,7 +298,7 @@ bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *cons
         return true;
     for (int i = 0; i < 2; i++)
         if (!tick_scene_build(&t->scenes[i], &sides[i].look.view, games[i], &t->heats[i]))
-            return record_fail(error, "there is no memory for a scene");
+            return error_set(error, "there is no memory for a scene");
     const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, frames, error);
     image_release(&frames[0]);
     image_release(&frames[1]);

@@ -1,6 +1,6 @@
 /* cloud.c - point-cloud files: opening, telling the formats apart, and the growing array of points. */
 #include "cloud_format.h"
-#include "whole_file.h"
+#include "file.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -138,7 +138,7 @@ static bool parse(cloud_file *file)
     return parsed;
 }
 
-bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, cloud_error *error)
+bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error)
 {
     return parse(&(cloud_file){name, bytes, size, out, error, NULL});
 }
@@ -149,12 +149,12 @@ void cloud_release(cloud *cloud)
     memset(cloud, 0, sizeof *cloud);
 }
 
-bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, cloud_error *error)
+bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error)
 {
-    char *bytes, reason[WHOLE_FILE_REASON];
+    char *bytes, reason[FILE_REASON];
     size_t size;
     *out = (cloud){0};
-    if (!whole_file_read(path, &bytes, &size, reason)) {
+    if (!file_read_whole(path, &bytes, &size, reason)) {
         cloud_file file = {path, NULL, 0, out, error, NULL};
         return cloud_fail(&file, "%s", reason);
     }

@@ -12,6 +12,8 @@
 #ifndef RECORD_CLOUD_H
 #define RECORD_CLOUD_H
 
+#include "error.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -20,12 +22,6 @@ typedef struct cloud {
     size_t count;           /* at least 1 in a cloud that was read */
     size_t skipped;         /* points of a PLY or PCD file with a NaN or an infinity, its sign for "no return" */
 } cloud;
-
-/* A failed operation writes one sentence here: "<file>:<line>: <reason>", "<file>:byte <offset>: <reason>" in binary
- * data, or "<file>: <reason>". */
-typedef struct cloud_error {
-    char text[512];
-} cloud_error;
 
 /* Who is told, now and then, what part of a file has been read, from 0 to 1. */
 typedef struct cloud_watch {
@@ -36,10 +32,10 @@ typedef struct cloud_watch {
 /* Read a regular file into *out; `watch` may be null. False with the reason in *error; *out is then empty. A file
  * without any point is an error. Cost: O(size) in time and memory; a compressed PCD is bounded by 88 times its size,
  * before its points. */
-bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, cloud_error *error);
+bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error);
 
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */
-bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, cloud_error *error);
+bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error);
 
 /* Free the positions and empty the cloud; a zeroed cloud is allowed. */
 void cloud_release(cloud *cloud);

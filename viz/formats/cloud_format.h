@@ -14,7 +14,7 @@ typedef struct cloud_file {
     const unsigned char *bytes;
     size_t size; /* at least 1 */
     cloud *out;
-    cloud_error *error;
+    octreel_error *error;
     const cloud_watch *watch; /* may be null */
 } cloud_file;
 

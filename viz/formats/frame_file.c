@@ -34,15 +34,15 @@ bool frame_is_name(const char *name, uint64_t ticks, uint64_t every)
     return frame_parse_name(name, &tick) && tick < ticks && tick % every == 0;
 }
 
-static char *frame_path(const char *folder, uint64_t tick, record_error *error)
+static char *frame_path(const char *folder, uint64_t tick, octreel_error *error)
 {
-    char name[FRAME_NAME], *path = folder_path(folder, frame_name(tick, name));
+    char name[FRAME_NAME], *path = path_join(folder, frame_name(tick, name));
     if (!path)
-        record_fail(error, "there is no memory");
+        error_no_memory(error);
     return path;
 }
 
-bool frame_write(const char *folder, const picture *p, const frame_origin *origin, record_error *error)
+bool frame_write(const char *folder, const image *picture, const frame_origin *origin, octreel_error *error)
 {
     char tick[NUMBER_SIZE], left_out[NUMBER_SIZE], digests[3][DIGEST_TEXT];
     snprintf(tick, sizeof tick, "%" PRIu64, origin->tick);
@@ -51,12 +51,12 @@ bool frame_write(const char *folder, const picture *p, const frame_origin *origi
         {tick_keyword, tick},
         {session_keyword, digest_print(origin->session, digests[0])},
         {scene_keyword, digest_print(origin->scene, digests[1])},
-        {pixels_keyword, digest_print(image_digest(&p->frame), digests[2])},
+        {pixels_keyword, digest_print(image_digest(picture), digests[2])},
         {left_out_keyword, left_out},
     };
     const size_t count = sizeof texts / sizeof texts[0] - (origin->left_out == 0);
     char *path = frame_path(folder, origin->tick, error);
-    const bool ok = path && picture_write(p, path, texts, count, error);
+    const bool ok = path && image_write_png(picture, path, texts, count, error);
     free(path);
     return ok;
 }
@@ -73,29 +73,29 @@ static bool says_digest(const char *path, const char *keyword, uint64_t digest)
     return says(path, keyword, digest_print(digest, text));
 }
 
-static bool check_pixels(const char *path, frame_origin *origin, record_error *error)
+static bool check_pixels(const char *path, frame_origin *origin, octreel_error *error)
 {
-    image_error unread;
+    octreel_error unread;
     image about;
     if (!image_digest_png(path, IMAGE_WHITE, &about, &origin->pixels, &unread))
-        return record_fail(error, "%s", unread.text);
+        return error_set(error, "%s", unread.text);
     return says_digest(path, pixels_keyword, origin->pixels) ||
-           record_fail(error, "%s: its pixels are not those that were drawn", path);
+           error_set(error, "%s: its pixels are not those that were drawn", path);
 }
 
 /* The pixels come first: what is damaged may say anything. */
-bool frame_check_file(const char *path, frame_origin *origin, record_error *error)
+bool frame_check_file(const char *path, frame_origin *origin, octreel_error *error)
 {
     char text[NUMBER_SIZE];
     if (!check_pixels(path, origin, error))
         return false;
     if (!says_digest(path, session_keyword, origin->session))
-        return record_fail(error, "%s: is a frame of another session", path);
+        return error_set(error, "%s: is a frame of another session", path);
     snprintf(text, sizeof text, "%" PRIu64, origin->tick);
     if (!says(path, tick_keyword, text))
-        return record_fail(error, "%s: is the frame of another tick", path);
+        return error_set(error, "%s: is the frame of another tick", path);
     if (!says_digest(path, scene_keyword, origin->scene))
-        return record_fail(error, "%s: shows the tick in another view, or is by another version of octreel", path);
+        return error_set(error, "%s: shows the tick in another view, or is by another version of octreel", path);
     origin->left_out = image_read_text(path, left_out_keyword, text, sizeof text) ? strtoull(text, NULL, 10) : 0;
     return true;
 }
@@ -109,17 +109,16 @@ static bool parse_tick(const char *text, uint64_t *tick)
     return strcmp(text, again) == 0;
 }
 
-bool frame_read_tick(const char *path, uint64_t *tick, record_error *error)
+bool frame_read_tick(const char *path, uint64_t *tick, octreel_error *error)
 {
     char text[NUMBER_SIZE];
     if (image_read_text(path, tick_keyword, text, sizeof text))
-        return parse_tick(text, tick) ||
-               record_fail(error, "%s: its text %s is no number of a tick", path, tick_keyword);
+        return parse_tick(text, tick) || error_set(error, "%s: its text %s is no number of a tick", path, tick_keyword);
     if (image_read_text(path, scene_keyword, text, sizeof text))
-        return record_fail(
+        return error_set(
             error, "%s: is the picture of one tree, as octreel inspect draws it: it has no session to be played again",
             path);
-    return record_fail(error, "%s: is no frame of a recording: it has no text %s", path, tick_keyword);
+    return error_set(error, "%s: is no frame of a recording: it has no text %s", path, tick_keyword);
 }
 
 static bool read_digest(const char *path, const char *keyword, uint64_t *digest)
@@ -133,7 +132,7 @@ static bool read_digest(const char *path, const char *keyword, uint64_t *digest)
 
 static bool read_tick_digest(const char *folder, uint64_t tick, const char *keyword, uint64_t *digest)
 {
-    record_error ignored;
+    octreel_error ignored;
     char *path = frame_path(folder, tick, &ignored);
     const bool told = path && read_digest(path, keyword, digest);
     free(path);
@@ -161,16 +160,16 @@ bool frame_read_origin(const char *path, frame_origin *origin)
            read_digest(path, pixels_keyword, &origin->pixels);
 }
 
-bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, record_error *error)
+bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error)
 {
     char text[DIGEST_TEXT], *path = frame_path(folder, tick, error);
     const bool ok = path && (image_replace_text(path, session_keyword, digest_print(session, text)) ||
-                             record_fail(error, "%s: cannot be written", path));
+                             error_set(error, "%s: cannot be written", path));
     free(path);
     return ok;
 }
 
-bool frame_check(const char *folder, frame_origin *origin, record_error *error)
+bool frame_check(const char *folder, frame_origin *origin, octreel_error *error)
 {
     char *path = frame_path(folder, origin->tick, error);
     const bool ok = path && frame_check_file(path, origin, error);
@@ -178,7 +177,7 @@ bool frame_check(const char *folder, frame_origin *origin, record_error *error)
     return ok;
 }
 
-bool frame_claim(const char *folder, const frame_origin *origin, record_error *error)
+bool frame_claim(const char *folder, const frame_origin *origin, octreel_error *error)
 {
     char tick[NUMBER_SIZE], *path = frame_path(folder, origin->tick, error);
     if (!path)
@@ -188,7 +187,7 @@ bool frame_claim(const char *folder, const frame_origin *origin, record_error *e
     ok = ok || (says(path, tick_keyword, tick) && says_digest(path, scene_keyword, origin->scene) &&
                 (says_digest(path, session_keyword, origin->session) || says_digest(path, session_keyword, 0)));
     if (!ok)
-        record_fail(error, "%s: is no frame of this session and view: remove it, or choose another folder", path);
+        error_set(error, "%s: is no frame of this session and view: remove it, or choose another folder", path);
     free(path);
     return ok;
 }

@@ -3,8 +3,8 @@
 #ifndef RECORD_FRAME_FILE_H
 #define RECORD_FRAME_FILE_H
 
-#include "folder.h"
-#include "picture.h"
+#include "file.h"
+#include "image.h"
 
 #include <stdint.h>
 
@@ -29,11 +29,11 @@ typedef struct frame_origin {
 } frame_origin;
 
 /* Write a picture as the frame of its tick. */
-bool frame_write(const char *folder, const picture *p, const frame_origin *origin, record_error *error);
+bool frame_write(const char *folder, const image *picture, const frame_origin *origin, octreel_error *error);
 
 /* The tick that a file says it is the frame of. False, with a sentence, for the picture of a tree that octreel inspect
  * drew, and for what is none of octreel's. */
-bool frame_read_tick(const char *path, uint64_t *tick, record_error *error);
+bool frame_read_tick(const char *path, uint64_t *tick, octreel_error *error);
 
 /* The session that the frame of a tick says it is of. False where it is not there or says nothing. */
 bool frame_session(const char *folder, uint64_t tick, uint64_t *session);
@@ -46,17 +46,17 @@ bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene);
 bool frame_read_origin(const char *path, frame_origin *origin);
 
 /* Let the frame of a tick say that it is of another session: what one is like may be known at its end alone. */
-bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, record_error *error);
+bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error);
 
 /* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
  * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
-bool frame_check(const char *folder, frame_origin *origin, record_error *error);
+bool frame_check(const char *folder, frame_origin *origin, octreel_error *error);
 
 /* The same by its texts alone, in a folder that may be somebody else's: true also where there is no frame, and of one
  * whose session was not known yet when it was drawn. */
-bool frame_claim(const char *folder, const frame_origin *origin, record_error *error);
+bool frame_claim(const char *folder, const frame_origin *origin, octreel_error *error);
 
 /* frame_check() for a file of any name. */
-bool frame_check_file(const char *path, frame_origin *origin, record_error *error);
+bool frame_check_file(const char *path, frame_origin *origin, octreel_error *error);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool fail_memory(session_error *error)
+static bool fail_memory(octreel_error *error)
 {
     snprintf(error->text, sizeof error->text, "out of memory for the session");
     return false;
@@ -22,7 +22,7 @@ static bool duplicate(const void **items, size_t count, size_t item_size)
     return copy || count == 0;
 }
 
-bool session_copy(const octree_session *from, session_file *out, session_error *error)
+bool session_copy(const octree_session *from, session_file *out, octreel_error *error)
 {
     const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries, *shapes = from->shapes;
     bool whole = duplicate(&bodies, from->body_count, sizeof *from->bodies);
@@ -41,7 +41,7 @@ bool session_copy(const octree_session *from, session_file *out, session_error *
     return done;
 }
 
-bool session_set_keys(session_file *file, const char *keys, session_error *error)
+bool session_set_keys(session_file *file, const char *keys, octreel_error *error)
 {
     char reason[SESSION_KEYS_REASON];
     if (!session_check_keys(keys, reason)) {

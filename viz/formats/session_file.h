@@ -39,6 +39,7 @@
 #ifndef RECORD_SESSION_FILE_H
 #define RECORD_SESSION_FILE_H
 
+#include "error.h"
 #include "octree/game.h"
 
 #include <stdbool.h>
@@ -60,28 +61,22 @@ typedef struct session_file {
     octree_session session;
 } session_file;
 
-/* A failed operation writes one sentence here: "<file>:<line>: <where>: <reason>", shorter where there is no place or
- * no file; for a file of points that cannot be read it is that of cloud_read(). */
-typedef struct session_error {
-    char text[512];
-} session_error;
-
 /* Read a session file into *out; files of points are looked for in its folder. False with the reason in *error; *out
  * is then empty. Cost: O(size) in time; memory about ten times the size for points and never beyond 100 times, plus
  * what files of points and samples need. A file has at most 2 GiB. */
-bool session_read(const char *path, session_file *out, session_error *error);
+bool session_read(const char *path, session_file *out, octreel_error *error);
 
 /* The same for text in memory. `name` is for errors; `folder` is where files of points are looked for, "" the current
  * one. */
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
-                   session_error *error);
+                   octreel_error *error);
 
 /* Copy a session with all of its arrays. False when there is no memory or a key is unknown; *out is then empty. */
-bool session_copy(const octree_session *from, session_file *out, session_error *error);
+bool session_copy(const octree_session *from, session_file *out, octreel_error *error);
 
 /* Give the session a copy of these keys instead of its own. False when there is no memory or a key is unknown; the
  * session is then as it was. */
-bool session_set_keys(session_file *file, const char *keys, session_error *error);
+bool session_set_keys(session_file *file, const char *keys, octreel_error *error);
 
 /* Free the arrays and empty the session; a zeroed one is allowed. */
 void session_release(session_file *file);

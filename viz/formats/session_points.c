@@ -127,7 +127,7 @@ static bool read_file(session_reader *reader, json_t *value, const json_place *a
     if (!json_is_string(value) || json_string_length(value) == 0)
         return session_expected(reader, value, at, "the name of a file");
     cloud cloud;
-    cloud_error reason;
+    octreel_error reason;
     char *path = path_in_folder(reader->folder, json_string_value(value));
     if (!path)
         return session_fail(reader, at, "out of memory");

@@ -1,6 +1,6 @@
 /* session_read.c - session files: opening, the stream of objects, and the session they make. */
 #include "session_reader.h"
-#include "whole_file.h"
+#include "file.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -117,7 +117,7 @@ static void adopt_arrays(session_reader *reader)
 }
 
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
-                   session_error *error)
+                   octreel_error *error)
 {
     session_reader reader = {.name = name,
                              .folder = folder,
@@ -145,13 +145,13 @@ static char *folder_of(const char *path)
     return strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
 }
 
-bool session_read(const char *path, session_file *out, session_error *error)
+bool session_read(const char *path, session_file *out, octreel_error *error)
 {
-    char reason[WHOLE_FILE_REASON];
+    char reason[FILE_REASON];
     char *text;
     size_t size;
     *out = (session_file){0};
-    if (!whole_file_read(path, &text, &size, reason)) {
+    if (!file_read_whole(path, &text, &size, reason)) {
         snprintf(error->text, sizeof error->text, "%s: %s", session_name_end(path), reason);
         return false;
     }

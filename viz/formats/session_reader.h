@@ -32,7 +32,7 @@ typedef struct session_reader {
     session_list edits, queries;
     session_list standing; /* queries of every tick */
     session_list shapes, standing_shapes;
-    session_error *error;
+    octreel_error *error;
 } session_reader;
 
 typedef bool session_value_reader(session_reader *reader, json_t *value, const json_place *at, void *into);

@@ -1,9 +1,9 @@
 /* view_file.c - see view_file.h. */
 #include "view_file.h"
-#include "draw.h"
 #include "number.h"
 #include "session_reader.h"
-#include "whole_file.h"
+#include "theme.h"
+#include "file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -131,7 +131,7 @@ static bool read_every(session_reader *reader, json_t *value, const json_place *
 static bool read_side(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     uint64_t side;
-    if (!session_read_whole(reader, value, at, 1, DRAW_MAX_SIDE, &side))
+    if (!session_read_whole(reader, value, at, 1, VIEW_MAX_SIDE, &side))
         return false;
     *(int *)into = (int)side;
     return true;
@@ -232,8 +232,8 @@ static bool read_depths(session_reader *reader, json_t *value, const json_place 
 static bool read_lod(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     const double pixels = json_real_value(value);
-    if (!json_is_real(value) || !(pixels >= 0 && pixels <= DRAW_MAX_SIDE))
-        return session_expected(reader, value, at, "pixels from 0 to " NUMBER_DIGITS(DRAW_MAX_SIDE));
+    if (!json_is_real(value) || !(pixels >= 0 && pixels <= VIEW_MAX_SIDE))
+        return session_expected(reader, value, at, "pixels from 0 to " NUMBER_DIGITS(VIEW_MAX_SIDE));
     *(double *)into = pixels;
     return true;
 }
@@ -288,25 +288,25 @@ static bool parse(session_reader *reader, recorded *into)
     return done;
 }
 
-static bool read_file(const char *folder, recorded *into, record_error *error)
+static bool read_file(const char *folder, recorded *into, octreel_error *error)
 {
-    char reason[WHOLE_FILE_REASON], *text, *path = folder_path(folder, "recording.json");
-    session_error unread;
+    char reason[FILE_REASON], *text, *path = path_join(folder, "recording.json");
+    octreel_error unread;
     size_t size;
     *into = (recorded){.every = 1};
     if (!path)
-        return record_fail(error, "there is no memory");
-    bool done = whole_file_read(path, &text, &size, reason) || record_fail(error, "%s: %s", path, reason);
+        return error_no_memory(error);
+    bool done = file_read_whole(path, &text, &size, reason) || error_set(error, "%s: %s", path, reason);
     if (done) {
         session_reader reader = {.name = path, .object = text, .limit = text + size, .line = 1, .error = &unread};
-        done = parse(&reader, into) || record_fail(error, "%s", unread.text);
+        done = parse(&reader, into) || error_set(error, "%s", unread.text);
         free(text);
     }
     free(path);
     return done;
 }
 
-bool view_read_recording(const char *folder, view *v, uint64_t *every, record_error *error)
+bool view_read_recording(const char *folder, view *v, uint64_t *every, octreel_error *error)
 {
     recorded found;
     const bool done = read_file(folder, &found, error);
@@ -315,7 +315,7 @@ bool view_read_recording(const char *folder, view *v, uint64_t *every, record_er
     return done;
 }
 
-bool view_read(const char *folder, view *v, record_error *error)
+bool view_read(const char *folder, view *v, octreel_error *error)
 {
     uint64_t every;
     return view_read_recording(folder, v, &every, error);

@@ -14,7 +14,7 @@
 #ifndef RECORD_VIEW_FILE_H
 #define RECORD_VIEW_FILE_H
 
-#include "folder.h"
+#include "file.h"
 #include "json_write.h"
 #include "view.h"
 
@@ -23,9 +23,9 @@ void view_write(json_writer *w, const view *v);
 
 /* Read the view of a recording, which is the folder that its recording.json is in. Members that are not there are off.
  * False, with file, line and reason, when it is none. */
-bool view_read(const char *folder, view *v, record_error *error);
+bool view_read(const char *folder, view *v, octreel_error *error);
 
 /* The same, and each how many ticks a frame was filmed. */
-bool view_read_recording(const char *folder, view *v, uint64_t *every, record_error *error);
+bool view_read_recording(const char *folder, view *v, uint64_t *every, octreel_error *error);
 
 #endif

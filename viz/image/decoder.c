@@ -51,7 +51,7 @@ bool decoder_run(decoder *d, decoder_task *task, void *context)
     return true;
 }
 
-bool decoder_open(decoder *d, FILE *file, const char *name, image_error *error)
+bool decoder_open(decoder *d, FILE *file, const char *name, octreel_error *error)
 {
     *d = (decoder){.fault = {name, error}};
     d->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &d->fault, image_fault_raise, ignore_warning);

@@ -19,7 +19,7 @@ FILE *decoder_open_file(const image_fault *fault, uint64_t *size);
 
 /* Begin with a stream at its start; name, the path in sentences, and error must outlive the decoder. False, with a
  * sentence, without memory; closed is it in any case. */
-bool decoder_open(decoder *d, FILE *file, const char *name, image_error *error);
+bool decoder_open(decoder *d, FILE *file, const char *name, octreel_error *error);
 void decoder_close(decoder *d);
 
 /* Do a step. False, with a sentence, when it fails: nothing but closing is allowed then. */

@@ -93,7 +93,7 @@ static bool digest_rows(image_source *source, uint8_t *room, uint64_t *digest)
     return !image_source_failed(source);
 }
 
-bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, image_error *error)
+bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error)
 {
     image_source *source = image_source_open(path, background, false, error);
     if (!source)

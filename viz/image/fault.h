@@ -8,7 +8,7 @@
 /* The file being worked on and where its sentence goes; libpng hands it back as its error pointer. */
 typedef struct image_fault {
     const char *path;
-    image_error *error;
+    octreel_error *error;
 } image_fault;
 
 /* Write "<path>: <doing><reason>" and return false. The beginning of an overlong path is left out. */

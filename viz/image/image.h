@@ -6,6 +6,8 @@
 #ifndef OCTREEL_IMAGE_H
 #define OCTREEL_IMAGE_H
 
+#include "error.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -41,11 +43,6 @@ static inline size_t image_pixel_size(const image *image)
     return (size_t)image->channels * (image->wide ? 2 : 1);
 }
 
-/* A failed operation writes one sentence here, "<path>: <reason>"; a done one leaves it alone. Never NULL. */
-typedef struct image_error {
-    char text[512];
-} image_error;
-
 /* Allocate the pixels, all zero; the palette is zeroed too. False, and the image zeroed, when there is no memory, a
  * side is outside 1..IMAGE_MAX_SIDE, or channels is neither 1 nor 3. */
 bool image_create(image *image, int width, int height, int channels);
@@ -73,7 +70,7 @@ typedef struct image_text {
  * a keyword that PNG does not allow is an error. When it fails, no .part file of this call is left, and a file that was
  * at `path` before is unharmed. */
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
-                     image_error *error);
+                     octreel_error *error);
 
 /* A picture that is made while it is written, so that it never is in memory whole. */
 typedef struct image_rows {
@@ -84,7 +81,7 @@ typedef struct image_rows {
 } image_rows;
 
 /* Write it as image_write_png() does. */
-bool image_write_png_rows(const image_rows *rows, const char *path, image_error *error);
+bool image_write_png_rows(const image_rows *rows, const char *path, octreel_error *error);
 
 /* The libraries that write the files, and their versions at run time. Returns `text`. */
 #define IMAGE_LIBRARY_TEXT 64
@@ -95,14 +92,14 @@ char *image_library(char text[IMAGE_LIBRARY_TEXT]);
  * ignored. Refused are files that are no regular files, whatever is cut short or fails a checksum, sides beyond
  * IMAGE_MAX_SIDE, and more pixels than so many compressed bytes can hold: memory stays within 8 bytes a pixel, and
  * within 8300 times the file's size. The image is created; when it fails, it is zeroed. */
-bool image_read_png(const char *path, image *image, image_error *error);
+bool image_read_png(const char *path, image *image, octreel_error *error);
 
 /* The same over a background of one's own. */
-bool image_read_png_over(const char *path, image_color background, image *image, image_error *error);
+bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error);
 
 /* The same from a stream of `size` bytes; `name` stands for the path in sentences. */
 bool image_read_png_stream(FILE *stream, uint64_t size, const char *name, image_color background, image *image,
-                           image_error *error);
+                           octreel_error *error);
 
 /* The rows of a PNG, decoded as they are asked for, so that it never is in memory whole. Where rows cannot come one
  * after the other - they are interlaced, or have 16 bits a sample and may not need them - all are read when it is
@@ -111,9 +108,9 @@ typedef struct image_source image_source;
 
 /* Begin, under the rules of image_read_png(). Null, with a sentence, where that cannot be; path and error must outlive
  * the source. A stream stays the caller's. */
-image_source *image_source_open(const char *path, image_color background, bool whole, image_error *error);
+image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error);
 image_source *image_source_open_stream(FILE *stream, uint64_t size, const char *name, image_color background,
-                                       bool whole, image_error *error);
+                                       bool whole, octreel_error *error);
 void image_source_close(image_source *source); /* null is allowed */
 
 /* The image but for its pixels, which are null unless all of them are at hand. */
@@ -138,11 +135,11 @@ static inline int image_band_rows(const image *about)
 void image_source_take(image_source *source, image *whole);
 
 /* image_digest() of a PNG as image_read_png_over() reads it, row by row. `about` is the image without pixels. */
-bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, image_error *error);
+bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error);
 
 /* Read no more than a PNG's beginning and its end: the size, and whether it ends as a PNG does. False when it does not
  * begin as one. */
-bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, image_error *error);
+bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, octreel_error *error);
 
 /* Read the first tEXt chunk with this keyword, of those before the pixels, into text (cut at size - 1). False when
  * there is none or the file cannot be read that far. The pixels are not decoded. */

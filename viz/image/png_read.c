@@ -16,17 +16,17 @@ static bool take_image(image_source *source, image *image)
 }
 
 bool image_read_png_stream(FILE *stream, uint64_t size, const char *name, image_color background, image *image,
-                           image_error *error)
+                           octreel_error *error)
 {
     return take_image(image_source_open_stream(stream, size, name, background, true, error), image);
 }
 
-bool image_read_png_over(const char *path, image_color background, image *image, image_error *error)
+bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error)
 {
     return take_image(image_source_open(path, background, true, error), image);
 }
 
-bool image_read_png(const char *path, image *image, image_error *error)
+bool image_read_png(const char *path, image *image, octreel_error *error)
 {
     return image_read_png_over(path, IMAGE_WHITE, image, error);
 }
@@ -42,7 +42,7 @@ static void read_size(png_structp png, png_infop info, void *context)
 }
 
 /* Take one step of reading a file. */
-static bool read_file(FILE *file, const char *path, decoder_task *task, void *context, image_error *error)
+static bool read_file(FILE *file, const char *path, decoder_task *task, void *context, octreel_error *error)
 {
     decoder d;
     const bool done = decoder_open(&d, file, path, error) && decoder_run(&d, task, context);
@@ -58,7 +58,7 @@ static bool ends_as_png(FILE *file)
            memcmp(last, end, sizeof end) == 0;
 }
 
-bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, image_error *error)
+bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, octreel_error *error)
 {
     const image_fault fault = {path, error};
     uint64_t size;
@@ -100,7 +100,7 @@ static void find_text(png_structp png, png_infop info, void *context)
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size)
 {
     text_request request = {.keyword = keyword, .text = text, .size = size};
-    image_error unread;
+    octreel_error unread;
     const image_fault fault = {path, &unread};
     uint64_t file_size;
     FILE *file = decoder_open_file(&fault, &file_size);

@@ -152,7 +152,7 @@ static const uint8_t *row_of_image(int y, void *context)
 }
 
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
-                     image_error *error)
+                     octreel_error *error)
 {
     image_fault fault = {path, error};
     const char *reason = refusal(image);
@@ -166,7 +166,7 @@ bool image_write_png(const image *image, const char *path, const image_text *tex
     return write_content(&(content){&rows, texts, text_count}, &fault);
 }
 
-bool image_write_png_rows(const image_rows *rows, const char *path, image_error *error)
+bool image_write_png_rows(const image_rows *rows, const char *path, octreel_error *error)
 {
     image_fault fault = {path, error};
     return write_content(&(content){.rows = rows}, &fault);

@@ -269,7 +269,7 @@ bool image_source_failed(const image_source *s)
 }
 
 image_source *image_source_open_stream(FILE *stream, uint64_t size, const char *name, image_color background,
-                                       bool whole, image_error *error)
+                                       bool whole, octreel_error *error)
 {
     image_source *s = calloc(1, sizeof *s);
     if (!s) {
@@ -285,7 +285,7 @@ image_source *image_source_open_stream(FILE *stream, uint64_t size, const char *
     return NULL;
 }
 
-image_source *image_source_open(const char *path, image_color background, bool whole, image_error *error)
+image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error)
 {
     const image_fault fault = {path, error};
     uint64_t size;

@@ -20,7 +20,7 @@ typedef struct findings {
 static bool is_empty(const char *folder, const char *name)
 {
     struct stat status;
-    char *path = folder_path(folder, name);
+    char *path = path_join(folder, name);
     const bool empty = path && stat(path, &status) == 0 && S_ISREG(status.st_mode) && status.st_size == 0;
     free(path);
     return empty;
@@ -34,14 +34,14 @@ static bool is_stranger(const char *folder, const char *name)
 }
 
 static bool look_at(findings *f, const char *folder, const char *name, uint64_t ticks, uint64_t every,
-                    record_error *error)
+                    octreel_error *error)
 {
     uint64_t tick;
     if (folder_is_unfinished(name))
         return true;
     if (strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, ticks, every))
-        return record_fail(error, "%s/%s: is no frame of this recording: remove it, or choose another folder", folder,
-                           name);
+        return error_set(error, "%s/%s: is no frame of this recording: remove it, or choose another folder", folder,
+                         name);
     if (frame_parse_name(name, &tick) && tick >= f->frames)
         f->frames = tick + 1;
     if (is_stranger(folder, name) && (!*f->stranger || strcmp(name, f->stranger) < 0))
@@ -49,20 +49,20 @@ static bool look_at(findings *f, const char *folder, const char *name, uint64_t 
     return true;
 }
 
-static bool look(findings *f, const char *folder, uint64_t ticks, uint64_t every, record_error *error)
+static bool look(findings *f, const char *folder, uint64_t ticks, uint64_t every, octreel_error *error)
 {
     DIR *entries = opendir(folder);
     bool ok = true;
     *f = (findings){0};
     if (!entries)
-        return record_fail(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
+        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
     for (struct dirent *entry; ok && (entry = readdir(entries));)
         ok = look_at(f, folder, entry->d_name, ticks, every, error);
     closedir(entries);
     return ok;
 }
 
-static bool pass_over(void *context, const film_step *step, record_error *error)
+static bool pass_over(void *context, const film_step *step, octreel_error *error)
 {
     (void)context;
     (void)step;
@@ -72,7 +72,7 @@ static bool pass_over(void *context, const film_step *step, record_error *error)
 
 /* Nothing is written before all of it is known, so it is not stopped either. */
 static bool claim_frames(const octree_session *session, uint64_t session_digest, const film_options *options,
-                         uint64_t frames, record_error *error)
+                         uint64_t frames, octreel_error *error)
 {
     take t;
     film_options own = *options;
@@ -88,7 +88,7 @@ static bool claim_frames(const octree_session *session, uint64_t session_digest,
 /* Both files are asked for behind the look around: a recording has them before it has anything else, so that what
  * another process is filming into this folder at the same time is no stranger. */
 bool claim_folder(const octree_session *session, uint64_t session_digest, const film_options *options,
-                  record_error *error)
+                  octreel_error *error)
 {
     findings f;
     const char *folder = options->folder;
@@ -96,7 +96,7 @@ bool claim_folder(const octree_session *session, uint64_t session_digest, const 
         return false;
     const bool view = folder_has(folder, "recording.json"), played = folder_has(folder, "session.json");
     if (*f.stranger && !view && !played)
-        return record_fail(error, "%s: holds %s, and no recording that could be completed: choose another folder",
-                           folder, f.stranger);
+        return error_set(error, "%s: holds %s, and no recording that could be completed: choose another folder", folder,
+                         f.stranger);
     return (view && played) || f.frames == 0 || claim_frames(session, session_digest, options, f.frames, error);
 }

@@ -11,6 +11,6 @@
  * does not film are refused. Else false, and a sentence; nothing is written. Where a file is missing this costs a play
  * of the session, without drawing. */
 bool claim_folder(const octree_session *session, uint64_t session_digest, const film_options *options,
-                  record_error *error);
+                  octreel_error *error);
 
 #endif

@@ -19,7 +19,7 @@ static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)
     return tick >= share->first && (share->count == 0 || tick / every % share->count == share->index);
 }
 
-bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context, record_error *error)
+bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context, octreel_error *error)
 {
     for (;;) {
         const uint64_t tick = octree_game_tick(t->game)->number;
@@ -34,14 +34,14 @@ bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context
 }
 
 static bool find_share(const octree_session *session, const film_options *options, film_share *share,
-                       record_error *error)
+                       octreel_error *error)
 {
     const uint64_t total = octree_session_length(session) + 1;
     const bool open = options->last == 0 || options->last > total;
     *share = (film_share){.first = options->first, .last = open ? total : options->last};
     return share->first < share->last ||
-           record_fail(error, "there is no part from tick %" PRIu64 " on: the session's last tick is %" PRIu64,
-                       share->first, total - 1);
+           error_set(error, "there is no part from tick %" PRIu64 " on: the session's last tick is %" PRIu64,
+                     share->first, total - 1);
 }
 
 /* Those that a share is cut into: one that began before it counts too, for the sake of the ticks behind it. */
@@ -53,7 +53,7 @@ static uint64_t count_frames(const film_share *share, uint64_t every)
 unsigned film_default_jobs(const octree_session *session, const film_options *options)
 {
     film_share share;
-    record_error ignored;
+    octreel_error ignored;
     if (!find_share(session, options, &share, &ignored))
         return 1;
     const uint64_t worth = count_frames(&share, options->every) / FRAMES_WORTH_A_JOB;
@@ -66,7 +66,7 @@ unsigned film_default_jobs(const octree_session *session, const film_options *op
     return jobs < 1 ? 1 : jobs > FILM_MOST_JOBS ? FILM_MOST_JOBS : (unsigned)jobs;
 }
 
-static bool begin(take *t, recording *r, record_error *error)
+static bool begin(take *t, recording *r, octreel_error *error)
 {
     if (!take_open(t, r->session, r->options, r->options->resume ? FRAMES_KEEP : FRAMES_DRAW, error) ||
         !recording_prepare(r, error))
@@ -76,7 +76,7 @@ static bool begin(take *t, recording *r, record_error *error)
     return recording_begin(r, &t->view, &info, error);
 }
 
-static bool film_alone(recording *r, record_error *error)
+static bool film_alone(recording *r, octreel_error *error)
 {
     take t;
     bool ok = begin(&t, r, error);
@@ -87,7 +87,7 @@ static bool film_alone(recording *r, record_error *error)
 }
 
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
-                  record_error *error)
+                  octreel_error *error)
 {
     recording r = {.options = options, .summary = summary, .session = session};
     *summary = (film_summary){0};

@@ -40,13 +40,13 @@ typedef struct film_summary {
  * last. A recording that broke off or was stopped can be resumed, and is then the same bytes as one that was not.
  * Nothing is made where the session, the size or the part is refused. */
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
-                  record_error *error);
+                  octreel_error *error);
 
 /* As many processes as this machine has cores, but no more than have a few frames to film each. */
 unsigned film_default_jobs(const octree_session *session, const film_options *options);
 
 /* Draw one tree, with the view and the renderer of the options, and write it as a PNG: the one frame of *summary. */
 bool film_tree(const octree *tree, const tree_look *about, const film_options *options, const char *path,
-               film_summary *summary, record_error *error);
+               film_summary *summary, octreel_error *error);
 
 #endif

@@ -27,11 +27,11 @@ static bool job_keeps_going(void *context)
     return (!options->keep_going || options->keep_going(options->context)) && !link_stirs(self->link, 0);
 }
 
-static bool say_step(void *context, const film_step *step, record_error *error)
+static bool say_step(void *context, const film_step *step, octreel_error *error)
 {
     const job *self = context;
     return link_tell_message(self->link, MESSAGE_STEP, step, step->line, step->size) ||
-           record_fail(error, "nobody collects the ticks");
+           error_set(error, "nobody collects the ticks");
 }
 
 static void say_ready(const job *self, const take *t)
@@ -49,7 +49,7 @@ static void say_ready(const job *self, const take *t)
 static _Noreturn void do_job(job *self, const octree_session *session, const film_share *share)
 {
     take t;
-    record_error error;
+    octreel_error error;
     film_options own = *self->options;
     own.keep_going = job_keeps_going;
     own.context = self;
@@ -82,7 +82,7 @@ static void close_others(const crew *c)
         close(c->jobs[i].link);
 }
 
-static bool start_job(crew *c, record_error *error)
+static bool start_job(crew *c, octreel_error *error)
 {
     int ends[2];
     const film_options *options = c->recording->options;
@@ -104,7 +104,7 @@ static bool start_job(crew *c, record_error *error)
         return true;
     }
     close(ends[0]);
-    return record_fail(error, "a process cannot be started: %s", strerror(reason));
+    return error_set(error, "a process cannot be started: %s", strerror(reason));
 }
 
 static void dismiss(crew *c)
@@ -128,7 +128,7 @@ static void hear(crew *c, const job *j)
 }
 
 /* How a job ended before its time. True when it was stopped, as one may. */
-static bool explain_end(crew *c, unsigned i, record_error *error)
+static bool explain_end(crew *c, unsigned i, octreel_error *error)
 {
     int status = 0;
     pid_t ended;
@@ -138,13 +138,13 @@ static bool explain_end(crew *c, unsigned i, record_error *error)
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
         return true;
     if (ended > 0 && WIFSIGNALED(status))
-        return record_fail(error, "job %u of %u was killed by signal %d (%s)", i + 1, c->count, WTERMSIG(status),
-                           strsignal(WTERMSIG(status)));
-    return record_fail(error, "job %u of %u ended early, with status %d", i + 1, c->count, WEXITSTATUS(status));
+        return error_set(error, "job %u of %u was killed by signal %d (%s)", i + 1, c->count, WTERMSIG(status),
+                         strsignal(WTERMSIG(status)));
+    return error_set(error, "job %u of %u ended early, with status %d", i + 1, c->count, WEXITSTATUS(status));
 }
 
 /* Hear a message of this kind from a job. False when there is another: then *ok tells whether it just was stopped. */
-static bool expect(crew *c, unsigned i, message_kind kind, bool *ok, record_error *error)
+static bool expect(crew *c, unsigned i, message_kind kind, bool *ok, octreel_error *error)
 {
     hear(c, &c->jobs[i]);
     if (c->message.kind == kind)
@@ -158,7 +158,7 @@ static bool expect(crew *c, unsigned i, message_kind kind, bool *ok, record_erro
 }
 
 /* Take each tick from the job that films it. */
-static bool collect(crew *c, record_error *error)
+static bool collect(crew *c, octreel_error *error)
 {
     recording *r = c->recording;
     bool ok = true;
@@ -170,7 +170,7 @@ static bool collect(crew *c, record_error *error)
     return ok;
 }
 
-static bool begin(crew *c, record_error *error)
+static bool begin(crew *c, octreel_error *error)
 {
     recording *r = c->recording;
     const job_ready *ready = (const job_ready *)(const void *)c->message.bytes;
@@ -201,19 +201,19 @@ static void end_jobs(crew *c)
 }
 
 /* What is lost by a job that died. */
-static bool name_missing(const recording *r, record_error *error)
+static bool name_missing(const recording *r, octreel_error *error)
 {
     char text[MISSING_TEXT];
-    const record_error why = *error;
+    const octreel_error why = *error;
     const film_share *share = &r->share;
     const uint64_t count = missing_frames(r->options->folder, share->first, share->last, r->options->every, text);
-    return count == 0 ? false
-                      : record_fail(error, "%s; %s %s missing, which --resume films", why.text, text,
-                                    count > 1 ? "are" : "is");
+    return count == 0
+               ? false
+               : error_set(error, "%s; %s %s missing, which --resume films", why.text, text, count > 1 ? "are" : "is");
 }
 
 /* While the jobs set up the game and what draws it, what is played is put into words. */
-static bool film(crew *c, bool *begun, record_error *error)
+static bool film(crew *c, bool *begun, octreel_error *error)
 {
     bool ok;
     while (c->count < c->wanted)
@@ -227,11 +227,11 @@ static bool film(crew *c, bool *begun, record_error *error)
     return *begun && collect(c, error);
 }
 
-bool film_by_jobs(recording *r, unsigned jobs, record_error *error)
+bool film_by_jobs(recording *r, unsigned jobs, octreel_error *error)
 {
     crew c = {.recording = r, .wanted = jobs, .jobs = calloc(jobs, sizeof *c.jobs)};
     bool begun = false;
-    bool ok = c.jobs ? film(&c, &begun, error) : record_fail(error, "there is no memory");
+    bool ok = c.jobs ? film(&c, &begun, error) : error_no_memory(error);
     const bool died = !ok && begun && c.message.kind == MESSAGE_NONE;
     end_jobs(&c);
     ok = begun ? recording_end(r, ok, error) : ok;

@@ -10,6 +10,6 @@
 #include "recording.h"
 
 /* Film the share of a recording by so many processes, from begin to end. */
-bool film_by_jobs(recording *r, unsigned jobs, record_error *error);
+bool film_by_jobs(recording *r, unsigned jobs, octreel_error *error);
 
 #endif

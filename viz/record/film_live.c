@@ -26,13 +26,13 @@ static void release(film_live *film)
     free(film);
 }
 
-static bool film_tick(film_live *film, record_error *error)
+static bool film_tick(film_live *film, octreel_error *error)
 {
     film_step step;
     return take_tick(&film->take, &step, error) && recording_add(&film->recording, &step, error);
 }
 
-static bool begin(film_live *film, bool *drawn, record_error *error)
+static bool begin(film_live *film, bool *drawn, octreel_error *error)
 {
     take *t = &film->take;
     if (!take_open(t, live_session_start(&film->session), &film->options, FRAMES_DRAW, error))
@@ -46,19 +46,19 @@ static bool begin(film_live *film, bool *drawn, record_error *error)
 /* Leave no files of a recording that did not come to its first frame. */
 static void abandon(film_live *film)
 {
-    record_error late;
+    octreel_error late;
     tick_log_close(&film->recording.log, false, &late);
     live_session_abandon(&film->session);
     if (film->begun)
         folder_abandon(film->folder);
 }
 
-film_live *film_live_open(const octree_session *start, const film_options *options, bool *drawn, record_error *error)
+film_live *film_live_open(const octree_session *start, const film_options *options, bool *drawn, octreel_error *error)
 {
     film_live *film = calloc(1, sizeof *film);
     *drawn = true;
     if (!film || !(film->folder = strdup(options->folder)) || !live_session_init(&film->session, start)) {
-        record_fail(error, "there is no memory");
+        error_no_memory(error);
         if (film)
             release(film);
         return NULL;
@@ -76,7 +76,7 @@ film_live *film_live_open(const octree_session *start, const film_options *optio
     return NULL;
 }
 
-bool film_live_tick(film_live *film, const octree_input *input, record_error *error)
+bool film_live_tick(film_live *film, const octree_input *input, octreel_error *error)
 {
     film->broken = film->broken || !live_session_add(&film->session, input, error) ||
                    !take_play(&film->take, input, error) || !film_tick(film, error);
@@ -84,7 +84,7 @@ bool film_live_tick(film_live *film, const octree_input *input, record_error *er
 }
 
 /* The frames are of the session that came out. */
-static bool sign_frames(const film_live *film, uint64_t digest, record_error *error)
+static bool sign_frames(const film_live *film, uint64_t digest, octreel_error *error)
 {
     for (uint64_t tick = 0; tick < film->summary.ticks; tick += film->options.every)
         if (!frame_set_session(film->folder, tick, digest, error))
@@ -92,10 +92,10 @@ static bool sign_frames(const film_live *film, uint64_t digest, record_error *er
     return true;
 }
 
-bool film_live_close(film_live *film, record_error *error)
+bool film_live_close(film_live *film, octreel_error *error)
 {
     uint64_t digest;
-    record_error late;
+    octreel_error late;
     const bool ok = live_session_end(&film->session, film->folder, &digest, error) && sign_frames(film, digest, error);
     film->summary.total = film->summary.ticks;
     const bool ended = recording_end(&film->recording, ok && !film->broken, ok ? error : &late) || film->broken;

@@ -5,7 +5,7 @@
 #include "tick_scene.h"
 #include "ticks_write.h"
 
-static bool write_picture(const picture *p, const scene *s, const char *path, record_error *error)
+static bool write_picture(const picture *p, const scene *s, const char *path, octreel_error *error)
 {
     char digests[2][DIGEST_TEXT];
     const image_text texts[] = {
@@ -16,7 +16,7 @@ static bool write_picture(const picture *p, const scene *s, const char *path, re
 }
 
 bool film_tree(const octree *tree, const tree_look *about, const film_options *options, const char *path,
-               film_summary *summary, record_error *error)
+               film_summary *summary, octreel_error *error)
 {
     picture p;
     scene s = {0};
@@ -24,7 +24,7 @@ bool film_tree(const octree *tree, const tree_look *about, const film_options *o
     *summary = (film_summary){0};
     if (!picture_fit(&v, tree, error) || !picture_open(&p, &v, &options->renderer, error))
         return false;
-    bool ok = look_scene_build(&s, &v, tree, about) || record_fail(error, "there is no memory for a scene");
+    bool ok = look_scene_build(&s, &v, tree, about) || error_set(error, "there is no memory for a scene");
     ok = ok && picture_draw(&p, &s, error) && write_picture(&p, &s, path, error);
     if (ok)
         *summary = (film_summary){

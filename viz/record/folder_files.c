@@ -4,7 +4,7 @@
 #include "json_write.h"
 #include "octree/digest.h"
 #include "view_file.h"
-#include "whole_file.h"
+#include "file.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -18,26 +18,26 @@ typedef struct memory_file {
     size_t size;
 } memory_file;
 
-static bool begin_file(memory_file *file, record_error *error)
+static bool begin_file(memory_file *file, octreel_error *error)
 {
     *file = (memory_file){0};
     file->stream = open_memstream(&file->bytes, &file->size);
-    return file->stream || record_fail(error, "there is no memory");
+    return file->stream || error_no_memory(error);
 }
 
 /* False, and nothing is left of it, where there is no memory. */
-static bool close_file(memory_file *file, const char *name, record_error *error)
+static bool close_file(memory_file *file, const char *name, octreel_error *error)
 {
     const bool whole = !ferror(file->stream);
     if (fclose(file->stream) == 0 && whole)
         return true;
     free(file->bytes);
-    return record_fail(error, "there is no memory for %s", name);
+    return error_set(error, "there is no memory for %s", name);
 }
 
 /* `unlike` is said of a file that is there with other bytes; null: those are as good. */
 static bool put_file(const char *bytes, size_t size, const folder_place *place, const char *name, const char *unlike,
-                     record_error *error)
+                     octreel_error *error)
 {
     bool same;
     if (!place->writer && !place->look)
@@ -45,11 +45,11 @@ static bool put_file(const char *bytes, size_t size, const folder_place *place, 
     if (!(place->look ? folder_compare(place->folder, name, bytes, size, &same, error)
                       : folder_write_once(place->folder, name, place->writer, bytes, size, &same, error)))
         return false;
-    return same || !unlike || record_fail(error, "%s/%s: %s", place->folder, name, unlike);
+    return same || !unlike || error_set(error, "%s/%s: %s", place->folder, name, unlike);
 }
 
 static bool end_file(memory_file *file, const folder_place *place, const char *name, const char *unlike,
-                     record_error *error)
+                     octreel_error *error)
 {
     if (!close_file(file, name, error))
         return false;
@@ -58,7 +58,7 @@ static bool end_file(memory_file *file, const folder_place *place, const char *n
     return ok;
 }
 
-bool make_session_bytes(const octree_session *session, session_bytes *made, record_error *error)
+bool make_session_bytes(const octree_session *session, session_bytes *made, octreel_error *error)
 {
     memory_file file;
     if (!begin_file(&file, error))
@@ -70,7 +70,7 @@ bool make_session_bytes(const octree_session *session, session_bytes *made, reco
     return true;
 }
 
-bool write_session_file(const folder_place *place, const session_bytes *session, record_error *error)
+bool write_session_file(const folder_place *place, const session_bytes *session, octreel_error *error)
 {
     return put_file(session->bytes, session->size, place, "session.json", "is another session, or was changed by hand",
                     error);
@@ -89,15 +89,15 @@ static uint64_t digest_stream(FILE *in)
     return octree_digest_word(digest, size);
 }
 
-bool digest_session_file(const char *path, uint64_t *digest, record_error *error)
+bool digest_session_file(const char *path, uint64_t *digest, octreel_error *error)
 {
     FILE *in = fopen(path, "rb");
     if (!in)
-        return record_fail(error, "%s: cannot be opened: %s", path, strerror(errno));
+        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
     *digest = digest_stream(in);
     const bool ok = !ferror(in);
     fclose(in);
-    return ok || record_fail(error, "%s: cannot be read", path);
+    return ok || error_set(error, "%s: cannot be read", path);
 }
 
 /* The text of a session in a folder, and where it is, for messages. The caller frees both. */
@@ -106,29 +106,29 @@ typedef struct session_text {
     size_t size;
 } session_text;
 
-static bool read_text(const char *folder, const char *name, session_text *text, record_error *error)
+static bool read_text(const char *folder, const char *name, session_text *text, octreel_error *error)
 {
-    char reason[WHOLE_FILE_REASON];
-    text->path = folder_path(folder, name);
+    char reason[FILE_REASON];
+    text->path = path_join(folder, name);
     if (!text->path)
-        return record_fail(error, "there is no memory");
-    if (whole_file_read(text->path, &text->bytes, &text->size, reason))
+        return error_no_memory(error);
+    if (file_read_whole(text->path, &text->bytes, &text->size, reason))
         return true;
-    record_fail(error, "%s: %s", text->path, reason);
+    error_set(error, "%s: %s", text->path, reason);
     free(text->path);
     return false;
 }
 
-static bool parse_text(session_text *text, const char *folder, session_file *file, record_error *error)
+static bool parse_text(session_text *text, const char *folder, session_file *file, octreel_error *error)
 {
-    session_error unread;
+    octreel_error unread;
     const bool ok = session_parse(text->path, folder, text->bytes, text->size, file, &unread);
     free(text->bytes);
     free(text->path);
-    return ok || record_fail(error, "%s", unread.text);
+    return ok || error_set(error, "%s", unread.text);
 }
 
-bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error)
+bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error)
 {
     session_text text;
     if (!read_text(folder, "session.json", &text, error))
@@ -137,7 +137,7 @@ bool read_session_file(const char *folder, session_file *file, uint64_t *digest,
     return parse_text(&text, folder, file, error);
 }
 
-bool read_live_session(const char *folder, session_file *file, record_error *error)
+bool read_live_session(const char *folder, session_file *file, octreel_error *error)
 {
     session_text text;
     if (!read_text(folder, "session.json.live", &text, error))
@@ -166,7 +166,7 @@ static void end_object(json_writer *w)
     json_write_end_line(w);
 }
 
-bool write_recording_file(const folder_place *place, const view *v, uint64_t every, record_error *error)
+bool write_recording_file(const folder_place *place, const view *v, uint64_t every, octreel_error *error)
 {
     memory_file file;
     if (!begin_file(&file, error))
@@ -182,7 +182,7 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
     return end_file(&file, place, "recording.json", "tells of another view (size, camera, layers, every ...)", error);
 }
 
-bool write_renderer_file(const folder_place *place, const renderer_info *info, record_error *error)
+bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error)
 {
     char library[IMAGE_LIBRARY_TEXT];
     memory_file file;

@@ -22,24 +22,24 @@ typedef struct session_bytes {
 } session_bytes;
 
 /* Nearly all that is to be done for session.json. */
-bool make_session_bytes(const octree_session *session, session_bytes *made, record_error *error);
+bool make_session_bytes(const octree_session *session, session_bytes *made, octreel_error *error);
 
 /* And the rest. */
-bool write_session_file(const folder_place *place, const session_bytes *session, record_error *error);
+bool write_session_file(const folder_place *place, const session_bytes *session, octreel_error *error);
 
 /* The same digest, of a file that is there. */
-bool digest_session_file(const char *path, uint64_t *digest, record_error *error);
+bool digest_session_file(const char *path, uint64_t *digest, octreel_error *error);
 
 /* Read it back; the caller releases *file. */
-bool read_session_file(const char *folder, session_file *file, uint64_t *digest, record_error *error);
+bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error);
 
 /* The session that a program was making when it died: session.json.live, but for a line that it did not end. */
-bool read_live_session(const char *folder, session_file *file, record_error *error);
+bool read_live_session(const char *folder, session_file *file, octreel_error *error);
 
 /* recording.json: format version and view. */
-bool write_recording_file(const folder_place *place, const view *v, uint64_t every, record_error *error);
+bool write_recording_file(const folder_place *place, const view *v, uint64_t every, octreel_error *error);
 
 /* renderer.json: the one file that may differ between machines. Of several who draw the first is named. */
-bool write_renderer_file(const folder_place *place, const renderer_info *info, record_error *error);
+bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error);
 
 #endif

@@ -15,10 +15,10 @@ typedef struct head {
     size_t size;
 } head;
 
-bool link_open(int ends[2], record_error *error)
+bool link_open(int ends[2], octreel_error *error)
 {
     return socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0 ||
-           record_fail(error, "a link to another process cannot be made: %s", strerror(errno));
+           error_set(error, "a link to another process cannot be made: %s", strerror(errno));
 }
 
 void link_end(int link)

@@ -25,11 +25,11 @@ typedef struct message {
     message_kind kind;
     film_step step; /* of MESSAGE_STEP: its line is in `bytes` */
     size_t size;
-    char *bytes; /* job_ready, the line, or record_error; owned */
+    char *bytes; /* job_ready, the line, or octreel_error; owned */
 } message;
 
 /* Make the two ends of a link. */
-bool link_open(int ends[2], record_error *error);
+bool link_open(int ends[2], octreel_error *error);
 
 /* Tell a message, or any bytes. False when nobody hears it any more. */
 bool link_tell_message(int link, message_kind kind, const film_step *step, const void *bytes, size_t size);

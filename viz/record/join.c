@@ -16,40 +16,40 @@
 typedef struct joining {
     const film_options *options;
     film_summary *summary;
-    part_list parts;
-    FILE **streams;   /* of the parts that have the tick at hand; of the others null */
-    part_file ticks;  /* ticks.jsonl, as it will be */
-    char *line;       /* of a part */
-    size_t line_size; /* room for it */
+    chunk_list parts;
+    FILE **streams;    /* of the parts that have the tick at hand; of the others null */
+    file_writer ticks; /* ticks.jsonl, as it will be */
+    char *line;        /* of a part */
+    size_t line_size;  /* room for it */
 } joining;
 
-static bool fail_to_read(const joining *j, size_t i, record_error *error)
+static bool fail_to_read(const joining *j, size_t i, octreel_error *error)
 {
-    return record_fail(error, "%s/%s: cannot be read: %s", j->options->folder, j->parts.parts[i].name, strerror(errno));
+    return error_set(error, "%s/%s: cannot be read: %s", j->options->folder, j->parts.parts[i].name, strerror(errno));
 }
 
-static bool open_part(joining *j, size_t i, record_error *error)
+static bool open_part(joining *j, size_t i, octreel_error *error)
 {
-    char *path = folder_path(j->options->folder, j->parts.parts[i].name);
+    char *path = path_join(j->options->folder, j->parts.parts[i].name);
     j->streams[i] = path ? fopen(path, "rb") : NULL;
     free(path);
     return j->streams[i] || fail_to_read(j, i, error);
 }
 
-static bool make_room(joining *j, size_t size, record_error *error)
+static bool make_room(joining *j, size_t size, octreel_error *error)
 {
     if (size <= j->line_size)
         return true;
     char *more = realloc(j->line, size);
     if (!more)
-        return record_fail(error, "there is no memory for a line");
+        return error_set(error, "there is no memory for a line");
     j->line = more;
     j->line_size = size;
     return true;
 }
 
 /* The next line of a part is this tick's. */
-static bool compare_line(joining *j, size_t i, const film_step *step, record_error *error)
+static bool compare_line(joining *j, size_t i, const film_step *step, octreel_error *error)
 {
     if (!make_room(j, step->size, error))
         return false;
@@ -58,14 +58,14 @@ static bool compare_line(joining *j, size_t i, const film_step *step, record_err
         return fail_to_read(j, i, error);
     if (size == step->size && memcmp(j->line, step->line, size) == 0)
         return true;
-    return record_fail(error,
-                       "%s/%s: tick %" PRIu64 " is not what the session makes of it: the part is of another session, "
-                       "view or version of octreel",
-                       j->options->folder, j->parts.parts[i].name, step->tick);
+    return error_set(error,
+                     "%s/%s: tick %" PRIu64 " is not what the session makes of it: the part is of another session, "
+                     "view or version of octreel",
+                     j->options->folder, j->parts.parts[i].name, step->tick);
 }
 
 /* Compare the tick with each part that has it; files are open only where their ticks are. */
-static bool compare_parts(joining *j, const film_step *step, record_error *error)
+static bool compare_parts(joining *j, const film_step *step, octreel_error *error)
 {
     for (size_t i = 0; i < j->parts.count && j->parts.parts[i].first <= step->tick; i++) {
         const part *p = &j->parts.parts[i];
@@ -81,12 +81,12 @@ static bool compare_parts(joining *j, const film_step *step, record_error *error
     return true;
 }
 
-static bool join_tick(void *context, const film_step *step, record_error *error)
+static bool join_tick(void *context, const film_step *step, octreel_error *error)
 {
     joining *j = context;
     if (!compare_parts(j, step, error))
         return false;
-    fwrite(step->line, 1, step->size, j->ticks.stream); /* part_close tells */
+    fwrite(step->line, 1, step->size, j->ticks.stream); /* file_writer_close tells */
     summary_add(j->summary, step);
     if (j->options->progress)
         j->options->progress(j->summary->ticks, j->summary->total, j->options->context);
@@ -99,17 +99,17 @@ static bool is_whole(const joining *j)
     return j->summary->ticks == j->summary->total;
 }
 
-static bool check_and_write(joining *j, take *t, record_error *error)
+static bool check_and_write(joining *j, take *t, octreel_error *error)
 {
-    char *path = folder_path(j->options->folder, "ticks.jsonl");
+    char *path = path_join(j->options->folder, "ticks.jsonl");
     const film_share all = {.last = j->summary->total};
-    bool ok = path ? part_open(&j->ticks, path, error) : record_fail(error, "there is no memory");
+    bool ok = path ? file_writer_open(&j->ticks, path, error) : error_no_memory(error);
     if (ok) {
         ok = film_ticks(t, &all, join_tick, j, error);
         if (ok && is_whole(j))
-            ok = part_close(&j->ticks, error);
+            ok = file_writer_close(&j->ticks, error);
         else
-            part_abandon(&j->ticks);
+            file_writer_abandon(&j->ticks);
     }
     free(path);
     return ok;
@@ -122,15 +122,15 @@ static void release(joining *j)
             fclose(j->streams[i]);
     free(j->streams);
     free(j->line);
-    parts_release(&j->parts);
+    chunks_release(&j->parts);
 }
 
-static bool join_lines(joining *j, const octree_session *session, uint64_t session_digest, record_error *error)
+static bool join_lines(joining *j, const octree_session *session, uint64_t session_digest, octreel_error *error)
 {
     take t;
     j->streams = calloc(j->parts.count + 1, sizeof *j->streams);
     if (!j->streams)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     bool ok = take_open(&t, session, j->options, FRAMES_CHECK, error);
     t.session_digest = session_digest;
     ok = ok && check_and_write(j, &t, error);
@@ -138,17 +138,17 @@ static bool join_lines(joining *j, const octree_session *session, uint64_t sessi
     return ok;
 }
 
-static bool check_renderer_file(const char *folder, record_error *error)
+static bool check_renderer_file(const char *folder, octreel_error *error)
 {
     return folder_has(folder, "renderer.json") ||
-           record_fail(error, "%s: renderer.json is missing; octreel record --resume writes it", folder);
+           error_set(error, "%s: renderer.json is missing; octreel record --resume writes it", folder);
 }
 
-static bool join_session(joining *j, const octree_session *session, uint64_t digest, record_error *error)
+static bool join_session(joining *j, const octree_session *session, uint64_t digest, octreel_error *error)
 {
     const char *folder = j->options->folder;
     j->summary->total = octree_session_length(session) + 1;
-    bool ok = parts_find(folder, j->summary->total, &j->parts, error) &&
+    bool ok = chunks_find(folder, j->summary->total, &j->parts, error) &&
               missing_nothing(folder, &j->parts, j->summary->total, j->options->every, error) &&
               check_renderer_file(folder, error) && join_lines(j, session, digest, error);
     if (ok && is_whole(j))
@@ -157,7 +157,7 @@ static bool join_session(joining *j, const octree_session *session, uint64_t dig
     return ok;
 }
 
-bool join_parts(film_options *options, film_summary *summary, record_error *error)
+bool join_parts(film_options *options, film_summary *summary, octreel_error *error)
 {
     joining j = {.options = options, .summary = summary};
     session_file file;

@@ -13,6 +13,6 @@
 /* Join the parts in options->folder, and read the rest of the options from there; progress, keep_going and context are
  * the caller's. Stopped, it changes nothing, and summary->ticks is below its total. False where anything is missing,
  * which the sentence names, or wrong. */
-bool join_parts(film_options *options, film_summary *summary, record_error *error);
+bool join_parts(film_options *options, film_summary *summary, octreel_error *error);
 
 #endif

@@ -8,7 +8,7 @@
 
 bool live_session_init(live_session *s, const octree_session *start)
 {
-    session_error ignored;
+    octreel_error ignored;
     *s = (live_session){0};
     return session_copy(start, &s->start, &ignored);
 }
@@ -27,13 +27,13 @@ const octree_session *live_session_start(const live_session *s)
     return &s->start.session;
 }
 
-static bool fail_to_write(const live_session *s, record_error *error)
+static bool fail_to_write(const live_session *s, octreel_error *error)
 {
-    return record_fail(error, "%s: cannot be written: %s", s->path, strerror(errno));
+    return error_set(error, "%s: cannot be written: %s", s->path, strerror(errno));
 }
 
 /* What was written is there for good, even where the process dies. */
-static bool keep(live_session *s, record_error *error)
+static bool keep(live_session *s, octreel_error *error)
 {
     if (fflush(s->stream) != 0 || ferror(s->stream))
         return fail_to_write(s, error);
@@ -52,13 +52,13 @@ static octree_input first_tick(const octree_session *session)
     return input;
 }
 
-bool live_session_begin(live_session *s, const char *folder, record_error *error)
+bool live_session_begin(live_session *s, const char *folder, octreel_error *error)
 {
     octree_session header = s->start.session;
     header.ticks = SESSION_ENDLESS;
-    s->path = folder_path(folder, "session.json.live");
+    s->path = path_join(folder, "session.json.live");
     if (!s->path)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     s->stream = fopen(s->path, "w+b");
     if (!s->stream)
         return fail_to_write(s, error);
@@ -71,10 +71,10 @@ bool live_session_begin(live_session *s, const char *folder, record_error *error
     return keep(s, error);
 }
 
-bool live_session_add(live_session *s, const octree_input *input, record_error *error)
+bool live_session_add(live_session *s, const octree_input *input, octreel_error *error)
 {
     if (s->ticks == SESSION_LAST_TICK)
-        return record_fail(error, "a recording has at most %d ticks", SESSION_LAST_TICK);
+        return error_set(error, "a recording has at most %d ticks", SESSION_LAST_TICK);
     session_write_tick(s->ticks + 1, input, s->stream);
     if (!keep(s, error))
         return false;
@@ -92,7 +92,7 @@ void live_session_abandon(live_session *s)
 }
 
 /* Copy the ticks behind a header that knows how many there are. */
-static bool copy_ticks(live_session *s, FILE *out, record_error *error)
+static bool copy_ticks(live_session *s, FILE *out, octreel_error *error)
 {
     char buffer[1 << 16];
     off_t left = s->whole - s->head;
@@ -102,28 +102,28 @@ static bool copy_ticks(live_session *s, FILE *out, record_error *error)
     while (left > 0) {
         const size_t wanted = left < (off_t)sizeof buffer ? (size_t)left : sizeof buffer;
         if (fread(buffer, 1, wanted, s->stream) != wanted)
-            return record_fail(error, "%s: cannot be read", s->path);
-        fwrite(buffer, 1, wanted, out); /* part_close tells */
+            return error_set(error, "%s: cannot be read", s->path);
+        fwrite(buffer, 1, wanted, out); /* file_writer_close tells */
         left -= (off_t)wanted;
     }
     return true;
 }
 
-static bool write_session(live_session *s, const char *path, record_error *error)
+static bool write_session(live_session *s, const char *path, octreel_error *error)
 {
-    part_file file;
+    file_writer file;
     octree_session header = s->start.session;
     header.ticks = s->ticks;
-    if (!part_open(&file, path, error))
+    if (!file_writer_open(&file, path, error))
         return false;
     session_write_header(&header, file.stream);
-    return copy_ticks(s, file.stream, error) ? part_close(&file, error) : part_abandon(&file);
+    return copy_ticks(s, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
 }
 
-bool live_session_end(live_session *s, const char *folder, uint64_t *digest, record_error *error)
+bool live_session_end(live_session *s, const char *folder, uint64_t *digest, octreel_error *error)
 {
-    char *path = folder_path(folder, "session.json");
-    bool ok = path ? write_session(s, path, error) : record_fail(error, "there is no memory");
+    char *path = path_join(folder, "session.json");
+    bool ok = path ? write_session(s, path, error) : error_no_memory(error);
     ok = ok && digest_session_file(path, digest, error);
     if (ok)
         live_session_abandon(s);

@@ -23,15 +23,15 @@ void live_session_release(live_session *s);
 const octree_session *live_session_start(const live_session *s);
 
 /* Begin session.json.live with the header and tick 0. */
-bool live_session_begin(live_session *s, const char *folder, record_error *error);
+bool live_session_begin(live_session *s, const char *folder, octreel_error *error);
 
 /* Add the next tick. */
-bool live_session_add(live_session *s, const octree_input *input, record_error *error);
+bool live_session_add(live_session *s, const octree_input *input, octreel_error *error);
 
 /* Remove session.json.live where it was begun. */
 void live_session_abandon(live_session *s);
 
 /* Write session.json, and remove session.json.live; *digest is that of its bytes. */
-bool live_session_end(live_session *s, const char *folder, uint64_t *digest, record_error *error);
+bool live_session_end(live_session *s, const char *folder, uint64_t *digest, octreel_error *error);
 
 #endif

@@ -67,7 +67,7 @@ static char *tick_name(uint64_t tick, char text[FRAME_NAME])
 }
 
 /* Ascending parts with gaps between what they have. */
-static bool miss_no_line(const char *folder, const part_list *list, uint64_t ticks, record_error *error)
+static bool miss_no_line(const char *folder, const chunk_list *list, uint64_t ticks, octreel_error *error)
 {
     runs gaps = {.name = tick_name, .step = 1};
     uint64_t next = 0;
@@ -80,10 +80,10 @@ static bool miss_no_line(const char *folder, const part_list *list, uint64_t tic
             next = p->first + p->lines;
     }
     end_runs(&gaps);
-    return gaps.count == 0 || record_fail(error,
-                                          "%s: no part has the tick%s %s; octreel record --resume films what is "
-                                          "missing",
-                                          folder, gaps.count > 1 ? "s" : "", gaps.text);
+    return gaps.count == 0 || error_set(error,
+                                        "%s: no part has the tick%s %s; octreel record --resume films what is "
+                                        "missing",
+                                        folder, gaps.count > 1 ? "s" : "", gaps.text);
 }
 
 static bool is_there(const char *folder, uint64_t tick)
@@ -106,29 +106,29 @@ uint64_t missing_frames(const char *folder, uint64_t first, uint64_t last, uint6
     return gaps.count;
 }
 
-static bool miss_no_frame(const char *folder, uint64_t ticks, uint64_t every, record_error *error)
+static bool miss_no_frame(const char *folder, uint64_t ticks, uint64_t every, octreel_error *error)
 {
     char text[MISSING_TEXT];
     const uint64_t count = missing_frames(folder, 0, ticks, every, text);
-    return count == 0 || record_fail(error, "%s: %s %s missing; octreel record --resume films what is missing", folder,
-                                     text, count > 1 ? "are" : "is");
+    return count == 0 || error_set(error, "%s: %s %s missing; octreel record --resume films what is missing", folder,
+                                   text, count > 1 ? "are" : "is");
 }
 
-static bool hold_no_other_frame(const char *folder, uint64_t ticks, uint64_t every, record_error *error)
+static bool hold_no_other_frame(const char *folder, uint64_t ticks, uint64_t every, octreel_error *error)
 {
     DIR *entries = opendir(folder);
     if (!entries)
-        return record_fail(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
+        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
     bool ok = true;
     uint64_t tick;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
         if (frame_parse_name(entry->d_name, &tick) && !frame_is_name(entry->d_name, ticks, every))
-            ok = record_fail(error, "%s/%s: is no frame of this recording", folder, entry->d_name);
+            ok = error_set(error, "%s/%s: is no frame of this recording", folder, entry->d_name);
     closedir(entries);
     return ok;
 }
 
-bool missing_nothing(const char *folder, const part_list *parts, uint64_t ticks, uint64_t every, record_error *error)
+bool missing_nothing(const char *folder, const chunk_list *parts, uint64_t ticks, uint64_t every, octreel_error *error)
 {
     return miss_no_line(folder, parts, ticks, error) && miss_no_frame(folder, ticks, every, error) &&
            hold_no_other_frame(folder, ticks, every, error);

@@ -2,11 +2,11 @@
 #ifndef RECORD_MISSING_H
 #define RECORD_MISSING_H
 
-#include "parts.h"
+#include "chunks.h"
 
 /* True when each of the ticks [0, ticks) has a line in a part, and each every-th a frame, and the folder has no other
  * frames. Else one sentence that names what is missing or odd. */
-bool missing_nothing(const char *folder, const part_list *parts, uint64_t ticks, uint64_t every, record_error *error);
+bool missing_nothing(const char *folder, const chunk_list *parts, uint64_t ticks, uint64_t every, octreel_error *error);
 
 /* The frames of the ticks [first, last) that are not in the folder, in words: "frame_000003.png" or "frame_000003.png,
  * frame_000007.png to frame_000009.png and 12 more"; empty when there are none. Returns their number. */

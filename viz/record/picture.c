@@ -3,7 +3,7 @@
 #include "filter.h"
 #include "fit.h"
 
-_Static_assert(DRAW_MAX_SIDE <= IMAGE_MAX_SIDE, "what is drawn can be written, and read again");
+_Static_assert(VIEW_MAX_SIDE <= IMAGE_MAX_SIDE, "what is drawn can be written, and read again");
 
 static image_palette theme_palette(void)
 {
@@ -15,25 +15,25 @@ static image_palette theme_palette(void)
     return palette;
 }
 
-bool picture_fit(view *v, const octree *tree, record_error *error)
+bool picture_fit(view *v, const octree *tree, octreel_error *error)
 {
     char reason[FILTER_TEXT];
     const octree_def def = octree_definition(tree);
     fit_view(v, tree);
-    return !filter_refusal(&v->filter, &def, reason) || record_fail(error, "%s", reason);
+    return !filter_refusal(&v->filter, &def, reason) || error_set(error, "%s", reason);
 }
 
-static bool check_samples(const view *v, record_error *error)
+static bool check_samples(const view *v, octreel_error *error)
 {
     const int samples = view_samples(v);
     if (samples != 1 && samples != 2 && samples != 4)
-        return record_fail(error, "there is no anti-aliasing by %d; there are 1, 2 and 4", samples);
-    if (samples == 1 || (v->width <= DRAW_MAX_SIDE / samples && v->height <= DRAW_MAX_SIDE / samples))
+        return error_set(error, "there is no anti-aliasing by %d; there are 1, 2 and 4", samples);
+    if (samples == 1 || (v->width <= VIEW_MAX_SIDE / samples && v->height <= VIEW_MAX_SIDE / samples))
         return true;
-    return record_fail(error,
-                       "a picture of %d x %d pixels cannot be drawn with %d samples on each side of a pixel: a side "
-                       "must be 1 to %d",
-                       v->width, v->height, samples, DRAW_MAX_SIDE / samples);
+    return error_set(error,
+                     "a picture of %d x %d pixels cannot be drawn with %d samples on each side of a pixel: a side "
+                     "must be 1 to %d",
+                     v->width, v->height, samples, VIEW_MAX_SIDE / samples);
 }
 
 static bool create_images(picture *p, const view *v)
@@ -47,19 +47,19 @@ static bool create_images(picture *p, const view *v)
     return true;
 }
 
-bool picture_open(picture *p, const view *v, const renderer_choice *choice, record_error *error)
+bool picture_open(picture *p, const view *v, const renderer_choice *choice, octreel_error *error)
 {
-    draw_error why;
+    octreel_error why;
     *p = (picture){0};
     if (!check_samples(v, error))
         return false;
     p->renderer = renderer_open(v->width * view_samples(v), v->height * view_samples(v), choice, &why);
     if (!p->renderer)
-        return record_fail(error, "%s", why.text);
+        return error_set(error, "%s", why.text);
     if (create_images(p, v))
         return true;
     picture_close(p);
-    return record_fail(error, "there is no memory for a frame of %d x %d pixels", v->width, v->height);
+    return error_set(error, "there is no memory for a frame of %d x %d pixels", v->width, v->height);
 }
 
 void picture_close(picture *p)
@@ -70,18 +70,18 @@ void picture_close(picture *p)
     p->renderer = NULL;
 }
 
-bool picture_draw(picture *p, const scene *s, record_error *error)
+bool picture_draw(picture *p, const scene *s, octreel_error *error)
 {
-    draw_error why;
+    octreel_error why;
     image *drawn = p->samples.pixels ? &p->samples : &p->frame;
     if (!renderer_draw(p->renderer, s, drawn->pixels, &why))
-        return record_fail(error, "%s", why.text);
+        return error_set(error, "%s", why.text);
     return drawn == &p->frame || image_shrink(drawn, view_samples(&s->view), &p->frame) ||
-           record_fail(error, "the scene is not of the picture's anti-aliasing");
+           error_set(error, "the scene is not of the picture's anti-aliasing");
 }
 
-bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, record_error *error)
+bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, octreel_error *error)
 {
-    image_error why;
-    return image_write_png(&p->frame, path, texts, count, &why) || record_fail(error, "%s", why.text);
+    octreel_error why;
+    return image_write_png(&p->frame, path, texts, count, &why) || error_set(error, "%s", why.text);
 }

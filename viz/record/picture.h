@@ -13,16 +13,16 @@ typedef struct picture {
 } picture;
 
 /* Fit a view to the tree that it shows first. False with the reason where there is nothing in it to be seen. */
-bool picture_fit(view *v, const octree *tree, record_error *error);
+bool picture_fit(view *v, const octree *tree, octreel_error *error);
 
 /* For scenes of this view's size and anti-aliasing. What is too large is refused before memory is spent. */
-bool picture_open(picture *p, const view *v, const renderer_choice *choice, record_error *error);
+bool picture_open(picture *p, const view *v, const renderer_choice *choice, octreel_error *error);
 void picture_close(picture *p);
 
 /* Draw a scene into p->frame. */
-bool picture_draw(picture *p, const scene *s, record_error *error);
+bool picture_draw(picture *p, const scene *s, octreel_error *error);
 
 /* Write p->frame, with what traces it to its origin. */
-bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, record_error *error);
+bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, octreel_error *error);
 
 #endif

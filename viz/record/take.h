@@ -44,18 +44,18 @@ typedef struct film_step {
 /* Start a session and open what draws it. Every session and view that cannot be filmed is refused here, before any file
  * is touched. */
 bool take_open(take *t, const octree_session *session, const film_options *options, take_frames frames,
-               record_error *error);
+               octreel_error *error);
 void take_close(take *t);
 
 /* Make take.scene of the tick at which the game is, as the view shows it. */
-bool take_scene(take *t, record_error *error);
+bool take_scene(take *t, octreel_error *error);
 
 /* Take that tick: its scene and its frame, where it has one, and its line. */
-bool take_tick(take *t, film_step *step, record_error *error);
+bool take_tick(take *t, film_step *step, octreel_error *error);
 
 /* Play the next tick; and one that is not in the session. */
-bool take_advance(take *t, record_error *error);
-bool take_play(take *t, const octree_input *input, record_error *error);
+bool take_advance(take *t, octreel_error *error);
+bool take_play(take *t, const octree_input *input, octreel_error *error);
 
 /* The ticks [first, last) of a session; where a count is given, of each `count` frames, with the ticks up to the next
  * one, only that of this index. */
@@ -65,9 +65,9 @@ typedef struct film_share {
 } film_share;
 
 /* What is done with each tick of a share, in their order. */
-typedef bool film_sink(void *context, const film_step *step, record_error *error);
+typedef bool film_sink(void *context, const film_step *step, octreel_error *error);
 
 /* Play on to the end of a share and take its ticks. Ends early, and true, where options->keep_going says so. */
-bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context, record_error *error);
+bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context, octreel_error *error);
 
 #endif

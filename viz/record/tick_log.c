@@ -14,27 +14,27 @@ static bool is_taken(int file)
     return fcntl(file, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
 }
 
-static bool fail_to_write(tick_log *log, record_error *error, const char *more)
+static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
 {
-    return record_fail(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
+    return error_set(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
 }
 
 /* It is emptied behind the lock: the lines of another process stay. */
-static bool begin(tick_log *log, int file, bool keep, record_error *error)
+static bool begin(tick_log *log, int file, bool keep, octreel_error *error)
 {
     if (is_taken(file))
-        return record_fail(error, "%s: another process is filming into it", log->path);
+        return error_set(error, "%s: another process is filming into it", log->path);
     log->kept = keep ? lseek(file, 0, SEEK_END) : 0;
     if (log->kept >= 0 && lseek(file, 0, SEEK_SET) == 0 && (keep || ftruncate(file, 0) == 0))
         log->stream = fdopen(file, "r+b");
     return log->stream || fail_to_write(log, error, "");
 }
 
-bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, record_error *error)
+bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, octreel_error *error)
 {
-    *log = (tick_log){.path = folder_path(folder, name)};
+    *log = (tick_log){.path = path_join(folder, name)};
     if (!log->path)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     const int file = open(log->path, O_RDWR | O_CREAT, 0666);
     if (file < 0 ? fail_to_write(log, error, "") : begin(log, file, keep, error))
         return true;
@@ -45,7 +45,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     return false;
 }
 
-static bool give_up(tick_log *log, record_error *error)
+static bool give_up(tick_log *log, octreel_error *error)
 {
     const int reason = errno;
     fclose(log->stream);
@@ -73,7 +73,7 @@ static bool forget(tick_log *log)
     return fseeko(log->stream, log->whole, SEEK_SET) == 0 && ftruncate(fileno(log->stream), log->whole) == 0;
 }
 
-bool tick_log_add(tick_log *log, const char *line, size_t size, record_error *error)
+bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *error)
 {
     if (log->kept > 0 && is_kept(log, line, size)) {
         log->whole += (off_t)size;
@@ -87,7 +87,7 @@ bool tick_log_add(tick_log *log, const char *line, size_t size, record_error *er
     return true;
 }
 
-bool tick_log_close(tick_log *log, bool whole, record_error *error)
+bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
 {
     const bool cut = !log->stream || !whole || log->kept == 0 || forget(log) || fail_to_write(log, error, "");
     const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "")) && cut;

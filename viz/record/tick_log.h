@@ -16,12 +16,12 @@ typedef struct tick_log {
 /* Begin a file of the folder anew; with `keep` what is there stays as far as the lines to come are the same, so that
  * nothing is lost where they do not come. False where another process has it open so: two would spoil each other's
  * frames. */
-bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, record_error *error);
+bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, octreel_error *error);
 
 /* Add a line, its newline included. What cannot be written whole is cut off, and the log closed. */
-bool tick_log_add(tick_log *log, const char *line, size_t size, record_error *error);
+bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *error);
 
 /* Close a log, open or not. A log that is whole ends with the last line that was added. */
-bool tick_log_close(tick_log *log, bool whole, record_error *error);
+bool tick_log_close(tick_log *log, bool whole, octreel_error *error);
 
 #endif

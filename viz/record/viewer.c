@@ -31,16 +31,16 @@ static off_t end_of_lines(FILE *stream)
     return end;
 }
 
-static bool fail_to_read(const source *s, record_error *error)
+static bool fail_to_read(const source *s, octreel_error *error)
 {
-    return record_fail(error, "%s: cannot be read: %s", s->path, strerror(errno));
+    return error_set(error, "%s: cannot be read: %s", s->path, strerror(errno));
 }
 
-static bool open_source(source *s, const char *folder, const char *name, record_error *error)
+static bool open_source(source *s, const char *folder, const char *name, octreel_error *error)
 {
-    *s = (source){.path = folder_path(folder, name), .line = 1};
+    *s = (source){.path = path_join(folder, name), .line = 1};
     if (!s->path)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     s->stream = fopen(s->path, "rb");
     if (!s->stream)
         return fail_to_read(s, error);
@@ -65,7 +65,7 @@ static bool ends_line(FILE *stream)
 }
 
 /* An object and the end of its line, as one line of the page. */
-static bool copy_object(source *s, FILE *page, record_error *error)
+static bool copy_object(source *s, FILE *page, octreel_error *error)
 {
     const bool opens = ungetc(getc(s->stream), s->stream) == '{';
     if (opens && json_thin(s->stream, page, VIEWER_LIST) && ends_line(s->stream)) {
@@ -75,10 +75,10 @@ static bool copy_object(source *s, FILE *page, record_error *error)
     }
     if (ferror(s->stream))
         return fail_to_read(s, error);
-    return record_fail(error, "%s:%ju: is no JSON object, so index.html cannot be written", s->path, s->line);
+    return error_set(error, "%s:%ju: is no JSON object, so index.html cannot be written", s->path, s->line);
 }
 
-static bool copy_recording(const char *folder, FILE *page, record_error *error)
+static bool copy_recording(const char *folder, FILE *page, octreel_error *error)
 {
     source s;
     const bool ok = open_source(&s, folder, "recording.json", error) && copy_object(&s, page, error);
@@ -86,7 +86,7 @@ static bool copy_recording(const char *folder, FILE *page, record_error *error)
     return ok;
 }
 
-static bool copy_ticks(const char *folder, FILE *page, record_error *error)
+static bool copy_ticks(const char *folder, FILE *page, octreel_error *error)
 {
     source s;
     bool ok = open_source(&s, folder, "ticks.jsonl", error);
@@ -96,7 +96,7 @@ static bool copy_ticks(const char *folder, FILE *page, record_error *error)
     return ok;
 }
 
-static bool write_page(const char *folder, FILE *page, record_error *error)
+static bool write_page(const char *folder, FILE *page, octreel_error *error)
 {
     fwrite(viewer_page_head, 1, viewer_page_head_size, page);
     const bool ok = copy_recording(folder, page, error) && copy_ticks(folder, page, error);
@@ -104,13 +104,13 @@ static bool write_page(const char *folder, FILE *page, record_error *error)
     return ok;
 }
 
-bool viewer_write(const char *folder, record_error *error)
+bool viewer_write(const char *folder, octreel_error *error)
 {
-    char *path = folder_path(folder, "index.html");
-    part_file file;
-    bool ok = path ? part_open(&file, path, error) : record_fail(error, "there is no memory");
+    char *path = path_join(folder, "index.html");
+    file_writer file;
+    bool ok = path ? file_writer_open(&file, path, error) : error_no_memory(error);
     if (ok)
-        ok = write_page(folder, file.stream, error) ? part_close(&file, error) : part_abandon(&file);
+        ok = write_page(folder, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
     free(path);
     return ok;
 }

@@ -9,6 +9,6 @@
 
 /* Write index.html into a recording, from its recording.json and the whole lines of its ticks.jsonl as they are there.
  * What was there of that name is replaced; on failure nothing changes. */
-bool viewer_write(const char *folder, record_error *error);
+bool viewer_write(const char *folder, octreel_error *error);
 
 #endif

@@ -2,7 +2,7 @@
 #include "who_drew.h"
 #include "folder.h"
 #include "printable.h"
-#include "whole_file.h"
+#include "file.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -34,9 +34,9 @@ char *who_draws(const renderer_info *info, char *text, size_t size)
 
 char *who_drew(const char *folder, char *text, size_t size)
 {
-    char reason[WHOLE_FILE_REASON], *bytes = NULL, *path = folder_path(folder, "renderer.json");
+    char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, "renderer.json");
     size_t length;
-    const bool there = path && whole_file_read(path, &bytes, &length, reason);
+    const bool there = path && file_read_whole(path, &bytes, &length, reason);
     json_t *object = there ? json_loadb(bytes, length, 0, NULL) : NULL;
     describe(object, text, size);
     json_decref(object);

@@ -87,7 +87,7 @@ static octree_status insert_all(const cloud *c, inspection *result)
     return status;
 }
 
-bool inspect_build(const cloud *c, const octree_def *def, inspection *result, record_error *error)
+bool inspect_build(const cloud *c, const octree_def *def, inspection *result, octreel_error *error)
 {
     *result = (inspection){.points = c->count, .skipped = c->skipped};
     octree_status status = octree_create(def, &result->tree);
@@ -96,7 +96,7 @@ bool inspect_build(const cloud *c, const octree_def *def, inspection *result, re
     if (status == OCTREE_OK)
         return true;
     inspect_release(result);
-    return record_fail(error, "the tree cannot be made: %s", octree_status_text(status));
+    return error_set(error, "the tree cannot be made: %s", octree_status_text(status));
 }
 
 void inspect_release(inspection *i)

@@ -21,7 +21,7 @@ typedef struct inspection {
 } inspection;
 
 /* Insert every point of a cloud into a new tree. */
-bool inspect_build(const cloud *c, const octree_def *def, inspection *result, record_error *error);
+bool inspect_build(const cloud *c, const octree_def *def, inspection *result, octreel_error *error);
 void inspect_release(inspection *i);
 
 /* The statistics, for people. */
@@ -31,12 +31,12 @@ void inspect_print(const inspection *i, const char *name, FILE *out);
 void inspect_print_json(const inspection *i, const char *name, FILE *out);
 
 /* The node at an address as it is typed, such as 0/3/7 or root. False, with a sentence, when there is none. */
-bool inspect_find_node(const inspection *i, const char *address, octree_node *node, record_error *error);
+bool inspect_find_node(const inspection *i, const char *address, octree_node *node, octreel_error *error);
 
 /* One node of the cloud `name`: its box and, for a leaf, its points; for people or as JSON. */
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out);
 
 /* All nodes as CSV: address, depth, leaf, count, min_x ... max_z. */
-bool inspect_write_nodes(const inspection *i, const char *path, record_error *error);
+bool inspect_write_nodes(const inspection *i, const char *path, octreel_error *error);
 
 #endif

@@ -1,6 +1,6 @@
 /* inspect_output.c - see inspect_output.h. */
 #include "inspect_output.h"
-#include "output_file.h"
+#include "file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,36 +35,36 @@ static bool is_there(const char *path, bool *folder)
     return there;
 }
 
-static bool check_names(const inspect_output *output, char *const *clouds, size_t count, record_error *error)
+static bool check_names(const inspect_output *output, char *const *clouds, size_t count, octreel_error *error)
 {
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < i; j++)
             if (strcmp(inspect_base_name(clouds[i]), inspect_base_name(clouds[j])) == 0)
-                return record_fail(error, "%s: %s and %s would be the same file in %s", output->option, clouds[j],
-                                   clouds[i], output->given);
+                return error_set(error, "%s: %s and %s would be the same file in %s", output->option, clouds[j],
+                                 clouds[i], output->given);
     return true;
 }
 
-bool inspect_output_check(inspect_output *output, char *const *clouds, size_t count, record_error *error)
+bool inspect_output_check(inspect_output *output, char *const *clouds, size_t count, octreel_error *error)
 {
     if (!output->given)
         return true;
     const bool there = is_there(output->given, &output->folder);
     output->folder = output->folder || ends_in(output->given, "/");
     if (count > 1 && !output->folder && (there || ends_in(output->given, output->ending)))
-        return record_fail(error, "%s %s is one file; for several clouds it takes a folder", output->option,
-                           output->given);
+        return error_set(error, "%s %s is one file; for several clouds it takes a folder", output->option,
+                         output->given);
     output->folder = output->folder || count > 1;
     return !output->folder || check_names(output, clouds, count, error);
 }
 
-static char *path_of(const inspect_output *output, const char *cloud, record_error *error)
+static char *path_of(const inspect_output *output, const char *cloud, octreel_error *error)
 {
     const char *name = inspect_base_name(cloud);
     const size_t size = strlen(output->given) + strlen(name) + strlen(output->ending) + 2;
     char *path = malloc(size);
     if (!path) {
-        record_fail(error, "there is no memory");
+        error_no_memory(error);
         return NULL;
     }
     if (!output->folder) {
@@ -76,7 +76,7 @@ static char *path_of(const inspect_output *output, const char *cloud, record_err
     return path;
 }
 
-char *inspect_output_path(const inspect_output *output, const char *cloud, record_error *error)
+char *inspect_output_path(const inspect_output *output, const char *cloud, octreel_error *error)
 {
     char *path = path_of(output, cloud, error);
     if (!path || !output->folder || folder_make(output->given, error))
@@ -86,7 +86,7 @@ char *inspect_output_path(const inspect_output *output, const char *cloud, recor
 }
 
 /* The files of one cloud. Those of two have other names, or other endings. */
-static bool files_spare(const output_file files[2], char *const *clouds, size_t count, record_error *error)
+static bool files_spare(const output_file files[2], char *const *clouds, size_t count, octreel_error *error)
 {
     bool ok = outputs_apart(files, 2, error);
     for (size_t i = 0; ok && i < count; i++)
@@ -94,7 +94,7 @@ static bool files_spare(const output_file files[2], char *const *clouds, size_t 
     return ok;
 }
 
-bool inspect_outputs_spare(const inspect_output outputs[2], char *const *clouds, size_t count, record_error *error)
+bool inspect_outputs_spare(const inspect_output outputs[2], char *const *clouds, size_t count, octreel_error *error)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < count; i++) {

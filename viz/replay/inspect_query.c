@@ -80,7 +80,7 @@ static octree_status ask(const octree *tree, const octree_query *query, inspect_
 }
 
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,
-                 record_error *error)
+                 octreel_error *error)
 {
     const size_t room = count ? count : 1;
     *result = (inspect_answers){.answers = calloc(room, sizeof *result->answers),
@@ -92,7 +92,7 @@ bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, 
     if (status == OCTREE_OK)
         return true;
     inspect_answers_release(result);
-    return record_fail(error, "the tree cannot be asked: %s", octree_status_text(status));
+    return error_set(error, "the tree cannot be asked: %s", octree_status_text(status));
 }
 
 void inspect_answers_release(inspect_answers *answers)

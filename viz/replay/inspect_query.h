@@ -16,7 +16,7 @@ typedef struct inspect_answers {
 /* Ask a tree. Every point counts, and queries may reach beyond the world. False, and a sentence, when a query does not
  * fit or there is no memory; nothing is then to be released. */
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,
-                 record_error *error);
+                 octreel_error *error);
 void inspect_answers_release(inspect_answers *answers);
 
 /* The answers for people, or as one JSON object on one line. `name` is the cloud's. */

@@ -215,14 +215,14 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     json_write_end_line(w);
 }
 
-bool inspect_find_node(const inspection *i, const char *address, octree_node *node, record_error *error)
+bool inspect_find_node(const inspection *i, const char *address, octree_node *node, octreel_error *error)
 {
     octree_address parsed;
     if (!octree_address_parse(address, &parsed))
-        return record_fail(
+        return error_set(
             error, "\"%s\" is not a node's address; it is octants from the root down, as in 0/3/7, or root", address);
     return octree_node_at(i->tree, parsed, node) == OCTREE_OK ||
-           record_fail(error, "there is no node %s in this tree", address);
+           error_set(error, "there is no node %s in this tree", address);
 }
 
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out)
@@ -246,12 +246,12 @@ static octree_walk_order write_row(const octree_node *node, void *context)
     return ferror(out) ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-bool inspect_write_nodes(const inspection *i, const char *path, record_error *error)
+bool inspect_write_nodes(const inspection *i, const char *path, octreel_error *error)
 {
-    part_file file;
-    if (!part_open(&file, path, error))
+    file_writer file;
+    if (!file_writer_open(&file, path, error))
         return false;
     fputs("address,depth,leaf,count,min_x,min_y,min_z,max_x,max_y,max_z\n", file.stream);
     octree_walk(i->tree, write_row, file.stream);
-    return part_close(&file, error);
+    return file_writer_close(&file, error);
 }

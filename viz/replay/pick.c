@@ -24,39 +24,39 @@ static char *folder_of(const char *path)
 }
 
 /* Read the picture, and look whether it has the pixel that is asked for. */
-static bool read_picture(pick *p, image *frame, record_error *error)
+static bool read_picture(pick *p, image *frame, octreel_error *error)
 {
-    image_error unread;
+    octreel_error unread;
     if (!image_read_png(p->path, frame, &unread))
-        return record_fail(error, "%s", unread.text);
+        return error_set(error, "%s", unread.text);
     p->width = frame->width;
     p->height = frame->height;
     return (p->asked[0] >= 0 && p->asked[1] >= 0 && p->asked[0] < p->width && p->asked[1] < p->height) ||
-           record_fail(error, "%s: pixel (%d, %d) is outside the picture, which has %d x %d pixels", p->path,
-                       p->asked[0], p->asked[1], p->width, p->height);
+           error_set(error, "%s: pixel (%d, %d) is outside the picture, which has %d x %d pixels", p->path, p->asked[0],
+                     p->asked[1], p->width, p->height);
 }
 
-static bool check_beside(const pick *p, const char *folder, record_error *error)
+static bool check_beside(const pick *p, const char *folder, octreel_error *error)
 {
     static const char *const needed[] = {"recording.json", "session.json"};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
-        char *path = folder_path(folder, needed[i]);
+        char *path = path_join(folder, needed[i]);
         const bool there = path && access(path, F_OK) == 0;
         free(path);
         if (!there)
-            return record_fail(error, "%s: there is no recording beside it: its folder has no %s", p->path, needed[i]);
+            return error_set(error, "%s: there is no recording beside it: its folder has no %s", p->path, needed[i]);
     }
     return true;
 }
 
 /* Play to the frame's tick and make its scene, which must be the one that the frame is of. */
-static bool remake(pick *p, replay *r, const char *folder, record_error *error)
+static bool remake(pick *p, replay *r, const char *folder, octreel_error *error)
 {
     if (!replay_open(r, folder, error))
         return false;
     if (p->tick >= r->ticks)
-        return record_fail(error, "%s: is of tick %" PRIu64 ", and the session beside it ends with tick %" PRIu64,
-                           p->path, p->tick, r->ticks - 1);
+        return error_set(error, "%s: is of tick %" PRIu64 ", and the session beside it ends with tick %" PRIu64,
+                         p->path, p->tick, r->ticks - 1);
     if (!replay_to(r, p->tick, error) || !replay_scene(r, error))
         return false;
     frame_origin origin = {.tick = p->tick, .session = r->session_digest, .scene = scene_digest(&r->take.scene)};
@@ -99,27 +99,27 @@ static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
     }
 }
 
-static bool seek_nearest(pick *p, renderer *r, const scene *s, record_error *error)
+static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *error)
 {
     const size_t samples = (size_t)view_samples(&s->view);
-    draw_error why;
+    octreel_error why;
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
-    bool ok = numbers || record_fail(error, "there is no memory for a frame");
-    ok = ok && (renderer_pick(r, s, numbers, &why) || record_fail(error, "%s", why.text));
+    bool ok = numbers || error_set(error, "there is no memory for a frame");
+    ok = ok && (renderer_pick(r, s, numbers, &why) || error_set(error, "%s", why.text));
     if (ok)
         find_nearest(p, numbers, samples);
     free(numbers);
     return ok;
 }
 
-static bool name_elements(pick *p, renderer *r, const replay *from, record_error *error)
+static bool name_elements(pick *p, renderer *r, const replay *from, octreel_error *error)
 {
     const scene *s = &from->take.scene;
     draw_touches touches = {0};
-    draw_error why;
-    bool ok = renderer_pixel(r, s, p->pixel[0], p->pixel[1], &touches, &why) || record_fail(error, "%s", why.text);
+    octreel_error why;
+    bool ok = renderer_pixel(r, s, p->pixel[0], p->pixel[1], &touches, &why) || error_set(error, "%s", why.text);
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
-    ok = ok && (p->elements || touches.count == 0 || record_fail(error, "there is no memory for what is there"));
+    ok = ok && (p->elements || touches.count == 0 || error_set(error, "there is no memory for what is there"));
     for (size_t i = 0; ok && i < touches.count; i++) {
         const draw_element element = draw_element_of(s, touches.items[i].number);
         p->elements[p->count++] = (pick_element){
@@ -133,7 +133,7 @@ static bool name_elements(pick *p, renderer *r, const replay *from, record_error
     return ok;
 }
 
-static bool look(pick *p, replay *from, const pick_options *options, record_error *error)
+static bool look(pick *p, replay *from, const pick_options *options, octreel_error *error)
 {
     const int samples = view_samples(&from->take.view);
     renderer *r = replay_renderer(from, &options->renderer, error);
@@ -145,7 +145,7 @@ static bool look(pick *p, replay *from, const pick_options *options, record_erro
     return seek_nearest(p, r, &from->take.scene, error) && name_elements(p, r, from, error);
 }
 
-bool pick_frame(const char *path, const pick_options *options, pick *found, record_error *error)
+bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error)
 {
     *found = (pick){.path = malloc(strlen(path) + 1),
                     .asked = {options->x, options->y},
@@ -154,7 +154,7 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, reco
     replay r = {.ticks = 0};
     image frame = {0};
     char *folder = folder_of(path);
-    bool ok = (found->path && folder) || record_fail(error, "there is no memory");
+    bool ok = (found->path && folder) || error_no_memory(error);
     if (found->path)
         strcpy(found->path, path);
     ok = ok && read_picture(found, &frame, error) && frame_read_tick(path, &found->tick, error) &&

@@ -38,7 +38,7 @@ typedef struct pick {
 
 /* False, with a sentence, when `path` is no frame of a recording, the recording beside it is not the one that it is of,
  * or the pixel is outside. */
-bool pick_frame(const char *path, const pick_options *options, pick *found, record_error *error);
+bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error);
 void pick_release(pick *p);
 
 /* For people; or one JSON object on one line. */

@@ -2,22 +2,22 @@
 #include "replay.h"
 #include "octree/digest.h"
 #include "view_file.h"
-#include "whole_file.h"
+#include "file.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
-static bool read_session(replay *r, const char *folder, record_error *error)
+static bool read_session(replay *r, const char *folder, octreel_error *error)
 {
-    char reason[WHOLE_FILE_REASON], *text, *path = folder_path(folder, "session.json");
-    char *inside = folder_path(folder, ""); /* where files of points would be */
-    session_error unread;
+    char reason[FILE_REASON], *text, *path = path_join(folder, "session.json");
+    char *inside = path_join(folder, ""); /* where files of points would be */
+    octreel_error unread;
     size_t size;
-    bool ok = (path && inside) || record_fail(error, "there is no memory");
-    ok = ok && (whole_file_read(path, &text, &size, reason) || record_fail(error, "%s: %s", path, reason));
+    bool ok = (path && inside) || error_no_memory(error);
+    ok = ok && (file_read_whole(path, &text, &size, reason) || error_set(error, "%s: %s", path, reason));
     if (ok) {
         r->session_digest = octree_digest_bytes(OCTREE_DIGEST_START, text, size);
-        ok = session_parse(path, inside, text, size, &r->session, &unread) || record_fail(error, "%s", unread.text);
+        ok = session_parse(path, inside, text, size, &r->session, &unread) || error_set(error, "%s", unread.text);
         free(text);
     }
     free(path);
@@ -25,7 +25,7 @@ static bool read_session(replay *r, const char *folder, record_error *error)
     return ok;
 }
 
-bool replay_read(replay *r, const char *folder, record_error *error)
+bool replay_read(replay *r, const char *folder, octreel_error *error)
 {
     *r = (replay){.film.folder = folder};
     if (!view_read_recording(folder, &r->film.view, &r->film.every, error) || !read_session(r, folder, error))
@@ -35,12 +35,12 @@ bool replay_read(replay *r, const char *folder, record_error *error)
 }
 
 /* Without a renderer: where no pixel is asked for none is needed. */
-static bool start(replay *r, record_error *error)
+static bool start(replay *r, octreel_error *error)
 {
     return take_open(&r->take, &r->session.session, &r->film, FRAMES_CHECK, error);
 }
 
-bool replay_open(replay *r, const char *folder, record_error *error)
+bool replay_open(replay *r, const char *folder, octreel_error *error)
 {
     return replay_read(r, folder, error) && start(r, error);
 }
@@ -56,7 +56,7 @@ static uint64_t tick_of(const replay *r)
     return octree_game_tick(r->take.game)->number;
 }
 
-static bool start_again(replay *r, record_error *error)
+static bool start_again(replay *r, octreel_error *error)
 {
     picture drawing = r->take.picture; /* the view is the same, and so is what draws it */
     r->take.picture = (picture){0};
@@ -66,11 +66,11 @@ static bool start_again(replay *r, record_error *error)
     return ok;
 }
 
-bool replay_to(replay *r, uint64_t tick, record_error *error)
+bool replay_to(replay *r, uint64_t tick, octreel_error *error)
 {
     if (tick >= r->ticks)
-        return record_fail(error, "%s: there is no tick %" PRIu64 ": the session's last tick is %" PRIu64,
-                           r->film.folder, tick, r->ticks - 1);
+        return error_set(error, "%s: there is no tick %" PRIu64 ": the session's last tick is %" PRIu64, r->film.folder,
+                         tick, r->ticks - 1);
     if (tick < tick_of(r) && !start_again(r, error))
         return false;
     while (tick_of(r) < tick)
@@ -79,12 +79,12 @@ bool replay_to(replay *r, uint64_t tick, record_error *error)
     return true;
 }
 
-bool replay_scene(replay *r, record_error *error)
+bool replay_scene(replay *r, octreel_error *error)
 {
     return take_scene(&r->take, error);
 }
 
-renderer *replay_renderer(replay *r, const renderer_choice *choice, record_error *error)
+renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error)
 {
     picture *drawing = &r->take.picture;
     return drawing->renderer || picture_open(drawing, &r->take.view, choice, error) ? drawing->renderer : NULL;

@@ -20,19 +20,19 @@ typedef struct replay {
 } replay;
 
 /* Read session.json and recording.json of a folder, and play nothing yet. `r` is set in any case, to be closed. */
-bool replay_read(replay *r, const char *folder, record_error *error);
+bool replay_read(replay *r, const char *folder, octreel_error *error);
 
 /* The same, and play tick 0. `r` must stay where it is until it is closed. */
-bool replay_open(replay *r, const char *folder, record_error *error);
+bool replay_open(replay *r, const char *folder, octreel_error *error);
 void replay_close(replay *r);
 
 /* Play up to a tick; from the start again where it lies behind. False with a sentence also where there is none. */
-bool replay_to(replay *r, uint64_t tick, record_error *error);
+bool replay_to(replay *r, uint64_t tick, octreel_error *error);
 
 /* Make the scene of the tick that was played last, as the recording's view shows it: r->take.scene. */
-bool replay_scene(replay *r, record_error *error);
+bool replay_scene(replay *r, octreel_error *error);
 
 /* What draws such scenes, opened when it is asked for first; the replay closes it. Null with the sentence. */
-renderer *replay_renderer(replay *r, const renderer_choice *choice, record_error *error);
+renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error);
 
 #endif

@@ -49,10 +49,10 @@ static void say(verify_finding *finding, const char *format, ...)
 
 /* ---- What is there before any tick -------------------------------------------------------------------------- */
 
-static bool open_lines(verifying *v, record_error *error)
+static bool open_lines(verifying *v, octreel_error *error)
 {
-    char *path = folder_path(v->folder, "ticks.jsonl");
-    const bool ok = path ? lines_open(&v->lines, path, error) : record_fail(error, "there is no memory");
+    char *path = path_join(v->folder, "ticks.jsonl");
+    const bool ok = path ? lines_open(&v->lines, path, error) : error_no_memory(error);
     free(path);
     return ok;
 }
@@ -72,7 +72,7 @@ static void check_session(verifying *v)
 static void check_size(verifying *v, const char *path)
 {
     const view *wanted = &v->replay.film.view;
-    image_error ignored;
+    octreel_error ignored;
     image frame;
     if (!image_read_png(path, &frame, &ignored))
         return;
@@ -92,12 +92,12 @@ static bool is_file(const char *path)
 
 /* What the first frame tells, before a renderer of the size that recording.json says is opened. Where it cannot be
  * read, its tick will tell. */
-static bool check_first_frame(verifying *v, record_error *error)
+static bool check_first_frame(verifying *v, octreel_error *error)
 {
-    char name[FRAME_NAME], *path = folder_path(v->folder, frame_name(0, name));
+    char name[FRAME_NAME], *path = path_join(v->folder, frame_name(0, name));
     v->filmed_session = v->replay.session_digest;
     if (!path)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     if (is_file(path)) {
         check_session(v);
         check_size(v, path);
@@ -108,12 +108,12 @@ static bool check_first_frame(verifying *v, record_error *error)
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-static bool check_line(verifying *v, const film_step *step, record_error *error)
+static bool check_line(verifying *v, const film_step *step, octreel_error *error)
 {
     const line_state state = lines_next(&v->lines, LONGER * step->size + LONG_ENOUGH);
     verify_finding finding = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
     if (state == LINE_TROUBLE)
-        return record_fail(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
+        return error_set(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
     if (state == LINE_WHOLE && line_same(&v->lines, step->line, step->size, step->tick, &finding))
         return true;
     if (state == LINE_NONE)
@@ -131,7 +131,7 @@ static bool check_line(verifying *v, const film_step *step, record_error *error)
 static void tell_pixels(verifying *v, const char *path, verify_finding *finding)
 {
     image_tally unlike = {0};
-    image_error ignored;
+    octreel_error ignored;
     image frame;
     if (image_read_png(path, &frame, &ignored)) {
         unlike = image_compare(&frame, &v->replay.take.picture.frame).unlike;
@@ -153,23 +153,23 @@ static void tell_frame(verifying *v, const char *sentence, uint64_t tick)
 }
 
 /* What the disk or the rights do not let be read says nothing of what is in it. */
-static bool check_readable(const char *path, record_error *error)
+static bool check_readable(const char *path, octreel_error *error)
 {
     FILE *file = fopen(path, "rb");
     if (!file)
-        return record_fail(error, "%s: cannot be read: %s", path, strerror(errno));
+        return error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     fclose(file);
     return true;
 }
 
-static bool check_frame(verifying *v, const film_step *step, record_error *error)
+static bool check_frame(verifying *v, const film_step *step, octreel_error *error)
 {
-    char name[FRAME_NAME], *path = folder_path(v->folder, frame_name(step->tick, name));
+    char name[FRAME_NAME], *path = path_join(v->folder, frame_name(step->tick, name));
     frame_origin origin = {
         .tick = step->tick, .session = v->filmed_session, .scene = v->replay.take.extras.scene_digest};
-    record_error unlike;
+    octreel_error unlike;
     if (!path)
-        return record_fail(error, "there is no memory");
+        return error_no_memory(error);
     bool ok = true;
     v->stopped = true;
     if (access(path, F_OK) != 0)
@@ -189,7 +189,7 @@ static bool check_frame(verifying *v, const film_step *step, record_error *error
 }
 
 /* A film_sink: false also at the first tick that differs. */
-static bool check_tick(void *context, const film_step *step, record_error *error)
+static bool check_tick(void *context, const film_step *step, octreel_error *error)
 {
     verifying *v = context;
     if (!check_line(v, step, error) || v->stopped)
@@ -220,13 +220,13 @@ static bool is_too_many(const verifying *v, const char *name)
 }
 
 /* The first of them by name, whatever the order of the folder. */
-static bool check_names(verifying *v, record_error *error)
+static bool check_names(verifying *v, octreel_error *error)
 {
     DIR *entries = opendir(v->folder);
     char first[NAME_MAX + 1] = "";
     uint64_t count = 0;
     if (!entries)
-        return record_fail(error, "%s: the folder cannot be read: %s", v->folder, strerror(errno));
+        return error_set(error, "%s: the folder cannot be read: %s", v->folder, strerror(errno));
     for (struct dirent *entry; (entry = readdir(entries));) {
         if (!is_too_many(v, entry->d_name))
             continue;
@@ -247,7 +247,7 @@ static bool check_names(verifying *v, record_error *error)
 
 /* ---- All of it ---------------------------------------------------------------------------------------------- */
 
-static bool play_again(verifying *v, record_error *error)
+static bool play_again(verifying *v, octreel_error *error)
 {
     const film_share all = {.last = v->replay.ticks};
     if (!take_open(&v->replay.take, &v->replay.session.session, &v->replay.film, FRAMES_SHOW, error))
@@ -260,7 +260,7 @@ static bool play_again(verifying *v, record_error *error)
     return true;
 }
 
-static bool verify_all(verifying *v, record_error *error)
+static bool verify_all(verifying *v, octreel_error *error)
 {
     if (!replay_read(&v->replay, v->folder, error) || !open_lines(v, error))
         return false;
@@ -269,7 +269,7 @@ static bool verify_all(verifying *v, record_error *error)
     return check_first_frame(v, error) && (v->stopped || play_again(v, error)) && check_names(v, error);
 }
 
-bool verify_recording(const char *folder, const verify_options *options, verify_report *report, record_error *error)
+bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error)
 {
     verifying v = {.folder = folder, .options = options, .report = report};
     *report = (verify_report){0};

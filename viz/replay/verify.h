@@ -57,7 +57,7 @@ typedef struct verify_options {
 
 /* Verify the recording in a folder. False, and a sentence, when it cannot be: there is none, it cannot be read or
  * played, or nothing draws it. */
-bool verify_recording(const char *folder, const verify_options *options, verify_report *report, record_error *error);
+bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error);
 
 /* A line for each finding, or that it is identical, for people; or one JSON object on one line. */
 void verify_print(FILE *out, const char *folder, const verify_report *report, bool json);

@@ -11,15 +11,15 @@
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
-bool lines_open(line_reader *reader, const char *path, record_error *error)
+bool lines_open(line_reader *reader, const char *path, octreel_error *error)
 {
     struct stat status;
     *reader = (line_reader){0};
     /* Opening a pipe would wait for its other end. */
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return record_fail(error, "%s: is not a regular file", path);
+        return error_set(error, "%s: is not a regular file", path);
     reader->stream = fopen(path, "rb");
-    return reader->stream || record_fail(error, "%s: cannot be opened: %s", path, strerror(errno));
+    return reader->stream || error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
 }
 
 void lines_close(line_reader *reader)

@@ -19,7 +19,7 @@ typedef enum line_state {
     LINE_TROUBLE,
 } line_state;
 
-bool lines_open(line_reader *reader, const char *path, record_error *error);
+bool lines_open(line_reader *reader, const char *path, octreel_error *error);
 void lines_close(line_reader *reader);
 
 /* Read the next line, of `limit` bytes at most. Errors of the file are LINE_TROUBLE; so is lack of memory. */

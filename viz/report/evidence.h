@@ -13,11 +13,11 @@ typedef struct evidence {
 
 /* Make the folder, or empty it of an earlier comparison's evidence, so that what is in it is of this one alone. Refused
  * is a folder that holds anything else, or that is or holds what is compared. */
-bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, record_error *error);
+bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error);
 
 /* Draw each pair that differs, one after the other. */
 bool evidence_collect(evidence *e, const char *folder, const diff_result *result, const diff_options *options,
-                      record_error *error);
+                      octreel_error *error);
 void evidence_release(evidence *e);
 
 /* The path of a picture of the i-th pair: null when it is not there, or there is no memory; the caller frees it. */

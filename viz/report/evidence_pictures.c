@@ -1,6 +1,6 @@
 /* evidence_pictures.c - see evidence_pictures.h. */
 #include "evidence_pictures.h"
-#include "copy_file.h"
+#include "file.h"
 #include "octree/digest.h"
 #include "parallel.h"
 #include "read_pair.h"
@@ -75,7 +75,7 @@ bool evidence_is_name(const char *name)
 
 static char *picture_path(const char *folder, const diff_pair *pair, evidence_picture picture)
 {
-    char *name = evidence_name(diff_pair_name(pair), picture), *path = name ? folder_path(folder, name) : NULL;
+    char *name = evidence_name(diff_pair_name(pair), picture), *path = name ? path_join(folder, name) : NULL;
     free(name);
     return path;
 }
@@ -90,12 +90,12 @@ static bool has_file(const diff_frame *frame)
 }
 
 static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_picture picture, const char *folder,
-                       unsigned *written, record_error *error)
+                       unsigned *written, octreel_error *error)
 {
     if (!has_file(frame))
         return true;
     char *path = picture_path(folder, pair, picture);
-    const bool ok = path ? copy_file(frame->path, path, error) : record_fail(error, "there is no memory");
+    const bool ok = path ? file_copy_to(frame->path, path, error) : error_no_memory(error);
     free(path);
     *written |= ok ? 1u << picture : 0;
     return ok;
@@ -115,11 +115,11 @@ typedef struct canvas {
     image_tolerance tolerance;
 } canvas;
 
-static bool read_images(canvas *c, const diff_pair *pair, image_color background, record_error *error)
+static bool read_images(canvas *c, const diff_pair *pair, image_color background, octreel_error *error)
 {
-    image_error why;
+    octreel_error why;
     if (!read_pair(pair, background, c->images, &why))
-        return record_fail(error, "%s", why.text);
+        return error_set(error, "%s", why.text);
     const image *a = &c->images[0], *b = &c->images[1];
     c->width = a->width > b->width ? a->width : b->width;
     c->height = a->height > b->height ? a->height : b->height;
@@ -132,7 +132,7 @@ typedef struct drawing {
     uint8_t *heat; /* a row of the difference */
     uint8_t *row;  /* a row of all three, side by side */
     char *path;
-    image_error error;
+    octreel_error error;
     bool written;
 } drawing;
 
@@ -199,7 +199,7 @@ static void write_drawing(size_t i, void *context)
 
 /* Both at the same time, each from the images that both read. */
 static bool write_drawings(const canvas *c, const diff_pair *pair, const char *folder, unsigned *written,
-                           record_error *error)
+                           octreel_error *error)
 {
     static const evidence_picture pictures[2] = {EVIDENCE_DIFFERENCE, EVIDENCE_SIDE};
     drawing drawings[2] = {{.canvas = c}, {.canvas = c}};
@@ -210,14 +210,14 @@ static bool write_drawings(const canvas *c, const diff_pair *pair, const char *f
     for (int i = 0; i < 2; i++) {
         *written |= drawings[i].written ? 1u << pictures[i] : 0;
         if (ok && !drawings[i].written)
-            ok = record_fail(error, "%s", drawings[i].error.text);
+            ok = error_set(error, "%s", drawings[i].error.text);
         free(drawings[i].path);
     }
     return ok;
 }
 
 static bool draw_difference(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
-                            record_error *error)
+                            octreel_error *error)
 {
     canvas c = {.palette = image_difference_palette(), .tolerance = options->tolerance};
     c.tolerance.ignored = pair->ignored;
@@ -230,7 +230,7 @@ static bool draw_difference(const diff_pair *pair, const diff_options *options, 
 }
 
 bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
-                   record_error *error)
+                   octreel_error *error)
 {
     *written = 0;
     if (!copy_frame(pair->a, pair, EVIDENCE_EXPECTED, folder, written, error) ||

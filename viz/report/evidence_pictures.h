@@ -29,6 +29,6 @@ bool evidence_is_name(const char *name);
 /* Write into a folder what can be had: the files that there are, and the difference where both can be read. *written
  * receives a bit (1 << evidence_picture) for each. Both images are in memory, and of what is drawn a row at a time. */
 bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
-                   record_error *error);
+                   octreel_error *error);
 
 #endif

@@ -39,7 +39,7 @@ bool diff_report_markdown(FILE *out, const diff_report *report);
  * left out. */
 #define DIFF_REPORT_PAGE_FRAMES 50
 #define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* of PNG files; a browser holds no more with ease */
-bool diff_report_page(const diff_report *report, record_error *error);
+bool diff_report_page(const diff_report *report, octreel_error *error);
 
 /* ---- Parts of them, in one line without its end --------------------------------------------------------------- */
 

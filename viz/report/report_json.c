@@ -168,7 +168,7 @@ void diff_json_summary(json_writer *w, const diff_report *report)
 
 static void write_place(json_writer *w, const evidence *e)
 {
-    char *page = folder_path(e->folder, EVIDENCE_PAGE);
+    char *page = path_join(e->folder, EVIDENCE_PAGE);
     json_write_key(w, "evidence");
     json_write_begin_object(w);
     json_member_text(w, "folder", e->folder);

@@ -179,25 +179,25 @@ static bool write_pair(const page *p, size_t n)
     return line_end(&line, p->out) && ok;
 }
 
-static bool write_facts(const page *p, record_error *error)
+static bool write_facts(const page *p, octreel_error *error)
 {
     fputs("<script type=\"application/x-ndjson\" id=\"facts\">", p->out);
     bool ok = write_whole(p);
     for (size_t n = 0; ok && n < p->count; n++)
         ok = write_pair(p, n);
     fputs("</script>\n", p->out);
-    return ok || record_fail(error, "there is no memory");
+    return ok || error_no_memory(error);
 }
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
 
-static bool write_picture(const page *p, size_t n, evidence_picture picture, record_error *error)
+static bool write_picture(const page *p, size_t n, evidence_picture picture, octreel_error *error)
 {
     char *path = evidence_path(p->report->evidence, p->report->result, p->pairs[n], picture);
     FILE *in = path ? fopen(path, "rb") : NULL;
     if (!in) {
         const int reason = path ? errno : ENOMEM;
-        record_fail(error, "%s: cannot be read: %s", path ? path : p->report->evidence->folder, strerror(reason));
+        error_set(error, "%s: cannot be read: %s", path ? path : p->report->evidence->folder, strerror(reason));
         free(path);
         return false;
     }
@@ -205,14 +205,14 @@ static bool write_picture(const page *p, size_t n, evidence_picture picture, rec
             evidence_word(picture));
     base64_copy(in, p->out);
     fputs("\">\n", p->out);
-    const bool ok = !ferror(in) || record_fail(error, "%s: cannot be read: %s", path, strerror(errno));
+    const bool ok = !ferror(in) || error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     fclose(in);
     free(path);
     return ok;
 }
 
 /* What is in a template is not decoded before the page takes it out. */
-static bool write_pictures(const page *p, record_error *error)
+static bool write_pictures(const page *p, octreel_error *error)
 {
     bool ok = true;
     fputs("<template id=\"pictures\">\n", p->out);
@@ -224,7 +224,7 @@ static bool write_pictures(const page *p, record_error *error)
     return ok;
 }
 
-static bool write_page(const page *p, record_error *error)
+static bool write_page(const page *p, octreel_error *error)
 {
     fwrite(evidence_page_head, 1, evidence_page_head_size, p->out);
     const bool ok = write_facts(p, error) && write_pictures(p, error);
@@ -232,15 +232,15 @@ static bool write_page(const page *p, record_error *error)
     return ok;
 }
 
-bool diff_report_page(const diff_report *report, record_error *error)
+bool diff_report_page(const diff_report *report, octreel_error *error)
 {
-    char *path = folder_path(report->evidence->folder, EVIDENCE_PAGE);
-    part_file file;
-    bool ok = path ? part_open(&file, path, error) : record_fail(error, "there is no memory");
+    char *path = path_join(report->evidence->folder, EVIDENCE_PAGE);
+    file_writer file;
+    bool ok = path ? file_writer_open(&file, path, error) : error_no_memory(error);
     if (ok) {
         page p = {.report = report, .out = file.stream};
         choose_pairs(&p);
-        ok = write_page(&p, error) ? part_close(&file, error) : part_abandon(&file);
+        ok = write_page(&p, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
     }
     free(path);
     return ok;

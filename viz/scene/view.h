@@ -131,6 +131,9 @@ typedef struct view {
 /* What is shown unless somebody says otherwise: all about the tick; what went before it is left out. */
 #define VIEW_DEFAULT_LAYERS (VIEW_ALL_LAYERS & ~VIEW_HEAT_LAYERS)
 
+/* The longest side of a picture, samples counted: what llvmpipe draws without clamping it. */
+#define VIEW_MAX_SIDE 16384
+
 /* What else is so unless somebody says otherwise. */
 #define VIEW_DEFAULT_WIDTH 1280
 #define VIEW_DEFAULT_HEIGHT 720

@@ -40,7 +40,7 @@ void put_double(bytes *file, double value, bool big_endian)
 }
 
 /* Parse a copy of exactly its size, so that a sanitizer sees any look beyond. */
-static bool parse(const char *name, const void *data, size_t size, cloud *out, cloud_error *error)
+static bool parse(const char *name, const void *data, size_t size, cloud *out, octreel_error *error)
 {
     unsigned char *copy = malloc(size + (size == 0));
     assert_non_null(copy);
@@ -56,7 +56,7 @@ void assert_reads(const char *name, const void *data, size_t size, const double 
                   size_t skipped)
 {
     cloud cloud;
-    cloud_error error;
+    octreel_error error;
     if (!parse(name, data, size, &cloud, &error))
         fail_msg("%s", error.text);
     assert_int_equal(cloud.count, count);
@@ -71,7 +71,7 @@ void assert_reads(const char *name, const void *data, size_t size, const double 
 void assert_refuses(const char *name, const void *data, size_t size, const char *sentence)
 {
     cloud cloud;
-    cloud_error error;
+    octreel_error error;
     assert_false(parse(name, data, size, &cloud, &error));
     assert_string_equal(error.text, sentence);
     assert_null(cloud.positions);
@@ -88,7 +88,7 @@ void assert_refuses_every_beginning(const char *name, const bytes *file)
 {
     for (size_t size = 0; size < file->size; size++) {
         cloud cloud;
-        cloud_error error;
+        octreel_error error;
         assert_false(parse(name, file->data, size, &cloud, &error));
         assert_true(strncmp(error.text, name, strlen(name)) == 0);
     }

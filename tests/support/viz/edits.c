@@ -88,7 +88,7 @@ void cut_file(const char *folder, const char *name, size_t size)
     assert_int_equal(truncate(place_below(folder, name).path, (off_t)size), 0);
 }
 
-void copy_file(const char *folder, const char *from, const char *to)
+void file_copy(const char *folder, const char *from, const char *to)
 {
     size_t size;
     char *bytes = file_read(place_below(folder, from).path, &size);

@@ -20,6 +20,6 @@ char *copy_line(const char *folder, size_t line);
 void cut_file(const char *folder, const char *name, size_t size);
 
 /* A copy of a file, in the same folder. */
-void copy_file(const char *folder, const char *from, const char *to);
+void file_copy(const char *folder, const char *from, const char *to);
 
 #endif

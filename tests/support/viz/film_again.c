@@ -15,8 +15,8 @@ static void film_session_of(const place *folder, const place *again)
 {
     const place path = place_below(folder->path, "session.json");
     film_options options = {.folder = again->path};
-    record_error error = {""};
-    session_error unread = {""};
+    octreel_error error = {""};
+    octreel_error unread = {""};
     session_file file;
     if (!view_read_recording(folder->path, &options.view, &options.every, &error))
         fail_msg("%s", error.text);
@@ -28,7 +28,7 @@ static void film_session_of(const place *folder, const place *again)
 
 static uint64_t frames_of(const place *folder, uint64_t ticks)
 {
-    record_error error;
+    octreel_error error;
     uint64_t every;
     view ignored;
     assert_true(view_read_recording(folder->path, &ignored, &every, &error));

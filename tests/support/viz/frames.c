@@ -11,7 +11,7 @@ renderer *open_renderer(int width, int height)
 
 renderer *open_renderer_of(draw_context kind, int width, int height)
 {
-    draw_error error = {""};
+    octreel_error error = {""};
     renderer *r = renderer_open(width, height, &(renderer_choice){.context = kind}, &error);
     if (!r)
         fail_msg("%s", error.text);
@@ -32,7 +32,7 @@ size_t frame_samples(const scene *s)
 
 uint8_t *draw(renderer *r, const scene *s)
 {
-    draw_error error = {""};
+    octreel_error error = {""};
     uint8_t *frame = malloc(frame_samples(s));
     assert_non_null(frame);
     memset(frame, 255, frame_samples(s));

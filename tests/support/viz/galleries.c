@@ -19,7 +19,7 @@ image gallery_picture(uint64_t seed)
 void gallery_write(const char *path, uint64_t seed, int spoilt)
 {
     image picture = gallery_picture(seed);
-    image_error error = {""};
+    octreel_error error = {""};
     for (int i = 0; i < spoilt; i++)
         picture.pixels[3 * (3 * GALLERY_WIDTH + i) + 1] ^= 1;
     if (!image_write_png(&picture, path, NULL, 0, &error))
@@ -43,7 +43,7 @@ place gallery_make(const temp_folder *in, const char *folder, const char *names)
 diff_side assert_side(const char *path)
 {
     diff_side side;
-    record_error error = {""};
+    octreel_error error = {""};
     if (!diff_side_open(&side, path, &error))
         fail_msg("%s", error.text);
     return side;
@@ -53,7 +53,7 @@ comparison_of assert_compared(const char *a, const char *b, const diff_options *
 {
     const diff_options exact = diff_options_default();
     comparison_of made = {.a = assert_side(a), .b = assert_side(b)};
-    record_error error = {""};
+    octreel_error error = {""};
     if (!diff_run(&made.a, &made.b, options ? options : &exact, &made.result, &error))
         fail_msg("%s", error.text);
     return made;
@@ -79,7 +79,7 @@ void assert_not_compared(const char *a, const char *b, const diff_options *optio
     const diff_options exact = diff_options_default();
     diff_side sides[2] = {assert_side(a), assert_side(b)};
     diff_result result;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(diff_run(&sides[0], &sides[1], options ? options : &exact, &result, &error));
     if (!strstr(error.text, part))
         fail_msg("\"%s\" does not say \"%s\"", error.text, part);

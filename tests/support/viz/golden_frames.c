@@ -191,7 +191,7 @@ static bool build_scene(scene *s, const golden_frame *frame, const view *v, cons
            look_scene_build(s, v, octree_game_tree(game), &(tree_look){.title = frame->name, .node = asked});
 }
 
-bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
+bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
 {
     octree_body bodies[MOST_BODIES];
     const octree_session session = session_of(frame, bodies);
@@ -200,9 +200,9 @@ bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
     octree_game *game;
     *s = (scene){0};
     if (!view_camera_parse(frame->camera, &v.camera) || !view_layers_parse(frame->layers, &v.layers, &bad))
-        return record_fail(error, "%s: no such camera or layer", frame->name);
+        return error_set(error, "%s: no such camera or layer", frame->name);
     if (octree_game_create(&session, &game) != OCTREE_OK)
-        return record_fail(error, "%s: the session cannot be played", frame->name);
+        return error_set(error, "%s: the session cannot be played", frame->name);
     fit_view(&v, octree_game_tree(game));
     heat h = {0};
     bool ok = heat_add_tick(&h, game);
@@ -212,13 +212,13 @@ bool golden_scene(const golden_frame *frame, scene *s, record_error *error)
     }
     if (strcmp(frame->name, "broken") == 0)
         break_game(game);
-    ok = (ok && build_scene(s, frame, &v, game, &h)) || record_fail(error, "%s: there is no scene", frame->name);
+    ok = (ok && build_scene(s, frame, &v, game, &h)) || error_set(error, "%s: there is no scene", frame->name);
     heat_release(&h);
     octree_game_destroy(game);
     return ok;
 }
 
-bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error)
+bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, octreel_error *error)
 {
     picture p = {0};
     scene s;

@@ -20,9 +20,9 @@ extern const golden_frame golden_frames[];
 extern const size_t golden_frame_count;
 
 /* What one shows; *s is to be released, also where it fails. */
-bool golden_scene(const golden_frame *frame, scene *s, record_error *error);
+bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error);
 
 /* Draw one. `renderer` receives who drew it. */
-bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, record_error *error);
+bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, octreel_error *error);
 
 #endif

@@ -26,7 +26,7 @@ void release_twins(image_twins *twins)
 
 void assert_written(const image *image, const char *path)
 {
-    image_error error = {""};
+    octreel_error error = {""};
     if (!image_write_png(image, path, NULL, 0, &error))
         fail_msg("%s", error.text);
 }
@@ -34,7 +34,7 @@ void assert_written(const image *image, const char *path)
 image assert_read(const char *path)
 {
     image read;
-    image_error error = {""};
+    octreel_error error = {""};
     if (!image_read_png(path, &read, &error))
         fail_msg("%s", error.text);
     return read;
@@ -52,7 +52,7 @@ image assert_read_rgb(const char *path)
     return rgb;
 }
 
-void assert_sentence(const image_error *error, const char *path, const char *reason)
+void assert_sentence(const octreel_error *error, const char *path, const char *reason)
 {
     size_t length = strlen(path);
     assert_memory_equal(error->text, path, length);

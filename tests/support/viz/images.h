@@ -28,6 +28,6 @@ image assert_read(const char *path);
 image assert_read_rgb(const char *path);
 
 /* An error must be one sentence: the path, then a reason that contains `reason`. */
-void assert_sentence(const image_error *error, const char *path, const char *reason);
+void assert_sentence(const octreel_error *error, const char *path, const char *reason);
 
 #endif

@@ -56,7 +56,7 @@ place frame_place(const char *folder, uint64_t tick)
 film_summary assert_filmed(const octree_session *session, const film_options *options)
 {
     film_summary summary;
-    record_error error = {""};
+    octreel_error error = {""};
     if (!film_session(session, options, &summary, &error))
         fail_msg("%s", error.text);
     return summary;
@@ -66,7 +66,7 @@ image assert_whole_frame(const char *path, int width, int height)
 {
     static png_bytes file;
     image frame;
-    image_error error;
+    octreel_error error;
     png_bytes_load(&file, path);
     const png_chunk header = png_chunk_of(&file, "IHDR"), palette = png_chunk_of(&file, "PLTE");
     assert_int_equal(png_u32_at(header.data), width);
@@ -114,7 +114,7 @@ static void assert_whole_file(const char *folder, const char *name)
         for_each_line(folder, parse_line, NULL);
     } else if (strcmp(name, "session.json") == 0) {
         session_file session;
-        session_error error;
+        octreel_error error;
         if (!session_read(file.path, &session, &error))
             fail_msg("%s", error.text);
         session_release(&session);

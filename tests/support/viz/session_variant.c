@@ -44,7 +44,7 @@ static void make_variant(variant *v)
 static char *headline_of(const variant *a, const variant *b)
 {
     const cause_wanted wanted = {.first = 1};
-    record_error error = {""};
+    octreel_error error = {""};
     char *text;
     cause c;
     text_stream s;

@@ -29,7 +29,7 @@ verify_report verify(const place *folder)
 {
     const verify_options options = {.progress = NULL};
     verify_report report;
-    record_error error = {""};
+    octreel_error error = {""};
     if (!verify_recording(folder->path, &options, &report, &error))
         fail_msg("%s", error.text);
     return report;
@@ -61,7 +61,7 @@ void assert_not_verified(const place *folder, const char *part)
 {
     const verify_options options = {.progress = NULL};
     verify_report report;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(verify_recording(folder->path, &options, &report, &error));
     if (strstr(error.text, part) == NULL)
         fail_msg("%s", error.text);

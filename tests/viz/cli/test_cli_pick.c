@@ -21,7 +21,7 @@ typedef struct shown {
 
 static void show(shown *what, const temp_folder *own, const char *arguments, uint64_t tick)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     what->folder = place_in(own, "film");
     command_result result =
         run_octreel(NULL, "record --keys wwdn --size 320x180 %s -o %s", arguments, what->folder.path);
@@ -224,7 +224,7 @@ static void what_is_no_frame_is_refused(void **state)
     const place folder = film_short(*state), points = place_in(*state, "points.xyz"), tree = place_in(*state, "t.png");
     const place text = place_in(*state, "text.png"), bare = place_in(*state, "bare.png");
     image picture;
-    image_error unwritten;
+    octreel_error unwritten;
     assert_true(image_create(&picture, 8, 8, 3));
     assert_true(image_write_png(&picture, bare.path, NULL, 0, &unwritten));
     image_release(&picture);
@@ -270,7 +270,7 @@ static void a_frame_that_was_edited_is_refused(void **state)
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
     char values[4][32];
     image_text texts[4];
-    image_error ignored;
+    octreel_error ignored;
     image picture;
     for (size_t i = 0; i < 4; i++) {
         assert_true(image_read_text(frame.path, keywords[i], values[i], sizeof values[i]));

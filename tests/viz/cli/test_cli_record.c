@@ -274,7 +274,7 @@ static void keys_replace_those_of_the_session(void **state)
 {
     const place folder = place_in(*state, "film");
     session_file played;
-    session_error error;
+    octreel_error error;
     command_result result = run_octreel(NULL, "record --keys eenqww " SMALL " -o %s", folder.path);
     assert_done(&result);
     command_release(&result);

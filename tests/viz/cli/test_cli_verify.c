@@ -104,7 +104,7 @@ static void json_is_one_object(void **state)
     json_decref(said);
     command_release(&result);
     edit_line(folder.path, 4, "\"player\": [", "\"player\": [1");
-    copy_file(folder.path, "frame_000003.png", "frame_000004.png");
+    file_copy(folder.path, "frame_000003.png", "frame_000004.png");
     result = run_octreel(NULL, "verify %s --json", folder.path);
     assert_int_equal(result.status, 1);
     assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);

@@ -95,7 +95,7 @@ static void same_pixels_leave_a_reference_alone(void **state)
     const place before = gallery_make(*state, "golden", "1.png"), after = gallery_make(*state, "new", "");
     static const image_text texts[] = {{"Comment", "new"}};
     image picture = gallery_picture(0);
-    image_error error;
+    octreel_error error;
     assert_true(image_write_png(&picture, place_below(after.path, "1.png").path, texts, 1, &error));
     image_release(&picture);
     command_result result = accept_all(&before, &after);

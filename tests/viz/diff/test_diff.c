@@ -42,7 +42,7 @@ static void a_recording_stands_for_its_frames_alone(void **state)
 static void assert_no_side(const char *path, const char *part)
 {
     diff_side side;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(diff_side_open(&side, path, &error));
     assert_non_null(strstr(error.text, part));
     assert_null(side.frames);
@@ -131,7 +131,7 @@ static void write_otherwise(const char *path, uint64_t seed)
 {
     static const image_text texts[] = {{"Comment", "the same"}};
     image picture = gallery_picture(seed);
-    image_error error;
+    octreel_error error;
     assert_true(image_write_png(&picture, path, texts, 1, &error));
     image_release(&picture);
 }
@@ -151,7 +151,7 @@ static void unlike_sizes_are_a_finding_of_their_own(void **state)
 {
     const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
     image wide, tall;
-    image_error error;
+    octreel_error error;
     diff_options all = {.tolerance = {.max_pixels = UINT64_MAX, .max_delta = 1, .antialias = true}};
     assert_true(image_create(&wide, 6, 4, 3) && image_create(&tall, 4, 6, 3));
     assert_true(image_write_png(&wide, a.path, NULL, 0, &error) && image_write_png(&tall, b.path, NULL, 0, &error));

@@ -10,7 +10,7 @@
 static void write_digests(const char *folder, const char *path)
 {
     diff_side side = assert_side(folder);
-    record_error error = {""};
+    octreel_error error = {""};
     if (!digest_all(&side, (image_color){255, 255, 255}, &error))
         fail_msg("%s", error.text);
     FILE *out = fopen(path, "wb");
@@ -89,7 +89,7 @@ static void nothing_is_forgiven_by_digests(void **state)
 #define LINE_A "0123456789abcdef 12x34 a.png\n"
 #define LINE_B "fedcba9876543210 16384x1 b b.png\n"
 
-static bool parse(const char *text, size_t size, diff_side *side, record_error *error)
+static bool parse(const char *text, size_t size, diff_side *side, octreel_error *error)
 {
     char *copy = malloc(size + 1);
     assert_non_null(copy);
@@ -109,7 +109,7 @@ static void what_is_well_formed_is_read(void **state)
                                         "fedcba9876543210 16384x1 b b.png"};
     for (size_t i = 0; i < 2; i++) {
         diff_side side;
-        record_error error = {""};
+        octreel_error error = {""};
         if (!parse(texts[i], strlen(texts[i]), &side, &error))
             fail_msg("%s", error.text);
         assert_int_equal(side.count, 2);
@@ -153,14 +153,14 @@ static void what_is_not_is_refused_with_its_line(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         diff_side side;
-        record_error error = {""};
+        octreel_error error = {""};
         assert_false(parse(cases[i].text, strlen(cases[i].text), &side, &error));
         if (!strstr(error.text, cases[i].part))
             fail_msg("case %zu: \"%s\" does not say \"%s\"", i, error.text, cases[i].part);
         diff_side_release(&side);
     }
     diff_side side;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(parse(HEAD "\0" LINE_A, sizeof HEAD "\0" LINE_A - 1, &side, &error));
     assert_non_null(strstr(error.text, "zero byte"));
 }
@@ -170,7 +170,7 @@ static void names_that_no_line_holds_are_refused(void **state)
     const place folder = gallery_make(*state, "a", "");
     gallery_write(place_below(folder.path, "a\nb.png").path, 1, 0);
     diff_side side = assert_side(folder.path);
-    record_error error = {""};
+    octreel_error error = {""};
     assert_true(digest_all(&side, (image_color){0, 0, 0}, &error));
     assert_false(digest_file_write(stderr, &side, &error));
     assert_non_null(strstr(error.text, "a line cannot hold"));

@@ -69,7 +69,7 @@ static void assert_same_but_pixels(const image *a, const image *b)
 }
 
 /* Up to where it fails, when it does. */
-static bool read_in_bands(const char *path, int rows, const image *whole, image_error *error)
+static bool read_in_bands(const char *path, int rows, const image *whole, octreel_error *error)
 {
     image_source *source = image_source_open(path, ground, false, error);
     if (!source)
@@ -96,7 +96,7 @@ static bool read_in_bands(const char *path, int rows, const image *whole, image_
 static void assert_digest_alike(const char *path, const image *whole, const char *trouble)
 {
     image about;
-    image_error error = {""};
+    octreel_error error = {""};
     uint64_t digest;
     const bool read = image_digest_png(path, ground, &about, &digest, &error);
     assert_int_equal(read, whole->pixels != NULL);
@@ -111,7 +111,7 @@ static void assert_digest_alike(const char *path, const image *whole, const char
 static void assert_read_alike(const char *path, int rows)
 {
     image whole;
-    image_error errors[2] = {{""}, {""}};
+    octreel_error errors[2] = {{""}, {""}};
     const bool read = image_read_png_over(path, ground, &whole, &errors[0]);
     assert_int_equal(read_in_bands(path, rows, &whole, &errors[1]), read);
     assert_string_equal(errors[0].text, errors[1].text);
@@ -185,7 +185,7 @@ static void assert_compared_alike(char *paths[2], const image_tolerance *toleran
                       .ignored = (image_rectangle *)(uintptr_t)tolerance->ignored,
                       .ignored_count = tolerance->ignored_count};
     image images[2];
-    image_error errors[2];
+    octreel_error errors[2];
     bool read[2];
     for (int i = 0; i < 2; i++)
         read[i] = image_read_png_over(paths[i], ground, &images[i], &errors[i]);
@@ -294,7 +294,7 @@ static void neither_of_two_large_pictures_is_held(void **state)
     const diff_options options = diff_options_default();
     diff_pair pair = {.a = &frames[0], .b = &frames[1]};
     struct rusage before, after;
-    image_error error;
+    octreel_error error;
     for (int phase = 0; phase < 2; phase++) {
         const image_rows rows = {.width = WIDE, .height = HIGH, .row = draw_row, .context = &phase};
         assert_true(image_write_png_rows(&rows, paths[phase], &error));

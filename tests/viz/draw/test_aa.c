@@ -92,7 +92,7 @@ static scene tick_scene_of(int width, int height, int aa, unsigned layers)
 static image picture_of(const scene *s)
 {
     picture p;
-    record_error error = {""};
+    octreel_error error = {""};
     if (!picture_open(&p, &s->view, &(renderer_choice){0}, &error) || !picture_draw(&p, s, &error))
         fail_msg("%s", error.text);
     const image drawn = p.frame;
@@ -202,7 +202,7 @@ static void pictures_with_too_many_samples_are_refused_with_a_sentence(void **st
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         picture p;
-        record_error error = {""};
+        octreel_error error = {""};
         view v = view_of(rows[i].width, rows[i].height, CAMERA_ISO, VIEW_ALL_LAYERS);
         v.aa = rows[i].aa;
         assert_false(picture_open(&p, &v, &(renderer_choice){0}, &error));

@@ -26,7 +26,7 @@ static int open_under_softpipe(const renderer_choice *choice)
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
-        draw_error error = {""};
+        octreel_error error = {""};
         setenv("GALLIUM_DRIVER", "softpipe", 1);
         renderer *r = renderer_open(16, 16, choice, &error);
         if (!r)
@@ -83,7 +83,7 @@ static void a_context_that_is_not_built_is_refused_by_name(void **state)
     assert_true(draw_context_built(DRAW_AUTO));
     for (int kind = FIRST_KIND; kind < DRAW_CONTEXTS; kind++) {
         const renderer_choice choice = {.context = (draw_context)kind};
-        draw_error error = {""};
+        octreel_error error = {""};
         renderer *r = renderer_open(16, 16, &choice, &error);
         assert_int_equal(r != NULL, draw_context_built(choice.context));
         if (r)
@@ -129,7 +129,7 @@ static void egl_draws_the_same_bytes_with_and_without_naming_its_device(void **s
 {
     (void)state;
     const renderer_choice any = {.context = DRAW_EGL, .any_renderer = true};
-    draw_error error;
+    octreel_error error;
     if (!draw_context_built(DRAW_EGL))
         skip();
     renderer *r = renderer_open(320, 180, &any, &error);

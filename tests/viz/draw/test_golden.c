@@ -47,7 +47,7 @@ static const char *file_name(const golden_frame *frame, char name[NAME_SIZE])
 static bool empty_folder(void)
 {
     diff_side before;
-    record_error error;
+    octreel_error error;
     mkdir(OCTREEL_DRAWN, 0777);
     if (!diff_side_open(&before, OCTREEL_DRAWN, &error))
         return fprintf(stderr, "%s\n", error.text) < 0;
@@ -61,8 +61,8 @@ static bool empty_folder(void)
 static bool draw_one(const golden_frame *frame, char *renderer)
 {
     char name[NAME_SIZE], path[2 * NAME_SIZE];
-    record_error failed = {""};
-    image_error unwritten = {""};
+    octreel_error failed = {""};
+    octreel_error unwritten = {""};
     image drawn;
     snprintf(path, sizeof path, "%s/%s", OCTREEL_DRAWN, file_name(frame, name));
     bool ok = golden_draw(frame, &drawn, renderer, TEXT_SIZE, &failed);
@@ -92,7 +92,7 @@ static bool draw_all(char *renderer)
 static bool open_gallery(gallery *g)
 {
     const diff_options exact = diff_options_default();
-    record_error error = {""};
+    octreel_error error = {""};
     if (draw_all(g->renderer) && diff_side_open(&g->references, OCTREEL_GOLDEN, &error) &&
         diff_side_open(&g->drawn, OCTREEL_DRAWN, &error) &&
         diff_run(&g->references, &g->drawn, &exact, &g->result, &error))
@@ -135,7 +135,7 @@ static void frame_is_its_reference(void **state)
 {
     const exhibit *e = *state;
     const diff_options exact = diff_options_default();
-    record_error error;
+    octreel_error error;
     unsigned written;
     char name[NAME_SIZE];
     const diff_pair *pair = diff_find(&e->gallery->result, file_name(e->frame, name));

@@ -20,7 +20,7 @@ static scene blank_scene(view_camera camera, int aa)
 static draw_touches touches_at(renderer *r, const scene *s, int x, int y)
 {
     draw_touches list = {0};
-    draw_error error = {""};
+    octreel_error error = {""};
     if (!renderer_pixel(r, s, x, y, &list, &error))
         fail_msg("%s", error.text);
     return list;
@@ -68,8 +68,8 @@ static void what_is_seen_at_a_pixel_is_what_the_whole_picture_says(void **state)
     (void)state;
     for (size_t i = 0; i < golden_frame_count; i++) {
         scene s;
-        record_error failed = {""};
-        draw_error error = {""};
+        octreel_error failed = {""};
+        octreel_error error = {""};
         if (!golden_scene(&golden_frames[i], &s, &failed))
             fail_msg("%s", failed.text);
         renderer *r = open_renderer_for(&s);
@@ -252,7 +252,7 @@ static void a_pixel_outside_the_picture_is_refused(void **state)
     renderer *r = open_renderer_for(&s);
     for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
         draw_touches list = {0};
-        draw_error error = {""};
+        octreel_error error = {""};
         assert_false(renderer_pixel(r, &s, outside[i][0], outside[i][1], &list, &error));
         assert_non_null(strstr(error.text, "320 x 240"));
         draw_touches_release(&list);

@@ -28,7 +28,7 @@ enum { REFUSED_WITH_REASON = 0, REFUSED_WITHOUT = 1, DRAWN = 2 };
 /* With a driver that would be refused for itself, a sentence about the size shows that no context was opened. */
 static int ask_for_a_size_too_large(void)
 {
-    draw_error error = {""};
+    octreel_error error = {""};
     setenv("GALLIUM_DRIVER", "softpipe", 1);
     if (renderer_open(16385, 1, &(renderer_choice){0}, &error))
         return DRAWN;
@@ -54,7 +54,7 @@ static void sizes_out_of_range_are_refused_with_a_sentence_that_names_them(void 
         {1, 16385, "1 x 16385"},   {INT_MAX, INT_MAX, "2147483647 x 2147483647"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        draw_error error = {""};
+        octreel_error error = {""};
         assert_null(renderer_open(rows[i].width, rows[i].height, &(renderer_choice){0}, &error));
         assert_non_null(strstr(error.text, rows[i].named));
         assert_non_null(strstr(error.text, "16384"));
@@ -109,12 +109,12 @@ static void extreme_sizes_are_drawn_to_their_edges(void **state)
 static void the_largest_picture_is_drawn_to_its_corners(void **state)
 {
     (void)state;
-    enum { SIDE = DRAW_MAX_SIDE };
+    enum { SIDE = VIEW_MAX_SIDE };
     const view v = view_of(SIDE, SIDE, CAMERA_ISO, VIEW_ALL_LAYERS);
     const octree_box world = cube(-1, 1);
     const scene_look look = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
     const size_t last = (size_t)SIDE * SIDE - 1;
-    draw_error error = {""};
+    octreel_error error = {""};
     scene s = empty_scene(&v, &world);
     for (int i = 0; i < 4; i++)
         scene_add_panel(
@@ -174,7 +174,7 @@ static void a_scene_of_another_size_is_refused(void **state)
     renderer *r = open_renderer(32, 32);
     uint8_t frame[64 * 64] = {0};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        draw_error error = {""};
+        octreel_error error = {""};
         scene s = busy_scene(sizes[i][0], sizes[i][1], CAMERA_ISO);
         assert_false(renderer_draw(r, &s, frame, &error));
         assert_non_null(strstr(error.text, "size"));

@@ -159,7 +159,7 @@ static void assert_plays_again(void **state, const octree_session *session)
     options.every = 20;
     assert_filmed(session, &options);
     session_file again;
-    session_error error;
+    octreel_error error;
     if (!session_read(place_below(a.path, "session.json").path, &again, &error))
         fail_msg("%s", error.text);
     options.folder = b.path;

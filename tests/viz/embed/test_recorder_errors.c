@@ -253,8 +253,8 @@ static void resume(const place *folder)
 {
     const place path = place_below(folder->path, "session.json");
     film_options options = {.folder = folder->path, .resume = true};
-    record_error error = {""};
-    session_error unread = {""};
+    octreel_error error = {""};
+    octreel_error unread = {""};
     session_file file;
     assert_true(view_read_recording(folder->path, &options.view, &options.every, &error));
     if (!session_read(path.path, &file, &unread))

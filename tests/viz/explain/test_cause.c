@@ -238,7 +238,7 @@ static bool same_text(const char *a, const char *b)
 static void assert_named(const changed_session *t, uint64_t seed)
 {
     const cause_wanted all = {.first = SIZE_MAX};
-    record_error error = {""};
+    octreel_error error = {""};
     cause c;
     if (!cause_find(&t->made.session, &t->changed, NULL, &all, NULL, NULL, &c, &error))
         fail_msg("%s", error.text);

@@ -96,7 +96,7 @@ static place film_text(const temp_folder *own, const char *name, const char *tex
     const place folder = place_in(own, name);
     film_options options = small_film(folder.path);
     session_file made;
-    session_error error;
+    octreel_error error;
     options.view.width = 320;
     options.view.height = 180;
     if (!session_parse(name, "", text, strlen(text), &made, &error))
@@ -110,7 +110,7 @@ static place film_text(const temp_folder *own, const char *name, const char *tex
 static bool assert_explained(const place *a, const place *b, const char *change)
 {
     comparison_of made = assert_compared(a->path, b->path, NULL);
-    record_error error = {""};
+    octreel_error error = {""};
     bool unlike = false;
     if (!diff_explain(&made.a, &made.b, 10, &made.result, &error))
         fail_msg("%s", error.text);

@@ -26,7 +26,7 @@ static place film_layers(const temp_folder *own, const char *name, const octree_
 static comparison_of assert_traced(const place *a, const place *b, const diff_options *options)
 {
     comparison_of made = assert_compared(a->path, b->path, options);
-    record_error error = {""};
+    octreel_error error = {""};
     if (!diff_explain(&made.a, &made.b, 10, &made.result, &error))
         fail_msg("%s", error.text);
     assert_non_null(made.result.explanation);

@@ -25,7 +25,7 @@ static place film_in(const temp_folder *own, const char *name, const octree_sess
 static comparison_of assert_explained(const place *a, const place *b, uint64_t most)
 {
     comparison_of made = assert_compared(a->path, b->path, NULL);
-    record_error error = {""};
+    octreel_error error = {""};
     if (!diff_explain(&made.a, &made.b, most, &made.result, &error))
         fail_msg("%s", error.text);
     return made;
@@ -264,7 +264,7 @@ static void spoil_frame(const place *folder, uint64_t tick, bool as_drawn)
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
     char values[4][32];
     image_text texts[4];
-    image_error error;
+    octreel_error error;
     image frame;
     const place file = frame_place(folder->path, tick);
     assert_true(image_read_png(file.path, &frame, &error));

@@ -101,7 +101,7 @@ static void long_name_keeps_its_end_and_the_reason(void **state)
 {
     char name[1000];
     cloud cloud;
-    cloud_error error;
+    octreel_error error;
     (void)state;
     memset(name, 'd', sizeof name);
     memcpy(name + sizeof name - 7, "/a.xyz", 7);
@@ -114,7 +114,7 @@ static void long_name_keeps_its_end_and_the_reason(void **state)
 static void assert_file_is_refused(const char *path, const char *reason)
 {
     cloud cloud;
-    cloud_error error;
+    octreel_error error;
     char sentence[256];
     assert_false(cloud_read(path, NULL, &cloud, &error));
     snprintf(sentence, sizeof sentence, "%s: %s", path, reason);
@@ -134,7 +134,7 @@ static void file_is_read(void **state)
 {
     const char *path = temp_file(*state, "cloud.xyz");
     cloud cloud;
-    cloud_error error;
+    octreel_error error;
     write_file(path, "1 2 3\n-4.5 5e10 0.1\n");
     assert_true(cloud_read(path, NULL, &cloud, &error));
     assert_int_equal(cloud.count, 2);

@@ -21,7 +21,7 @@ typedef struct refusal {
 static void assert_refuses(const char *text, size_t size, const char *sentence)
 {
     session_file file;
-    session_error error = {""};
+    octreel_error error = {""};
     char expected[512];
     snprintf(expected, sizeof expected, "s.json:%s", sentence);
     if (session_parse("s.json", "", text, size, &file, &error))
@@ -283,7 +283,7 @@ static void missing_cloud_is_told_as_it_is_by_its_reader(void **state)
 {
     static const char text[] = HEADER "\"points\":{\"file\":\"missing.pcd\"}}";
     session_file file;
-    session_error error;
+    octreel_error error;
     (void)state;
     assert_false(session_parse("s.json", "no/such/folder", text, strlen(text), &file, &error));
     assert_string_equal(error.text, "no/such/folder/missing.pcd: cannot be opened: No such file or directory");
@@ -293,7 +293,7 @@ static void long_name_keeps_its_end_and_the_reason(void **state)
 {
     char name[1000];
     session_file file;
-    session_error error;
+    octreel_error error;
     (void)state;
     memset(name, 'a', sizeof name);
     strcpy(name + sizeof name - 8, "/s.json");

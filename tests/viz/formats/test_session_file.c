@@ -14,7 +14,7 @@
 static session_file parse(const char *text)
 {
     session_file file;
-    session_error error = {""};
+    octreel_error error = {""};
     if (!session_parse("s.json", "", text, strlen(text), &file, &error))
         fail_msg("%s", error.text);
     return file;
@@ -51,7 +51,7 @@ static void byte_order_mark_before_the_header_is_passed_over(void **state)
                       twice[] = "\xef\xbb\xbf\xef\xbb\xbf{}", alone[] = "\xef\xbb\xbf",
                       bad[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":1,\n\"ticks\":\"a\"}";
     session_file file;
-    session_error error;
+    octreel_error error;
     (void)state;
     assert_true(session_parse("s.json", "", text, sizeof text - 1, &file, &error));
     assert_int_equal(file.session.ticks, 7);
@@ -241,7 +241,7 @@ static void cloud_is_found_in_the_folder_of_the_session(void **state)
 {
     temp_folder *folder = *state;
     session_file file;
-    session_error error;
+    octreel_error error;
     write_text(temp_file(folder, "cloud.xyz"), "500000.123456789 2 3\n4 5 6\n");
     write_text(temp_file(folder, "s.json"), HEADER ",\"points\":{\"file\":\"cloud.xyz\"}}");
     assert_true(session_read(temp_file(folder, "s.json"), &file, &error));
@@ -258,7 +258,7 @@ static void cloud_is_found_in_the_folder_of_the_session(void **state)
 static void assert_file_is_refused(const char *path, const char *reason)
 {
     session_file file;
-    session_error error;
+    octreel_error error;
     char expected[256];
     snprintf(expected, sizeof expected, "%s: %s", path, reason);
     assert_false(session_read(path, &file, &error));

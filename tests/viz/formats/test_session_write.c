@@ -14,7 +14,7 @@
 static session_file parse(const char *text)
 {
     session_file file;
-    session_error error = {""};
+    octreel_error error = {""};
     if (!session_parse("s.json", "", text, strlen(text), &file, &error))
         fail_msg("%s", error.text);
     return file;
@@ -132,7 +132,7 @@ static void shapes_survive_the_round_trip(void **state)
         {OCTREE_EVERY_TICK, OCTREE_SHAPE_BOX, {1, 1, 1}, {1, 1, 1}, ""},
     };
     octree_session session = octree_session_default();
-    session_error error;
+    octreel_error error;
     session_file copy;
     (void)state;
     for (int asks = 0; asks < 2; asks++) {
@@ -278,7 +278,7 @@ static void copy_owns_all_it_has(void **state)
 {
     random_session *made = calloc(1, sizeof *made);
     session_file file;
-    session_error error;
+    octreel_error error;
     (void)state;
     assert_non_null(made);
     random_session_full(made, 3);
@@ -298,7 +298,7 @@ static void keys_are_replaced(void **state)
 {
     const octree_session session = octree_session_default();
     session_file file;
-    session_error error;
+    octreel_error error;
     (void)state;
     assert_true(session_copy(&session, &file, &error));
     assert_true(session_set_keys(&file, "wwdn.", &error));
@@ -320,7 +320,7 @@ static void unknown_keys_are_refused_and_change_nothing(void **state)
     };
     octree_session session = octree_session_default();
     session_file file, refused;
-    session_error error;
+    octreel_error error;
     (void)state;
     assert_true(session_copy(&session, &file, &error));
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

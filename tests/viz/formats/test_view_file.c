@@ -69,7 +69,7 @@ static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
     for (int i = 0; i < 300; i++) {
         const view written = random_view(&random);
         view read;
-        record_error error = {""};
+        octreel_error error = {""};
         assert_true(write_recording_file(&(folder_place){.folder = folder->name}, &written, 1, &error));
         if (!view_read(folder->name, &read, &error))
             fail_msg("%s", error.text);
@@ -84,7 +84,7 @@ static void members_that_are_missing_are_off(void **state)
 {
     const temp_folder *folder = *state;
     view read;
-    record_error error = {""};
+    octreel_error error = {""};
     const view expected = {.width = 160, .height = 90, .camera = CAMERA_TOP, .layers = 1u << LAYER_NODES};
     file_write_text(place_in(folder, "recording.json").path, VIEW "}\n");
     assert_true(view_read(folder->name, &read, &error));
@@ -131,7 +131,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
     const temp_folder *folder = *state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         view read;
-        record_error error = {""};
+        octreel_error error = {""};
         file_write_text(place_in(folder, "recording.json").path, rows[i][0]);
         assert_false(view_read(folder->name, &read, &error));
         if (!strstr(error.text, rows[i][1]))
@@ -143,7 +143,7 @@ static void what_is_no_recording_is_refused(void **state)
 {
     const temp_folder *folder = *state;
     view read;
-    record_error error;
+    octreel_error error;
     assert_false(view_read(folder->name, &read, &error));
     assert_non_null(strstr(error.text, "recording.json: cannot be opened"));
     assert_false(view_read("", &read, &error));
@@ -187,7 +187,7 @@ static void camera_from_takes_the_whole_view_of_another_recording(void **state)
     film("record --keys dd %s -o %s", from, d.path);
     assert_same_view_files(c.path, d.path);
     view changed;
-    record_error error;
+    octreel_error error;
     assert_true(view_read(c.path, &changed, &error));
     assert_true(changed.camera == CAMERA_TOP && changed.width == 200 && changed.fit == FIT_BOX);
 }

@@ -196,7 +196,7 @@ static void rows_are_written_as_they_are_made(void **state)
     for (int indexed = 0; indexed < 2; indexed++) {
         const char *path = temp_file(*state, indexed ? "indexed.png" : "rgb.png");
         const image_rows rows = {WIDTH, HEIGHT, indexed ? &palette : NULL, make_row, row};
-        image_error error = {""};
+        octreel_error error = {""};
         assert_true(image_write_png_rows(&rows, path, &error));
         image back = assert_read(path);
         assert_int_equal(back.channels, indexed ? 1 : 3);
@@ -210,7 +210,7 @@ static void rows_that_cannot_be_written_leave_a_sentence_and_no_file(void **stat
 {
     uint8_t row[WIDTH * 3];
     const image_rows rows = {WIDTH, HEIGHT, NULL, make_row, row};
-    image_error error = {""};
+    octreel_error error = {""};
     const char *path = temp_file(*state, "missing/rgb.png");
     assert_false(image_write_png_rows(&rows, path, &error));
     assert_sentence(&error, path, "No such file");

@@ -207,7 +207,7 @@ static void every_legal_kind_is_read_without_loss(void **state)
 static void check_over_color(const char *path, kind kind)
 {
     image image;
-    image_error error;
+    octreel_error error;
     assert_true(image_read_png_over(path, (image_color){0, 51, 255}, &image, &error));
     assert_decoded(&image, kind, (double[]){0, 0.2, 1});
     image_release(&image);
@@ -223,7 +223,7 @@ static void check_ends(const char *path, kind kind)
     (void)kind;
     int width, height;
     bool ends;
-    image_error error;
+    octreel_error error;
     assert_true(image_read_png_ends(path, &width, &height, &ends, &error));
     assert_true(width == SIDE && height == SIDE && ends);
 }
@@ -234,7 +234,7 @@ static void size_and_end_are_told_without_the_pixels(void **state)
     for_every_kind(check_ends, path);
     int width, height;
     bool ends;
-    image_error error;
+    octreel_error error;
     png_bytes file;
     png_bytes_load(&file, path);
     png_bytes_save(&file, file.size - 1, path);
@@ -264,7 +264,7 @@ static void wide_files_of_narrow_pictures_become_narrow(void **state)
 static void assert_unreadable(const char *path, const char *reason)
 {
     image image;
-    image_error error = {""};
+    octreel_error error = {""};
     assert_false(image_read_png(path, &image, &error));
     assert_null(image.pixels);
     assert_sentence(&error, path, reason);
@@ -443,7 +443,7 @@ static void overlong_path_still_gets_its_reason(void **state)
     memset(path, 'x', sizeof path - 1);
     path[sizeof path - 1] = '\0';
     image image;
-    image_error error = {""};
+    octreel_error error = {""};
     assert_false(image_read_png(path, &image, &error));
     assert_non_null(strstr(error.text, strerror(ENAMETOOLONG)));
 }
@@ -453,7 +453,7 @@ static void texts_are_found_by_their_keyword(void **state)
     static const image_text texts[] = {{"octreel:tick", "12"}, {"Comment", ""}, {"octreel:scene", "00ff"}};
     const char *path = temp_file(*state, "a.png");
     image_twins twins = make_twins(8, 8);
-    image_error error;
+    octreel_error error;
     char text[5];
     assert_true(image_write_png(&twins.indexed, path, texts, 3, &error));
     for (int i = 0; i < 3; i++) {

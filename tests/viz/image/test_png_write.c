@@ -14,7 +14,7 @@ enum { TEXT_COUNT = sizeof TEXTS / sizeof TEXTS[0] };
 
 static void write_with_texts(const image *image, const char *path)
 {
-    image_error error = {""};
+    octreel_error error = {""};
     if (!image_write_png(image, path, TEXTS, TEXT_COUNT, &error))
         fail_msg("%s", error.text);
 }
@@ -155,7 +155,7 @@ static void failed_write_says_why_and_leaves_nothing(void **state)
         {"full.png", &small.indexed, ENOSPC},      {"full.png", &large.rgb, ENOSPC},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        image_error error = {""};
+        octreel_error error = {""};
         assert_int_equal(symlink("/dev/full", temp_file(folder, "full.png.part")), 0);
         const char *path = temp_file(folder, cases[i].name);
         assert_false(image_write_png(cases[i].image, path, NULL, 0, &error));
@@ -170,7 +170,7 @@ static void failed_write_says_why_and_leaves_nothing(void **state)
 static void full_disk_removes_the_part_and_keeps_the_old_file(void **state)
 {
     image_twins twins = make_twins(8, 8);
-    image_error error;
+    octreel_error error;
     for (int files = 0; files < 2; files++) {
         assert_int_equal(symlink("/dev/full", temp_file(*state, "a.png.part")), 0);
         assert_false(image_write_png(&twins.rgb, temp_file(*state, "a.png"), NULL, 0, &error));
@@ -188,7 +188,7 @@ static void unwritable_folder_is_named(void **state)
     (void)state;
     static const char path[] = "/proc/frame.png"; /* nobody may write there, not even root */
     image_twins twins = make_twins(8, 8);
-    image_error error = {""};
+    octreel_error error = {""};
     assert_false(image_write_png(&twins.indexed, path, NULL, 0, &error));
     assert_sentence(&error, path, "");
     release_twins(&twins);
@@ -214,12 +214,12 @@ static void keywords_that_png_forbids_are_refused(void **state)
     const char *path = temp_file(*state, "a.png");
     image_twins twins = make_twins(8, 8);
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
-        image_error error = {""};
+        octreel_error error = {""};
         assert_false(image_write_png(&twins.indexed, path, &refused[i], 1, &error));
         assert_sentence(&error, path, "");
     }
     const image_text longest = {long_keyword + 1, ""};
-    image_error error;
+    octreel_error error;
     assert_int_equal(temp_folder_count(*state), 0);
     assert_true(image_write_png(&twins.indexed, path, &longest, 1, &error));
     release_twins(&twins);
@@ -229,7 +229,7 @@ static void index_beyond_the_palette_is_refused(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     image_twins twins = make_twins(8, 8);
-    image_error error = {""};
+    octreel_error error = {""};
     twins.indexed.pixels[63] = 4;
     assert_false(image_write_png(&twins.indexed, path, NULL, 0, &error));
     assert_sentence(&error, path, "palette");

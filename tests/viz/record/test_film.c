@@ -285,14 +285,14 @@ static void what_is_refused_makes_no_folder(void **state)
     film_options options = small_film(folder.path);
     film_summary summary;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        record_error error = {""};
+        octreel_error error = {""};
         options.view.width = sizes[i][0];
         options.view.height = sizes[i][1];
         assert_false(film_session(&session, &options, &summary, &error));
         assert_non_null(strstr(error.text, "16384"));
         assert_false(file_exists(folder.path));
     }
-    record_error error = {""};
+    octreel_error error = {""};
     options = small_film(folder.path);
     session.player.position[0] = 1001;
     assert_false(film_session(&session, &options, &summary, &error));

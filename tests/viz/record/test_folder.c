@@ -14,7 +14,7 @@ enum { NOBODY = 65534 };
 
 static void assert_prepared(const char *folder)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     if (!folder_prepare(folder, &error))
         fail_msg("%s", error.text);
 }
@@ -22,7 +22,7 @@ static void assert_prepared(const char *folder)
 /* The sentence names the folder and holds the reason. */
 static void assert_unprepared(const char *folder, const char *reason)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(folder_prepare(folder, &error));
     if (strstr(error.text, folder) == NULL || strstr(error.text, reason) == NULL)
         fail_msg("\"%s\" names not both %s and \"%s\"", error.text, folder, reason);
@@ -97,7 +97,7 @@ static void file_in_the_place_of_a_folder_is_refused(void **state)
     const place file = place_in(*state, "file");
     file_write_text(file.path, "mine");
     assert_unprepared(file.path, "cannot be made");
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(folder_prepare(place_below(file.path, "x/y").path, &error));
     assert_non_null(strstr(error.text, file.path));
     char *text = file_read(file.path, NULL);
@@ -107,7 +107,7 @@ static void file_in_the_place_of_a_folder_is_refused(void **state)
 
 static void empty_name_and_a_place_for_no_files_are_refused(void **state)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     (void)state;
     assert_false(folder_prepare("", &error));
     assert_non_null(strstr(error.text, "empty"));
@@ -124,7 +124,7 @@ static void folder_without_permission_says_so(void **state)
     const bool root = geteuid() == 0;
     if (root && seteuid(NOBODY) != 0)
         skip(); /* root of a container that has no other user */
-    record_error error = {""};
+    octreel_error error = {""};
     const bool prepared = folder_prepare(film.path, &error);
     if (root)
         assert_int_equal(seteuid(0), 0);
@@ -139,7 +139,7 @@ static void folder_without_permission_says_so(void **state)
 static void reason_survives_a_long_path(void **state)
 {
     char name[3 * 201 + 8] = "";
-    record_error error = {""};
+    octreel_error error = {""};
     for (size_t i = 0; i < 3; i++) {
         memset(name + i * 201, 'd', 200);
         name[i * 201 + 200] = '/';
@@ -155,7 +155,7 @@ static void reason_survives_a_long_path(void **state)
 
 static void assert_written(const char *folder, const char *name, const char *text)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     if (!folder_write(folder, name, text, strlen(text), &error))
         fail_msg("%s", error.text);
     size_t size;
@@ -178,7 +178,7 @@ static void files_are_written_whole_and_replaced_whole(void **state)
 static void file_that_cannot_be_written_leaves_nothing_and_harms_nothing(void **state)
 {
     const temp_folder *folder = *state;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_written(folder->name, "x.json", "mine");
     assert_int_equal(symlink("/dev/full", place_in(folder, "x.json.part").path), 0);
     assert_false(folder_write(folder->name, "x.json", "second", 6, &error));
@@ -192,7 +192,7 @@ static void file_that_cannot_be_written_leaves_nothing_and_harms_nothing(void **
 
 static void file_without_its_folder_is_an_error(void **state)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     const place nowhere = place_in(*state, "nowhere");
     assert_false(folder_write(nowhere.path, "x.json", "a", 1, &error));
     assert_non_null(strstr(error.text, nowhere.path));
@@ -202,7 +202,7 @@ static void file_without_its_folder_is_an_error(void **state)
 static void folder_in_the_place_of_a_file_is_an_error_that_leaves_no_part(void **state)
 {
     const temp_folder *folder = *state;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_int_equal(mkdir(place_in(folder, "x.json").path, 0777), 0);
     assert_false(folder_write(folder->name, "x.json", "a", 1, &error));
     assert_non_null(strstr(error.text, "x.json"));

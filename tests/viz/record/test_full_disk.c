@@ -55,7 +55,7 @@ static void folder_that_vanishes_is_an_error_that_names_it(void **state)
     const octree_session session = short_session("wwddeennwwdd");
     film_options options = small_film(folder.path);
     film_summary summary;
-    record_error error = {""};
+    octreel_error error = {""};
     char path[sizeof folder.path];
     snprintf(path, sizeof path, "%s", folder.path);
     options.progress = take_away;

@@ -85,7 +85,7 @@ static remains remains_of(void **state, const char *command, const char *folder)
 static void assert_frame_whole(const char *path)
 {
     char text[DIGEST_TEXT], expected[DIGEST_TEXT];
-    image_error error;
+    octreel_error error;
     image frame;
     if (!image_read_png(path, &frame, &error))
         fail_msg("%s", error.text);
@@ -105,7 +105,7 @@ static void parse_line(const char *line, size_t number, void *context)
 static void assert_session_whole(const char *path)
 {
     session_file file;
-    session_error error;
+    octreel_error error;
     if (!session_read(path, &file, &error))
         fail_msg("%s", error.text);
     session_release(&file);
@@ -214,7 +214,7 @@ static void joining_that_is_killed_at_any_call_is_done_again(void **state)
         film_options options = {.folder = remains_at(&r, i).path};
         const place left = remains_at(&r, i);
         film_summary summary;
-        record_error error = {""};
+        octreel_error error = {""};
         options.folder = left.path;
         assert_all_whole(left.path);
         if (!join_parts(&options, &summary, &error))

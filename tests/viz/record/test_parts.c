@@ -9,7 +9,7 @@
 #include "files.h"
 #include "fixture.h"
 #include "join.h"
-#include "parts.h"
+#include "chunks.h"
 #include "random_session.h"
 #include "recordings.h"
 
@@ -47,7 +47,7 @@ static void assert_joined(const char *folder)
 {
     film_options options = {.folder = folder};
     film_summary summary;
-    record_error error = {""};
+    octreel_error error = {""};
     if (!join_parts(&options, &summary, &error))
         fail_msg("%s", error.text);
     assert_int_equal(summary.ticks, TICKS);
@@ -58,7 +58,7 @@ static void assert_not_joined(const char *folder, const char *what, const char *
 {
     film_options options = {.folder = folder};
     film_summary summary;
-    record_error error = {""};
+    octreel_error error = {""};
     listing before = folder_list(folder);
     assert_false(join_parts(&options, &summary, &error));
     if (strstr(error.text, what) == NULL || strstr(error.text, reason) == NULL)
@@ -140,7 +140,7 @@ static void session_with_edits_and_every_third_frame_joins(void **state)
     assert_int_equal(sum.ticks, all.ticks);
     assert_int_equal(sum.frames, all.frames);
     film_summary joined;
-    record_error error = {""};
+    octreel_error error = {""};
     film_options found = {.folder = parts.path};
     if (!join_parts(&found, &joined, &error))
         fail_msg("%s", error.text);
@@ -155,7 +155,7 @@ static void joining_that_is_stopped_changes_nothing(void **state)
     uint64_t ticks = 9;
     film_options options = stopped_after(small_film(parts.path), &ticks);
     film_summary summary;
-    record_error error = {""};
+    octreel_error error = {""};
     copy_folder(parts.path, copy.path);
     assert_true(join_parts(&options, &summary, &error));
     assert_int_equal(summary.ticks, 9);
@@ -327,7 +327,7 @@ static void assert_not_filmed(const octree_session *session, const film_options 
                               const char *reason)
 {
     film_summary summary;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(film_session(session, options, &summary, &error));
     if (strstr(error.text, what) == NULL || strstr(error.text, reason) == NULL)
         fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, what, reason);

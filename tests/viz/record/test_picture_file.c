@@ -12,7 +12,7 @@
 static picture write_picture(int samples, const char *path)
 {
     picture p;
-    record_error error = {""};
+    octreel_error error = {""};
     scene s = busy_scene(320, 180, CAMERA_ORBIT);
     s.view.aa = samples;
     const image_text text = {"octreel-tick", "30"};

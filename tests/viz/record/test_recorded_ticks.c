@@ -8,7 +8,7 @@
 
 static void open_it(replay *r, const place *folder)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     if (!replay_open(r, folder->path, &error))
         fail_msg("%s", error.text);
 }
@@ -16,7 +16,7 @@ static void open_it(replay *r, const place *folder)
 /* The scene of a tick is the one that its frame says it is of. */
 static void check_scene(replay *r, const place *folder, uint64_t tick)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     if (!replay_to(r, tick, &error) || !replay_scene(r, &error))
         fail_msg("%s", error.text);
     assert_int_equal(octree_game_tick(r->take.game)->number, tick);
@@ -58,7 +58,7 @@ static void renderer_is_opened_once_and_draws_the_frame(void **state)
 {
     const place folder = film_short(*state);
     const renderer_choice any = {.context = DRAW_AUTO};
-    record_error error = {""};
+    octreel_error error = {""};
     replay r;
     open_it(&r, &folder);
     assert_null(r.take.picture.renderer);
@@ -77,7 +77,7 @@ static void renderer_is_opened_once_and_draws_the_frame(void **state)
 static void tick_beyond_the_end_is_refused(void **state)
 {
     const place folder = film_short(*state);
-    record_error error = {""};
+    octreel_error error = {""};
     replay r;
     open_it(&r, &folder);
     assert_false(replay_to(&r, SHORT_TICKS, &error));
@@ -88,7 +88,7 @@ static void tick_beyond_the_end_is_refused(void **state)
 static void folder_without_a_recording_is_refused(void **state)
 {
     const place folder = place_in(*state, "nothing");
-    record_error error = {""};
+    octreel_error error = {""};
     replay r;
     assert_false(replay_open(&r, folder.path, &error));
     assert_non_null(strstr(error.text, "recording.json"));

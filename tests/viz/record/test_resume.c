@@ -160,7 +160,7 @@ static void paint_a_pixel(const char *path)
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
     char values[4][32];
     image_text texts[4];
-    image_error error;
+    octreel_error error;
     for (size_t i = 0; i < 4; i++) {
         assert_true(image_read_text(path, keywords[i], values[i], sizeof values[i]));
         texts[i] = (image_text){keywords[i], values[i]};
@@ -185,7 +185,7 @@ static void take_the_next_frame(const char *path)
 
 static void strip_its_texts(const char *path)
 {
-    image_error error;
+    octreel_error error;
     image frame;
     assert_true(image_read_png(path, &frame, &error));
     assert_true(image_write_png(&frame, path, NULL, 0, &error));
@@ -287,7 +287,7 @@ static void another_session_or_view_is_refused_and_changes_nothing(void **state)
     const octree_session session = short_session(KEYS), other = short_session("wwddeennwwa");
     film_options options = resumed(folder.path);
     film_summary summary;
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(film_session(&other, &options, &summary, &error));
     assert_non_null(strstr(error.text, "session.json: is another session"));
     options.view.width = 161;

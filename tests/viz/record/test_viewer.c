@@ -31,7 +31,7 @@ static place recording_of(void **state, const char *ticks)
 
 static void assert_viewer_written(const char *folder)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     if (!viewer_write(folder, &error))
         fail_msg("%s", error.text);
 }
@@ -39,7 +39,7 @@ static void assert_viewer_written(const char *folder)
 /* The sentence holds both parts, and no page is there, nor a part of one. */
 static void assert_no_viewer(const char *folder, const char *part, const char *reason)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(viewer_write(folder, &error));
     if (strstr(error.text, part) == NULL || strstr(error.text, reason) == NULL)
         fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, part, reason);
@@ -228,7 +228,7 @@ static void recording_that_cannot_be_read_gets_no_page(void **state)
 /* The .part is a device that is always full. */
 static void page_that_cannot_be_written_leaves_the_one_before(void **state)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     const place folder = recording_of(state, TICK), page = place_below(folder.path, "index.html");
     const place part = place_below(folder.path, "index.html.part");
     file_write_text(page.path, "mine");
@@ -251,7 +251,7 @@ static void folder_that_cannot_be_written_is_named(void **state)
     const bool root = geteuid() == 0;
     if (root && seteuid(NOBODY) != 0)
         skip(); /* root of a container that has no other user */
-    record_error error = {""};
+    octreel_error error = {""};
     const bool written = viewer_write(folder.path, &error);
     if (root)
         assert_int_equal(seteuid(0), 0);

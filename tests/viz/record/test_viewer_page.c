@@ -295,7 +295,7 @@ static void tick_without_a_frame_shows_the_one_before_and_says_so(void **state)
 
 static place recording_by_hand(const driven *d, const char *name, const char *ticks)
 {
-    record_error error = {""};
+    octreel_error error = {""};
     const place folder = place_in(d->folder, name);
     assert_int_equal(mkdir(folder.path, 0777), 0);
     file_write_text(place_below(folder.path, "recording.json").path, "{\"width\": 160, \"height\": 90}\n");

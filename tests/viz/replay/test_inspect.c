@@ -66,7 +66,7 @@ static void world_holds_every_point_and_a_tree_takes_it(void **state)
         const cloud c = cloud_of(&clouds[i], positions);
         const octree_def def = define(inspect_world(&c), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
         inspection made;
-        record_error error = {""};
+        octreel_error error = {""};
         if (!inspect_build(&c, &def, &made, &error))
             fail_msg("%s: %s", clouds[i].name, error.text);
         if (made.outside + made.refused != 0)
@@ -181,7 +181,7 @@ static void points_are_stored_refused_or_outside(void **state)
     const cloud c = {.positions = positions, .count = COUNT, .skipped = 4};
     octree_def def = define(world, 2, 3, OCTREE_REFUSE);
     inspection made;
-    record_error error = {""};
+    octreel_error error = {""};
     size_t outside = 0;
     (void)state;
     assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &all, COUNT, positions), OCTREE_OK);
@@ -208,7 +208,7 @@ static void definition_that_a_tree_refuses_is_an_error(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof defs / sizeof defs[0]; i++) {
         inspection made;
-        record_error error = {""};
+        octreel_error error = {""};
         assert_false(inspect_build(&c, &defs[i], &made, &error));
         assert_non_null(strstr(error.text, "the tree cannot be made"));
         assert_null(made.tree);

@@ -10,7 +10,7 @@
 static uint32_t *pick(renderer *r, const scene *s)
 {
     uint32_t *numbers = malloc(frame_samples(s) * sizeof *numbers);
-    draw_error error = {""};
+    octreel_error error = {""};
     assert_non_null(numbers);
     if (!renderer_pick(r, s, numbers, &error))
         fail_msg("%s", error.text);
@@ -20,7 +20,7 @@ static uint32_t *pick(renderer *r, const scene *s)
 static scene scene_of(const golden_frame *frame)
 {
     scene s;
-    record_error error = {""};
+    octreel_error error = {""};
     if (!golden_scene(frame, &s, &error))
         fail_msg("%s", error.text);
     return s;
@@ -352,7 +352,7 @@ static void a_scene_of_another_size_is_refused(void **state)
     scene s = busy_scene(320, 180, CAMERA_ISO);
     renderer *r = open_renderer(160, 90);
     uint32_t number;
-    draw_error error = {""};
+    octreel_error error = {""};
     assert_false(renderer_pick(r, &s, &number, &error));
     assert_non_null(strstr(error.text, "size"));
     renderer_close(r);

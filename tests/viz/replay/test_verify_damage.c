@@ -25,7 +25,7 @@ static bool is_noticed(const place *folder)
 {
     const verify_options options = {.progress = NULL};
     verify_report report;
-    record_error error = {""};
+    octreel_error error = {""};
     const bool verified = verify_recording(folder->path, &options, &report, &error);
     if (!verified)
         assert_true(strlen(error.text) > 0);

@@ -18,7 +18,7 @@ static void write_with_texts(const char *path, const image *frame, const char *p
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
     char values[4][32];
     image_text texts[4];
-    image_error error;
+    octreel_error error;
     for (int i = 0; i < 4; i++) {
         assert_true(image_read_text(path, keywords[i], values[i], sizeof values[i]));
         texts[i] = (image_text){keywords[i], i == 3 && pixels ? pixels : values[i]};
@@ -70,7 +70,7 @@ static void frame_that_may_not_be_read_is_trouble(void **state)
         skip(); /* root of a container that has no other user */
     const verify_options options = {0};
     verify_report report;
-    record_error error = {""};
+    octreel_error error = {""};
     const bool verified = verify_recording(folder.path, &options, &report, &error);
     if (root)
         assert_int_equal(seteuid(0), 0);
@@ -95,7 +95,7 @@ static void frame_that_was_cut_is_found_wherever(void **state)
 static void frame_in_the_place_of_another_is_found(void **state)
 {
     const place folder = film_short(*state);
-    copy_file(folder.path, "frame_000003.png", "frame_000012.png");
+    file_copy(folder.path, "frame_000003.png", "frame_000012.png");
     assert_found(&folder, VERIFY_FRAME, 12, "is the frame of another tick");
 }
 
@@ -115,7 +115,7 @@ static void frame_without_its_texts_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read_rgb(path.path);
-    image_error error;
+    octreel_error error;
     assert_true(image_write_png(&frame, path.path, NULL, 0, &error));
     image_release(&frame);
     assert_found(&folder, VERIFY_FRAME, 3, "frame_000003.png: ");
@@ -167,7 +167,7 @@ static void frames_that_are_too_many_are_found(void **state)
     };
     const place folder = film_short(*state);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        copy_file(folder.path, "frame_000003.png", rows[i].name);
+        file_copy(folder.path, "frame_000003.png", rows[i].name);
         const verify_report report = verify(&folder);
         assert_int_equal(report.count, 1);
         assert_int_equal(report.findings[0].kind, VERIFY_FRAME);

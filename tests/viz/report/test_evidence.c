@@ -16,7 +16,7 @@ static comparison_of leave_evidence(const char *a, const char *b, const diff_opt
 {
     const diff_options exact = diff_options_default();
     comparison_of made = assert_compared(a, b, options);
-    record_error error = {""};
+    octreel_error error = {""};
     evidence e;
     if (!evidence_prepare(folder, &made.a, &made.b, &error) ||
         !evidence_collect(&e, folder, &made.result, options ? options : &exact, &error))
@@ -45,7 +45,7 @@ static void assert_holds(const char *folder, const char *names)
 static void assert_refused(const char *a, const char *b, const char *folder, const char *part)
 {
     diff_side sides[2] = {assert_side(a), assert_side(b)};
-    record_error error = {""};
+    octreel_error error = {""};
     assert_false(evidence_prepare(folder, &sides[0], &sides[1], &error));
     if (!strstr(error.text, part) || !strstr(error.text, folder))
         fail_msg("\"%s\" does not say \"%s\"", error.text, part);
@@ -59,7 +59,7 @@ static void each_finding_leaves_what_can_be_had(void **state)
                 b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 6.png"), folder = place_in(*state, "out");
     gallery_write(place_below(b.path, "2.png").path, 1, 3);
     image small;
-    image_error error = {""};
+    octreel_error error = {""};
     assert_true(image_create(&small, 3, 40, 3) &&
                 image_write_png(&small, place_below(b.path, "3.png").path, NULL, 0, &error));
     image_release(&small);
@@ -214,7 +214,7 @@ static void picture_that_cannot_be_written_is_named(void **state)
         const place folder = place_in(*state, name);
         const diff_options exact = diff_options_default();
         comparison_of made = assert_compared(a.path, b.path, NULL);
-        record_error error = {""};
+        octreel_error error = {""};
         evidence e;
         assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error));
         const place taken = place_below(folder.path, names[i]); /* by a folder, which nothing is renamed over */

@@ -40,7 +40,7 @@ static void make_sides(place a, place b)
             gallery_write(frame_in(b, i).path, (uint64_t)i, i == 4 ? 0 : 7);
     }
     image small;
-    image_error error = {""};
+    octreel_error error = {""};
     assert_true(image_create(&small, 5, 30, 3));
     assert_true(image_write_png(&small, frame_in(b, 1).path, NULL, 0, &error));
     image_release(&small);
@@ -53,7 +53,7 @@ typedef void meddler(const char *folder);
 static void write_page_of(comparison_of *made, const char *folder, meddler *meddle)
 {
     const diff_options exact = diff_options_default();
-    record_error error = {""};
+    octreel_error error = {""};
     evidence e;
     const diff_report report = {&made->a, &made->b, &exact, &made->result, &e};
     if (!evidence_prepare(folder, &made->a, &made->b, &error) ||

@@ -141,7 +141,7 @@ static void junit_names_the_pictures_that_were_left(void **state)
     const diff_options exact = diff_options_default();
     const place folder = place_in(*state, "out");
     char part[4096];
-    record_error error = {""};
+    octreel_error error = {""};
     evidence e;
     assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error) &&
                 evidence_collect(&e, folder.path, &made.result, &exact, &error));

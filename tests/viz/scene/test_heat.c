@@ -269,7 +269,7 @@ static void a_frame_has_the_heat_of_all_ticks_up_to_it_filmed_or_not(void **stat
     }
 }
 
-static bool keep_digest(void *context, const film_step *step, record_error *error)
+static bool keep_digest(void *context, const film_step *step, octreel_error *error)
 {
     (void)error;
     json_t *line = json_read(step->line);
@@ -287,7 +287,7 @@ static void a_part_of_a_film_begins_with_the_heat_of_what_came_before(void **sta
     char whole[17], part[17];
     for (int parted = 0; parted < 2; parted++) {
         const film_share share = {.first = parted ? 200 : 0, .last = 201};
-        record_error error;
+        octreel_error error;
         take t;
         assert_true(take_open(&t, &session, &options, FRAMES_SHOW, &error));
         assert_true(film_ticks(&t, &share, keep_digest, parted ? part : whole, &error));

@@ -33,6 +33,7 @@
 #define OCTREEL_RECORDER_H
 
 #include "octree/game.h"
+#include "octreel/error.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -69,11 +70,6 @@ typedef enum octreel_status {
 const char *octreel_status_text(octreel_status status);
 
 typedef struct octreel_recorder octreel_recorder;
-
-/* One sentence for a person: what could not be done, with the file or the option, and why. */
-typedef struct octreel_error {
-    char text[512];
-} octreel_error;
 
 /* How to record. Start from octreel_recorder_def_default() and change what you need. Names are those that
  * "octreel record --help" lists. */

@@ -1,0 +1,28 @@
+/* error.c - sentences about what could not be done. */
+#include "error.h"
+
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Sentences begin with a path: of one that is too long the beginning goes, never the reason at its end. */
+bool error_set(octreel_error *error, const char *format, ...)
+{
+    char whole[PATH_MAX + sizeof error->text];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(whole, sizeof whole, format, arguments);
+    va_end(arguments);
+    const size_t length = strlen(whole), room = sizeof error->text - 1;
+    if (length <= room)
+        snprintf(error->text, sizeof error->text, "%s", whole);
+    else
+        snprintf(error->text, sizeof error->text, "...%s", whole + length - room + 3);
+    return false;
+}
+
+bool error_no_memory(octreel_error *error)
+{
+    return error_set(error, "there is no memory");
+}

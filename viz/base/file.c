@@ -1,0 +1,203 @@
+/* file.c - files and their names: read whole, written whole or not at all, copied, told apart. */
+#include "file.h"
+
+#include <errno.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Names -------------------------------------------------------------------------------------------------- */
+
+char *path_join(const char *folder, const char *name)
+{
+    const size_t size = strlen(folder) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s", folder, name);
+    return path;
+}
+
+bool folder_has(const char *folder, const char *name)
+{
+    struct stat status;
+    char *path = path_join(folder, name);
+    const bool there = path && stat(path, &status) == 0;
+    free(path);
+    return there;
+}
+
+/* ---- Read whole --------------------------------------------------------------------------------------------- */
+
+static bool refuse(char reason[FILE_REASON], const char *what)
+{
+    snprintf(reason, FILE_REASON, "%s: %s", what, strerror(errno));
+    return false;
+}
+
+/* Read up to *size bytes, and set it to what was there. */
+static bool read_bytes(const char *path, char *bytes, size_t *size, char reason[FILE_REASON])
+{
+    FILE *stream = fopen(path, "rb");
+    if (!stream)
+        return refuse(reason, "cannot be opened");
+    *size = fread(bytes, 1, *size, stream);
+    bool whole = !ferror(stream);
+    if (!whole)
+        refuse(reason, "cannot be read");
+    fclose(stream);
+    return whole;
+}
+
+bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON])
+{
+    struct stat status;
+    *bytes = NULL;
+    if (stat(path, &status) != 0)
+        return refuse(reason, "cannot be opened");
+    /* Opening a pipe would wait for its other end; a device may never end. */
+    if (!S_ISREG(status.st_mode)) {
+        snprintf(reason, FILE_REASON, "is not a regular file");
+        return false;
+    }
+    *size = (size_t)status.st_size;
+    *bytes = (uintmax_t)status.st_size < SIZE_MAX ? malloc(*size + 1) : NULL;
+    if (!*bytes) {
+        snprintf(reason, FILE_REASON, "out of memory for its %jd bytes", (intmax_t)status.st_size);
+        return false;
+    }
+    if (read_bytes(path, *bytes, size, reason))
+        return true;
+    free(*bytes);
+    *bytes = NULL;
+    return false;
+}
+
+/* ---- Written whole or not at all ---------------------------------------------------------------------------- */
+
+static bool is_there_but_no_file(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
+{
+    const size_t size = strlen(path) + sizeof ".part";
+    *file = (file_writer){.path = path, .temp = malloc(size)};
+    if (!file->temp)
+        return error_no_memory(error);
+    snprintf(file->temp, size, "%s%s", path, is_there_but_no_file(path) ? "" : ".part");
+    file->stream = fopen(file->temp, "wb");
+    if (file->stream)
+        return true;
+    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    free(file->temp);
+    return false;
+}
+
+bool file_writer_close(file_writer *file, octreel_error *error)
+{
+    const bool direct = strcmp(file->temp, file->path) == 0;
+    bool ok = fflush(file->stream) == 0 && !ferror(file->stream);
+    int reason = errno;
+    if (fclose(file->stream) != 0 && ok) {
+        ok = false;
+        reason = errno;
+    }
+    if (ok && !direct && rename(file->temp, file->path) != 0) {
+        ok = false;
+        reason = errno;
+    }
+    if (!ok && !direct)
+        remove(file->temp);
+    free(file->temp);
+    return ok || error_set(error, "%s: cannot be written: %s", file->path, strerror(reason));
+}
+
+bool file_writer_abandon(file_writer *file)
+{
+    fclose(file->stream);
+    if (strcmp(file->temp, file->path) != 0)
+        remove(file->temp);
+    free(file->temp);
+    return false;
+}
+
+/* A full disk shows in file_writer_close(). */
+static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *error)
+{
+    char block[1 << 16];
+    for (size_t size; (size = fread(block, 1, sizeof block, in)) > 0;)
+        if (fwrite(block, 1, size, out) < size)
+            break;
+    return !ferror(in) || error_set(error, "%s: cannot be read: %s", from, strerror(errno));
+}
+
+bool file_copy_to(const char *from, const char *to, octreel_error *error)
+{
+    struct stat status;
+    file_writer file;
+    if (stat(from, &status) == 0 && !S_ISREG(status.st_mode))
+        return error_set(error, "%s: it is no regular file", from);
+    FILE *in = fopen(from, "rb");
+    if (!in)
+        return error_set(error, "%s: cannot be opened: %s", from, strerror(errno));
+    bool ok = file_writer_open(&file, to, error);
+    if (ok)
+        ok = copy_stream(in, from, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
+    fclose(in);
+    return ok;
+}
+
+/* ---- Told apart --------------------------------------------------------------------------------------------- */
+
+bool same_file(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+bool stat_parent(const char *path, struct stat *status)
+{
+    char *parent = strdup(path), *slash = parent ? strrchr(parent, '/') : NULL;
+    if (slash)
+        slash[slash == parent ? 1 : 0] = 0;
+    const bool is = parent && stat(slash ? parent : ".", status) == 0;
+    free(parent);
+    return is;
+}
+
+/* Two files of which neither is there: one name in one folder. Folders that are not there either are told by name. */
+static bool same_name(const char *a, const char *b)
+{
+    struct stat folders[2];
+    const char *slashes[2] = {strrchr(a, '/'), strrchr(b, '/')};
+    if (!stat_parent(a, &folders[0]) || !stat_parent(b, &folders[1]))
+        return strcmp(a, b) == 0;
+    return same_file(&folders[0], &folders[1]) &&
+           strcmp(slashes[0] ? slashes[0] + 1 : a, slashes[1] ? slashes[1] + 1 : b) == 0;
+}
+
+static bool are_one(const char *a, const char *b)
+{
+    struct stat files[2];
+    const bool there[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
+    if (there[0] && there[1])
+        return S_ISREG(files[0].st_mode) && same_file(&files[0], &files[1]);
+    return !there[0] && !there[1] && same_name(a, b);
+}
+
+bool output_spares(const output_file *output, const char *input, octreel_error *error)
+{
+    return !output->path || !are_one(output->path, input) ||
+           error_set(error, "%s %s is the same file as %s, which is read", output->option, output->path, input);
+}
+
+bool outputs_apart(const output_file *outputs, size_t count, octreel_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (outputs[i].path && outputs[j].path && are_one(outputs[i].path, outputs[j].path))
+                return error_set(error, "%s %s is the same file as %s %s", outputs[i].option, outputs[i].path,
+                                 outputs[j].option, outputs[j].path);
+    return true;
+}

@@ -1,0 +1,168 @@
+/* folder.c - see folder.h. */
+#include "folder.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static bool make_one(const char *path, octreel_error *error)
+{
+    struct stat status;
+    if (mkdir(path, 0777) == 0)
+        return true;
+    const int reason = errno;
+    if (stat(path, &status) != 0)
+        return error_set(error, "%s: the folder cannot be made: %s", path, strerror(reason));
+    return S_ISDIR(status.st_mode) || error_set(error, "%s: the folder cannot be made: a file is in its place", path);
+}
+
+bool folder_make(const char *folder, octreel_error *error)
+{
+    if (!*folder)
+        return error_set(error, "the folder's name is empty");
+    char *path = strdup(folder);
+    if (!path)
+        return error_no_memory(error);
+    bool ok = true;
+    for (char *slash = strchr(path + 1, '/'); ok && slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        ok = make_one(path, error);
+        *slash = '/';
+    }
+    ok = ok && make_one(path, error);
+    free(path);
+    return ok;
+}
+
+char *chunk_name(uint64_t first, uint64_t last, char name[CHUNK_NAME])
+{
+    snprintf(name, CHUNK_NAME, "ticks_%" PRIu64 "_%" PRIu64 ".jsonl", first, last);
+    return name;
+}
+
+bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last)
+{
+    char again[CHUNK_NAME], *end;
+    if (strncmp(name, "ticks_", 6) != 0)
+        return false;
+    *first = strtoull(name + 6, &end, 10);
+    if (*end != '_')
+        return false;
+    *last = strtoull(end + 1, NULL, 10);
+    return *first < *last && strcmp(name, chunk_name(*first, *last, again)) == 0;
+}
+
+/* A recording's files beside its frames. */
+static const char *const recording_files[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl",
+                                              "index.html"};
+
+#define RECORDING_FILES (sizeof recording_files / sizeof recording_files[0])
+
+const char *folder_fact_name(size_t i)
+{
+    return i < RECORDING_FILES ? recording_files[i] : NULL;
+}
+
+bool folder_is_name(const char *name)
+{
+    uint64_t first, last;
+    for (size_t i = 0; i < RECORDING_FILES; i++)
+        if (strcmp(name, recording_files[i]) == 0)
+            return true;
+    return strncmp(name, "frame_", 6) == 0 || chunk_parse_name(name, &first, &last);
+}
+
+static bool check_empty(const char *folder, octreel_error *error)
+{
+    DIR *entries = opendir(folder);
+    if (!entries)
+        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(entries));)
+        if (folder_is_name(entry->d_name))
+            ok = error_set(error, "%s: already holds a recording (%s); choose another folder, or remove it", folder,
+                           entry->d_name);
+    closedir(entries);
+    return ok;
+}
+
+bool folder_prepare(const char *folder, octreel_error *error)
+{
+    return folder_make(folder, error) && check_empty(folder, error);
+}
+
+bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error)
+{
+    char *path = path_join(folder, name);
+    file_writer file;
+    bool ok = path ? file_writer_open(&file, path, error) : error_no_memory(error);
+    if (ok) {
+        fwrite(bytes, 1, size, file.stream); /* file_writer_close tells */
+        ok = file_writer_close(&file, error);
+    }
+    free(path);
+    return ok;
+}
+
+void folder_abandon(const char *folder)
+{
+    for (size_t i = 0; i < RECORDING_FILES; i++) {
+        char *path = path_join(folder, recording_files[i]);
+        if (path)
+            remove(path);
+        free(path);
+    }
+}
+
+/* What stands behind the name of a file while it is written, or of a session while a program makes it: "part", "live",
+ * or the writer's word of folder_write_once(), which is a part's name. */
+static bool is_of_writer(const char *ending)
+{
+    char word[CHUNK_NAME];
+    uint64_t first, last;
+    const size_t length = strlen(ending), part = sizeof ".part" - 1;
+    if (strcmp(ending, "part") == 0 || strcmp(ending, "live") == 0)
+        return true;
+    const bool also = length > part && strcmp(ending + length - part, ".part") == 0;
+    snprintf(word, sizeof word, "%.*s", (int)(also ? length - part : length), ending);
+    return chunk_parse_name(word, &first, &last);
+}
+
+bool folder_is_unfinished(const char *name)
+{
+    const char *end = strrchr(name, '.');
+    if (strncmp(name, "frame_", 6) == 0)
+        return end && strcmp(end, ".part") == 0;
+    for (size_t i = 0; i < RECORDING_FILES; i++) {
+        const size_t length = strlen(recording_files[i]);
+        if (strncmp(name, recording_files[i], length) == 0 && name[length] == '.')
+            return is_of_writer(name + length + 1);
+    }
+    return false;
+}
+
+static bool remove_entry(const char *folder, const char *name, octreel_error *error)
+{
+    char *path = path_join(folder, name);
+    const bool removed = path && (remove(path) == 0 || errno == ENOENT);
+    free(path);
+    return removed || error_set(error, "%s/%s: cannot be removed: %s", folder, name, strerror(errno));
+}
+
+bool folder_sweep(const char *folder, octreel_error *error)
+{
+    uint64_t first, last;
+    DIR *entries = opendir(folder);
+    if (!entries)
+        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(entries));)
+        if (folder_is_unfinished(entry->d_name) || chunk_parse_name(entry->d_name, &first, &last))
+            ok = remove_entry(folder, entry->d_name, error);
+    closedir(entries);
+    return ok;
+}
