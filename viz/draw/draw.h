@@ -84,6 +84,11 @@ uint64_t draw_id_of(const scene *s, draw_element element);
  * which are there; where points share a quad, the one it was painted for: renderer_pixel() names them all. */
 bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error);
 
+/* Where a set of layers (bits 1 << view_layer, LAYER_DIAGRAM too) is seen in a scene's picture: a byte a pixel, 1 where
+ * an element of theirs is on top at any of the pixel's samples, else 0. Without these layers no other pixel would be
+ * different. */
+bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *mask, octreel_error *error);
+
 /* What an element has to do with a pixel, which is view_samples() squared samples. */
 typedef struct draw_touch {
     uint32_t number;

@@ -87,3 +87,48 @@ bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error
     painter_release(&p);
     return ok;
 }
+
+/* ---- Layers -------------------------------------------------------------------------------------------------- */
+
+static unsigned layer_of(const scene *s, const painter *p, const quad *q)
+{
+    return q->kind == DRAW_BOX ? paint_edge_at(p, q->index)->look.layer
+                               : draw_look_of(s, (draw_element){(draw_kind)q->kind, q->index}).layer;
+}
+
+/* Draw a 1 for the quads of the wanted layers and a 0 for all others, in the picture's order. */
+static bool draw_layers(renderer *r, const scene *s, painter *p, unsigned layers, uint8_t *samples,
+                        octreel_error *error)
+{
+    const int side = view_samples(&s->view);
+    const draw_box all = {0, 0, s->view.width * side, s->view.height * side};
+    for (size_t i = 0; i < p->quads.count; i++)
+        p->quads.items[i].color = layers >> layer_of(s, p, &p->quads.items[i]) & 1;
+    return renderer_rasterise(r, p->quads.items, p->quads.count, &all, samples, error);
+}
+
+/* A pixel is in the mask where one of its samples is. */
+static void shrink_mask(const view *v, const uint8_t *samples, uint8_t *mask)
+{
+    const size_t side = (size_t)view_samples(v), width = (size_t)v->width;
+    memset(mask, 0, width * (size_t)v->height);
+    for (size_t y = 0; y < (size_t)v->height * side; y++)
+        for (size_t x = 0; x < width * side; x++)
+            mask[y / side * width + x / side] |= samples[y * width * side + x];
+}
+
+bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *mask, octreel_error *error)
+{
+    if (!renderer_fits(r, s, error))
+        return false;
+    const size_t side = (size_t)view_samples(&s->view);
+    uint8_t *samples = malloc((size_t)s->view.width * (size_t)s->view.height * side * side);
+    painter p = {0};
+    bool ok = (samples && paint(&p, s)) || error_no_memory(error);
+    ok = ok && draw_layers(r, s, &p, layers, samples, error);
+    if (ok)
+        shrink_mask(&s->view, samples, mask);
+    painter_release(&p);
+    free(samples);
+    return ok;
+}

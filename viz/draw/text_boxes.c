@@ -1,5 +1,6 @@
 /* text_boxes.c - where the text of a scene is. */
 #include "letters.h"
+#include "paint.h"
 
 void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context)
 {
@@ -8,9 +9,10 @@ void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *co
         const draw_box box = {panel->x, panel->y, panel->width, panel->height};
         visit(&box, context);
     }
+    const scene fine = paint_samples(s);
     for (size_t i = 0; i < s->labels.count; i++) {
         draw_box box;
-        if (letters_box(s, &s->labels.items[i], &box))
+        if (letters_box(&fine, &s->labels.items[i], &box))
             visit(&box, context);
     }
 }

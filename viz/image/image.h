@@ -171,6 +171,7 @@ typedef struct image_tolerance {
     bool antialias;      /* pixels that anti-aliasing explains; see antialias.c */
     const image_rectangle *ignored;
     size_t ignored_count;
+    const uint8_t *ignored_mask; /* a byte a pixel, not 0: ignored too; as large as the images. Null: none */
 } image_tolerance;
 
 /* Some unlike pixels: how many, how bad, where. Places are -1 when there are none. */
@@ -190,7 +191,7 @@ typedef struct image_difference {
     image_tally counted;  /* of these, what is not forgiven */
     uint64_t close;       /* forgiven: within max_delta */
     uint64_t antialiased; /* forgiven: by anti-aliasing, of those beyond max_delta */
-    uint64_t ignored;     /* unlike, in ignored rectangles: part of no tally */
+    uint64_t ignored;     /* unlike, in ignored rectangles or the mask: part of no tally */
 } image_difference;
 
 /* Colours are compared, so an indexed image and its RGB twin are alike. */

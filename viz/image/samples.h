@@ -22,8 +22,11 @@ static inline bool samples_equal(const pixel_samples *a, const pixel_samples *b)
     return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
 }
 
-static inline bool tolerance_ignores(const image_tolerance *tolerance, int x, int y)
+/* A pixel of images that are `width` pixels wide. */
+static inline bool tolerance_ignores(const image_tolerance *tolerance, int width, int x, int y)
 {
+    if (tolerance->ignored_mask && tolerance->ignored_mask[(size_t)y * (size_t)width + (size_t)x])
+        return true;
     for (size_t i = 0; i < tolerance->ignored_count; i++) {
         const image_rectangle *r = &tolerance->ignored[i];
         if (x >= r->x && y >= r->y && x - r->x < r->width && y - r->y < r->height)

@@ -135,9 +135,9 @@ bool naive_antialiased(const image *a, const image *b, int x, int y)
 
 /* ---- Counting ----------------------------------------------------------------------------------------------- */
 
-static bool in_any_rectangle(const image_tolerance *tolerance, int x, int y)
+static bool is_ignored(const image_tolerance *tolerance, int width, int x, int y)
 {
-    bool in = false;
+    bool in = tolerance->ignored_mask && tolerance->ignored_mask[y * width + x];
     for (size_t i = 0; i < tolerance->ignored_count; i++) {
         const image_rectangle r = tolerance->ignored[i];
         in = in || (x >= r.x && x < (long)r.x + r.width && y >= r.y && y < (long)r.y + r.height);
@@ -181,7 +181,7 @@ image_difference naive_compare(const image *a, const image *b, const image_toler
             naive_color(b, x, y, to);
             if (equal(from, to))
                 continue;
-            if (in_any_rectangle(tolerance, x, y)) {
+            if (is_ignored(tolerance, a->width, x, y)) {
                 d.ignored++;
                 continue;
             }

@@ -85,13 +85,17 @@ static void counts_are_those_of_the_naive_comparison(void **state)
 {
     (void)state;
     static const image_rectangle ignored[] = {{3, 2, 5, 4}, {-4, -4, 6, 6}, {15, 10, 2147483647, 2147483647}};
+    uint8_t mask[40 * 20];
     uint64_t random = 7;
+    for (size_t i = 0; i < sizeof mask; i++)
+        mask[i] = (uint8_t)(i % 7 < 2 ? i % 7 : 0);
     for (int i = 0; i < 1500; i++) {
         const int width = 1 + (int)(next_random(&random) % 40), height = 1 + (int)(next_random(&random) % 20);
         const image_tolerance tolerance = {.max_delta = i % 3 == 0 ? 0 : (next_random(&random) % 100) / 150.0,
                                            .antialias = i % 2 == 0,
                                            .ignored = ignored,
-                                           .ignored_count = next_random(&random) % 4};
+                                           .ignored_count = next_random(&random) % 4,
+                                           .ignored_mask = next_random(&random) % 2 ? mask : NULL};
         image a = make_picture(width, height, (storage)(i % STORAGES), next_random(&random));
         image b = i % 5 == 0 ? make_picture(width, height, (storage)(i / 5 % STORAGES), next_random(&random))
                              : copy_image(&a);
