@@ -1,10 +1,31 @@
-/* escaped.c - see escaped.h. */
-#include "escaped.h"
+/* text.c - see text.h. */
+#include "text.h"
 #include "utf8.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- Into memory --------------------------------------------------------------------------------------------- */
+
+bool text_stream_begin(text_stream *s)
+{
+    *s = (text_stream){0};
+    s->stream = open_memstream(&s->text, &s->size);
+    return s->stream != NULL;
+}
+
+bool text_stream_end(text_stream *s, char **text)
+{
+    const bool whole = s->stream && !ferror(s->stream);
+    const bool ok = s->stream && fclose(s->stream) == 0 && whole;
+    *text = ok && s->size ? s->text : NULL;
+    if (!*text)
+        free(s->text);
+    return ok;
+}
+
+/* ---- Into other languages ------------------------------------------------------------------------------------ */
 
 static const char *numbered(char c, char room[ESCAPE_ROOM])
 {
@@ -90,4 +111,31 @@ bool write_escaped_stream(FILE *out, text_stream *s, escape *how)
     write_escaped(out, text ? text : "", how);
     free(text);
     return ok;
+}
+
+/* ---- Base64 -------------------------------------------------------------------------------------------------- */
+
+enum { GROUPS = 4096 };
+
+static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/* `count` of three bytes; those that are missing are zero. */
+static void put_group(const unsigned char *from, size_t count, char *to)
+{
+    const unsigned bits =
+        (unsigned)from[0] << 16 | (count > 1 ? (unsigned)from[1] << 8 : 0) | (count > 2 ? from[2] : 0);
+    for (unsigned i = 0; i < 4; i++)
+        to[i] = i <= count ? digits[bits >> (18 - 6 * i) & 63] : '=';
+}
+
+void base64_copy(FILE *in, FILE *out)
+{
+    unsigned char bytes[3 * GROUPS];
+    char text[4 * GROUPS];
+    for (size_t size; (size = fread(bytes, 1, sizeof bytes, in)) > 0;) {
+        size_t length = 0;
+        for (size_t at = 0; at < size; at += 3, length += 4)
+            put_group(bytes + at, size - at, text + length);
+        fwrite(text, 1, length, out);
+    }
 }

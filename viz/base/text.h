@@ -1,8 +1,22 @@
-/* escaped.h - text of others inside a markup language. */
-#ifndef DIFF_ESCAPED_H
-#define DIFF_ESCAPED_H
+/* text.h - text printed into memory, text of others inside a markup language, and bytes as text. */
+#ifndef BASE_TEXT_H
+#define BASE_TEXT_H
 
-#include "text_stream.h"
+#include <stdbool.h>
+#include <stdio.h>
+
+/* A stream into memory. */
+typedef struct text_stream {
+    FILE *stream; /* null where there is no memory */
+    char *text;
+    size_t size;
+} text_stream;
+
+bool text_stream_begin(text_stream *s);
+
+/* *text becomes what was printed, which the caller frees; null where that is nothing. False where there was no memory.
+ */
+bool text_stream_end(text_stream *s, char **text);
 
 /* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
 #define ESCAPE_ROOM 16
@@ -19,5 +33,8 @@ void write_escaped(FILE *out, const char *text, escape *how);
 
 /* Write what was printed into a stream of text, and end it. False where there was no memory. */
 bool write_escaped_stream(FILE *out, text_stream *s, escape *how);
+
+/* All that is left of `in` in base64 (RFC 4648), for addresses that hold their data. Errors stay with the streams. */
+void base64_copy(FILE *in, FILE *out);
 
 #endif

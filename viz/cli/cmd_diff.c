@@ -1,6 +1,7 @@
 /* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
 #include "command.h"
 #include "explain.h"
+#include "ignored_layers.h"
 #include "report.h"
 
 #include <getopt.h>
@@ -78,12 +79,13 @@ static bool add_rectangle(arguments *a, const char *text)
     return read_rectangle("--ignore", text, &grown[t->ignored_count]) && ++t->ignored_count;
 }
 
-static bool read_layer(const char *text, bool *ignore_text)
+static bool read_layer(const char *text, diff_options *into)
 {
-    *ignore_text = strcmp(text, "text") == 0;
-    if (!*ignore_text)
-        trouble("--ignore-layer takes text, not \"%s\"", text);
-    return *ignore_text;
+    if (strcmp(text, "text") != 0)
+        return trouble("--ignore-layer takes text, not \"%s\"", text), false;
+    into->ignore = ignore_text_layer;
+    into->layers = "text";
+    return true;
 }
 
 static bool take_option(arguments *a, int option)
@@ -99,7 +101,7 @@ static bool take_option(arguments *a, int option)
     case 'i':
         return add_rectangle(a, optarg);
     case 'l':
-        return read_layer(optarg, &a->options.ignore_text);
+        return read_layer(optarg, &a->options);
     case 'c':
         a->causes = UINT64_MAX;
         a->causes_said = true;
@@ -125,11 +127,11 @@ static bool take_option(arguments *a, int option)
 }
 
 /* The first sentence of what cannot be read, and how many more there are; or why nobody can say why. */
-static int tell_trouble(const diff_result *result)
+static int tell_trouble(const diff_result *result, const explanation *why)
 {
     size_t i = 0;
     if (result->found[FOUND_UNREADABLE] == 0)
-        return trouble("%s; --causes 0 does not ask why", result->trouble);
+        return trouble("%s; --causes 0 does not ask why", why->trouble);
     while (result->pairs[i].finding != FOUND_UNREADABLE)
         i++;
     const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "there is no memory";
@@ -185,7 +187,7 @@ static int report(const arguments *a, diff_report *all)
 {
     static const int statuses[] = {
         [DIFF_SAME] = EXIT_DONE, [DIFF_DIFFERENT] = EXIT_FINDING, [DIFF_TROUBLE] = EXIT_TROUBLE};
-    const diff_verdict verdict = all->result->verdict;
+    const diff_verdict verdict = explanation_verdict(all->why, all->result);
     evidence e = {.folder = NULL};
     octreel_error error;
     bool ok = true;
@@ -199,7 +201,7 @@ static int report(const arguments *a, diff_report *all)
     evidence_release(&e);
     if (!ok)
         return trouble("%s", error.text);
-    return verdict == DIFF_TROUBLE ? tell_trouble(all->result) : statuses[verdict];
+    return verdict == DIFF_TROUBLE ? tell_trouble(all->result, all->why) : statuses[verdict];
 }
 
 static const char *file_of(const char *path)
@@ -231,12 +233,14 @@ static int compare(const arguments *a, const char *paths[2])
 {
     diff_side sides[2] = {{0}, {0}};
     diff_result result = {0};
+    explanation why = {0};
     octreel_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
                     check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
-                    diff_explain(&sides[0], &sides[1], a->causes, &result, &error);
-    diff_report all = {.a = &sides[0], .b = &sides[1], .options = &a->options, .result = &result};
+                    explain(&sides[0], &sides[1], &result, a->causes, &why, &error);
+    diff_report all = {.a = &sides[0], .b = &sides[1], .options = &a->options, .result = &result, .why = &why};
     const int status = ok ? report(a, &all) : trouble("%s", error.text);
+    explanation_release(&why);
     diff_release(&result);
     diff_side_release(&sides[0]);
     diff_side_release(&sides[1]);

@@ -2,8 +2,8 @@
 #include "accept.h"
 #include "file.h"
 #include "digest_file.h"
-#include "escaped.h"
-#include "report.h"
+#include "text.h"
+#include "diff_words.h"
 #include "same_bytes.h"
 
 #include <errno.h>
@@ -239,10 +239,10 @@ static void tell(const accepting *a)
 {
     size_t said = 0;
     for (size_t i = 0; i < a->result.count; i++)
-        if (a->actions[i] != KEPT && said++ < DIFF_REPORT_LINES)
+        if (a->actions[i] != KEPT && said++ < DIFF_WORDS_LINES)
             say(a, &a->result.pairs[i], a->actions[i]);
-    if (said > DIFF_REPORT_LINES)
-        fprintf(a->out, "  ... and %zu more\n", said - DIFF_REPORT_LINES);
+    if (said > DIFF_WORDS_LINES)
+        fprintf(a->out, "  ... and %zu more\n", said - DIFF_WORDS_LINES);
     const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
     fprintf(a->out, "%s: %zu before, %zu after: %zu changed, %zu new, %zu removed\n", a->reference.path, before, after,
             a->counts[CHANGED], a->counts[ADDED], a->counts[REMOVED]);

@@ -1,9 +1,7 @@
 /* diff.c - see diff.h. */
 #include "diff.h"
 #include "compare_pair.h"
-#include "explain.h"
 #include "parallel.h"
-#include "text_layer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -52,12 +50,8 @@ void diff_release(diff_result *result)
     for (size_t i = 0; i < result->count; i++) {
         free(result->pairs[i].ignored);
         free(result->pairs[i].trouble);
-        free(result->pairs[i].cause);
     }
     free(result->pairs);
-    free(result->headline);
-    free(result->trouble);
-    explanation_free(result->explanation);
     *result = (diff_result){0};
 }
 
@@ -97,7 +91,7 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     for (int i = 0; i < 2; i++) {
         if (sides[i]->kind != DIFF_DIGESTS)
             continue;
-        if (!is_exact(&options->tolerance) || options->ignore_text)
+        if (!is_exact(&options->tolerance) || options->ignore)
             return error_set(error, "%s: digests tell same from different and no more: nothing can be forgiven",
                              sides[i]->path);
         if (!same_color(sides[i]->background, options->background))
@@ -183,7 +177,7 @@ static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octr
     keep_undecided(p);
     if (!copy_ignored(p, error))
         return false;
-    if (p->options->ignore_text && !text_layer_ignore(a, b, p->pairs, p->count, error))
+    if (p->options->ignore && !p->options->ignore(a, b, p->pairs, p->count, error))
         return false;
     parallel_for(p->count, digests || cores < 2 ? cores : cores / 2, find_pixels, p);
     return true;

@@ -29,10 +29,18 @@ typedef enum diff_verdict { DIFF_SAME, DIFF_DIFFERENT, DIFF_TROUBLE } diff_verdi
 const char *diff_finding_name(diff_finding finding);
 diff_verdict diff_finding_verdict(diff_finding finding);
 
+struct diff_pair;
+
+/* Adds to the ignored rectangles of each pair, which are in memory of their own, what some layers cover in its frames:
+ * only who can play a recording knows that. False, with a sentence, where that cannot be told. */
+typedef bool diff_ignore(const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
+                         octreel_error *error);
+
 typedef struct diff_options {
     image_tolerance tolerance;
     image_color background; /* transparent pixels are laid over it */
-    bool ignore_text;       /* nor is the text layer of recordings looked at */
+    diff_ignore *ignore;    /* null: no layer is left out */
+    const char *layers;     /* the names of those that are, with commas between */
 } diff_options;
 
 /* Exact, over white. */
@@ -47,9 +55,7 @@ typedef struct diff_pair {
     image_difference difference; /* where both were decoded */
     image_rectangle *ignored;    /* the tolerance's, and those of text; owned */
     size_t ignored_count;
-    char *trouble;   /* the sentence of what is unreadable; owned */
-    char *cause;     /* one sentence: why they differ; null where none is known; owned */
-    bool only_drawn; /* both frames show the same scene, as they were drawn */
+    char *trouble; /* the sentence of what is unreadable; owned */
 } diff_pair;
 
 typedef struct diff_result {
@@ -57,9 +63,6 @@ typedef struct diff_result {
     size_t count;
     size_t found[DIFF_FINDINGS]; /* pairs of each finding */
     diff_verdict verdict;
-    char *headline;                  /* one line: why the sides differ; null where none is known; owned */
-    char *trouble;                   /* the sentence of why nobody can say; owned */
-    struct explanation *explanation; /* of two recordings that differ; see explain.h; owned */
 } diff_result;
 
 /* False, with a sentence, when the sides cannot be compared at all: a picture with a folder, a tolerance for digests,

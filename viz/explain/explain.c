@@ -1,10 +1,10 @@
 /* explain.c - see explain.h. */
 #include "explain.h"
 #include "cause_words.h"
-#include "explain_pair.h"
+#include "sentence.h"
 #include "frame_file.h"
 #include "same_bytes.h"
-#include "text_stream.h"
+#include "text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,15 +15,28 @@ bool explain_is_unlike(const diff_pair *pair)
     return pair->finding != FOUND_SAME_BYTES && pair->finding != FOUND_SAME_PIXELS && pair->finding != FOUND_UNREADABLE;
 }
 
-void explanation_free(explanation *e)
+void explanation_release(explanation *e)
 {
-    if (!e)
-        return;
+    for (size_t i = 0; i < e->count; i++)
+        free(e->pairs[i].text);
+    free(e->pairs);
+    free(e->headline);
+    free(e->trouble);
     recorded_close(&e->sides[0]);
     recorded_close(&e->sides[1]);
     cause_release(&e->cause);
     tracer_close(&e->tracer);
-    free(e);
+    *e = (explanation){0};
+}
+
+const char *explanation_cause(const explanation *e, size_t i)
+{
+    return e->pairs ? e->pairs[i].text : NULL;
+}
+
+diff_verdict explanation_verdict(const explanation *e, const diff_result *result)
+{
+    return e->trouble ? DIFF_TROUBLE : result->verdict;
 }
 
 /* ---- Playing both -------------------------------------------------------------------------------------------- */
@@ -109,31 +122,30 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
 /* Whether all that were explained show the same scenes, drawn otherwise. */
-static bool only_drawn(const diff_result *result)
+static bool only_drawn(const explanation *e)
 {
     bool any = false;
-    for (size_t i = 0; i < result->count; i++) {
-        const diff_pair *pair = &result->pairs[i];
-        if (pair->cause && !pair->only_drawn)
+    for (size_t i = 0; i < e->count; i++) {
+        if (e->pairs[i].text && !e->pairs[i].only_drawn)
             return false;
-        any = any || pair->cause;
+        any = any || e->pairs[i].text;
     }
     return any;
 }
 
-/* The first pair that has a cause, where nothing can be said of all. */
-static const diff_pair *first_explained(const diff_result *result)
+/* The first pair that has a cause, where nothing can be said of all; e->count where there is none. */
+static size_t first_explained(const explanation *e)
 {
-    for (size_t i = 0; i < result->count; i++)
-        if (result->pairs[i].cause)
-            return &result->pairs[i];
-    return NULL;
+    size_t i = 0;
+    while (i < e->count && !e->pairs[i].text)
+        i++;
+    return i;
 }
 
 static void print_doubts(FILE *out, const explanation *e)
 {
     bool any = false;
-    for (int side = 0; e && side < 2; side++)
+    for (int side = 0; side < 2; side++)
         for (size_t i = 0; i < e->sides[side].doubt_count; i++) {
             fprintf(out, "%s%s", any ? "; " : "", e->sides[side].doubts[i]);
             any = true;
@@ -142,32 +154,31 @@ static void print_doubts(FILE *out, const explanation *e)
 
 static bool any_doubt(const explanation *e)
 {
-    return e && e->sides[0].doubt_count + e->sides[1].doubt_count > 0;
+    return e->sides[0].doubt_count + e->sides[1].doubt_count > 0;
 }
 
 /* What nobody changed comes from who drew it, and what files say is doubted before it is believed. */
-static void print_headline(FILE *out, const diff_result *result)
+static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
-    const explanation *e = result->explanation;
-    const bool known = e && (cause_any(&e->cause.session) || cause_any(&e->cause.look));
-    const diff_pair *first = first_explained(result);
+    const bool known = cause_any(&e->cause.session) || cause_any(&e->cause.look);
+    const size_t first = first_explained(e);
     print_doubts(out, e);
-    if (any_doubt(e) && (known || first))
+    if (any_doubt(e) && (known || first < e->count))
         fputs("; ", out);
     if (known)
         cause_print_headline(out, &e->cause);
-    else if (only_drawn(result))
-        explain_print_rendering(out, e);
-    else if (first && e)
-        fprintf(out, "%s: %s", diff_pair_name(first), first->cause);
+    else if (only_drawn(e))
+        sentence_print_rendering(out, e);
+    else if (first < e->count && e->recordings)
+        fprintf(out, "%s: %s", diff_pair_name(&result->pairs[first]), e->pairs[first].text);
 }
 
-static bool say(diff_result *result, octreel_error *error)
+static bool say(explanation *e, const diff_result *result, octreel_error *error)
 {
     text_stream s;
     if (text_stream_begin(&s))
-        print_headline(s.stream, result);
-    const bool ok = text_stream_end(&s, &result->headline);
+        print_headline(s.stream, e, result);
+    const bool ok = text_stream_end(&s, &e->headline);
     return ok || error_set(error, "there is no memory for a headline");
 }
 
@@ -194,39 +205,40 @@ static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_re
             file_differs(a, b, "ticks.jsonl"));
 }
 
-static bool explain_pairs(diff_result *result, uint64_t most, octreel_error *error)
+static bool explain_pairs(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     bool ok = true;
+    e->pairs = calloc(result->count, sizeof *e->pairs);
+    if (!e->pairs)
+        return error_set(error, "there is no memory for the causes of %zu frames", result->count);
+    e->count = result->count;
     for (size_t i = 0; ok && i < result->count && most > 0; i++) {
         if (!explain_is_unlike(&result->pairs[i]))
             continue;
-        ok = explain_pair(result->explanation, &result->pairs[i], error);
+        ok = sentence_of(e, &result->pairs[i], &e->pairs[i], error);
         most--;
     }
     return ok;
 }
 
-static bool explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, octreel_error *error)
+static bool explain_all(const diff_side *a, const diff_side *b, const diff_result *result, uint64_t most,
+                        explanation *e, octreel_error *error)
 {
-    explanation *e = NULL;
-    bool ok = true;
-    if (a->kind == DIFF_RECORDING && b->kind == DIFF_RECORDING) {
-        e = result->explanation = calloc(1, sizeof *e);
-        ok = e || error_no_memory(error);
-        ok = ok && recorded_open(&e->sides[0], a, error) && recorded_open(&e->sides[1], b, error) &&
-             play_both(e, result, most, error);
-    }
-    return ok && explain_pairs(result, most, error) && say(result, error);
+    e->recordings = a->kind == DIFF_RECORDING && b->kind == DIFF_RECORDING;
+    if (e->recordings && !(recorded_open(&e->sides[0], a, error) && recorded_open(&e->sides[1], b, error) &&
+                           play_both(e, result, most, error)))
+        return false;
+    return explain_pairs(e, result, most, error) && say(e, result, error);
 }
 
-bool diff_explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, octreel_error *error)
+bool explain(const diff_side *a, const diff_side *b, const diff_result *result, uint64_t most, explanation *e,
+             octreel_error *error)
 {
     octreel_error why;
-    if (most == 0 || !any_to_explain(a, b, result) || explain(a, b, most, result, &why))
+    *e = (explanation){0};
+    if (most == 0 || !any_to_explain(a, b, result) || explain_all(a, b, result, most, e, &why))
         return true;
-    explanation_free(result->explanation);
-    result->explanation = NULL;
-    result->verdict = DIFF_TROUBLE;
-    result->trouble = strdup(why.text);
-    return result->trouble || error_set(error, "%s", why.text);
+    explanation_release(e);
+    e->trouble = strdup(why.text);
+    return e->trouble || error_set(error, "%s", why.text);
 }

@@ -19,8 +19,19 @@
 #include "diff.h"
 #include "trace.h"
 
-/* What is known of two recordings. */
+/* Why the frames of one pair differ. */
+typedef struct pair_cause {
+    char *text;      /* one sentence; null where none is known; owned */
+    bool only_drawn; /* both frames show the same scene, as they were drawn */
+} pair_cause;
+
+/* A zeroed one explains nothing. */
 typedef struct explanation {
+    char *headline;    /* one line: why the sides differ; null where none is known; owned */
+    char *trouble;     /* the sentence of why nobody can say; owned */
+    pair_cause *pairs; /* one a pair of the result; null where nothing is explained; owned */
+    size_t count;
+    bool recordings; /* both sides are; the rest is known of recordings alone */
     recorded sides[2];
     cause cause;
     tracer tracer;
@@ -28,11 +39,18 @@ typedef struct explanation {
 
 #define EXPLAIN_DEFAULT 10
 
-/* Say why, of the first `most` pairs and ticks that differ; 0 says nothing. What goes wrong is result->trouble, and
- * makes the verdict one; false when there is no memory even for that. Two recordings whose frames are the same are
- * explained where their sessions, views or ticks are not. */
-bool diff_explain(const diff_side *a, const diff_side *b, uint64_t most, diff_result *result, octreel_error *error);
-void explanation_free(explanation *e);
+/* Say why, of the first `most` pairs and ticks that differ; 0 says nothing. What goes wrong is e->trouble; false when
+ * there is no memory even for that. Two recordings whose frames are the same are explained where their sessions, views
+ * or ticks are not. Both sides must outlive the explanation. */
+bool explain(const diff_side *a, const diff_side *b, const diff_result *result, uint64_t most, explanation *e,
+             octreel_error *error);
+void explanation_release(explanation *e);
+
+/* The sentence of the i-th pair, or null. */
+const char *explanation_cause(const explanation *e, size_t i);
+
+/* The result's, or trouble where nobody can say why. */
+diff_verdict explanation_verdict(const explanation *e, const diff_result *result);
 
 /* Whether a pair has something to explain. */
 bool explain_is_unlike(const diff_pair *pair);

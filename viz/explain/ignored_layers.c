@@ -1,5 +1,5 @@
-/* text_layer.c - see text_layer.h. */
-#include "text_layer.h"
+/* ignored_layers.c - see ignored_layers.h. */
+#include "ignored_layers.h"
 #include "draw.h"
 #include "frame_file.h"
 #include "replay.h"
@@ -60,7 +60,7 @@ static bool ignore_of(const diff_side *side, bool is_a, diff_pair **pairs, size_
     return ok;
 }
 
-bool text_layer_ignore(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, octreel_error *error)
+bool ignore_text_layer(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, octreel_error *error)
 {
     if (a->kind != DIFF_RECORDING && b->kind != DIFF_RECORDING)
         return error_set(error, "where text is can be told of recordings alone: neither %s nor %s is one", a->path,

@@ -1,8 +1,8 @@
-/* explain_pair.c - see explain_pair.h. */
-#include "explain_pair.h"
+/* sentence.c - see sentence.h. */
+#include "sentence.h"
 #include "cause_words.h"
 #include "frame_file.h"
-#include "text_stream.h"
+#include "text.h"
 #include "trace_words.h"
 
 #include <inttypes.h>
@@ -45,12 +45,12 @@ static bool print_changed(FILE *out, const diff_pair *pair, const origins *o)
     return changed;
 }
 
-void explain_print_rendering(FILE *out, const explanation *e)
+void sentence_print_rendering(FILE *out, const explanation *e)
 {
     fputs("rendering differs: the scene digests are equal", out);
-    if (e && strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0)
+    if (e->recordings && strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0)
         fprintf(out, "; both drawn by %s", e->sides[0].drawn_by);
-    else if (e)
+    else if (e->recordings)
         fprintf(out, "; reference drawn by %s, frame by %s", e->sides[0].drawn_by, e->sides[1].drawn_by);
 }
 
@@ -113,31 +113,31 @@ static void print_trace(FILE *out, const explanation *e, uint64_t tick)
     }
 }
 
-static void print_cause(FILE *out, const explanation *e, diff_pair *pair)
+static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, pair_cause *cause)
 {
     const origins o = read_origins(pair);
     const bool same_scene = o.told && o.of[0].scene == o.of[1].scene, both = pair->a && pair->b;
     const bool changed = same_scene && print_changed(out, pair, &o);
     uint64_t tick = 0;
     frame_parse_name(diff_pair_name(pair), &tick);
-    pair->only_drawn = same_scene && !changed;
-    if (pair->only_drawn)
-        explain_print_rendering(out, e);
-    else if (e && both && !changed)
+    cause->only_drawn = same_scene && !changed;
+    if (cause->only_drawn)
+        sentence_print_rendering(out, e);
+    else if (e->recordings && both && !changed)
         print_tick(out, e, tick);
-    else if (e && !both)
+    else if (e->recordings && !both)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
     else if (o.told && !changed)
         print_origins(out, &o);
-    if (e)
+    if (e->recordings)
         print_trace(out, e, tick);
 }
 
-bool explain_pair(const explanation *e, diff_pair *pair, octreel_error *error)
+bool sentence_of(const explanation *e, const diff_pair *pair, pair_cause *cause, octreel_error *error)
 {
     text_stream s;
     const bool begun = text_stream_begin(&s);
     if (begun)
-        print_cause(s.stream, e, pair);
-    return (text_stream_end(&s, &pair->cause) && begun) || error_set(error, "there is no memory for a cause");
+        print_cause(s.stream, e, pair, cause);
+    return (text_stream_end(&s, &cause->text) && begun) || error_set(error, "there is no memory for a cause");
 }

@@ -3,23 +3,21 @@
 #define DIFF_REPORT_H
 
 #include "evidence.h"
+#include "explain.h"
 
 #include <stdio.h>
 
-/* What is reported: both sides, how they were compared, what came of it, and where that can be seen. */
+/* What is reported: both sides, how they were compared, what came of it and why, and where that can be seen. */
 typedef struct diff_report {
     const diff_side *a, *b;
     const diff_options *options;
     const diff_result *result;
+    const explanation *why;
     const evidence *evidence; /* null: none was left */
 } diff_report;
 
-/* "same", "different" or "trouble". */
-const char *diff_verdict_name(diff_verdict verdict);
-
-/* The verdict, the headline, a line for each frame that is not the same (at most DIFF_REPORT_LINES) and one for its
+/* The verdict, the headline, a line for each frame that is not the same (at most DIFF_WORDS_LINES) and one for its
  * cause, and what was forgiven. */
-#define DIFF_REPORT_LINES 40
 void diff_report_text(FILE *out, const diff_report *report);
 
 /* One JSON object on one line, with all frames that are not the same. */
@@ -41,25 +39,7 @@ bool diff_report_markdown(FILE *out, const diff_report *report);
 #define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* of PNG files; a browser holds no more with ease */
 bool diff_report_page(const diff_report *report, octreel_error *error);
 
-/* ---- Parts of them, in one line without its end --------------------------------------------------------------- */
-
-/* The verdict and the counts. */
-void diff_print_verdict(FILE *out, const diff_result *result);
-
-/* How one pair differs, with its name and without. */
-void diff_print_pair(FILE *out, const diff_pair *pair);
-void diff_print_difference(FILE *out, const diff_pair *pair);
-
-/* What was forgiven, or that nothing was. */
+/* What was forgiven, in one line without its end, or that nothing was. */
 void diff_print_tolerance(FILE *out, const diff_report *report);
-
-/* A delta as it is printed, rounded up, so that what is printed is enough to forgive it. */
-double diff_shown_delta(double delta);
-
-/* Whether pairs of this finding are listed one by one: all but those that are the same without forgiveness. */
-bool diff_is_listed(diff_finding finding);
-
-/* Pairs that differ; unreadable ones do not count. */
-size_t diff_count_different(const diff_result *result);
 
 #endif

@@ -1,6 +1,7 @@
 /* report_json.c - a comparison for programs. See report.h and report_json.h. */
 #include "report_json.h"
 #include "cause_json.h"
+#include "diff_words.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -51,8 +52,8 @@ static void write_tolerance(json_writer *w, const diff_options *options)
     json_write_end_array(w);
     json_write_key(w, "ignore_layers");
     json_write_begin_array(w);
-    if (options->ignore_text)
-        json_write_string(w, "text");
+    if (options->ignore)
+        json_write_string(w, options->layers);
     json_write_end_array(w);
     json_write_end_object(w);
     snprintf(color, sizeof color, "#%02x%02x%02x", ground.r, ground.g, ground.b);
@@ -92,8 +93,10 @@ static void write_digest(json_writer *w, const char *key, const frame_digest *di
     json_member_text(w, key, text);
 }
 
-void diff_json_finding(json_writer *w, const diff_pair *pair)
+void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
 {
+    const diff_pair *pair = &report->result->pairs[i];
+    const char *cause = explanation_cause(report->why, i);
     json_member_text(w, "frame", diff_pair_name(pair));
     json_member_text(w, "finding", diff_finding_name(pair->finding));
     if (pair->about[0].width)
@@ -108,8 +111,8 @@ void diff_json_finding(json_writer *w, const diff_pair *pair)
     }
     if (pair->trouble)
         json_member_text(w, "trouble", pair->trouble);
-    if (pair->cause)
-        json_member_text(w, "cause", pair->cause);
+    if (cause)
+        json_member_text(w, "cause", cause);
 }
 
 static void write_evidence(json_writer *w, const diff_report *report, size_t i)
@@ -134,7 +137,7 @@ static void write_findings(json_writer *w, const diff_report *report)
         if (!diff_is_listed(pair->finding))
             continue;
         json_write_begin_object(w);
-        diff_json_finding(w, pair);
+        diff_json_finding(w, report, i);
         if (report->evidence && report->evidence->pictures[i])
             write_evidence(w, report, i);
         json_write_end_object(w);
@@ -155,11 +158,12 @@ static void write_counts(json_writer *w, const diff_result *result)
 void diff_json_summary(json_writer *w, const diff_report *report)
 {
     const diff_result *result = report->result;
-    json_member_text(w, "verdict", diff_verdict_name(result->verdict));
-    if (result->headline)
-        json_member_text(w, "headline", result->headline);
-    if (result->trouble)
-        json_member_text(w, "trouble", result->trouble);
+    const explanation *why = report->why;
+    json_member_text(w, "verdict", diff_verdict_name(explanation_verdict(why, result)));
+    if (why->headline)
+        json_member_text(w, "headline", why->headline);
+    if (why->trouble)
+        json_member_text(w, "trouble", why->trouble);
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
     write_tolerance(w, report->options);
@@ -186,9 +190,9 @@ void diff_report_json(FILE *out, const diff_report *report)
     if (report->evidence)
         write_place(w, report->evidence);
     write_findings(w, report);
-    if (report->result->explanation) {
+    if (report->why->recordings) {
         json_write_key(w, "cause");
-        cause_write_json(w, report->result->explanation);
+        cause_write_json(w, report->why);
     }
     json_write_end_object(w);
     json_write_end_line(w);

@@ -8,7 +8,7 @@
 /* The verdict, both sides, the tolerance and the counts, as members of an object that the caller began. */
 void diff_json_summary(json_writer *writer, const diff_report *report);
 
-/* A pair: its name, its finding and what belongs to that, as members likewise. */
-void diff_json_finding(json_writer *writer, const diff_pair *pair);
+/* The i-th pair: its name, its finding and what belongs to that, as members likewise. */
+void diff_json_finding(json_writer *writer, const diff_report *report, size_t i);
 
 #endif

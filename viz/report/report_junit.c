@@ -4,7 +4,8 @@
  * Jenkins, where the path is one that they find.
  */
 #include "report.h"
-#include "escaped.h"
+#include "diff_words.h"
+#include "text.h"
 
 #include <stdlib.h>
 
@@ -15,8 +16,9 @@ static void write_attribute(FILE *out, const char *name, const char *value)
     putc('"', out);
 }
 
-static bool write_fault(FILE *out, const diff_pair *pair)
+static bool write_fault(FILE *out, const diff_report *report, size_t i)
 {
+    const diff_pair *pair = &report->result->pairs[i];
     const diff_verdict verdict = diff_finding_verdict(pair->finding);
     const char *element = verdict == DIFF_TROUBLE ? "error" : "failure";
     char *words;
@@ -25,8 +27,8 @@ static bool write_fault(FILE *out, const diff_pair *pair)
         return false;
     fprintf(s.stream, "%s: ", diff_verdict_name(verdict));
     diff_print_difference(s.stream, pair);
-    if (pair->cause)
-        fprintf(s.stream, ". Cause: %s", pair->cause);
+    if (explanation_cause(report->why, i))
+        fprintf(s.stream, ". Cause: %s", explanation_cause(report->why, i));
     if (!text_stream_end(&s, &words))
         return false;
     fprintf(out, "      <%s type=\"%s\"", element, diff_finding_name(pair->finding));
@@ -68,7 +70,7 @@ static bool write_case(FILE *out, const diff_report *report, size_t i)
     fputs(fails ? ">\n" : "/>\n", out);
     if (!fails)
         return true;
-    if (!write_fault(out, pair))
+    if (!write_fault(out, report, i))
         return false;
     if (report->evidence && report->evidence->pictures[i])
         write_paths(out, report, i);
@@ -88,18 +90,18 @@ static bool write_summary(FILE *out, const diff_report *report)
     text_stream s;
     if (!text_stream_begin(&s))
         return false;
-    diff_print_verdict(s.stream, report->result);
+    diff_print_verdict(s.stream, report->result, explanation_verdict(report->why, report->result));
     putc('\n', s.stream);
-    if (report->result->headline)
-        fprintf(s.stream, "%s\n", report->result->headline);
+    if (report->why->headline)
+        fprintf(s.stream, "%s\n", report->why->headline);
     diff_print_tolerance(s.stream, report);
     putc('\n', s.stream);
     fputs("    <system-out>", out);
     const bool ok = write_escaped_stream(out, &s, escape_xml_text);
     fputs("    </system-out>\n", out);
-    if (report->result->trouble) {
+    if (report->why->trouble) {
         fputs("    <system-err>", out);
-        write_escaped(out, report->result->trouble, escape_xml);
+        write_escaped(out, report->why->trouble, escape_xml);
         fputs("</system-err>\n", out);
     }
     return ok;

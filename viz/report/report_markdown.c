@@ -1,6 +1,7 @@
 /* report_markdown.c - a comparison for the page of a CI job: see report.h. */
 #include "report.h"
-#include "escaped.h"
+#include "diff_words.h"
+#include "text.h"
 
 #include <inttypes.h>
 
@@ -17,10 +18,10 @@ static void write_name(FILE *out, const char *name)
     fputs("</code>", out);
 }
 
-static bool has_causes(const diff_result *result)
+static bool has_causes(const explanation *why)
 {
-    for (size_t i = 0; i < result->count; i++)
-        if (result->pairs[i].cause)
+    for (size_t i = 0; i < why->count; i++)
+        if (why->pairs[i].text)
             return true;
     return false;
 }
@@ -36,8 +37,10 @@ static void write_pixels(FILE *out, const diff_pair *pair)
             d->counted.worst_x, d->counted.worst_y);
 }
 
-static bool write_row(FILE *out, const diff_pair *pair, bool causes)
+static bool write_row(FILE *out, const diff_report *report, size_t i, bool causes)
 {
+    const diff_pair *pair = &report->result->pairs[i];
+    const char *cause = explanation_cause(report->why, i);
     bool ok = true;
     fputs("| ", out);
     write_name(out, diff_pair_name(pair));
@@ -55,38 +58,39 @@ static bool write_row(FILE *out, const diff_pair *pair, bool causes)
     fputs(" |", out);
     if (causes) {
         putc(' ', out);
-        write_text(out, pair->cause ? pair->cause : "");
+        write_text(out, cause ? cause : "");
         fputs(" |", out);
     }
     putc('\n', out);
     return ok;
 }
 
-static bool write_table(FILE *out, const diff_result *result)
+static bool write_table(FILE *out, const diff_report *report)
 {
-    const bool causes = has_causes(result);
+    const diff_result *result = report->result;
+    const bool causes = has_causes(report->why);
     size_t rows = 0;
     bool ok = true;
     fprintf(out, "\n| frame | difference | worst |%s\n|---|---|---|%s\n", causes ? " cause |" : "",
             causes ? "---|" : "");
     for (size_t i = 0; ok && i < result->count; i++)
         if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && rows++ < DIFF_REPORT_ROWS)
-            ok = write_row(out, &result->pairs[i], causes);
+            ok = write_row(out, report, i, causes);
     if (rows > DIFF_REPORT_ROWS)
         fprintf(out, "\nand %zu more\n", rows - DIFF_REPORT_ROWS);
     return ok;
 }
 
-static void write_why(FILE *out, const diff_result *result)
+static void write_why(FILE *out, const explanation *why)
 {
-    if (result->headline) {
+    if (why->headline) {
         fputs("**", out);
-        write_text(out, result->headline);
+        write_text(out, why->headline);
         fputs("**\n\n", out);
     }
-    if (result->trouble) {
+    if (why->trouble) {
         fputs("Nobody can say why: ", out);
-        write_text(out, result->trouble);
+        write_text(out, why->trouble);
         fputs("\n\n", out);
     }
 }
@@ -96,11 +100,11 @@ static bool write_verdict(FILE *out, const diff_report *report)
     text_stream s;
     if (!text_stream_begin(&s))
         return false;
-    diff_print_verdict(s.stream, report->result);
+    diff_print_verdict(s.stream, report->result, explanation_verdict(report->why, report->result));
     fputs("### octreel diff: ", out);
     bool ok = write_escaped_stream(out, &s, escape_markdown);
     fputs("\n\n", out);
-    write_why(out, report->result);
+    write_why(out, report->why);
     write_name(out, report->b->path);
     fputs(" against ", out);
     write_name(out, report->a->path);
@@ -120,7 +124,7 @@ static bool any_differs(const diff_result *result)
 
 bool diff_report_markdown(FILE *out, const diff_report *report)
 {
-    if (!write_verdict(out, report) || (any_differs(report->result) && !write_table(out, report->result)))
+    if (!write_verdict(out, report) || (any_differs(report->result) && !write_table(out, report)))
         return false;
     if (report->evidence) {
         fputs("\nEvidence: <code>", out);

@@ -3,10 +3,10 @@
  * Between the page's two halves go the facts, a line of JSON for the whole and one for each frame that differs, and
  * behind them the pictures. They stay on the disk until they are copied, a block at a time.
  */
-#include "base64.h"
+#include "diff_words.h"
 #include "evidence_page.h"
 #include "report_json.h"
-#include "text_stream.h"
+#include "text.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -104,7 +104,7 @@ typedef void printer(FILE *out, const diff_report *report, const diff_pair *pair
 static void print_verdict(FILE *out, const diff_report *report, const diff_pair *pair)
 {
     (void)pair;
-    diff_print_verdict(out, report->result);
+    diff_print_verdict(out, report->result, explanation_verdict(report->why, report->result));
 }
 
 static void print_tolerance(FILE *out, const diff_report *report, const diff_pair *pair)
@@ -171,7 +171,7 @@ static bool write_pair(const page *p, size_t n)
     fact_line line;
     if (!line_begin(&line))
         return false;
-    diff_json_finding(&line.writer, pair);
+    diff_json_finding(&line.writer, p->report, i);
     const bool ok = write_words(&line.writer, "words", print_difference, p->report, pair);
     write_files(&line.writer, p->report, i);
     json_write_key(&line.writer, "embedded");

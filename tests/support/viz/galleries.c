@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -59,8 +60,26 @@ comparison_of assert_compared(const char *a, const char *b, const diff_options *
     return made;
 }
 
+const char *cause_of(const comparison_of *made, const char *name)
+{
+    const diff_pair *pair = diff_find(&made->result, name);
+    if (!pair)
+        fail_msg("there is no pair %s", name);
+    return explanation_cause(&made->why, (size_t)(pair - made->result.pairs));
+}
+
+void give_cause(comparison_of *made, size_t i, const char *text)
+{
+    explanation *why = &made->why;
+    if (!why->pairs)
+        why->pairs = calloc(why->count = made->result.count, sizeof *why->pairs);
+    assert_non_null(why->pairs);
+    why->pairs[i].text = strdup(text);
+}
+
 void comparison_release(comparison_of *made)
 {
+    explanation_release(&made->why);
     diff_release(&made->result);
     diff_side_release(&made->a);
     diff_side_release(&made->b);

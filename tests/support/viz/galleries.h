@@ -2,7 +2,7 @@
 #ifndef GALLERIES_H
 #define GALLERIES_H
 
-#include "diff.h"
+#include "explain.h"
 #include "files.h"
 
 #define GALLERY_WIDTH 24
@@ -21,13 +21,20 @@ place gallery_make(const temp_folder *in, const char *folder, const char *names)
 /* The test fails, with the sentence, where a side cannot be opened or compared. */
 diff_side assert_side(const char *path);
 
-/* Both sides and what came of them. */
+/* Both sides, what came of them, and why. */
 typedef struct comparison_of {
     diff_side a, b;
     diff_result result;
+    explanation why; /* zeroed until somebody explains */
 } comparison_of;
 
 comparison_of assert_compared(const char *a, const char *b, const diff_options *options);
+
+/* The sentence of a pair of this name, or null. */
+const char *cause_of(const comparison_of *made, const char *name);
+
+/* Set by hand: the sentence of the i-th pair. */
+void give_cause(comparison_of *made, size_t i, const char *text);
 void comparison_release(comparison_of *made);
 
 /* What was found for a name; the test fails when there is no such pair. */

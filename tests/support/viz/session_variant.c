@@ -7,7 +7,7 @@
 #include "cause_words.h"
 #include "fixture.h"
 #include "game_fixture.h"
-#include "text_stream.h"
+#include "text.h"
 
 static const octree_body some_bodies[] = {
     {1, {1, 2, 3}, {0, 0, 0}}, {2, {-4, 5, -6}, {0, 0, 0}}, {3, {7, 7, 7}, {0, 0, 0}}, {4, {8, 7, 7}, {0, 0, 0}}};

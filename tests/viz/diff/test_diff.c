@@ -1,5 +1,6 @@
 /* test_diff.c - two sides: which frame belongs to which, and what is found of each pair. */
 #include "galleries.h"
+#include "ignored_layers.h"
 #include "fixture.h"
 #include "images.h"
 #include "recordings.h"
@@ -117,7 +118,7 @@ static void what_cannot_be_compared_is_refused(void **state)
     diff_options options = diff_options_default();
     assert_not_compared(folder.path, picture.path, NULL, "a picture is compared with a picture");
     assert_not_compared(empty.path, empty.path, NULL, "nothing to compare");
-    options.ignore_text = true;
+    options.ignore = ignore_text_layer;
     assert_not_compared(folder.path, folder.path, &options, "recordings alone");
     comparison_of made = assert_compared(empty.path, folder.path, NULL);
     assert_int_equal(finding_of(&made, "1.png"), FOUND_NO_REFERENCE);
@@ -273,7 +274,7 @@ static void text_of_recordings_is_ignored_where_it_is(void **state)
     comparison_of made = assert_compared(a.path, b.path, &options);
     assert_int_equal(made.result.found[FOUND_PIXELS], 2);
     comparison_release(&made);
-    options.ignore_text = true;
+    options.ignore = ignore_text_layer;
     made = assert_compared(a.path, b.path, &options);
     assert_int_equal(finding_of(&made, "frame_000000.png"), FOUND_SAME_BYTES);
     assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_WITHIN);
@@ -294,7 +295,7 @@ static void text_is_told_by_the_side_that_is_a_recording(void **state)
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     octree_session session = octree_session_default();
     film_options film = small_film(a.path);
-    const diff_options options = {.ignore_text = true};
+    const diff_options options = {.ignore = ignore_text_layer};
     session.keys = "";
     assert_filmed(&session, &film);
     film.folder = b.path;

@@ -17,7 +17,7 @@
 
 #include "evidence_pictures.h"
 #include "golden_frames.h"
-#include "report.h"
+#include "diff_words.h"
 
 #define NAME_SIZE 512
 #define TEXT_SIZE 256

@@ -9,7 +9,7 @@
 #include "changed_session.h"
 #include "fixture.h"
 #include "game_fixture.h"
-#include "text_stream.h"
+#include "text.h"
 #include "ticks_write.h"
 
 #define SEEDS 60 /* in the quick run */

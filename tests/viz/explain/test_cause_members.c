@@ -112,16 +112,17 @@ static bool assert_explained(const place *a, const place *b, const char *change)
     comparison_of made = assert_compared(a->path, b->path, NULL);
     octreel_error error = {""};
     bool unlike = false;
-    if (!diff_explain(&made.a, &made.b, 10, &made.result, &error))
+    if (!explain(&made.a, &made.b, &made.result, 10, &made.why, &error))
         fail_msg("%s", error.text);
-    assert_non_null(made.result.explanation);
-    if (!cause_any(&made.result.explanation->cause.session))
+    assert_true(made.why.recordings);
+    if (!cause_any(&made.why.cause.session))
         fail_msg("%s is no cause", change);
     for (size_t i = 0; i < made.result.count; i++) {
         const diff_pair *pair = &made.result.pairs[i];
         unlike = unlike || explain_is_unlike(pair);
-        if (explain_is_unlike(pair) && (!pair->cause || strstr(pair->cause, "another version")))
-            fail_msg("%s: %s", change, pair->cause ? pair->cause : "no cause");
+        const char *cause = made.why.pairs[i].text;
+        if (explain_is_unlike(pair) && (!cause || strstr(cause, "another version")))
+            fail_msg("%s: %s", change, cause ? cause : "no cause");
     }
     comparison_release(&made);
     return unlike;

@@ -7,7 +7,7 @@
 #include "frame_file.h"
 #include "galleries.h"
 #include "recordings.h"
-#include "text_stream.h"
+#include "text.h"
 #include "trace_words.h"
 
 /* A film of these layers alone. */
@@ -27,16 +27,16 @@ static comparison_of assert_traced(const place *a, const place *b, const diff_op
 {
     comparison_of made = assert_compared(a->path, b->path, options);
     octreel_error error = {""};
-    if (!diff_explain(&made.a, &made.b, 10, &made.result, &error))
+    if (!explain(&made.a, &made.b, &made.result, 10, &made.why, &error))
         fail_msg("%s", error.text);
-    assert_non_null(made.result.explanation);
-    assert_string_equal(made.result.explanation->tracer.untraced, "");
+    assert_true(made.why.recordings);
+    assert_string_equal(made.why.tracer.untraced, "");
     return made;
 }
 
 static const trace *trace_of(const comparison_of *made, uint64_t tick)
 {
-    const trace *t = tracer_at(&made->result.explanation->tracer, tick);
+    const trace *t = tracer_at(&made->why.tracer, tick);
     assert_non_null(t);
     return t;
 }
@@ -90,13 +90,12 @@ static void a_moved_point_has_all_pixels_of_its_layer(void **state)
         const place b = film_layers(*state, names[1], &other, 1u << LAYER_POINTS, aa);
         comparison_of made = assert_traced(&a, &b, NULL);
         assert_adds_up(&made);
-        assert_null(tracer_at(&made.result.explanation->tracer, 0));
+        assert_null(tracer_at(&made.why.tracer, 0));
         for (uint64_t tick = 1; tick < 3; tick++) {
             assert_int_equal(trace_of(&made, tick)->count, 1);
             assert_part(&trace_of(&made, tick)->parts[0], LAYER_POINTS, 3);
         }
-        const diff_pair *pair = diff_find(&made.result, "frame_000001.png");
-        assert_non_null(strstr(pair->cause, " of point 3"));
+        assert_non_null(strstr(cause_of(&made, "frame_000001.png"), " of point 3"));
         comparison_release(&made);
     }
 }
@@ -115,7 +114,7 @@ static void what_a_split_draws_belongs_to_the_node_that_split(void **state)
     const place b = film_layers(*state, "b", &session, 1u << LAYER_NODES, 1);
     comparison_of made = assert_traced(&a, &b, NULL);
     assert_adds_up(&made);
-    const cause_tick *told = cause_at(&made.result.explanation->cause, 1);
+    const cause_tick *told = cause_at(&made.why.cause, 1);
     const cause_fact *fact = &told->facts.facts[0];
     assert_int_equal(fact->kind, CAUSE_NODE_SPLIT);
     assert_int_equal(told->facts.found[CAUSE_NODE_SPLIT], 1);
@@ -183,14 +182,14 @@ static void every_layer_has_words(void **state)
 static void assert_told(const comparison_of *made, uint64_t tick, int layer, const char *words)
 {
     char name[FRAME_NAME];
-    const diff_pair *pair = diff_find(&made->result, frame_name(tick, name));
+    const char *cause = cause_of(made, frame_name(tick, name));
     const trace *t = trace_of(made, tick);
     bool found = false;
     for (size_t i = 0; i < t->count; i++)
         found = found || t->parts[i].layer == layer;
     assert_true(found);
-    if (!strstr(pair->cause, words))
-        fail_msg("%s", pair->cause);
+    if (!strstr(cause, words))
+        fail_msg("%s", cause);
 }
 
 /* Two sessions of one point that moves. */
@@ -234,7 +233,7 @@ static void frames_of_unlike_sizes_are_not_traced(void **state)
     const place a = film_layers(*state, "a", &session, VIEW_DEFAULT_LAYERS, 1),
                 b = film_layers(*state, "b", &session, VIEW_DEFAULT_LAYERS, 2);
     comparison_of made = assert_traced(&a, &b, NULL);
-    assert_null(tracer_at(&made.result.explanation->tracer, 1));
+    assert_null(tracer_at(&made.why.tracer, 1));
     comparison_release(&made);
 }
 

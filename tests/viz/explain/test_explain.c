@@ -26,7 +26,7 @@ static comparison_of assert_explained(const place *a, const place *b, uint64_t m
 {
     comparison_of made = assert_compared(a->path, b->path, NULL);
     octreel_error error = {""};
-    if (!diff_explain(&made.a, &made.b, most, &made.result, &error))
+    if (!explain(&made.a, &made.b, &made.result, most, &made.why, &error))
         fail_msg("%s", error.text);
     return made;
 }
@@ -37,18 +37,11 @@ static void assert_holds(const char *text, const char *part)
         fail_msg("\"%s\" does not hold \"%s\"", text ? text : "nothing", part);
 }
 
-static const char *cause_of(const comparison_of *made, const char *name)
-{
-    const diff_pair *pair = diff_find(&made->result, name);
-    assert_non_null(pair);
-    return pair->cause;
-}
-
 static size_t count_causes(const comparison_of *made)
 {
     size_t count = 0;
-    for (size_t i = 0; i < made->result.count; i++)
-        count += made->result.pairs[i].cause != NULL;
+    for (size_t i = 0; i < made->why.count; i++)
+        count += made->why.pairs[i].text != NULL;
     return count;
 }
 
@@ -60,8 +53,8 @@ static void the_same_recording_has_nothing_to_explain(void **state)
     const place a = film_in(*state, "a", &session, NULL), b = film_in(*state, "b", &session, NULL);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_int_equal(made.result.verdict, DIFF_SAME);
-    assert_null(made.result.headline);
-    assert_null(made.result.explanation);
+    assert_null(made.why.headline);
+    assert_false(made.why.recordings);
     comparison_release(&made);
 }
 
@@ -72,11 +65,11 @@ static void another_capacity_is_the_headline_and_its_nodes_the_causes(void **sta
     session.tree.leaf_capacity = 3;
     const place b = film_in(*state, "b", &session, NULL);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_string_equal(made.result.headline, "another leaf capacity (3, was 2): every tick from 0 differs");
+    assert_string_equal(made.why.headline, "another leaf capacity (3, was 2): every tick from 0 differs");
     assert_int_equal(count_causes(&made), TICKS);
     assert_holds(cause_of(&made, "frame_000002.png"), "tick 2: node");
     assert_holds(cause_of(&made, "frame_000002.png"), " merged");
-    assert_int_equal(made.result.explanation->cause.differing, TICKS);
+    assert_int_equal(made.why.cause.differing, TICKS);
     comparison_release(&made);
 }
 
@@ -89,7 +82,7 @@ static void no_more_frames_are_explained_than_are_asked_for(void **state)
     for (uint64_t most = 0; most <= TICKS; most++) {
         comparison_of made = assert_explained(&a, &b, most);
         assert_int_equal(count_causes(&made), most);
-        assert_true((made.result.headline != NULL) == (most > 0));
+        assert_true((made.why.headline != NULL) == (most > 0));
         comparison_release(&made);
     }
 }
@@ -103,7 +96,7 @@ static void an_edit_is_the_headline_and_its_point_the_cause(void **state)
     session.edit_count = 1;
     const place b = film_in(*state, "b", &session, NULL);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "one more edit at tick 2 (point 3 moved to (300, 300, 300)); tick 2: node");
+    assert_holds(made.why.headline, "one more edit at tick 2 (point 3 moved to (300, 300, 300)); tick 2: node");
     assert_null(cause_of(&made, "frame_000001.png"));
     assert_holds(cause_of(&made, "frame_000002.png"), "point 3 moved from (900, 900, 900) to (300, 300, 300)");
     comparison_release(&made);
@@ -118,12 +111,11 @@ static void another_view_is_no_difference_of_ticks(void **state)
     options.view.layers &= ~(1u << LAYER_TEXT);
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_string_equal(made.result.headline,
-                        "another camera (orbit, was iso), one layer fewer (text): the same ticks, "
-                        "looked at in another way");
+    assert_string_equal(made.why.headline, "another camera (orbit, was iso), one layer fewer (text): the same ticks, "
+                                           "looked at in another way");
     assert_holds(cause_of(&made, "frame_000001.png"),
                  "tick 1: another camera (orbit, was iso), one layer fewer (text); ");
-    assert_int_equal(made.result.explanation->cause.differing, 0);
+    assert_int_equal(made.why.cause.differing, 0);
     comparison_release(&made);
 }
 
@@ -138,7 +130,7 @@ static void heat_of_earlier_ticks_is_a_cause(void **state)
     session.query_count = 1;
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "one more range query at tick 2");
+    assert_holds(made.why.headline, "one more range query at tick 2");
     assert_holds(cause_of(&made, "frame_000004.png"), "tick 4: other heat of the ticks before; ");
     assert_holds(cause_of(&made, "frame_000004.png"), " of heat");
     comparison_release(&made);
@@ -153,7 +145,7 @@ static void recordings_of_unlike_length_say_where_each_ends(void **state)
     options.every = 2;
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline,
+    assert_holds(made.why.headline,
                  "another last tick (2, was 4); the same happens in all ticks that both have; another "
                  "interval of frames (2, was 1)");
     assert_holds(cause_of(&made, "frame_000001.png"), "b has a frame every 2 ticks");
@@ -180,12 +172,12 @@ static void a_line_edited_by_hand_is_not_believed(void **state)
     const place a = film_twins(*state, &b);
     edit_line(b.path, 2, "\"hits\": []", "\"hits\": [7]");
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "b/ticks.jsonl at tick 2 is not what its session gives: hits[0] is 7 in "
-                                       "ticks.jsonl, and missing when it is played again");
+    assert_holds(made.why.headline, "b/ticks.jsonl at tick 2 is not what its session gives: hits[0] is 7 in "
+                                    "ticks.jsonl, and missing when it is played again");
     assert_int_equal(made.result.verdict, DIFF_SAME);
     comparison_release(&made);
     made = assert_explained(&b, &a, 10); /* whichever side it is on */
-    assert_holds(made.result.headline, "b/ticks.jsonl at tick 2");
+    assert_holds(made.why.headline, "b/ticks.jsonl at tick 2");
     comparison_release(&made);
 }
 
@@ -195,7 +187,7 @@ static void a_scene_digest_edited_by_hand_is_not_believed(void **state)
     const place a = film_twins(*state, &b);
     edit_line(b.path, 3, "\"scene\": \"", "\"scene\": \"0");
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "b/ticks.jsonl at tick 3 is not what its session gives");
+    assert_holds(made.why.headline, "b/ticks.jsonl at tick 3 is not what its session gives");
     comparison_release(&made);
 }
 
@@ -205,7 +197,7 @@ static void a_session_edited_after_filming_is_not_believed(void **state)
     const place a = film_twins(*state, &b);
     edit_file(b.path, "session.json", "\"capacity\": 2", "\"capacity\": 4");
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "b/session.json is not the session that was filmed; ");
+    assert_holds(made.why.headline, "b/session.json is not the session that was filmed; ");
     comparison_release(&made);
 }
 
@@ -215,20 +207,20 @@ static void lines_that_are_missing_or_torn_are_told(void **state)
     const place a = film_twins(*state, &b);
     replace_line(b.path, TICKS - 1, "");
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "b/ticks.jsonl ends before tick 4");
+    assert_holds(made.why.headline, "b/ticks.jsonl ends before tick 4");
     comparison_release(&made);
     replace_line(b.path, TICKS - 2, "{\"tick\": 3");
     made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "b/ticks.jsonl is torn within tick 3");
+    assert_holds(made.why.headline, "b/ticks.jsonl is torn within tick 3");
     comparison_release(&made);
 }
 
 static void assert_trouble_of(const place *a, const place *b, const char *part)
 {
     comparison_of made = assert_explained(a, b, 10);
-    assert_int_equal(made.result.verdict, DIFF_TROUBLE);
-    assert_holds(made.result.trouble, part);
-    assert_null(made.result.explanation);
+    assert_int_equal(explanation_verdict(&made.why, &made.result), DIFF_TROUBLE);
+    assert_holds(made.why.trouble, part);
+    assert_false(made.why.recordings);
     comparison_release(&made);
     made = assert_explained(a, b, 0); /* nobody asks */
     assert_int_equal(made.result.verdict, DIFF_SAME);
@@ -288,15 +280,15 @@ static void the_same_scene_drawn_otherwise_is_a_difference_of_rendering(void **s
     edit_file(b.path, "renderer.json", "\"renderer\": \"", "\"renderer\": \"other ");
     comparison_of made = assert_explained(&a, &b, 10);
     const char *cause = cause_of(&made, "frame_000003.png");
-    assert_holds(made.result.headline, "rendering differs: the scene digests are equal; reference drawn by ");
-    assert_memory_equal(made.result.headline, cause, strlen(made.result.headline));
+    assert_holds(made.why.headline, "rendering differs: the scene digests are equal; reference drawn by ");
+    assert_memory_equal(made.why.headline, cause, strlen(made.why.headline));
     assert_holds(cause, ", frame by ");
     assert_holds(cause, "other ");
-    assert_true(diff_find(&made.result, "frame_000003.png")->only_drawn);
+    assert_true(made.why.pairs[3].only_drawn);
     comparison_release(&made);
     assert_int_equal(unlink(place_below(b.path, "renderer.json").path), 0);
     made = assert_explained(&a, &b, 10);
-    assert_holds(made.result.headline, "frame by an unknown renderer");
+    assert_holds(made.why.headline, "frame by an unknown renderer");
     comparison_release(&made);
 }
 
@@ -307,7 +299,7 @@ static void another_renderer_alone_is_no_difference(void **state)
     edit_file(b.path, "renderer.json", "\"renderer\": \"", "\"renderer\": \"other ");
     comparison_of made = assert_explained(&a, &b, 10);
     assert_int_equal(made.result.verdict, DIFF_SAME);
-    assert_null(made.result.headline);
+    assert_null(made.why.headline);
     comparison_release(&made);
 }
 
@@ -337,14 +329,14 @@ static void frames_in_a_folder_tell_rendering_by_their_scenes(void **state)
     spoil_frame(&b, 1, true);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_string_equal(cause_of(&made, "frame_000001.png"), "rendering differs: the scene digests are equal");
-    assert_string_equal(made.result.headline, "rendering differs: the scene digests are equal");
+    assert_string_equal(made.why.headline, "rendering differs: the scene digests are equal");
     comparison_release(&made);
     const place x = frame_place(a.path, 1), y = frame_place(b.path, 1), z = frame_place(b.path, 2);
     made = assert_explained(&x, &y, 10);
-    assert_string_equal(made.result.headline, "rendering differs: the scene digests are equal");
+    assert_string_equal(made.why.headline, "rendering differs: the scene digests are equal");
     comparison_release(&made);
     made = assert_explained(&x, &z, 10);
-    assert_string_equal(made.result.pairs[0].cause, "the reference shows tick 1, the frame tick 2");
+    assert_string_equal(made.why.pairs[0].text, "the reference shows tick 1, the frame tick 2");
     comparison_release(&made);
 }
 
@@ -363,7 +355,7 @@ static void frames_in_a_folder_tell_unlike_sessions_and_scenes(void **state)
     comparison_release(&made);
     made = assert_explained(&b, &c, 10); /* one of them a recording */
     assert_string_equal(cause_of(&made, "frame_000001.png"), "tick 1 of unlike sessions");
-    assert_null(made.result.headline);
+    assert_null(made.why.headline);
     comparison_release(&made);
 }
 
@@ -374,7 +366,7 @@ static void pictures_that_say_nothing_have_no_cause(void **state)
     comparison_of made = assert_explained(&a, &b, 10);
     assert_int_equal(made.result.verdict, DIFF_DIFFERENT);
     assert_int_equal(count_causes(&made), 0);
-    assert_null(made.result.headline);
+    assert_null(made.why.headline);
     comparison_release(&made);
 }
 

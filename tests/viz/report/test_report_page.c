@@ -55,7 +55,7 @@ static void write_page_of(comparison_of *made, const char *folder, meddler *medd
     const diff_options exact = diff_options_default();
     octreel_error error = {""};
     evidence e;
-    const diff_report report = {&made->a, &made->b, &exact, &made->result, &e};
+    const diff_report report = {&made->a, &made->b, &exact, &made->result, &made->why, &e};
     if (!evidence_prepare(folder, &made->a, &made->b, &error) ||
         !evidence_collect(&e, folder, &made->result, &exact, &error))
         fail_msg("%s", error.text);
@@ -71,11 +71,11 @@ static void write_page(const char *a, const char *b, const char *folder, const c
 {
     comparison_of made = assert_compared(a, b, NULL);
     if (cause) {
-        made.result.pairs[0].cause = strdup(cause);
+        give_cause(&made, 0, cause);
         made.result.pairs[0].difference.counted.worst_delta = 0.84341; /* 0.8434 would not forgive it */
     }
     if (headline)
-        made.result.headline = strdup(headline);
+        made.why.headline = strdup(headline);
     write_page_of(&made, folder, NULL);
 }
 

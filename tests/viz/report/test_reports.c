@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "escaped.h"
+#include "text.h"
 #include "fixture.h"
 #include "galleries.h"
 #include "report.h"
@@ -19,7 +19,7 @@ static comparison_of compare(const char *a, const char *b, const char *cause)
 {
     comparison_of made = assert_compared(a, b, NULL);
     for (size_t i = 0; cause && i < made.result.count; i++)
-        made.result.pairs[i].cause = strdup(cause);
+        give_cause(&made, i, cause);
     return made;
 }
 
@@ -28,7 +28,7 @@ typedef bool reporter(FILE *out, const diff_report *report);
 static char *report_text(comparison_of *made, const evidence *e, reporter *write)
 {
     const diff_options exact = diff_options_default();
-    const diff_report report = {&made->a, &made->b, &exact, &made->result, e};
+    const diff_report report = {&made->a, &made->b, &exact, &made->result, &made->why, e};
     char *text;
     size_t size;
     FILE *out = open_memstream(&text, &size);
@@ -101,7 +101,7 @@ static void junit_of_no_difference_has_passed_cases(void **state)
 static void reports_say_that_nobody_can_say_why(void **state)
 {
     comparison_of made = compare_three(state, NULL);
-    made.result.trouble = strdup("a/session.json: it ends <too> early");
+    made.why.trouble = strdup("a/session.json: it ends <too> early");
     char *xml = report_text(&made, NULL, diff_report_junit), *text = report_text(&made, NULL, diff_report_markdown);
     assert_int_equal(xml_count(xml, "system-err"), 1);
     assert_says(xml, "it ends &#60;too&#62; early</system-err>");
@@ -160,7 +160,7 @@ static void junit_names_the_pictures_that_were_left(void **state)
 static void markdown_has_the_verdict_and_a_row_for_each_difference(void **state)
 {
     comparison_of made = compare_three(state, "node 0/3 split | twice");
-    made.result.headline = strdup("From tick 2 on: *another* capacity");
+    made.why.headline = strdup("From tick 2 on: *another* capacity");
     char *text = report_text(&made, NULL, diff_report_markdown);
     assert_true(strncmp(text, "### octreel diff: trouble: 1 of 3 frames, 1 cannot be read, 1 the same by its bytes\n\n",
                         82) == 0);
