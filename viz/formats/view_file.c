@@ -5,6 +5,7 @@
 #include "theme.h"
 #include "file.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,11 +102,18 @@ static bool read_kind(session_reader *reader, json_t *value, const json_place *a
     return (kind && strcmp(kind, "recording") == 0) || session_expected(reader, value, at, "\"recording\"");
 }
 
+/* Digests of scenes in ticks.jsonl and in frames are those of the version. */
 static bool read_version(session_reader *reader, json_t *value, const json_place *at, void *into)
 {
     uint64_t version;
     (void)into;
-    return session_read_whole(reader, value, at, 1, 1, &version);
+    if (!session_read_whole(reader, value, at, 1, RECORDING_VERSION, &version))
+        return false;
+    return version == RECORDING_VERSION ||
+           session_fail(reader, at,
+                        "the recording was made by an older octreel, of format version %" PRIu64
+                        ": film its session.json again, or use that octreel",
+                        version);
 }
 
 static bool read_theme(session_reader *reader, json_t *value, const json_place *at, void *into)

@@ -18,6 +18,9 @@
 #include "json_write.h"
 #include "view.h"
 
+/* The version of recording.json that is written, and the only one that is read. 2: scene digests hash names. */
+#define RECORDING_VERSION 2
+
 /* Write the members into an object that has begun. */
 void view_write(json_writer *w, const view *v);
 

@@ -174,7 +174,7 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
     json_writer writer = {.out = file.stream}, *w = &writer;
     json_write_begin_object(w);
     write_text(w, "octreel", "recording");
-    write_count(w, "version", 1);
+    write_count(w, "version", RECORDING_VERSION);
     view_write(w, v);
     write_text(w, "theme", theme_name());
     write_count(w, "every", every);

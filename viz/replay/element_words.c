@@ -421,6 +421,5 @@ element_subject element_words(const octree_game *game, const heat *h, const scen
 
 const char *element_layer(const scene *s, draw_element element)
 {
-    const char *name = view_layer_name((view_layer)draw_look_of(s, element).layer);
-    return name ? name : "diagram";
+    return view_layer_name((view_layer)draw_look_of(s, element).layer);
 }

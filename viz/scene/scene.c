@@ -116,11 +116,32 @@ static uint64_t digest_doubles(uint64_t digest, const double *values, size_t cou
     return digest;
 }
 
-static uint64_t digest_look(uint64_t digest, uint64_t id, scene_look look, unsigned extra)
+/* What stands for layers and roles in a digest: hashes of their names, so that a new one leaves the digests of all
+ * scenes without it as they are. */
+typedef struct digest_names {
+    uint64_t layers[LAYER_DIAGRAM + 1], roles[ROLE_COUNT];
+} digest_names;
+
+static uint64_t hash_name(const char *what, const char *name)
 {
-    digest = octree_digest_word(digest, id);
-    return octree_digest_word(digest, (uint64_t)look.layer | (uint64_t)look.role << 8 | (uint64_t)look.style << 16 |
-                                          (uint64_t)look.width << 24 | (uint64_t)extra << 32);
+    return octree_digest_bytes(octree_digest_bytes(OCTREE_DIGEST_START, what, strlen(what)), name, strlen(name));
+}
+
+static digest_names hash_names(void)
+{
+    digest_names n;
+    for (int i = 0; i <= LAYER_DIAGRAM; i++)
+        n.layers[i] = hash_name("layer ", view_layer_name((view_layer)i));
+    for (int i = 0; i < ROLE_COUNT; i++)
+        n.roles[i] = hash_name("role ", theme_role_name((theme_role)i));
+    return n;
+}
+
+static uint64_t digest_look(const digest_names *n, uint64_t id, scene_look look, unsigned extra)
+{
+    const uint64_t how = (uint64_t)look.style | (uint64_t)look.width << 8 | (uint64_t)extra << 16;
+    const uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
+    return octree_digest_word(digest, n->layers[look.layer] + n->roles[look.role] + how);
 }
 
 static uint64_t digest_view(const scene *s)
@@ -128,7 +149,7 @@ static uint64_t digest_view(const scene *s)
     const camera *c = &s->camera;
     uint64_t digest = OCTREE_DIGEST_START;
     digest = octree_digest_word(digest, (uint64_t)s->view.width << 32 | (uint64_t)s->view.height);
-    digest = octree_digest_word(digest, (uint64_t)s->unit << 32 | s->view.layers);
+    digest = octree_digest_word(digest, (uint64_t)s->unit);
     digest = digest_doubles(digest, c->origin, 3);
     digest = digest_doubles(digest, c->half, 3);
     digest = digest_doubles(digest, (double[]){c->scale, c->size}, 2);
@@ -140,33 +161,33 @@ static uint64_t digest_view(const scene *s)
     return digest_doubles(digest, c->middle, 2);
 }
 
-static uint64_t digest_box(const scene_box *box)
+static uint64_t digest_box(const digest_names *n, const scene_box *box)
 {
-    const uint64_t digest = digest_look(OCTREE_DIGEST_START, box->id, box->look, box->depth);
+    const uint64_t digest = digest_look(n, box->id, box->look, box->depth);
     return digest_doubles(digest_doubles(digest, box->box.min, 3), box->box.max, 3);
 }
 
-static uint64_t digest_segment(const scene_segment *segment)
+static uint64_t digest_segment(const digest_names *n, const scene_segment *segment)
 {
-    const uint64_t digest = digest_look(OCTREE_DIGEST_START, segment->id, segment->look, segment->in_picture);
+    const uint64_t digest = digest_look(n, segment->id, segment->look, segment->in_picture);
     return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
 }
 
-static uint64_t digest_marker(const scene_marker *marker)
+static uint64_t digest_marker(const digest_names *n, const scene_marker *marker)
 {
-    return digest_doubles(digest_look(OCTREE_DIGEST_START, marker->id, marker->look, marker->shape), marker->at, 3);
+    return digest_doubles(digest_look(n, marker->id, marker->look, marker->shape), marker->at, 3);
 }
 
-static uint64_t digest_label(const scene_label *label)
+static uint64_t digest_label(const digest_names *n, const scene_label *label)
 {
-    uint64_t digest = digest_look(OCTREE_DIGEST_START, label->id, label->look, label->in_world);
+    uint64_t digest = digest_look(n, label->id, label->look, label->in_world);
     digest = digest_doubles(digest, label->at, 3);
     return octree_digest_bytes(digest, label->text, strlen(label->text));
 }
 
-static uint64_t digest_panel(const scene_panel *panel)
+static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
 {
-    uint64_t digest = digest_look(OCTREE_DIGEST_START, panel->id, panel->look, 0);
+    uint64_t digest = digest_look(n, panel->id, panel->look, 0);
     digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }
@@ -177,12 +198,13 @@ static uint64_t digest_panel(const scene_panel *panel)
     do {                                                                                                               \
         uint64_t sum = 0;                                                                                              \
         for (size_t i = 0; i < (array).count; i++)                                                                     \
-            sum = sum * UINT64_C(0x9e3779b97f4a7c15) + digest_one(&(array).items[i]);                                  \
+            sum = sum * UINT64_C(0x9e3779b97f4a7c15) + digest_one(&names, &(array).items[i]);                          \
         digest = octree_digest_word(octree_digest_word(digest, (array).count), sum);                                   \
     } while (0)
 
 uint64_t scene_digest(const scene *s)
 {
+    const digest_names names = hash_names();
     uint64_t digest = digest_view(s);
     DIGEST_ALL(digest, s->boxes, digest_box);
     DIGEST_ALL(digest, s->segments, digest_segment);

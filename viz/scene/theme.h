@@ -10,25 +10,45 @@
 #include <stdint.h>
 
 #define THEME_SHADES 8
+
+/* Each role, its name and its colour on the dark ground. Single meanings are from the set of Okabe and Ito (2008),
+ * which survives colour blindness, and a few more were searched for beside them; depth is a ramp of growing lightness
+ * from blue to pale yellow, after cividis (Nunez et al. 2018), so that it survives grey. A new role is a row at the
+ * end: `test_theme --propose` prints colours that are told from all others, on every ground and by every eye. Scene
+ * digests hash the names. */
+#define THEME_ROLE_MAP(X)                                                                                              \
+    X(BACKGROUND, "background", 13, 17, 26)                                                                            \
+    X(PANEL, "panel", 24, 30, 43)                                                                                      \
+    X(TEXT, "text", 236, 240, 246)                                                                                     \
+    X(FAINT, "faint", 139, 150, 170) /* secondary text, axes */                                                        \
+    X(WORLD, "world", 96, 108, 130)                                                                                    \
+    X(POINT, "point", 245, 247, 250)                                                                                   \
+    X(PLAYER, "player", 240, 228, 66)                                                                                  \
+    X(COLLISION, "collision", 255, 64, 64) /* the only red */                                                          \
+    X(RANGE, "range", 240, 165, 30)                                                                                    \
+    X(RADIUS, "radius", 140, 250, 185)                                                                                 \
+    X(KNEAREST, "knearest", 180, 152, 255)                                                                             \
+    X(NEAREST, "nearest", 255, 172, 222)                                                                               \
+    X(WARNING, "warning", 240, 190, 90) /* refused, full: beside its word */                                           \
+    X(NODE, "node", 84, 98, 150)        /* the root; the rows below are the depths 1 to 9 */                           \
+    X(NODE_1, "node-1", 74, 110, 168)                                                                                  \
+    X(NODE_2, "node-2", 62, 122, 176)                                                                                  \
+    X(NODE_3, "node-3", 54, 136, 176)                                                                                  \
+    X(NODE_4, "node-4", 58, 150, 168)                                                                                  \
+    X(NODE_5, "node-5", 78, 164, 152)                                                                                  \
+    X(NODE_6, "node-6", 106, 174, 128)                                                                                 \
+    X(NODE_7, "node-7", 142, 186, 112)                                                                                 \
+    X(NODE_8, "node-8", 178, 196, 104)                                                                                 \
+    X(NODE_9, "node-9", 212, 206, 116)                                                                                 \
+    X(SHAPE, "shape", 90, 200, 255)
+
 #define THEME_NODE_DEPTHS 10 /* deeper nodes share the last */
 
 typedef enum theme_role {
-    ROLE_BACKGROUND,
-    ROLE_PANEL,
-    ROLE_TEXT,
-    ROLE_FAINT, /* secondary text, axes */
-    ROLE_WORLD,
-    ROLE_POINT,
-    ROLE_PLAYER,
-    ROLE_COLLISION,
-    ROLE_RANGE,
-    ROLE_RADIUS,
-    ROLE_KNEAREST,
-    ROLE_NEAREST,
-    ROLE_WARNING, /* refused, full: seen beside its word */
-    ROLE_NODE,    /* and the THEME_NODE_DEPTHS - 1 roles after it, by depth */
-    ROLE_SHAPE = ROLE_NODE + THEME_NODE_DEPTHS,
-    ROLE_COUNT
+#define THEME_ROLE_ENUM(role, ...) ROLE_##role,
+    THEME_ROLE_MAP(THEME_ROLE_ENUM)
+#undef THEME_ROLE_ENUM
+        ROLE_COUNT
 } theme_role;
 
 typedef struct theme_color {
@@ -37,6 +57,9 @@ typedef struct theme_color {
 
 /* The name that recording.json gives to this table. */
 const char *theme_name(void);
+
+/* "range", "node-3". */
+const char *theme_role_name(theme_role role);
 
 /* The colour of an index; the background beyond the last role. */
 theme_color theme_color_at(uint8_t index);

@@ -42,6 +42,8 @@ const char *view_camera_name(view_camera camera)
 
 const char *view_layer_name(view_layer layer)
 {
+    if (layer == LAYER_DIAGRAM)
+        return "diagram";
     return (unsigned)layer < LAYER_COUNT ? layer_names[layer] : NULL;
 }
 

@@ -77,7 +77,7 @@ static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
     }
 }
 
-#define START "{\"octreel\": \"recording\", \"version\": 1,\n\"width\": 160, \"height\": 90,\n"
+#define START "{\"octreel\": \"recording\", \"version\": 2,\n\"width\": 160, \"height\": 90,\n"
 #define VIEW START "\"camera\": \"top\", \"layers\": [\"nodes\"]"
 
 static void members_that_are_missing_are_off(void **state)
@@ -102,9 +102,11 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {VIEW, "recording.json:3: "},
         {VIEW "} x", "recording.json:3: "},
         {VIEW ",\n\"zoom\": 3}", "recording.json:4: unknown member \"zoom\""},
-        {VIEW ", \"version\": 2}", "duplicate"},
-        {"{\"octreel\": \"recording\", \"version\": 2}", "version: expected a whole number from 1 to 1, found 2"},
-        {"{\"octreel\": \"recording\", \"version\": 1, \"width\": 0}",
+        {VIEW ", \"version\": 3}", "duplicate"},
+        {"{\"octreel\": \"recording\", \"version\": 3}", "version: expected a whole number from 1 to 2, found 3"},
+        {"{\"octreel\": \"recording\", \"version\": 1}",
+         "version: the recording was made by an older octreel, of format version 1: film its session.json again"},
+        {"{\"octreel\": \"recording\", \"version\": 2, \"width\": 0}",
          "width: expected a whole number from 1 to 16384"},
         {START "\"camera\": \"up\"}", "recording.json:3: camera: expected the name of a camera, found \"up\""},
         {START "\"camera\": \"iso\", \"layers\": [\"nodes\", \"walls\"]}", "layers[1]: expected the name of a layer"},

@@ -54,8 +54,8 @@ static void assert_named_counts(const scene *s, uint64_t *id, scene_look *look)
 {
     assert_member_counts(s, id, sizeof *id, &(uint64_t){*id ^ 1});
     assert_member_counts(s, id, sizeof *id, &(uint64_t){*id ^ UINT64_C(1) << 63});
-    assert_byte_counts(s, &look->layer);
-    assert_byte_counts(s, &look->role);
+    assert_member_counts(s, &look->layer, 1, &(uint8_t){LAYER_DIAGRAM});
+    assert_member_counts(s, &look->role, 1, &(uint8_t){ROLE_RANGE});
     assert_byte_counts(s, &look->style);
     assert_byte_counts(s, &look->width);
 }

@@ -11,7 +11,7 @@ static void every_camera_is_found_by_its_name(void **state)
         assert_int_equal(found, i);
     }
     assert_null(view_camera_name(CAMERA_COUNT));
-    assert_null(view_layer_name(LAYER_COUNT));
+    assert_null(view_layer_name(LAYER_DIAGRAM + 1));
 }
 
 static void unknown_cameras_are_refused(void **state)
