@@ -15,7 +15,9 @@ typedef struct told {
 
 static told tell(const octree *tree, const inspect_answers *answers, size_t i)
 {
-    return (told){&answers->answers[i], answers->distances[i], &answers->costs[i], octree_definition(tree).world};
+    const octree_answer *answer = &answers->answers[i];
+    const octree_neighbor *distances = answer->neighbors ? answer->neighbors : answers->nearest[i].neighbors;
+    return (told){answer, distances, &answer->cost, octree_definition(tree).world};
 }
 
 /* The i-th point of an answer: by distance, or of a box by id. */

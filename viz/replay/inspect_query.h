@@ -7,9 +7,9 @@
 
 /* The answers to some queries, in their order. */
 typedef struct inspect_answers {
-    octree_answer *answers;      /* as a tick of a game has them */
-    octree_neighbor **distances; /* of each, by distance and then by id; null for boxes */
-    octree_cost *costs;
+    const octree *tree;
+    octree_answer *answers; /* as a tick of a game has them */
+    octree_answer *nearest; /* of points about a target: the same points as neighbours; else empty */
     size_t count;
 } inspect_answers;
 

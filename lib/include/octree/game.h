@@ -56,15 +56,45 @@ typedef struct octree_edit {
     octree_body body; /* remove reads the id alone; move reads id and position, and keeps the velocity */
 } octree_edit;
 
+/* The members of octree_query that a kind reads, as bits. */
+typedef enum octree_query_member {
+    OCTREE_QUERY_HAS_BOX = 1,
+    OCTREE_QUERY_HAS_TARGET = 2,
+    OCTREE_QUERY_HAS_K = 4,
+    OCTREE_QUERY_HAS_RADIUS = 8,
+} octree_query_member;
+
+/* One line per kind of query: its name, the members it reads, which of them bears the kind's name in session files,
+ * whether it is answered with neighbours (else with points), and its meaning. A new kind is a line here and its
+ * function in lib/src/game/queries.c. */
+#define OCTREE_QUERY_MAP(X)                                                                                            \
+    X(RANGE, range, OCTREE_QUERY_HAS_BOX, OCTREE_QUERY_HAS_BOX, false, "the points in a box")                          \
+    X(NEAREST, nearest, OCTREE_QUERY_HAS_TARGET, OCTREE_QUERY_HAS_TARGET, true, "the point nearest to a place")        \
+    X(KNEAREST, knearest, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_K, OCTREE_QUERY_HAS_K, true,                      \
+      "the k points nearest to a place")                                                                               \
+    X(RADIUS, radius, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS, OCTREE_QUERY_HAS_RADIUS, false,               \
+      "the points in a ball")
+
 typedef enum octree_query_kind {
-    OCTREE_QUERY_RANGE,    /* the points in a box */
-    OCTREE_QUERY_NEAREST,  /* the point nearest to a place */
-    OCTREE_QUERY_KNEAREST, /* the k points nearest to it */
-    OCTREE_QUERY_RADIUS,   /* the points in a ball */
-    OCTREE_QUERY_KINDS
+#define OCTREE_QUERY_ENUM(kind, name, members, named_by, neighbors, words) OCTREE_QUERY_##kind,
+    OCTREE_QUERY_MAP(OCTREE_QUERY_ENUM)
+#undef OCTREE_QUERY_ENUM
+        OCTREE_QUERY_KINDS
 } octree_query_kind;
 
-/* "range", "nearest", "knearest", "radius": the name that files use. Null from OCTREE_QUERY_KINDS on. */
+/* A line of OCTREE_QUERY_MAP. */
+typedef struct octree_query_traits {
+    const char *name;             /* as in session files and ticks.jsonl, such as "range" */
+    unsigned members;             /* bits of octree_query_member */
+    octree_query_member named_by; /* in a session file, the member whose key is the kind's name */
+    bool neighbors;               /* octree_answer.neighbors is the result, else octree_answer.points */
+    const char *words;            /* for people, such as "the points in a box" */
+} octree_query_traits;
+
+/* Static storage. Null from OCTREE_QUERY_KINDS on. */
+const octree_query_traits *octree_query_about(octree_query_kind kind);
+
+/* The name in octree_query_about(kind). Null from OCTREE_QUERY_KINDS on. */
 const char *octree_query_name(octree_query_kind kind);
 
 #define OCTREE_EVERY_TICK UINT64_MAX
@@ -74,7 +104,7 @@ const char *octree_query_name(octree_query_kind kind);
 typedef struct octree_query {
     uint64_t tick; /* or OCTREE_EVERY_TICK */
     octree_query_kind kind;
-    bool at_player;   /* range: the box is relative to the player; others: the target is the player */
+    bool at_player;   /* the box is relative to the player; the target is the player */
     octree_box box;   /* range */
     double target[3]; /* nearest, k nearest, and the ball's centre; unless at_player */
     size_t k;         /* k nearest: how many; where there are fewer, all */
@@ -161,6 +191,19 @@ typedef struct octree_answer {
     size_t count;                     /* of points or neighbours; nearest: 0 or 1 */
     octree_cost cost;
 } octree_answer;
+
+/* Whether a query can be asked. Errors: NULL_ARGUMENT; BAD_OPTION for its kind; NOT_FINITE (of a box: NaN), BAD_RANGE,
+ * BAD_SIZE and FLOAT_MODE for the members that its kind reads. Its tick is not read. */
+octree_status octree_query_check(const octree_query *query);
+
+/* Answer a query outside of a game. `player` is the place that at_player refers to, and may be null where that is
+ * false; `how` may be null; its skip decides which points are neighbours. The cost is that of answer->cost, and
+ * how->cost is not read. Release the answer with octree_answer_release. Errors: those of octree_query_check, and
+ * NULL_ARGUMENT, NO_MEMORY and what octree_range_search says of `how`; the answer is then empty. The memory is the
+ * tree's allocator's, which must then be safe to use from this thread. */
+octree_status octree_query_answer(const octree *tree, const octree_query *query, const double player[3],
+                                  const octree_search *how, octree_answer *answer);
+void octree_answer_release(const octree *tree, octree_answer *answer);
 
 /* A node that a tick's questions met: its collision test and its queries. */
 typedef struct octree_visit {

@@ -43,20 +43,6 @@ static octree_status check_edits(const octree_session *session)
     return OCTREE_OK;
 }
 
-/* What the tree would refuse is refused here: an error in the middle of a game would be its end. */
-static octree_status check_query(const octree_query *query)
-{
-    if ((unsigned)query->kind >= OCTREE_QUERY_KINDS)
-        return OCTREE_BAD_OPTION;
-    if (query->kind == OCTREE_QUERY_RANGE)
-        return check_box(&query->box);
-    if (query->kind == OCTREE_QUERY_RADIUS && !isfinite(query->radius))
-        return OCTREE_NOT_FINITE;
-    if (query->kind == OCTREE_QUERY_RADIUS && query->radius < 0)
-        return OCTREE_BAD_SIZE;
-    return query->at_player ? OCTREE_OK : check_finite(query->target);
-}
-
 static bool is_text(const char text[OCTREE_SHAPE_TEXT])
 {
     size_t length = 0;
@@ -96,7 +82,7 @@ static octree_status check_queries(const octree_session *session)
 {
     octree_status status = OCTREE_OK;
     for (size_t i = 0; status == OCTREE_OK && i < session->query_count; i++) {
-        status = check_query(&session->queries[i]);
+        status = octree_query_check(&session->queries[i]);
         if (i > 0 && session->queries[i].tick < session->queries[i - 1].tick)
             status = OCTREE_BAD_ORDER;
     }
@@ -113,7 +99,7 @@ octree_status octree_input_check(const octree_input *input)
         if (!is_edit(&input->edits[i]))
             return OCTREE_BAD_OPTION;
     for (size_t i = 0; status == OCTREE_OK && i < input->query_count; i++)
-        status = check_query(&input->queries[i]);
+        status = octree_query_check(&input->queries[i]);
     for (size_t i = 0; status == OCTREE_OK && i < input->shape_count; i++)
         status = check_shape(&input->shapes[i]);
     return status;

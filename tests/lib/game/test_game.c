@@ -374,18 +374,8 @@ static void create_refuses_queries_that_no_tick_can_answer(void **state)
         session.queries = &rows[i].query;
         session.query_count = 1;
         assert_int_equal(status_of(&session), rows[i].status);
+        assert_int_equal(octree_query_check(&rows[i].query), rows[i].status);
     }
-}
-
-static void every_kind_of_query_has_a_name_and_no_other(void **state)
-{
-    (void)state;
-    static const char *const names[] = {"range", "nearest", "knearest", "radius"};
-    assert_int_equal(sizeof names / sizeof names[0], OCTREE_QUERY_KINDS);
-    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
-        assert_string_equal(octree_query_name((octree_query_kind)kind), names[kind]);
-    assert_null(octree_query_name(OCTREE_QUERY_KINDS));
-    assert_null(octree_query_name((octree_query_kind)-1));
 }
 
 static void create_refuses_arrays_that_are_null(void **state)
@@ -432,7 +422,6 @@ int main(void)
         cmocka_unit_test(create_refuses_bad_players),
         cmocka_unit_test(create_refuses_bad_trees_ids_options_and_orders),
         cmocka_unit_test(create_refuses_queries_that_no_tick_can_answer),
-        cmocka_unit_test(every_kind_of_query_has_a_name_and_no_other),
         cmocka_unit_test(create_refuses_arrays_that_are_null),
         cmocka_unit_test(each_event_has_a_name),
     };

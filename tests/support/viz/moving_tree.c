@@ -75,7 +75,7 @@ static void ask(moving_tree *m)
         for (int i = 0; i < 3; i++)
             query->box.max[i] = (query->box.min[i] = query->target[i]) + 3;
     }
-    m->about.query_count = random_below(&m->random, MOVING_TREE_QUERIES + 1);
+    m->about.query_count = random_below(&m->random, OCTREE_QUERY_KINDS + 1);
 }
 
 static void show(moving_tree *m)
@@ -88,7 +88,7 @@ static void show(moving_tree *m)
             shape->to[i] = shape->at[i] + 2;
         snprintf(shape->text, sizeof shape->text, "label %d", (int)random_below(&m->random, 100));
     }
-    m->about.shape_count = random_below(&m->random, MOVING_TREE_SHAPES + 1);
+    m->about.shape_count = random_below(&m->random, OCTREE_SHAPE_KINDS + 1);
 }
 
 void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed)

@@ -7,16 +7,14 @@
 #include "octreel/recorder.h"
 
 #define MOVING_TREE_MOST 40
-#define MOVING_TREE_QUERIES 4
-#define MOVING_TREE_SHAPES 4
 
 typedef struct moving_tree {
     octree *tree;
     uint64_t random;
     octree_point points[MOVING_TREE_MOST]; /* by no order */
     size_t count;
-    octree_query queries[MOVING_TREE_QUERIES];
-    octree_shape shapes[MOVING_TREE_SHAPES];
+    octree_query queries[OCTREE_QUERY_KINDS];
+    octree_shape shapes[OCTREE_SHAPE_KINDS];
     octreel_tick_info about;
 } moving_tree;
 

@@ -1,0 +1,163 @@
+/* The table of query kinds, and asking a tree outside of a game. */
+#include "counting_allocator.h"
+#include "fixture.h"
+#include "game_fixture.h"
+
+#include <string.h>
+
+/* A query of this kind that finds some points of small worlds. */
+static octree_query query_of(int kind, bool at_player)
+{
+    return (octree_query){.tick = OCTREE_EVERY_TICK,
+                          .kind = (octree_query_kind)kind,
+                          .at_player = at_player,
+                          .box = {{-4, -5, -6}, {3, 4, 6}},
+                          .target = {1, -1, 0.5},
+                          .k = 7,
+                          .radius = 5.5};
+}
+
+static void every_kind_has_traits_and_no_other(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
+        const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
+        assert_non_null(about);
+        assert_true(about->name && about->name[0] && about->words && about->words[0]);
+        assert_ptr_equal(octree_query_name((octree_query_kind)kind), about->name);
+        assert_true(about->named_by && (about->named_by & (about->named_by - 1)) == 0);
+        assert_true(about->members & about->named_by);
+        for (int other = 0; other < kind; other++)
+            assert_string_not_equal(about->name, octree_query_name((octree_query_kind)other));
+    }
+    assert_null(octree_query_about(OCTREE_QUERY_KINDS));
+    assert_null(octree_query_about((octree_query_kind)-1));
+    assert_null(octree_query_name(OCTREE_QUERY_KINDS));
+}
+
+static void the_names_in_files_stay(void **state)
+{
+    (void)state;
+    assert_string_equal(octree_query_name(OCTREE_QUERY_RANGE), "range");
+    assert_string_equal(octree_query_name(OCTREE_QUERY_NEAREST), "nearest");
+    assert_string_equal(octree_query_name(OCTREE_QUERY_KNEAREST), "knearest");
+    assert_string_equal(octree_query_name(OCTREE_QUERY_RADIUS), "radius");
+}
+
+static void assert_same_answers(const octree_answer *a, const octree_answer *b)
+{
+    assert_true(a->kind == b->kind && a->k == b->k && a->count == b->count && a->count > 0);
+    assert_memory_equal(&a->cost, &b->cost, sizeof a->cost);
+    assert_memory_equal(&a->box, &b->box, sizeof a->box);
+    assert_memory_equal(a->target, b->target, sizeof a->target);
+    assert_true((a->points != NULL) == (b->points != NULL) && (a->neighbors != NULL) == (b->neighbors != NULL));
+    assert_true((a->neighbors != NULL) == octree_query_about(a->kind)->neighbors);
+    if (a->points)
+        assert_memory_equal(a->points, b->points, a->count * sizeof *a->points);
+    if (a->neighbors)
+        assert_memory_equal(a->neighbors, b->neighbors, a->count * sizeof *a->neighbors);
+}
+
+/* Thirty bodies about the player of game_fixture.h. */
+static void scatter(octree_body bodies[30])
+{
+    uint64_t random = 3;
+    for (uint64_t i = 0; i < 30; i++) {
+        bodies[i] = (octree_body){.id = i};
+        for (int axis = 0; axis < 3; axis++)
+            bodies[i].position[axis] = random_between(&random, -9, 9);
+    }
+}
+
+static void every_kind_is_answered_outside_a_game_as_in_one(void **state)
+{
+    (void)state;
+    octree_body bodies[30];
+    octree_query queries[2 * OCTREE_QUERY_KINDS];
+    scatter(bodies);
+    for (int i = 0; i < 2 * OCTREE_QUERY_KINDS; i++)
+        queries[i] = query_of(i / 2, i % 2);
+    octree_session session = small_session(bodies, 30);
+    session.tree.full_leaf = OCTREE_GROW;
+    session.queries = queries;
+    session.query_count = 2 * OCTREE_QUERY_KINDS;
+    octree_game *game = start_game(&session);
+    const octree_tick *tick = octree_game_tick(game);
+    assert_int_equal(tick->answer_count, session.query_count);
+    for (size_t i = 0; i < session.query_count; i++) {
+        const octree_search how = {.skip = queries[i].at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE,
+                                   .skip_id = session.player.id};
+        octree_answer answer;
+        assert_int_equal(octree_query_answer(octree_game_tree(game), &queries[i], tick->player, &how, &answer),
+                         OCTREE_OK);
+        assert_same_answers(&answer, &tick->answers[i]);
+        octree_answer_release(octree_game_tree(game), &answer);
+    }
+    octree_game_destroy(game);
+}
+
+static octree *counted_tree(counting_allocator *counts)
+{
+    octree *tree = make_counted_tree(counts, cube(-10, 10), 2, 8, OCTREE_GROW);
+    octree_body bodies[30];
+    scatter(bodies);
+    for (int i = 0; i < 30; i++)
+        assert_int_equal(octree_insert(tree, bodies[i].position, bodies[i].id), OCTREE_OK);
+    return tree;
+}
+
+static void an_answer_survives_the_failure_of_each_allocation(void **state)
+{
+    (void)state;
+    counting_allocator counts = {0};
+    octree *tree = counted_tree(&counts);
+    const size_t before = counts.bytes;
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
+        const octree_query query = query_of(kind, false);
+        octree_status status = OCTREE_NO_MEMORY;
+        for (size_t n = 0; status != OCTREE_OK; n++) {
+            octree_answer answer;
+            counting_allocator_fail_at(&counts, n);
+            status = octree_query_answer(tree, &query, NULL, NULL, &answer);
+            assert_true(status == OCTREE_OK || status == OCTREE_NO_MEMORY);
+            assert_true((answer.count > 0) == (status == OCTREE_OK));
+            octree_answer_release(tree, &answer);
+            assert_int_equal(counts.bytes, before);
+            assert_int_equal(counts.wrong, 0);
+        }
+    }
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+}
+
+static void answer_refuses_what_cannot_be_asked(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-10, 10), 2, 8, OCTREE_GROW);
+    octree_query query = query_of(OCTREE_QUERY_RANGE, true);
+    octree_answer answer = {.count = 1};
+    assert_int_equal(octree_query_answer(tree, &query, NULL, NULL, &answer), OCTREE_NULL_ARGUMENT);
+    assert_true(answer.count == 0 && !answer.points && !answer.neighbors);
+    query.at_player = false;
+    assert_int_equal(octree_query_answer(tree, &query, NULL, NULL, &answer), OCTREE_OK);
+    assert_int_equal(octree_query_answer(tree, &query, NULL, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_query_answer(NULL, &query, NULL, NULL, &answer), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_query_answer(tree, NULL, NULL, NULL, &answer), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_query_answer(tree, &query, NULL, &(octree_search){.epsilon = -1}, &answer),
+                     OCTREE_BAD_SIZE);
+    query.kind = OCTREE_QUERY_KINDS;
+    assert_int_equal(octree_query_answer(tree, &query, NULL, NULL, &answer), OCTREE_BAD_OPTION);
+    octree_destroy(tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_has_traits_and_no_other),
+        cmocka_unit_test(the_names_in_files_stay),
+        cmocka_unit_test(every_kind_is_answered_outside_a_game_as_in_one),
+        cmocka_unit_test(an_answer_survives_the_failure_of_each_allocation),
+        cmocka_unit_test(answer_refuses_what_cannot_be_asked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
