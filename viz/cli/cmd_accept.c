@@ -1,6 +1,7 @@
 /* cmd_accept.c - octreel accept: new frames become the reference. */
 #include "command.h"
 #include "accept.h"
+#include "options.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "command.h"
 #include "explain.h"
 #include "ignored_layers.h"
+#include "options.h"
 #include "report.h"
 
 #include <getopt.h>

@@ -1,6 +1,7 @@
 /* cmd_digest.c - octreel digest: the pixels of many frames as a small text file. */
 #include "command.h"
 #include "digest_file.h"
+#include "options.h"
 
 #include <getopt.h>
 #include <stdio.h>

@@ -1,46 +1,46 @@
-/* cmd_inspect.c - octreel inspect: the trees of point clouds, drawn, counted and asked. */
+/* cmd_inspect.c - octreel inspect: the tree of a point cloud: its statistics, a picture, a node, answers to queries. */
 #include "command.h"
 #include "film.h"
 #include "inspect.h"
-#include "inspect_output.h"
 #include "inspect_query.h"
+#include "options.h"
+#include "progress.h"
+#include "query_options.h"
 
 #include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 static const char help[] =
-    "usage: octreel inspect CLOUD ... [-o PICTURE.png] [OPTION ...]\n\n"
-    "Build an octree from a point cloud (x y z text, PLY or PCD), print its statistics, and draw its subdivision. Of\n"
-    "several clouds each has a tree of its own.\n\n"
-    "  -o, --output FILE     draw the tree into this PNG; for several clouds a folder: DIR/scan.pcd.png ...\n"
+    "usage: octreel inspect CLOUD [-o PICTURE.png] [OPTION ...]\n\n"
+    "Build an octree from a point cloud (x y z text, PLY or PCD), print its statistics, and draw its subdivision.\n\n"
+    "  -o, --output FILE     draw the tree into this PNG\n"
     "      --capacity N      points a leaf holds before it splits (default 64)\n"
     "      --depth N         deepest level, 0 to 21 (default 21)\n"
     "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
     "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"
     "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points; a picture marks it\n"
-    "      --nodes FILE.csv  write all nodes; for several clouds into a folder\n"
+    "      --nodes FILE.csv  write all nodes as CSV\n"
     "      --nearest X,Y,Z[,K]        print and draw the point nearest to a place, or the K nearest\n"
     "      --radius X,Y,Z,R           and the points within R of a place\n"
     "      --range X0,Y0,Z0,X1,Y1,Z1  and the points in a box; these three can be given several times\n";
 
-static const char more_help[] = "      --json            print JSON, one object a cloud\n"
-                                "  -h, --help\n\n"
-                                "Points are numbered from 0 in the order of the file.\n\n"
-                                "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
-                                "          octreel inspect points.txt --node 0/3 --json\n"
-                                "          octreel inspect a.pcd b.ply -o pictures/ --nearest 1,2,3,8\n";
+static const char more_help[] =
+    "      --json            print JSON\n"
+    "  -h, --help\n\n"
+    "Points are numbered from 0 in the order of the file.\n\n"
+    "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
+    "          octreel inspect points.txt --node 0/3 --json\n"
+    "          for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n";
 
 #define MOST_QUERIES 100
 
 typedef struct arguments {
-    char *const *clouds;
-    size_t cloud_count;
-    inspect_output picture, nodes;
-    const char *node;
+    const char *cloud;
+    const char *picture, *nodes; /* files to write; null: not asked for */
+    const char *node;            /* the address of one node; null: not asked for */
     octree_query queries[MOST_QUERIES];
     size_t query_count;
     octree_def def;
@@ -144,12 +144,12 @@ static bool take_option(arguments *a, int option)
         return true;
     switch (option) {
     case 'o':
-        a->picture.given = optarg;
+        a->picture = optarg;
         return check_name("-o", optarg);
     case 'n':
         return take_node(a, optarg);
     case 'N':
-        a->nodes.given = optarg;
+        a->nodes = optarg;
         return check_name("--nodes", optarg);
     case 'j':
         a->json = true;
@@ -175,26 +175,12 @@ static bool take_option(arguments *a, int option)
     }
 }
 
-/* ---- Progress -------------------------------------------------------------------------------------------------- */
+/* ---- The report --------------------------------------------------------------------------------------------- */
 
-/* How much of the clouds has been read, in bytes. */
-typedef struct reading {
-    progress bar;
-    double before, here, all;
-} reading;
-
-static void on_step(double part, void *context)
-{
-    reading *r = context;
-    progress_show(&r->bar, (uint64_t)((r->before + r->here * part) / 1000), (uint64_t)(r->all / 1000));
-}
-
-/* ---- One cloud ---------------------------------------------------------------------------------------------- */
-
-/* What is said of one cloud. */
+/* What the command prints and draws. */
 typedef struct report {
     const arguments *a;
-    const char *cloud;
+    const char *name; /* of the cloud: the last part of its path */
     const inspection *made;
     octree_node node;
     inspect_answers answers;
@@ -203,45 +189,34 @@ typedef struct report {
 static bool draw(const report *r, octreel_error *error)
 {
     film_summary drawn = {0};
-    const tree_look about = {.title = inspect_base_name(r->cloud),
-                             .node = r->a->node ? r->node.address : 0,
+    const arguments *a = r->a;
+    const tree_look about = {.title = r->name,
+                             .node = a->node ? r->node.address : 0,
                              .answers = r->answers.answers,
                              .answer_count = r->answers.count};
-    const film_options options = {.view = r->a->view, .renderer = r->a->renderer};
-    char *path = inspect_output_path(&r->a->picture, r->cloud, error);
-    const bool ok = path && film_tree(r->made->tree, &about, &options, path, &drawn, error);
-    if (ok && drawn.over_budget)
-        fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", path);
-    if (ok && drawn.left_out)
-        fprintf(stderr, "octreel: %" PRIu64 " elements are too far off to be in %s\n", drawn.left_out, path);
-    free(path);
-    return ok;
+    const film_options options = {.view = a->view, .renderer = a->renderer};
+    if (!film_tree(r->made->tree, &about, &options, a->picture, &drawn, error))
+        return false;
+    if (drawn.over_budget)
+        fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);
+    if (drawn.left_out)
+        fprintf(stderr, "octreel: %" PRIu64 " elements are too far off to be in %s\n", drawn.left_out, a->picture);
+    return true;
 }
 
-static bool write_nodes(const report *r, octreel_error *error)
-{
-    char *path = inspect_output_path(&r->a->nodes, r->cloud, error);
-    const bool ok = path && inspect_write_nodes(r->made, path, error);
-    free(path);
-    return ok;
-}
-
-/* A node or answers are printed alone, without the statistics. */
+/* A node or answers are printed without the statistics. */
 static void print(const report *r)
 {
     const arguments *a = r->a;
-    const char *name = inspect_told_name(r->cloud, a->clouds, a->cloud_count);
     if (a->node)
-        inspect_print_node(&r->node, name, a->json, stdout);
+        inspect_print_node(&r->node, r->name, a->json, stdout);
     if (a->query_count)
-        inspect_print_answers(r->made->tree, &r->answers, name, a->json, stdout);
-    if (!a->node && !a->query_count && a->json)
-        inspect_print_json(r->made, name, stdout);
-    if (!a->node && !a->query_count && !a->json)
-        inspect_print(r->made, name, stdout);
+        inspect_print_answers(r->made->tree, &r->answers, r->name, a->json, stdout);
+    if (!a->node && !a->query_count)
+        inspect_print(r->made, r->name, a->json, stdout);
 }
 
-/* Everything that can be refused comes before the first file is made. */
+/* Everything that can be refused comes before the first file is written. */
 static bool make_report(report *r, octreel_error *error)
 {
     const arguments *a = r->a;
@@ -249,96 +224,88 @@ static bool make_report(report *r, octreel_error *error)
         return false;
     if (!inspect_ask(r->made->tree, a->queries, a->query_count, &r->answers, error))
         return false;
-    const bool ok = (!a->picture.given || draw(r, error)) && (!a->nodes.given || write_nodes(r, error));
+    const bool ok = (!a->picture || draw(r, error)) && (!a->nodes || inspect_write_nodes(r->made, a->nodes, error));
     if (ok)
         print(r);
     inspect_answers_release(&r->answers);
     return ok;
 }
 
-static int inspect_one(const arguments *a, const char *path, reading *so_far)
+/* ---- The cloud ---------------------------------------------------------------------------------------------- */
+
+typedef struct reading {
+    progress bar;
+    double size; /* of the file, in bytes; 0 where it cannot be told */
+} reading;
+
+static void on_step(double fraction, void *context)
 {
-    const cloud_watch watch = {on_step, so_far};
+    reading *r = context;
+    progress_show(&r->bar, (uint64_t)(r->size * fraction / 1000), (uint64_t)(r->size / 1000));
+}
+
+/* Read the cloud and build its tree; the bar on the terminal is gone afterwards. */
+static bool build(const arguments *a, inspection *made, octreel_error *error)
+{
+    struct stat status;
+    reading r = {.bar = progress_start("kB of the cloud"),
+                 .size = stat(a->cloud, &status) == 0 ? (double)status.st_size : 0};
     octree_def def = a->def;
+    octreel_error why;
     cloud points;
-    octreel_error unread;
-    octreel_error error;
-    inspection made;
-    bool ok = cloud_read(path, &watch, &points, &unread);
-    if (!ok) {
-        progress_end(&so_far->bar);
-        return trouble("%s", unread.text);
+    bool ok = cloud_read(a->cloud, &(cloud_watch){on_step, &r}, &points, error);
+    if (ok) {
+        if (!a->has_world)
+            def.world = inspect_world(&points);
+        progress_say(&r.bar, "building the tree of %zu points", points.count);
+        ok = inspect_build(&points, &def, made, &why) || error_set(error, "%s: %s", a->cloud, why.text);
+        cloud_release(&points);
     }
-    if (!a->has_world)
-        def.world = inspect_world(&points);
-    progress_say(&so_far->bar, "building the tree of %zu points", points.count); /* at once: in parts it takes longer */
-    ok = inspect_build(&points, &def, &made, &error);
-    progress_end(&so_far->bar); /* what is said next has the line for itself */
-    cloud_release(&points);
-    if (!ok)
-        return trouble("%s: %s", path, error.text);
-    report r = {.a = a, .cloud = path, .made = &made};
-    ok = make_report(&r, &error);
+    progress_end(&r.bar);
+    return ok;
+}
+
+static int inspect_it(const arguments *a)
+{
+    const char *slash = strrchr(a->cloud, '/');
+    inspection made;
+    octreel_error error;
+    if (!build(a, &made, &error))
+        return trouble("%s", error.text);
+    report r = {.a = a, .name = slash ? slash + 1 : a->cloud, .made = &made};
+    const bool ok = make_report(&r, &error);
     inspect_release(&made);
     return ok ? EXIT_DONE : trouble("%s", error.text);
 }
 
-/* ---- All of them -------------------------------------------------------------------------------------------- */
+/* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* What is no file is refused when it is read. */
-static double bytes_of(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 ? (double)status.st_size : 0;
-}
-
-/* One that cannot be inspected does not keep the others from it. */
-static int inspect_all(const arguments *a)
-{
-    reading r = {.bar = progress_start("kB of clouds")};
-    int worst = EXIT_DONE;
-    for (size_t i = 0; i < a->cloud_count; i++)
-        r.all += bytes_of(a->clouds[i]);
-    for (size_t i = 0; i < a->cloud_count; i++) {
-        r.here = bytes_of(a->clouds[i]);
-        const int status = inspect_one(a, a->clouds[i], &r);
-        worst = status > worst ? status : worst;
-        r.before += r.here;
-    }
-    return worst;
-}
-
-/* What is said of a picture must not be lost because nobody asked for one. */
+/* Options about a picture are refused where none is made: they would have no effect. */
 static bool check_picture(const arguments *a)
 {
     const char *first = first_view_option(&a->view_options);
     first = first ? first : a->who_draws;
-    if (a->picture.given || !first)
+    if (a->picture || !first)
         return true;
     trouble("--%s is about a picture, and none is made without -o", first);
     return false;
 }
 
-static int check_and_inspect(arguments *a)
+/* No file that is written may be the cloud, nor both be one file. */
+static bool check_outputs(const arguments *a)
 {
+    const output_file outputs[] = {{"-o", a->picture}, {"--nodes", a->nodes}};
     octreel_error error;
-    if (!check_names("inspect", a->clouds, (int)a->cloud_count) || !check_picture(a))
-        return EXIT_TROUBLE;
-    if (!check_renderer(&a->renderer) || !read_view(&a->view_options, &a->view))
-        return EXIT_TROUBLE;
-    if (!inspect_output_check(&a->picture, a->clouds, a->cloud_count, &error) ||
-        !inspect_output_check(&a->nodes, a->clouds, a->cloud_count, &error) ||
-        !inspect_outputs_spare((const inspect_output[]){a->picture, a->nodes}, a->clouds, a->cloud_count, &error))
-        return trouble("%s", error.text);
-    return inspect_all(a);
+    const bool ok = outputs_apart(outputs, 2, &error) && output_spares(&outputs[0], a->cloud, &error) &&
+                    output_spares(&outputs[1], a->cloud, &error);
+    if (!ok)
+        trouble("%s", error.text);
+    return ok;
 }
 
 int cmd_inspect(int argc, char **argv)
 {
-    arguments a = {.picture = {.option = "-o", .ending = ".png"},
-                   .nodes = {.option = "--nodes", .ending = ".csv"},
-                   .def = octree_def_default(),
-                   .view = view_default()};
+    arguments a = {.def = octree_def_default(), .view = view_default()};
     struct option options[COMMAND_OPTIONS];
     join_options(own_options, options);
     a.def.full_leaf = OCTREE_GROW;
@@ -357,7 +324,12 @@ int cmd_inspect(int argc, char **argv)
     }
     if (optind == argc)
         return trouble("inspect takes a point cloud; octreel inspect --help tells more");
-    a.clouds = argv + optind;
-    a.cloud_count = (size_t)(argc - optind);
-    return check_and_inspect(&a);
+    if (argc - optind > 1)
+        return trouble("inspect takes one cloud, not also \"%s\"; for several: for f in *.pcd; do octreel inspect "
+                       "\"$f\" -o \"$f.png\"; done",
+                       argv[optind + 1]);
+    a.cloud = argv[optind];
+    const bool ok = check_names("inspect", argv + optind, 1) && check_picture(&a) && check_renderer(&a.renderer) &&
+                    read_view(&a.view_options, &a.view) && check_outputs(&a);
+    return ok ? inspect_it(&a) : EXIT_TROUBLE;
 }

@@ -2,6 +2,8 @@
 #include "command.h"
 #include "film_report.h"
 #include "join.h"
+#include "options.h"
+#include "progress.h"
 
 #include <stdio.h>
 

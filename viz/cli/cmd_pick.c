@@ -1,5 +1,6 @@
 /* cmd_pick.c - octreel pick: what is drawn at a pixel of a frame. */
 #include "command.h"
+#include "options.h"
 #include "pick.h"
 
 #include <stdio.h>

@@ -3,6 +3,8 @@
 #include "film.h"
 #include "film_report.h"
 #include "folder_files.h"
+#include "options.h"
+#include "progress.h"
 #include "view_file.h"
 
 #include <getopt.h>

@@ -1,5 +1,7 @@
 /* cmd_verify.c - octreel verify: play a recording again, and say what is not the same. */
 #include "command.h"
+#include "options.h"
+#include "progress.h"
 #include "verify.h"
 
 #include <stdio.h>

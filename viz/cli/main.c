@@ -1,8 +1,15 @@
 /* main.c - octreel's command line: a table of commands. */
 #include "command.h"
+#include "options.h"
 
 #include <stdio.h>
 #include <string.h>
+
+typedef struct command {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *line; /* what it does, in one line */
+} command;
 
 static const command commands[] = {
     {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
@@ -73,7 +80,7 @@ static int run(int argc, char **argv)
     return trouble("there is no command \"%s\"; octreel --help lists them", argv[1]);
 }
 
-/* What was said on stdout counts only when it arrived. */
+/* Output that could not be written is a failure, whatever the command returned. */
 int main(int argc, char **argv)
 {
     const int status = run(argc, argv);

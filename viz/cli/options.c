@@ -1,5 +1,5 @@
 /* options.c - the values of options, and the sentences for those that do not fit. */
-#include "command.h"
+#include "options.h"
 #include "number.h"
 #include "session_file.h"
 #include "view_file.h"

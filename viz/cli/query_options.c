@@ -1,6 +1,7 @@
 /* query_options.c - queries on a command line, and the sentences for those that do not fit. */
-#include "command.h"
+#include "query_options.h"
 #include "number.h"
+#include "options.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,10 +1,16 @@
-/* inspect.c - a point cloud becomes a tree. */
+/* inspect.c - builds the tree of a point cloud; prints its statistics and nodes. */
 #include "inspect.h"
+#include "json_write.h"
+#include "number.h"
+#include "plural.h"
 
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- The tree ----------------------------------------------------------------------------------------------- */
 
 /* The distance from |value| to the next double above it. */
 static double ulp_of(double value)
@@ -33,8 +39,7 @@ static octree_box bounds_of(const cloud *c)
     return box;
 }
 
-/* Half the side of the cube. Halves of extents, since extents can overflow; whole ones where halves would be rounded.
- */
+/* Half of a finite extent; where the extent overflows, a difference of halves. */
 static double half_extent(const octree_box *bounds, int axis)
 {
     const double extent = bounds->max[axis] - bounds->min[axis];
@@ -58,7 +63,7 @@ octree_box inspect_world(const cloud *c)
     octree_box box = bounds_of(c);
     const double half = half_side(&box);
     for (int i = 0; i < 3; i++) {
-        /* Rounding is monotone: what is subtracted is not negative, so no face passes a point. */
+        /* The slack is not negative and rounding is monotone, so no face passes a point. */
         const double slack = fmax(half - half_extent(&box, i), 0);
         box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
         box.max[i] = fmin(box.max[i] + slack, DBL_MAX);
@@ -66,7 +71,6 @@ octree_box inspect_world(const cloud *c)
     return box;
 }
 
-/* All points in one go; refusals are counted by their statuses. */
 static octree_status insert_all(const cloud *c, inspection *result)
 {
     octree_point *points = malloc(c->count * sizeof *points);
@@ -103,4 +107,240 @@ void inspect_release(inspection *i)
 {
     octree_destroy(i->tree);
     i->tree = NULL;
+}
+
+/* ---- Statistics ----------------------------------------------------------------------------------------- */
+
+/* Leaves with `from` to `to` points, or at that depth. */
+typedef struct histogram_row {
+    size_t from, to, leaves;
+} histogram_row;
+
+/* Leaves by the number of their points: row 0 counts empty leaves, row r those of 2^(r-1) to 2^r - 1 points. */
+#define OCCUPANCY_ROWS 34
+
+static octree_walk_order count_leaf(const octree_node *node, void *context)
+{
+    histogram_row *rows = context;
+    unsigned row = 0;
+    for (size_t count = node->count; count; count >>= 1)
+        row++;
+    rows[row].leaves += node->leaf;
+    return OCTREE_WALK_ON;
+}
+
+/* Fill `rows` with those that have leaves, and return their number. */
+static size_t count_occupancy(const octree *tree, histogram_row rows[OCCUPANCY_ROWS])
+{
+    size_t used = 0;
+    for (unsigned i = 0; i < OCCUPANCY_ROWS; i++)
+        rows[i] = (histogram_row){i ? (size_t)1 << (i - 1) : 0, i ? ((size_t)1 << i) - 1 : 0, 0};
+    octree_walk(tree, count_leaf, rows);
+    for (unsigned i = 0; i < OCCUPANCY_ROWS; i++)
+        if (rows[i].leaves)
+            rows[used++] = rows[i];
+    return used;
+}
+
+static void print_histogram(FILE *out, const char *title, const histogram_row *rows, size_t count)
+{
+    static const char bar[] = "########################################";
+    const size_t longest = sizeof bar - 1;
+    size_t largest = 1;
+    for (size_t i = 0; i < count; i++)
+        largest = rows[i].leaves > largest ? rows[i].leaves : largest;
+    fprintf(out, "%s\n", title);
+    for (size_t i = 0; i < count; i++) {
+        char span[48];
+        int length = snprintf(span, sizeof span, "%zu", rows[i].from);
+        if (rows[i].from < rows[i].to)
+            snprintf(span + length, sizeof span - (size_t)length, "-%zu", rows[i].to);
+        length = (int)((rows[i].leaves * longest + largest - 1) / largest);
+        fprintf(out, "  %10s  %10zu  %.*s\n", span, rows[i].leaves, length, bar);
+    }
+}
+
+static void print_histograms(FILE *out, const octree *tree, const octree_stats *stats)
+{
+    histogram_row depths[OCTREE_MAX_DEPTH + 1], occupancy[OCCUPANCY_ROWS];
+    for (unsigned depth = 0; depth <= stats->depth; depth++)
+        depths[depth] = (histogram_row){depth, depth, stats->leaves_at_depth[depth]};
+    print_histogram(out, "leaves by depth", depths, stats->depth + 1);
+    print_histogram(out, "leaves by points", occupancy, count_occupancy(tree, occupancy));
+}
+
+static void print_position(FILE *out, const char *name, const double position[3])
+{
+    char text[NUMBER_TEXT];
+    fprintf(out, "%s", name);
+    for (int i = 0; i < 3; i++) {
+        number_print(position[i], text);
+        fprintf(out, " %s", text);
+    }
+}
+
+static void print_box(FILE *out, const char *name, const octree_box *box)
+{
+    print_position(out, name, box->min);
+    print_position(out, "  to ", box->max);
+    fputc('\n', out);
+}
+
+static void print_statistics(const inspection *i, const octree_stats *stats, const char *name, FILE *out)
+{
+    const octree_def def = octree_definition(i->tree);
+    fprintf(out, "%s\n", name);
+    fprintf(out, "  points    %zu in the file, %zu in the tree, %zu refused, %zu outside the world\n", i->points,
+            stats->points, i->refused, i->outside);
+    if (i->skipped)
+        fprintf(out, "  skipped   %zu without finite coordinates\n", i->skipped);
+    print_box(out, "  world    ", &def.world);
+    fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
+    fprintf(out, "  nodes     %zu, %zu of them leaves; deepest %u; fullest leaf %zu point%s\n", stats->nodes,
+            stats->leaves, stats->depth, stats->largest_leaf, plural(stats->largest_leaf));
+    fprintf(out, "  memory    %zu bytes, %.1f a point\n", stats->memory,
+            stats->points ? (double)stats->memory / (double)stats->points : 0.0);
+    print_histograms(out, i->tree, stats);
+}
+
+static void write_occupancy(json_writer *w, const octree *tree)
+{
+    histogram_row rows[OCCUPANCY_ROWS];
+    const size_t count = count_occupancy(tree, rows);
+    json_write_key(w, "leaves_by_points");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < count; i++) {
+        json_write_begin_object(w);
+        json_member_integer(w, "from", rows[i].from);
+        json_member_integer(w, "to", rows[i].to);
+        json_member_integer(w, "leaves", rows[i].leaves);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+static void write_depths(json_writer *w, const char *key, const size_t *counts, unsigned depth)
+{
+    json_write_key(w, key);
+    json_write_begin_array(w);
+    for (unsigned i = 0; i <= depth; i++)
+        json_write_integer(w, counts[i]);
+    json_write_end_array(w);
+}
+
+static void write_statistics(const inspection *i, const octree_stats *stats, const char *name, FILE *out)
+{
+    const octree_def def = octree_definition(i->tree);
+    json_writer writer = {.out = out}, *w = &writer;
+    json_write_begin_object(w);
+    json_write_key(w, "cloud");
+    json_write_string(w, name);
+    json_member_integer(w, "points", i->points);
+    json_member_integer(w, "skipped", i->skipped);
+    json_member_integer(w, "refused", i->refused);
+    json_member_integer(w, "outside", i->outside);
+    json_member_integer(w, "stored", stats->points);
+    json_member_box(w, "world", &def.world);
+    json_member_integer(w, "capacity", def.leaf_capacity);
+    json_member_integer(w, "max_depth", def.max_depth);
+    json_member_integer(w, "nodes", stats->nodes);
+    json_member_integer(w, "leaves", stats->leaves);
+    json_member_integer(w, "depth", stats->depth);
+    json_member_integer(w, "largest_leaf", stats->largest_leaf);
+    json_member_integer(w, "memory", stats->memory);
+    write_depths(w, "nodes_by_depth", stats->nodes_at_depth, stats->depth);
+    write_depths(w, "leaves_by_depth", stats->leaves_at_depth, stats->depth);
+    write_occupancy(w, i->tree);
+    json_write_end_object(w);
+    json_write_end_line(w);
+}
+
+void inspect_print(const inspection *i, const char *name, bool json, FILE *out)
+{
+    octree_stats stats;
+    octree_statistics(i->tree, &stats);
+    (json ? write_statistics : print_statistics)(i, &stats, name, out);
+}
+
+/* ---- Nodes -------------------------------------------------------------------------------------------------- */
+
+static void print_node(const octree_node *node, const char *name, FILE *out)
+{
+    char address[OCTREE_ADDRESS_TEXT];
+    fprintf(out, "%s\n", name);
+    fprintf(out, "%s: %s of %zu points at depth %u\n", octree_address_format(node->address, address),
+            node->leaf ? "leaf" : "inner node", node->count, node->depth);
+    print_box(out, "  box", &node->box);
+    for (size_t i = 0; node->leaf && i < node->count; i++) {
+        fprintf(out, "  %" PRIu64, node->points[i].id);
+        print_position(out, ":", node->points[i].position);
+        fputc('\n', out);
+    }
+}
+
+static void write_node(const octree_node *node, const char *name, FILE *out)
+{
+    char address[OCTREE_ADDRESS_TEXT];
+    json_writer writer = {.out = out}, *w = &writer;
+    json_write_begin_object(w);
+    json_write_key(w, "cloud");
+    json_write_string(w, name);
+    json_write_key(w, "node");
+    json_write_string(w, octree_address_format(node->address, address));
+    json_member_integer(w, "depth", node->depth);
+    json_write_key(w, "leaf");
+    json_write_bool(w, node->leaf);
+    json_member_integer(w, "count", node->count);
+    json_member_box(w, "box", &node->box);
+    json_write_key(w, "points");
+    json_write_begin_array(w);
+    for (size_t i = 0; node->leaf && i < node->count; i++) {
+        json_write_begin_object(w);
+        json_write_key(w, "id");
+        json_write_integer(w, node->points[i].id);
+        json_write_key(w, "position");
+        json_write_numbers(w, node->points[i].position, 3);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+    json_write_end_object(w);
+    json_write_end_line(w);
+}
+
+bool inspect_find_node(const inspection *i, const char *address, octree_node *node, octreel_error *error)
+{
+    octree_address parsed;
+    if (!octree_address_parse(address, &parsed))
+        return error_set(
+            error, "\"%s\" is not a node's address; it is octants from the root down, as in 0/3/7, or root", address);
+    return octree_node_at(i->tree, parsed, node) == OCTREE_OK ||
+           error_set(error, "there is no node %s in this tree", address);
+}
+
+void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out)
+{
+    (json ? write_node : print_node)(node, name, out);
+}
+
+static octree_walk_order write_row(const octree_node *node, void *context)
+{
+    FILE *out = context;
+    char text[OCTREE_ADDRESS_TEXT];
+    fprintf(out, "%s,%u,%d,%zu", octree_address_format(node->address, text), node->depth, node->leaf, node->count);
+    for (int i = 0; i < 6; i++) {
+        number_print(i < 3 ? node->box.min[i] : node->box.max[i - 3], text);
+        fprintf(out, ",%s", text);
+    }
+    fputc('\n', out);
+    return ferror(out) ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+bool inspect_write_nodes(const inspection *i, const char *path, octreel_error *error)
+{
+    file_writer file;
+    if (!file_writer_open(&file, path, error))
+        return false;
+    fputs("address,depth,leaf,count,min_x,min_y,min_z,max_x,max_y,max_z\n", file.stream);
+    octree_walk(i->tree, write_row, file.stream);
+    return file_writer_close(&file, error);
 }

@@ -299,32 +299,6 @@ static void picture_is_whole_and_traced(void **state)
     image_release(&frame);
 }
 
-static void bad_clouds_are_refused_with_file_and_reason(void **state)
-{
-    static const char *const rows[][2] = {
-        {"", "cloud: "},
-        {"# nothing\n\n", "cloud: "},
-        {"1 2\n", "cloud:1: "},
-        {"1 2 3\n4 5\n", "cloud:2: "},
-        {"1 2 3\n4 five 6\n", "cloud:2: "},
-        {"1 2 3\n4 1e999 6\n", "cloud:2: "},
-        {"1 2 3\nnan 5 6\n", "cloud:2: "},
-        {"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
-         "1 2 3\n",
-         "cloud"},
-        {"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 9999999999\nHEIGHT 9999999999\n"
-         "POINTS 99999999999999999\nDATA ascii\n1 2 3\n",
-         "cloud"},
-    };
-    const place points = place_in(*state, "cloud"), picture = place_in(*state, "tree.png");
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        file_write_text(points.path, rows[i][0]);
-        command_result result = run_octreel(NULL, "inspect %s -o %s", points.path, picture.path);
-        assert_trouble(&result, rows[i][1]);
-        assert_false(file_exists(picture.path));
-    }
-}
-
 static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
@@ -351,7 +325,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--region 9,9,9,10,10,10", "outside the world"},
         {"--depth 2:5", "--depths"},
         {"--depth 3 --depths 4", "the tree ends at depth 3"},
-        {"second.txt", "one file"},
+        {"second.txt third.txt", "inspect takes one cloud, not also \"second.txt\"; for several: for f in *.pcd; do "},
         {"--node root --node 3", "--node names one node, not root and 3"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
@@ -414,22 +388,6 @@ static void clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures(void
     }
 }
 
-static void clouds_and_places_that_are_none_are_refused_in_one_sentence(void **state)
-{
-    const temp_folder *own = *state;
-    const place points = place_in(own, "points.txt"), absent = place_in(own, "absent");
-    file_write_text(points.path, "1 2 3\n");
-    command_result result = run_octreel(NULL, "inspect %s", absent.path);
-    assert_trouble(&result, absent.path);
-    result = run_octreel(NULL, "inspect %s", own->name);
-    assert_trouble(&result, own->name);
-    result = run_octreel(NULL, "inspect %s -o %s/tree.png", points.path, absent.path);
-    assert_trouble(&result, absent.path);
-    result = run_octreel(NULL, "inspect %s --nodes %s/nodes.csv", points.path, absent.path);
-    assert_trouble(&result, absent.path);
-    assert_int_equal(temp_folder_count(own), 1);
-}
-
 /* A rename would put a picture in the place of a pipe, or of a device. */
 static void what_is_no_file_is_not_replaced_by_a_picture(void **state)
 {
@@ -470,11 +428,9 @@ int main(void)
         IN_FOLDER(formats_of_the_same_points_say_the_same),
         IN_FOLDER(a_million_equal_points_are_refused_or_one_leaf),
         IN_FOLDER(picture_is_whole_and_traced),
-        IN_FOLDER(bad_clouds_are_refused_with_file_and_reason),
         IN_FOLDER(options_that_do_not_fit_are_refused_in_one_sentence),
         IN_FOLDER(what_is_said_of_a_picture_is_refused_without_one),
         IN_FOLDER(clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures),
-        IN_FOLDER(clouds_and_places_that_are_none_are_refused_in_one_sentence),
         IN_FOLDER(what_is_no_file_is_not_replaced_by_a_picture),
         IN_FOLDER(statistics_need_no_renderer),
     };

@@ -1,12 +1,9 @@
-/* test_cli_names.c - names on the command line: empty ones, those that a terminal would obey, and two that are alike.
- */
+/* test_cli_names.c - names on the command line: empty ones, and those that a terminal would obey. */
 #include <string.h>
-#include <sys/stat.h>
 
 #include "commands.h"
 #include "fixture.h"
 #include "galleries.h"
-#include "tick_lines.h"
 
 static void an_empty_name_is_refused_in_one_sentence(void **state)
 {
@@ -19,7 +16,6 @@ static void an_empty_name_is_refused_in_one_sentence(void **state)
         {"digest ''", "digest takes a name"},
         {"digest a.png -o ''", "-o takes a name"},
         {"inspect ''", "inspect takes a name"},
-        {"inspect p.xyz ''", "inspect takes a name"},
         {"inspect p.xyz -o ''", "-o takes a name"},
         {"inspect p.xyz --nodes ''", "--nodes takes a name"},
         {"verify ''", "verify takes a name"},
@@ -65,30 +61,6 @@ static void control_characters_do_not_reach_the_terminal(void **state)
     assert_trouble(&result, "the name \"x?[31m?y.png\" has a character that a line cannot hold");
 }
 
-static void clouds_of_one_name_are_told_by_their_paths(void **state)
-{
-    static const char *const modes[] = {"", "--node root", "--nearest 1,2,3"};
-    const place sub = place_in(*state, "sub"), a = place_in(*state, "p.xyz"), b = place_in(*state, "sub/p.xyz");
-    const place other = place_in(*state, "q.xyz");
-    assert_int_equal(mkdir(sub.path, 0777), 0);
-    file_write_text(a.path, "1 2 3\n");
-    file_write_text(b.path, "4 5 6\n");
-    file_write_text(other.path, "7 8 9\n");
-    for (size_t i = 0; i < 3; i++) {
-        command_result result = run_octreel(NULL, "inspect %s %s %s --json %s", a.path, b.path, other.path, modes[i]);
-        const place *const paths[] = {&a, &b};
-        char named[1100];
-        assert_done(&result);
-        for (int cloud = 0; cloud < 2; cloud++) {
-            snprintf(named, sizeof named, "\"cloud\": \"%s\"", paths[cloud]->path);
-            if (!strstr(result.out, named))
-                fail_msg("%s does not say %s", result.out, named);
-        }
-        assert_non_null(strstr(result.out, "\"cloud\": \"q.xyz\""));
-        command_release(&result);
-    }
-}
-
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -96,7 +68,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(an_empty_name_is_refused_in_one_sentence),
         IN_FOLDER(control_characters_do_not_reach_the_terminal),
-        IN_FOLDER(clouds_of_one_name_are_told_by_their_paths),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,62 @@
+/* options.h - the values of options, and the options that all commands that draw share. */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include "draw.h"
+#include "image.h"
+
+#include <getopt.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Exit statuses. */
+enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
+
+/* Print "octreel: " and a sentence on stderr; returns EXIT_TROUBLE. */
+int trouble(const char *format, ...);
+
+/* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
+bool check_name(const char *option, const char *name);
+bool check_names(const char *command, char *const *names, int count);
+
+/* Read the value of an option. False, with the sentence printed, where `text` does not fit. */
+bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
+bool read_box(const char *option, const char *text, octree_box *box);                  /* six numbers, min <= max */
+bool read_rectangle(const char *option, const char *text, image_rectangle *rectangle); /* left, top, width, height */
+bool read_color(const char *option, const char *text, image_color *color);             /* RRGGBB or #RRGGBB */
+bool read_part(const char *option, const char *text, double *value);                   /* 0 to 1 */
+bool read_ticks(const char *text, uint64_t *first, uint64_t *last);                    /* A:B, A: or :B; first < last */
+
+/* The options of a view are the same for every command that draws. They are collected while the command line is read,
+ * and then become a view. */
+#define VIEW_OPTION 256 /* the first of getopt's numbers for them */
+#define VIEW_OPTIONS 16 /* at most */
+typedef struct view_options {
+    const char *values[VIEW_OPTIONS]; /* as they were typed; null: not given */
+} view_options;
+
+/* A command's own options, which end with a zeroed one, and behind them those of a view, for getopt_long. */
+#define COMMAND_OPTIONS 48
+void join_options(const struct option *own, struct option all[COMMAND_OPTIONS]);
+
+/* Take an option that getopt_long found; false when it is none of a view's. */
+bool take_view_option(view_options *given, int option);
+
+/* The name of the first of them that was given; null: none was. */
+const char *first_view_option(const view_options *given);
+
+/* Change a command's own default view to the one that was asked for; false, with the sentence said, when a value does
+ * not fit. */
+bool read_view(const view_options *given, view *v);
+
+/* The part of a --help text that those options share. */
+void print_view_options(FILE *out);
+
+/* Who draws: --context and --any-renderer, which every command that draws has among its own options. */
+enum { OPTION_CONTEXT = VIEW_OPTION - 2, OPTION_ANY_RENDERER };
+bool read_context(const char *text, renderer_choice *choice);
+bool check_renderer(const renderer_choice *choice); /* once all options are read */
+void print_renderer_options(FILE *out);
+
+#endif
