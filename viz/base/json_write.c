@@ -1,7 +1,7 @@
 /* json_write.c - see json_write.h. */
 #include "json_write.h"
 #include "number.h"
-#include "utf8.h"
+#include "text.h"
 
 #include <math.h>
 

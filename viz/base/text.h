@@ -1,8 +1,11 @@
-/* text.h - text printed into memory, text of others inside a markup language, and bytes as text. */
+/* text.h - text printed into memory, text of others made fit to be shown, also inside a markup language, words that
+ * count, and bytes as text. */
 #ifndef BASE_TEXT_H
 #define BASE_TEXT_H
 
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 /* A stream into memory. */
@@ -17,6 +20,18 @@ bool text_stream_begin(text_stream *s);
 /* *text becomes what was printed, which the caller frees; null where that is nothing. False where there was no memory.
  */
 bool text_stream_end(text_stream *s, char **text);
+
+/* U+FFFD, which stands for bytes that are no UTF-8. */
+#define UTF8_REPLACEMENT "\xef\xbf\xbd"
+
+/* The bytes of the character beyond ASCII at `at`, 0 when there is none. The final zero ends every character. */
+size_t utf8_length(const unsigned char *at);
+
+/* Put a question mark in the place of every byte that is not printable ASCII. Returns `text`. */
+char *make_printable(char *text);
+
+/* "s", or "" for 1. */
+const char *plural(uint64_t count);
 
 /* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
 #define ESCAPE_ROOM 16

@@ -1,6 +1,5 @@
 /* diff_words.c - see diff_words.h. */
 #include "diff_words.h"
-#include "plural.h"
 #include "text.h"
 
 #include <inttypes.h>

@@ -1,7 +1,7 @@
 /* digest_file.c - see digest_file.h. */
 #include "digest_file.h"
 #include "parallel.h"
-#include "printable.h"
+#include "text.h"
 #include "file.h"
 
 #include <inttypes.h>

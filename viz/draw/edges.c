@@ -3,7 +3,7 @@
  * tree's boxes come from the root down, and what lies on an edge of a parent is covered by the stretch before it. And
  * from one frame to the next a line keeps its edges, unless a box on it came or went. */
 #include "edges.h"
-#include "grow.h"
+#include "array.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +41,7 @@ static int compare_stretches(const void *a, const void *b)
 
 static bool make_room(edge_list *list, size_t count)
 {
-    edge *items = grow_to(list->items, list->count + count, &list->room, 256, sizeof *items);
+    edge *items = array_reserve(list->items, list->count + count, &list->room, sizeof *items);
     if (items)
         list->items = items;
     return items != NULL;
@@ -150,7 +150,7 @@ static bool is_covered(const stretch *it, const stretch *by)
 
 static bool append_stretch(stretch_list *all, const stretch *it)
 {
-    stretch *items = grow_by_one(all->items, all->count, &all->room, 1024, sizeof *items);
+    stretch *items = array_reserve(all->items, all->count + 1, &all->room, sizeof *items);
     if (!items)
         return false;
     all->items = items;

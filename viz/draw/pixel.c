@@ -1,7 +1,7 @@
 /* pixel.c - all elements that have to do with one pixel: the quads that may reach it are drawn one by one, by the same
  * rasteriser, and what each covers is read back. */
 #include "edge_boxes.h"
-#include "grow.h"
+#include "array.h"
 #include "paint.h"
 #include "rasterise.h"
 
@@ -46,7 +46,7 @@ static draw_touch *take_touch(probe *p, draw_kind kind, size_t index)
     draw_touch *found = find_touch(list, number);
     if (found)
         return found;
-    draw_touch *items = grow_by_one(list->items, list->count, &list->room, 16, sizeof *items);
+    draw_touch *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
     if (!items) {
         p->out_of_memory = true;
         return NULL;

@@ -1,6 +1,6 @@
 /* cause_words.c - see cause_words.h. */
 #include "cause_words.h"
-#include "plural.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <string.h>

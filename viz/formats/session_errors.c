@@ -1,6 +1,6 @@
 /* session_errors.c - the sentences of the session reader: file, line, place and reason. */
 #include "number.h"
-#include "printable.h"
+#include "text.h"
 #include "session_reader.h"
 
 #include <stdarg.h>

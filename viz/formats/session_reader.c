@@ -1,6 +1,6 @@
 /* session_reader.c - see session_reader.h: members, values of each type, memory. */
 #include "session_reader.h"
-#include "grow.h"
+#include "array.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -157,7 +157,7 @@ bool session_read_box(session_reader *reader, json_t *value, const json_place *a
 
 void *session_append(session_reader *reader, const json_place *at, session_list *list, size_t item_size)
 {
-    void *grown = grow_by_one(list->items, list->count, &list->capacity, 16, item_size);
+    void *grown = array_reserve(list->items, list->count + 1, &list->capacity, item_size);
     if (!grown) {
         session_fail(reader, at, "out of memory after %zu of them", list->count);
         return NULL;

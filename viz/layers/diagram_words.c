@@ -4,7 +4,7 @@
 #include "diagram_place.h"
 #include "layout.h"
 #include "number_text.h"
-#include "plural.h"
+#include "text.h"
 #include "text_space.h"
 
 #include <math.h>

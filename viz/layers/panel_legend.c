@@ -4,7 +4,7 @@
 #include "diagram_legend.h"
 #include "heat_layers.h"
 #include "panel_view.h"
-#include "plural.h"
+#include "text.h"
 #include "velocity_layer.h"
 
 #include <assert.h>

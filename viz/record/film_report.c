@@ -2,7 +2,7 @@
 #include "film_report.h"
 #include "film_commands.h"
 #include "json_write.h"
-#include "plural.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <string.h>

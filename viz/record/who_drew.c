@@ -1,7 +1,7 @@
 /* who_drew.c - see who_drew.h. */
 #include "who_drew.h"
 #include "folder.h"
-#include "printable.h"
+#include "text.h"
 #include "file.h"
 
 #include <jansson.h>

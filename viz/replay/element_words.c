@@ -2,7 +2,7 @@
 #include "element_words.h"
 #include "element_ids.h"
 #include "number.h"
-#include "plural.h"
+#include "text.h"
 #include "velocity_layer.h"
 
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 #include "inspect.h"
 #include "json_write.h"
 #include "number.h"
-#include "plural.h"
+#include "text.h"
 
 #include <float.h>
 #include <inttypes.h>

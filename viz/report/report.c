@@ -1,7 +1,6 @@
 /* report.c - a comparison for people. See report.h. */
 #include "report.h"
 #include "diff_words.h"
-#include "plural.h"
 #include "text.h"
 
 #include <inttypes.h>

@@ -1,6 +1,6 @@
 /* scene.c - see scene.h. */
 #include "scene.h"
-#include "grow.h"
+#include "array.h"
 #include "octree/digest.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ void scene_release(scene *s)
 /* Room for so many items, or null: then the scene says so. */
 static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
 {
-    void *grown = grow_to(items, count, room, 64, size);
+    void *grown = array_reserve(items, count, room, size);
     if (!grown)
         s->out_of_memory = true;
     return grown;

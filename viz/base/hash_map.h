@@ -1,0 +1,68 @@
+/* hash_map.h - finds the items of an array by their keys. The map holds their places alone, in a table with open
+ * addressing that is at most half full; items begin with their keys, and are never removed one by one.
+ *
+ * With `struct cell { uint64_t node; ... } *cells`:
+ *   static const hash_map_keys by_node = {sizeof(struct cell), hash_map_hash_id, hash_map_same_id};
+ *   uint32_t place = hash_map_find(&map, &by_node, cells, &node);
+ *   if (place == HASH_MAP_NONE) { ... append it to cells ...; hash_map_add(&map, &by_node, cells); }
+ */
+#ifndef BASE_HASH_MAP_H
+#define BASE_HASH_MAP_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define HASH_MAP_NONE UINT32_MAX
+
+/* A zeroed one is empty. */
+typedef struct hash_map {
+    size_t count;    /* the first items of the array that are in the map */
+    size_t size;     /* of the table: a power of two, or 0 */
+    uint32_t *table; /* 1 + an item's place; 0 is free */
+} hash_map;
+
+/* What the items are. A pointer to an item is one to its key. */
+typedef struct hash_map_keys {
+    size_t item_size;
+    uint64_t (*hash)(const void *key); /* its low bits count */
+    bool (*same)(const void *a, const void *b);
+} hash_map_keys;
+
+/* Keys of 64 bits. */
+static inline uint64_t hash_map_hash_id(const void *key)
+{
+    const uint64_t mixed = *(const uint64_t *)key * UINT64_C(0x9e3779b97f4a7c15);
+    return mixed ^ mixed >> 32;
+}
+
+static inline bool hash_map_same_id(const void *a, const void *b)
+{
+    return *(const uint64_t *)a == *(const uint64_t *)b;
+}
+
+/* The place of the item with a key; HASH_MAP_NONE when there is none. Inline: with constant `keys` nothing is called.
+ */
+static inline uint32_t hash_map_find(const hash_map *map, const hash_map_keys *keys, const void *items, const void *key)
+{
+    if (map->size == 0)
+        return HASH_MAP_NONE;
+    size_t slot = (size_t)keys->hash(key) & (map->size - 1);
+    for (; map->table[slot]; slot = (slot + 1) & (map->size - 1)) {
+        const size_t place = map->table[slot] - 1;
+        if (keys->same((const char *)items + place * keys->item_size, key))
+            return (uint32_t)place;
+    }
+    return HASH_MAP_NONE;
+}
+
+/* Add the next item of the array, that at map->count, whose key is not in the map. False when there is no memory: the
+ * map is then unchanged. */
+bool hash_map_add(hash_map *map, const hash_map_keys *keys, const void *items);
+
+/* Forget all items, and keep the table. */
+void hash_map_clear(hash_map *map);
+
+void hash_map_release(hash_map *map);
+
+#endif
