@@ -1,6 +1,6 @@
 /* game.c - the game loop: one tick after another, in the order that game.h states. */
 #include "float_mode.h"
-#include "game_parts.h"
+#include "game_state.h"
 
 #include <string.h>
 

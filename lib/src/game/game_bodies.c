@@ -1,5 +1,5 @@
 /* game_bodies.c - the first two parts of a tick: edits, and points that move by velocity. */
-#include "game_parts.h"
+#include "game_state.h"
 
 #include <string.h>
 

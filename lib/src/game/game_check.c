@@ -1,5 +1,5 @@
 /* game_check.c - what a session must be before it is played. */
-#include "game_parts.h"
+#include "game_state.h"
 #include "search.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  * Where it is swept, points at rest are asked of the tree, and bodies that this tick has moved are tested one by one:
  * their way is relative to the player's, and the tree knows its end alone.
  */
-#include "game_parts.h"
+#include "game_state.h"
 #include "sweep.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* game_finish.c - how a tick ends: its queries, and the tick as the caller sees it. */
-#include "game_parts.h"
+#include "game_state.h"
 
 static void publish(octree_game *game)
 {

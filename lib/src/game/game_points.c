@@ -1,5 +1,5 @@
 /* game_points.c - the points that a tick's queries find, collected and sorted. */
-#include "game_parts.h"
+#include "game_state.h"
 
 #include <stdlib.h>
 

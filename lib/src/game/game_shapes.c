@@ -1,5 +1,5 @@
 /* game_shapes.c - what a tick shows that is not the game's own. */
-#include "game_parts.h"
+#include "game_state.h"
 
 const char *octree_shape_name(octree_shape_kind kind)
 {

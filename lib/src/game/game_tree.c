@@ -1,5 +1,5 @@
 /* game_tree.c - a game's changes to its tree, of which the survey is told, and what it then says of them. */
-#include "game_parts.h"
+#include "game_state.h"
 #include "node_set.h"
 
 static void touch(octree_game *game, const double place[3])

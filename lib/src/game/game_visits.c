@@ -1,7 +1,7 @@
 /* game_visits.c - what a tick's questions met: the collision test's and the queries' nodes, and the leaves of what was
  * found.
  */
-#include "game_parts.h"
+#include "game_state.h"
 #include "node_set.h"
 #include "tree.h"
 

@@ -1,6 +1,6 @@
 /* queries.c - what can be asked of a tree: the table of kinds, checking, asking, and the queries of a tick.
  */
-#include "game_parts.h"
+#include "game_state.h"
 #include "search.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
  * increments, and the first that is out of reach ends its node.
  */
 #include "nearest.h"
-#include "best.h"
+#include "neighbor_heap.h"
 #include "leaf.h"
 #include "search.h"
 

@@ -1,5 +1,5 @@
 /* best.c - see best.h. */
-#include "best.h"
+#include "neighbor_heap.h"
 #include "point.h"
 #include "search.h"
 

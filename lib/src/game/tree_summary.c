@@ -1,5 +1,5 @@
 /* survey.c - see survey.h. */
-#include "survey.h"
+#include "tree_summary.h"
 #include "node_count.h"
 #include "node_set.h"
 #include "tree_digest.h"

@@ -1,5 +1,5 @@
 /* game_load.c - the bodies that a session begins with, into the tree by one restructuring. */
-#include "game_parts.h"
+#include "game_state.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
  * The test asks the tree before the step is made, about the step's end and without the player's own point: what it
  * finds is what a step that is made and taken back would have met, and nothing has to be undone.
  */
-#include "game_parts.h"
+#include "game_state.h"
 #include "tree.h"
 
 #include <string.h>

@@ -3,7 +3,7 @@
 #define OCTREE_GAME_PARTS_H
 
 #include "bodies.h"
-#include "survey.h"
+#include "tree_summary.h"
 
 struct octree_game {
     const octree_session *session;
