@@ -1,12 +1,14 @@
 /* test_replay.c - sessions replay to the same ticks.jsonl and the same scenes on every machine and compiler: to the
- * digests that stand here. tests/viz/same_ticks_everywhere runs this under the compilers at hand, with FMA and without.
+ * digests in replay_digests.txt, a line a tick. tests/viz/same_ticks_everywhere runs this under the compilers at hand,
+ * with FMA and without.
  *
- * What ticks or scenes say may change on purpose; then the digests here change with it. The tree's speed, its layout in
- * memory, a compiler or a processor must not change them.
+ * What ticks or scenes say may change on purpose: the target replay-update (test_replay --update) writes that file
+ * anew. The tree's speed, its layout in memory, a compiler or a processor must not change a digest.
  */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "fixture.h"
 #include "game_fixture.h"
@@ -16,89 +18,40 @@
 #include "tick_scene.h"
 #include "ticks_write.h"
 
-/* What a whole session came to. */
-typedef struct replay {
-    uint64_t ticks;  /* of the bytes of ticks.jsonl, but for what it says of frames */
-    uint64_t scenes; /* of the scene digests of all ticks, from every camera */
-} replay;
+/* What a tick has a digest of each: its line, and from every camera its view and the arrays of its scene. */
+enum { LINE, VIEW, BOXES, SEGMENTS, MARKERS, PANELS, LABELS, COLUMNS };
+static const char *const columns[COLUMNS] = {"line", "view", "boxes", "segments", "markers", "panels", "labels"};
 
-static void add_scenes(scene *s, const octree_game *game, uint64_t *all)
-{
-    for (int i = 0; i < CAMERA_COUNT; i++) {
-        view v = view_default();
-        v.camera = (view_camera)i;
-        assert_true(tick_scene_build(s, &v, game, NULL));
-        *all = octree_digest_word(*all, scene_digest(s));
-    }
-}
+typedef struct row {
+    char session[16];
+    uint64_t tick;
+    uint32_t digests[COLUMNS];
+} row;
 
-static void add_line(FILE *out, const octree_game *game)
-{
-    tick_write(out, octree_game_tick(game), &(tick_extras){.frame = NULL});
-}
+/* ---- Sessions ----------------------------------------------------------------------------------------------- */
 
-static replay play(const octree_session *session)
+static octree_session random_session_of_all_kinds(void)
 {
-    replay r = {OCTREE_DIGEST_START, OCTREE_DIGEST_START};
-    char *text = NULL;
-    size_t size = 0;
-    scene s = {0};
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    octree_game *game = start_game(session);
-    for (;;) {
-        add_scenes(&s, game, &r.scenes);
-        add_line(out, game);
-        if (octree_game_over(game))
-            break;
-        assert_int_equal(octree_game_advance(game), OCTREE_OK);
-    }
-    assert_int_equal(fclose(out), 0);
-    r.ticks = octree_digest_bytes(r.ticks, text, size);
-    octree_game_destroy(game);
-    scene_release(&s);
-    free(text);
-    return r;
-}
-
-static void assert_replays(const octree_session *session, replay pinned)
-{
-    const replay r = play(session);
-    if (r.ticks != pinned.ticks || r.scenes != pinned.scenes)
-        fail_msg("ticks 0x%016" PRIx64 " and scenes 0x%016" PRIx64 " are not those that are pinned", r.ticks, r.scenes);
-}
-
-static void the_default_session_replays_to_its_digests(void **state)
-{
-    (void)state;
-    const octree_session session = octree_session_default();
-    assert_replays(&session, (replay){UINT64_C(0x1e9b8f8e0f49e676), UINT64_C(0x122bff0b757f3cf0)});
-}
-
-static void a_random_session_replays_to_its_digests(void **state)
-{
-    (void)state;
     static random_session made;
     random_session_full(&made, 2);
-    assert_replays(&made.session, (replay){UINT64_C(0x6ac583f9fa7da02a), UINT64_C(0x7cfc26bb35513528)});
+    return made.session;
 }
 
 enum { BODIES = 60, TICKS = 120 };
 
 /* Bodies that all move, in a world and with velocities that are no round numbers: nearly every operation rounds, and
  * one that was fused with another would show. */
-static void a_session_that_rounds_everywhere_replays_to_its_digests(void **state)
+static octree_session session_that_rounds(void)
 {
-    (void)state;
     static octree_body bodies[BODIES];
     static double positions[BODIES][3];
+    static octree_query queries[2];
     uint64_t random = 5;
-    octree_query queries[2] = {
-        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .at_player = true, .box = cube(-21.7, 13.3)},
-        {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST, .target = {0.1, 31.7, -11.3}},
-    };
     octree_session session = {.tree =
                                   define((octree_box){{-33.3, -27.1, -0.7}, {41.9, 36.7, 55.1}}, 2, 9, OCTREE_GROW)};
+    queries[0] = (octree_query){
+        .tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RANGE, .at_player = true, .box = cube(-21.7, 13.3)};
+    queries[1] = (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_NEAREST, .target = {0.1, 31.7, -11.3}};
     assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, 7, &session.tree.world, BODIES, positions), OCTREE_OK);
     for (size_t i = 0; i < BODIES; i++) {
         bodies[i].id = i;
@@ -114,15 +67,185 @@ static void a_session_that_rounds_everywhere_replays_to_its_digests(void **state
     session.ticks = TICKS;
     session.queries = queries;
     session.query_count = 2;
-    assert_replays(&session, (replay){UINT64_C(0xc7061f796fe89348), UINT64_C(0x6ebc4e4729ba77de)});
+    return session;
 }
 
-int main(void)
+static const struct {
+    const char *name;
+    octree_session (*make)(void);
+} sessions[] = {
+    {"default", octree_session_default},
+    {"random", random_session_of_all_kinds},
+    {"rounding", session_that_rounds},
+};
+
+enum { SESSIONS = sizeof sessions / sizeof sessions[0] };
+
+/* ---- Digests ------------------------------------------------------------------------------------------------ */
+
+/* Of a scene with one of its arrays alone; with none of them it is that of its view and camera. */
+static uint64_t digest_alone(const scene *s, int column)
+{
+    scene alone = *s;
+    alone.boxes.count = column == BOXES ? s->boxes.count : 0;
+    alone.segments.count = column == SEGMENTS ? s->segments.count : 0;
+    alone.markers.count = column == MARKERS ? s->markers.count : 0;
+    alone.panels.count = column == PANELS ? s->panels.count : 0;
+    alone.labels.count = column == LABELS ? s->labels.count : 0;
+    return scene_digest(&alone);
+}
+
+static uint64_t digest_line(const octree_game *game)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    tick_write(out, octree_game_tick(game), &(tick_extras){.frame = NULL});
+    assert_int_equal(fclose(out), 0);
+    const uint64_t digest = octree_digest_bytes(OCTREE_DIGEST_START, text, size);
+    free(text);
+    return digest;
+}
+
+static row digest_tick(const char *session, const octree_game *game, scene *s)
+{
+    uint64_t digests[COLUMNS];
+    row r = {.tick = octree_game_tick(game)->number};
+    snprintf(r.session, sizeof r.session, "%s", session);
+    for (int i = 0; i < COLUMNS; i++)
+        digests[i] = OCTREE_DIGEST_START;
+    digests[LINE] = digest_line(game);
+    for (int i = 0; i < CAMERA_COUNT; i++) {
+        view v = view_default();
+        v.camera = (view_camera)i;
+        assert_true(tick_scene_build(s, &v, game, NULL));
+        for (int column = VIEW; column < COLUMNS; column++)
+            digests[column] = octree_digest_word(digests[column], digest_alone(s, column));
+    }
+    for (int i = 0; i < COLUMNS; i++)
+        r.digests[i] = (uint32_t)digests[i];
+    return r;
+}
+
+/* Play a session and hand over the row of each tick. */
+static void play(int which, void (*handle)(const row *r, void *context), void *context)
+{
+    const octree_session session = sessions[which].make();
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    for (bool over = false; !over;) {
+        const row r = digest_tick(sessions[which].name, game, &s);
+        handle(&r, context);
+        over = octree_game_over(game);
+        if (!over)
+            assert_int_equal(octree_game_advance(game), OCTREE_OK);
+    }
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
+/* ---- The file ----------------------------------------------------------------------------------------------- */
+
+static void write_row(const row *r, void *context)
+{
+    FILE *out = context;
+    fprintf(out, "%s %" PRIu64, r->session, r->tick);
+    for (int i = 0; i < COLUMNS; i++)
+        fprintf(out, " %08" PRIx32, r->digests[i]);
+    fputc('\n', out);
+}
+
+static int update(void)
+{
+    FILE *out = fopen(REPLAY_DIGESTS, "w");
+    if (!out)
+        return EXIT_FAILURE;
+    fputs("# session tick", out);
+    for (int i = 0; i < COLUMNS; i++)
+        fprintf(out, " %s", columns[i]);
+    fputs("; written by the target replay-update\n", out);
+    for (int i = 0; i < SESSIONS; i++)
+        play(i, write_row, out);
+    return fclose(out) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+/* False at the end of the file. */
+static bool read_row(FILE *in, row *r)
+{
+    if (fscanf(in, " %15s %" SCNu64, r->session, &r->tick) != 2)
+        return false;
+    for (int i = 0; i < COLUMNS; i++)
+        assert_int_equal(fscanf(in, "%8" SCNx32, &r->digests[i]), 1);
+    return true;
+}
+
+/* The file, from the first row of a session on. */
+static FILE *open_rows(const char *session)
+{
+    FILE *in = fopen(REPLAY_DIGESTS, "r");
+    row r;
+    assert_non_null(in);
+    assert_int_equal(fscanf(in, "#%*[^\n]"), 0);
+    for (long start = ftell(in); read_row(in, &r); start = ftell(in)) {
+        if (strcmp(r.session, session) == 0) {
+            fseek(in, start, SEEK_SET);
+            return in;
+        }
+    }
+    fail_msg("%s has no session %s", REPLAY_DIGESTS, session);
+    return in;
+}
+
+static void assert_row(const row *r, void *context)
+{
+    row pinned;
+    if (!read_row(context, &pinned) || strcmp(pinned.session, r->session) != 0 || pinned.tick != r->tick)
+        fail_msg("session %s has a tick %" PRIu64 ", which is not pinned", r->session, r->tick);
+    for (int i = 0; i < COLUMNS; i++)
+        if (r->digests[i] != pinned.digests[i])
+            fail_msg("session %s: tick %" PRIu64
+                     " is the first that differs from what is pinned, in its %s; if that is "
+                     "meant: cmake --build BUILD --target replay-update",
+                     r->session, r->tick, columns[i]);
+}
+
+static void assert_replays(int which)
+{
+    row behind;
+    FILE *in = open_rows(sessions[which].name);
+    play(which, assert_row, in);
+    if (read_row(in, &behind) && strcmp(behind.session, sessions[which].name) == 0)
+        fail_msg("session %s ends before tick %" PRIu64 ", which is pinned", behind.session, behind.tick);
+    fclose(in);
+}
+
+static void the_default_session_replays_to_its_digests(void **state)
+{
+    (void)state;
+    assert_replays(0);
+}
+
+static void a_random_session_replays_to_its_digests(void **state)
+{
+    (void)state;
+    assert_replays(1);
+}
+
+static void a_session_that_rounds_everywhere_replays_to_its_digests(void **state)
+{
+    (void)state;
+    assert_replays(2);
+}
+
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_default_session_replays_to_its_digests),
         cmocka_unit_test(a_random_session_replays_to_its_digests),
         cmocka_unit_test(a_session_that_rounds_everywhere_replays_to_its_digests),
     };
+    if (argc == 2 && strcmp(argv[1], "--update") == 0)
+        return update();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
