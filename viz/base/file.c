@@ -151,6 +151,33 @@ bool file_copy_to(const char *from, const char *to, octreel_error *error)
 
 /* ---- Told apart --------------------------------------------------------------------------------------------- */
 
+static bool same_streams(FILE *a, FILE *b)
+{
+    char from_a[1 << 14], from_b[1 << 14];
+    for (;;) {
+        const size_t size = fread(from_a, 1, sizeof from_a, a);
+        if (size != fread(from_b, 1, sizeof from_b, b) || memcmp(from_a, from_b, size) != 0)
+            return false;
+        if (size < sizeof from_a)
+            return !ferror(a) && !ferror(b);
+    }
+}
+
+bool same_bytes(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    if (stat(a, &of_a) != 0 || stat(b, &of_b) != 0 || !S_ISREG(of_a.st_mode) || !S_ISREG(of_b.st_mode) ||
+        of_a.st_size != of_b.st_size)
+        return false;
+    FILE *file_a = fopen(a, "rb"), *file_b = fopen(b, "rb");
+    const bool same = file_a && file_b && same_streams(file_a, file_b);
+    if (file_a)
+        fclose(file_a);
+    if (file_b)
+        fclose(file_b);
+    return same;
+}
+
 bool same_file(const struct stat *a, const struct stat *b)
 {
     return a->st_dev == b->st_dev && a->st_ino == b->st_ino;

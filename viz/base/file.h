@@ -50,6 +50,9 @@ bool output_spares(const output_file *output, const char *input, octreel_error *
 /* False, with a sentence, where two outputs are one file, be it there already or not. */
 bool outputs_apart(const output_file *outputs, size_t count, octreel_error *error);
 
+/* Whether both are regular files with the same bytes. */
+bool same_bytes(const char *a, const char *b);
+
 /* Whether both are one file; and the folder in which a path lies. */
 bool same_file(const struct stat *a, const struct stat *b);
 bool stat_parent(const char *path, struct stat *status);

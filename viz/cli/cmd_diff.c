@@ -21,7 +21,8 @@ static const char help[] =
     "                        same, to 1: pixelmatch's and odiff's threshold, which is 0.1 there by default\n"
     "      --antialias       pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)\n"
     "      --ignore X,Y,W,H  a rectangle of pixels; may be given again\n"
-    "      --ignore-layer text  in recordings: the panel and all letters, wherever they are in each frame\n\n"
+    "      --ignore-layer LIST  in recordings: what these layers show, where it is on top in either frame, as in\n"
+    "                        nodes,points; text is the panel and all letters; octreel record --help lists them\n\n"
     "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from it in\n"
     "each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone differs. The\n"
     "verdict is about the frames, whatever their sessions are.\n"
@@ -29,8 +30,9 @@ static const char help[] =
     "                        for none\n\n"
     "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
     "  -o, --output FOLDER   leave evidence: report.html, a page that holds all it shows, and of each frame that\n"
-    "                        differs NAME.expected.png, NAME.actual.png, NAME.difference.png (what counts glows, be\n"
-    "                        it by one level; what is forgiven is blue) and NAME.side.png, all three together\n"
+    "                        differs NAME.expected.png, NAME.actual.png and NAME.difference.png (what counts glows, "
+    "be\n"
+    "                        it by one level; what is forgiven is blue)\n"
     "      --json            print JSON\n"
     "      --junit FILE      write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions\n"
     "                        read it\n"
@@ -45,6 +47,7 @@ static const char help[] =
 
 typedef struct arguments {
     diff_options options;
+    unsigned layers;                       /* left out: bits 1 << view_layer */
     image_rectangle *ignored;              /* owned */
     const char *folder, *junit, *markdown; /* null: not asked for */
     uint64_t causes;                       /* how many are explained */
@@ -80,12 +83,16 @@ static bool add_rectangle(arguments *a, const char *text)
     return read_rectangle("--ignore", text, &grown[t->ignored_count]) && ++t->ignored_count;
 }
 
-static bool read_layer(const char *text, diff_options *into)
+static bool read_layers(const char *list, arguments *a)
 {
-    if (strcmp(text, "text") != 0)
-        return trouble("--ignore-layer takes text, not \"%s\"", text), false;
-    into->ignore = ignore_text_layer;
-    into->layers = "text";
+    const char *bad;
+    if (!view_layers_parse(list, &a->layers, &bad))
+        return trouble("--ignore-layer takes names of layers with commas between, and \"%.*s\" is none",
+                       (int)strcspn(bad, ","), bad),
+               false;
+    a->options.mask = ignore_layers;
+    a->options.mask_context = &a->layers;
+    a->options.layers = list;
     return true;
 }
 
@@ -102,7 +109,7 @@ static bool take_option(arguments *a, int option)
     case 'i':
         return add_rectangle(a, optarg);
     case 'l':
-        return read_layer(optarg, &a->options);
+        return read_layers(optarg, a);
     case 'c':
         a->causes = UINT64_MAX;
         a->causes_said = true;
@@ -193,7 +200,7 @@ static int report(const arguments *a, diff_report *all)
     octreel_error error;
     bool ok = true;
     if (a->folder) {
-        ok = evidence_collect(&e, a->folder, all->result, all->options, &error);
+        ok = evidence_collect(&e, a->folder, all->result, &error);
         all->evidence = &e;
         ok = ok && diff_report_page(all, &error);
     }
@@ -239,7 +246,7 @@ static int compare(const arguments *a, const char *paths[2])
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
                     check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
                     explain(&sides[0], &sides[1], &result, a->causes, &why, &error);
-    diff_report all = {.a = &sides[0], .b = &sides[1], .options = &a->options, .result = &result, .why = &why};
+    diff_report all = {.a = &sides[0], .b = &sides[1], .result = &result, .why = &why};
     const int status = ok ? report(a, &all) : trouble("%s", error.text);
     explanation_release(&why);
     diff_release(&result);

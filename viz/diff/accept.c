@@ -4,7 +4,7 @@
 #include "digest_file.h"
 #include "text.h"
 #include "diff_words.h"
-#include "same_bytes.h"
+#include "file.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,9 +1,10 @@
-/* compare_pair.c - see compare_pair.h. */
-#include "compare_pair.h"
+/* compare.c - see compare.h. */
+#include "compare.h"
 #include "digest_file.h"
-#include "row_reader.h"
-#include "same_bytes.h"
+#include "file.h"
 
+#include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool compare_bytes(diff_pair *pair)
@@ -25,69 +26,107 @@ static void find_unreadable(diff_pair *pair, const octreel_error *error)
     pair->trouble = strdup(error->text); /* without memory there is no sentence: reports can do without */
 }
 
-/* Both pictures, and what is counted in them. */
-typedef struct both {
-    row_reader readers[2];
-    const image *about[2]; /* null: it cannot be read */
-    image_tolerance tolerance;
-    image_difference difference;
-} both;
+/* ---- Pictures, a band of rows at a time ---------------------------------------------------------------------- */
 
-/* Both are read to their ends, compared or not: only then are they known to be pictures. Of two troubles the first
- * side's is told; where it has one, the other side does not matter any more. */
-static void compare_rows(both *b)
+/* A picture that is read. */
+typedef struct reading {
+    image_source *source; /* null: it cannot be read */
+    uint8_t *room;        /* of a band, where the source has not all rows at hand */
+    int rows;             /* of a band */
+    octreel_error error;
+} reading;
+
+/* What anti-aliasing explains is seen in the rows above and below: then the picture is held whole. */
+static void open_reading(reading *r, const char *path, const diff_options *options)
 {
-    image of[2];
-    bool more[2] = {true, true};
-    for (int i = 0; i < 2; i++)
-        b->about[i] = row_reader_about(&b->readers[i]);
-    const bool opened = b->about[0] && b->about[1];
-    image_comparison c = {0};
-    if (opened)
-        c = image_comparison_begin(b->about[0], b->about[1], &b->tolerance);
-    while (!row_reader_trouble(&b->readers[0]) && (more[0] || more[1])) {
-        for (int i = 0; i < 2; i++)
-            more[i] = row_reader_next(&b->readers[i], &of[i]);
-        if (opened && c.difference.same_size && more[0] && more[1])
-            image_comparison_add(&c, &of[0], &of[1]);
+    r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
+    if (!r->source)
+        return;
+    const image *about = image_source_about(r->source);
+    r->rows = options->tolerance.antialias ? about->height : image_band_rows(about);
+    const size_t room = image_source_room(r->source, r->rows);
+    r->room = room ? malloc(room) : NULL;
+    if (room && !r->room) {
+        error_set(&r->error, "%.400s: %s", path, strerror(ENOMEM));
+        image_source_close(r->source);
+        r->source = NULL;
     }
-    b->difference = image_comparison_end(&c);
 }
 
-static void judge(diff_pair *pair, const both *b)
+static void close_reading(reading *r)
 {
-    pair->difference = b->difference;
-    pair->transparent = b->about[0]->transparent || b->about[1]->transparent;
-    for (int i = 0; i < 2; i++)
-        pair->about[i] = (frame_digest){.width = b->about[i]->width, .height = b->about[i]->height};
+    image_source_close(r->source);
+    free(r->room);
+}
+
+static bool failed(const reading *r)
+{
+    return !r->source || image_source_failed(r->source);
+}
+
+static bool next_rows(reading *r, image *band)
+{
+    return r->source && image_source_next(r->source, r->rows, r->room, band);
+}
+
+/* Both are read to their ends, compared or not: only then are they known to be pictures. Where the first cannot be
+ * read, the other one does not matter any more. */
+static image_difference compare_rows(reading of[2], const image_tolerance *tolerance)
+{
+    const bool opened = of[0].source && of[1].source;
+    image_comparison c = {0};
+    image bands[2];
+    bool more[2] = {true, true};
+    if (opened)
+        c = image_comparison_begin(image_source_about(of[0].source), image_source_about(of[1].source), tolerance);
+    while (!failed(&of[0]) && (more[0] || more[1])) {
+        for (int i = 0; i < 2; i++)
+            more[i] = next_rows(&of[i], &bands[i]);
+        if (opened && c.difference.same_size && more[0] && more[1])
+            image_comparison_add(&c, &bands[0], &bands[1]);
+    }
+    return image_comparison_end(&c);
+}
+
+static void judge(diff_pair *pair, const reading of[2], const image_tolerance *tolerance)
+{
+    for (int i = 0; i < 2; i++) {
+        const image *about = image_source_about(of[i].source);
+        pair->about[i] = (frame_digest){.width = about->width, .height = about->height};
+        pair->transparent = pair->transparent || about->transparent;
+    }
     if (!pair->difference.same_size)
         pair->finding = FOUND_SIZE;
     else if (image_same(&pair->difference))
         pair->finding = FOUND_SAME_PIXELS;
-    else if (image_forgiven(&pair->difference, &b->tolerance))
+    else if (image_forgiven(&pair->difference, tolerance))
         pair->finding = FOUND_WITHIN;
     else
         pair->finding = FOUND_PIXELS;
 }
 
-/* What anti-aliasing explains is seen in the rows above and below: then both pictures are held whole. */
 static void compare_pictures(diff_pair *pair, const diff_options *options)
 {
-    both b = {.tolerance = options->tolerance};
-    b.tolerance.ignored = pair->ignored;
-    b.tolerance.ignored_count = pair->ignored_count;
-    row_reader_start(&b.readers[1], pair->b->path, options->background, b.tolerance.antialias, true);
-    row_reader_start(&b.readers[0], pair->a->path, options->background, b.tolerance.antialias, false);
-    compare_rows(&b);
-    const octreel_error *trouble = row_reader_trouble(&b.readers[0]);
-    trouble = trouble ? trouble : row_reader_trouble(&b.readers[1]);
-    if (trouble)
-        find_unreadable(pair, trouble);
-    else
-        judge(pair, &b);
-    row_reader_stop(&b.readers[0]);
-    row_reader_stop(&b.readers[1]);
+    reading of[2] = {{0}, {0}};
+    image_tolerance tolerance;
+    for (int i = 0; i < 2; i++)
+        open_reading(&of[i], i ? pair->b->path : pair->a->path, options);
+    if (!pair_tolerance(pair, options, &tolerance)) {
+        error_no_memory(&of[0].error);
+        find_unreadable(pair, &of[0].error);
+    } else {
+        pair->difference = compare_rows(of, &tolerance);
+        if (failed(&of[0]) || failed(&of[1]))
+            find_unreadable(pair, &of[failed(&of[0]) ? 0 : 1].error);
+        else
+            judge(pair, of, &tolerance);
+    }
+    pair_tolerance_release(&tolerance);
+    close_reading(&of[0]);
+    close_reading(&of[1]);
 }
+
+/* ---- Digests ------------------------------------------------------------------------------------------------- */
 
 static void compare_digests(diff_pair *pair, const diff_options *options)
 {

@@ -1,6 +1,6 @@
-/* compare_pair.h - two frames are decoded and compared. */
-#ifndef DIFF_COMPARE_PAIR_H
-#define DIFF_COMPARE_PAIR_H
+/* compare.h - the two frames of a pair are compared: by their bytes, their pixels or their digests. */
+#ifndef DIFF_COMPARE_H
+#define DIFF_COMPARE_H
 
 #include "diff.h"
 

@@ -1,6 +1,6 @@
 /* diff.c - see diff.h. */
 #include "diff.h"
-#include "compare_pair.h"
+#include "compare.h"
 #include "parallel.h"
 
 #include <stdlib.h>
@@ -48,11 +48,23 @@ const diff_pair *diff_find(const diff_result *result, const char *name)
 void diff_release(diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++) {
-        free(result->pairs[i].ignored);
+        mask_release(&result->pairs[i].mask);
         free(result->pairs[i].trouble);
     }
     free(result->pairs);
     *result = (diff_result){0};
+}
+
+bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance)
+{
+    *tolerance = options->tolerance;
+    tolerance->ignored_mask = mask_bytes(&pair->mask);
+    return tolerance->ignored_mask || !pair->mask.runs;
+}
+
+void pair_tolerance_release(image_tolerance *tolerance)
+{
+    free((void *)tolerance->ignored_mask);
 }
 
 /* ---- Which frame belongs to which --------------------------------------------------------------------------- */
@@ -91,7 +103,7 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     for (int i = 0; i < 2; i++) {
         if (sides[i]->kind != DIFF_DIGESTS)
             continue;
-        if (!is_exact(&options->tolerance) || options->ignore)
+        if (!is_exact(&options->tolerance) || options->mask)
             return error_set(error, "%s: digests tell same from different and no more: nothing can be forgiven",
                              sides[i]->path);
         if (!same_color(sides[i]->background, options->background))
@@ -154,32 +166,14 @@ static void keep_undecided(pending *p)
     p->count = kept;
 }
 
-/* Each pair has a list of its own: text is elsewhere in each frame. */
-static bool copy_ignored(const pending *p, octreel_error *error)
-{
-    const image_tolerance *tolerance = &p->options->tolerance;
-    for (size_t i = 0; i < p->count && tolerance->ignored_count > 0; i++) {
-        diff_pair *pair = p->pairs[i];
-        pair->ignored = malloc(tolerance->ignored_count * sizeof *pair->ignored);
-        if (!pair->ignored)
-            return error_set(error, "there is no memory for what is ignored");
-        memcpy(pair->ignored, tolerance->ignored, tolerance->ignored_count * sizeof *pair->ignored);
-        pair->ignored_count = tolerance->ignored_count;
-    }
-    return true;
-}
-
 static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octreel_error *error)
 {
     const unsigned cores = parallel_cores();
-    const bool digests = a->kind == DIFF_DIGESTS || b->kind == DIFF_DIGESTS;
     parallel_for(p->count, cores, try_bytes, p);
     keep_undecided(p);
-    if (!copy_ignored(p, error))
+    if (p->options->mask && !p->options->mask(p->options->mask_context, a, b, p->pairs, p->count, error))
         return false;
-    if (p->options->ignore && !p->options->ignore(a, b, p->pairs, p->count, error))
-        return false;
-    parallel_for(p->count, digests || cores < 2 ? cores : cores / 2, find_pixels, p);
+    parallel_for(p->count, cores, find_pixels, p);
     return true;
 }
 
@@ -196,7 +190,7 @@ static void sum_up(diff_result *result)
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               octreel_error *error)
 {
-    *result = (diff_result){0};
+    *result = (diff_result){.options = *options};
     if (!diff_check(a, b, options, error) || !make_pairs(a, b, result, error))
         return false;
     pending p = {.pairs = malloc(result->count * sizeof *p.pairs), .options = options};

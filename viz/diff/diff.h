@@ -2,6 +2,7 @@
 #ifndef DIFF_DIFF_H
 #define DIFF_DIFF_H
 
+#include "mask.h"
 #include "side.h"
 
 /* Each finding, its name in reports, and what it means for the whole. */
@@ -31,16 +32,17 @@ diff_verdict diff_finding_verdict(diff_finding finding);
 
 struct diff_pair;
 
-/* Adds to the ignored rectangles of each pair, which are in memory of their own, what some layers cover in its frames:
- * only who can play a recording knows that. False, with a sentence, where that cannot be told. */
-typedef bool diff_ignore(const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
-                         octreel_error *error);
+/* Adds to the mask of each pair where some layers are seen in its frames: only who can play a recording knows that.
+ * False, with a sentence, where that cannot be told. */
+typedef bool diff_mask(void *context, const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
+                       octreel_error *error);
 
 typedef struct diff_options {
     image_tolerance tolerance;
     image_color background; /* transparent pixels are laid over it */
-    diff_ignore *ignore;    /* null: no layer is left out */
-    const char *layers;     /* the names of those that are, with commas between */
+    diff_mask *mask;        /* null: no layer is left out */
+    void *mask_context;
+    const char *layers; /* the names of those that are left out, with commas between */
 } diff_options;
 
 /* Exact, over white. */
@@ -53,13 +55,13 @@ typedef struct diff_pair {
     frame_digest about[2];       /* the sizes, and the digests where one side has no pixels; zero: not looked at */
     bool transparent;            /* the background shows in one of them */
     image_difference difference; /* where both were decoded */
-    image_rectangle *ignored;    /* the tolerance's, and those of text; owned */
-    size_t ignored_count;
-    char *trouble; /* the sentence of what is unreadable; owned */
+    pixel_mask mask;             /* what the layers that are left out cover */
+    char *trouble;               /* the sentence of what is unreadable; owned */
 } diff_pair;
 
 typedef struct diff_result {
-    diff_pair *pairs; /* in the order of names */
+    diff_options options; /* those that it was compared with */
+    diff_pair *pairs;     /* in the order of names */
     size_t count;
     size_t found[DIFF_FINDINGS]; /* pairs of each finding */
     diff_verdict verdict;
@@ -69,14 +71,18 @@ typedef struct diff_result {
  * two empty folders. No picture is read. */
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
-/* Compare b with the reference a. Identical files are told by their bytes, on all cores; what is left is decoded, each
- * pair on two cores, with as many pairs at a time as that leaves room for. Of a pair a few rows are in memory; both
- * pictures are with a tolerance for anti-aliasing, and a picture that is interlaced or has 16 bits a sample is in any
- * case. Both sides must outlive the result. False, with a sentence, when diff_check() says so, or there is no memory.
- */
+/* Compare b with the reference a, on all cores. Identical files are told by their bytes; what is left is decoded. Of a
+ * pair a few rows are in memory; both pictures are with a tolerance for anti-aliasing, and a picture that is interlaced
+ * or has 16 bits a sample is in any case. Both sides and the options' lists must outlive the result. False, with a
+ * sentence, when diff_check() says so, or there is no memory. */
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               octreel_error *error);
 void diff_release(diff_result *result);
+
+/* What is forgiven in one pair: as the options have it, and what its mask leaves out. False when there is no memory; to
+ * be released in any case. */
+bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);
+void pair_tolerance_release(image_tolerance *tolerance);
 
 /* The name of a pair: that of its new frame, or of the reference that has none. */
 const char *diff_pair_name(const diff_pair *pair);

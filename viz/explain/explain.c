@@ -3,7 +3,7 @@
 #include "cause_words.h"
 #include "sentence.h"
 #include "frame_file.h"
-#include "same_bytes.h"
+#include "file.h"
 #include "text.h"
 
 #include <stdlib.h>
@@ -50,6 +50,7 @@ typedef struct wanted_pair {
 /* What is looked at while both are played. */
 typedef struct watching {
     explanation *e;
+    const diff_options *options;
     wanted_pair *pairs; /* in ascending order of their ticks */
     uint64_t *ticks;    /* the same, without the pairs */
     size_t count, next;
@@ -78,7 +79,8 @@ static bool watch(void *context, const octree_game *const games[2], bool differs
     if (w->next == w->count || w->pairs[w->next].tick != tick)
         return true;
     const diff_pair *pair = w->pairs[w->next++].pair;
-    return !pair->difference.unlike.pixels || tracer_add_pair(&w->e->tracer, w->e->sides, games, pair, error);
+    return !pair->difference.unlike.pixels ||
+           tracer_add_pair(&w->e->tracer, w->e->sides, games, pair, w->options, error);
 }
 
 static int by_number(const void *a, const void *b)
@@ -109,7 +111,7 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
 static bool play_both(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     const cause_look looks[2] = {e->sides[0].look, e->sides[1].look};
-    watching w = {.e = e};
+    watching w = {.e = e, .options = &result->options};
     bool ok = list_pairs(&w, result, most) || error_set(error, "there is no memory for %zu ticks", result->count);
     const cause_wanted wanted = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, w.ticks, w.count};
     ok = ok && cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, looks, &wanted,

@@ -5,24 +5,49 @@
 #include "replay.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-/* Where a pair's rectangles go. */
-typedef struct rectangles {
-    diff_pair *pair;
-    bool out_of_memory;
-} rectangles;
+#define TEXT_ALONE (1u << LAYER_TEXT)
 
-static void add_rectangle(const draw_box *box, void *context)
+/* A byte a pixel of the frame of a scene. */
+typedef struct frame_mask {
+    uint8_t *bytes;
+    int width, height;
+} frame_mask;
+
+/* A recording that is played for its masks. */
+typedef struct masking {
+    replay replay;
+    unsigned layers;
+} masking;
+
+static int within(int value, int limit)
 {
-    rectangles *to = context;
-    diff_pair *pair = to->pair;
-    image_rectangle *grown = realloc(pair->ignored, (pair->ignored_count + 1) * sizeof *grown);
-    if (!grown) {
-        to->out_of_memory = true;
-        return;
+    return value < 0 ? 0 : value > limit ? limit : value;
+}
+
+/* What is left of a box within the frame. */
+static void add_box(const draw_box *box, void *context)
+{
+    frame_mask *m = context;
+    const int left = within(box->x, m->width), right = within(box->x + box->width, m->width);
+    const int bottom = within(box->y + box->height, m->height);
+    for (int y = within(box->y, m->height); y < bottom; y++)
+        memset(m->bytes + (size_t)y * (size_t)m->width + left, 1, (size_t)(right - left));
+}
+
+static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
+{
+    const scene *s = &w->replay.take.scene;
+    const renderer_choice any = {0};
+    if (w->layers & ~TEXT_ALONE) {
+        renderer *drawing = replay_renderer(&w->replay, &any, error);
+        if (!drawing || !renderer_layer_mask(drawing, s, w->layers, m->bytes, error))
+            return false;
     }
-    pair->ignored = grown;
-    pair->ignored[pair->ignored_count++] = (image_rectangle){box->x, box->y, box->width, box->height};
+    if (w->layers & TEXT_ALONE)
+        draw_text_boxes(s, add_box, m);
+    return true;
 }
 
 /* A recording's frames are named for their ticks. */
@@ -33,13 +58,16 @@ static uint64_t tick_of(const diff_frame *frame)
     return tick;
 }
 
-static bool ignore_in(replay *r, diff_pair *pair, const diff_frame *frame, octreel_error *error)
+static bool add_mask(masking *w, diff_pair *pair, const diff_frame *frame, octreel_error *error)
 {
-    rectangles to = {.pair = pair};
-    if (!replay_to(r, tick_of(frame), error) || !replay_scene(r, error))
+    if (!replay_to(&w->replay, tick_of(frame), error) || !replay_scene(&w->replay, error))
         return false;
-    draw_text_boxes(&r->take.scene, add_rectangle, &to);
-    return !to.out_of_memory || error_set(error, "there is no memory for what is ignored");
+    const view *v = &w->replay.take.scene.view;
+    frame_mask m = {calloc((size_t)v->width, (size_t)v->height), v->width, v->height};
+    bool ok = m.bytes || error_no_memory(error);
+    ok = ok && draw_mask(w, &m, error) && (mask_add(&pair->mask, m.bytes, m.width, m.height) || error_no_memory(error));
+    free(m.bytes);
+    return ok;
 }
 
 static int by_tick(const void *a, const void *b)
@@ -48,23 +76,29 @@ static int by_tick(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Names are alike on both sides, so that one order by ticks serves both; beyond six digits it is not that of names. */
-static bool ignore_of(const diff_side *side, bool is_a, diff_pair **pairs, size_t count, octreel_error *error)
+static bool add_masks(const diff_side *side, bool is_a, unsigned layers, diff_pair **pairs, size_t count,
+                      octreel_error *error)
 {
-    replay r;
-    bool ok = replay_open(&r, side->path, error);
-    qsort(pairs, count, sizeof *pairs, by_tick);
+    masking w = {.layers = layers};
+    bool ok = replay_open(&w.replay, side->path, error);
     for (size_t i = 0; ok && i < count; i++)
-        ok = ignore_in(&r, pairs[i], is_a ? pairs[i]->a : pairs[i]->b, error);
-    replay_close(&r);
+        ok = add_mask(&w, pairs[i], is_a ? pairs[i]->a : pairs[i]->b, error);
+    replay_close(&w.replay);
     return ok;
 }
 
-bool ignore_text_layer(const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count, octreel_error *error)
+bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_pair **pairs, size_t count,
+                   octreel_error *error)
 {
+    const unsigned layers = *(const unsigned *)context;
     if (a->kind != DIFF_RECORDING && b->kind != DIFF_RECORDING)
-        return error_set(error, "where text is can be told of recordings alone: neither %s nor %s is one", a->path,
+        return error_set(error, "where a layer is can be told of recordings alone: neither %s nor %s is one", a->path,
                          b->path);
-    return count == 0 || ((a->kind != DIFF_RECORDING || ignore_of(a, true, pairs, count, error)) &&
-                          (b->kind != DIFF_RECORDING || ignore_of(b, false, pairs, count, error)));
+    if (count == 0)
+        return true;
+    /* Names are alike on both sides, so that one order by ticks serves both; beyond six digits it is not that of names.
+     */
+    qsort(pairs, count, sizeof *pairs, by_tick);
+    return (a->kind != DIFF_RECORDING || add_masks(a, true, layers, pairs, count, error)) &&
+           (b->kind != DIFF_RECORDING || add_masks(b, false, layers, pairs, count, error));
 }

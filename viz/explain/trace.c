@@ -49,28 +49,22 @@ static void release_spots(spots *s)
     free(s->numbers);
 }
 
-static bool is_ignored(const diff_pair *pair, int x, int y)
+static bool list_spots(const image *a, const image *b, const diff_pair *pair, const diff_options *options, int samples,
+                       spots *s)
 {
-    for (size_t i = 0; i < pair->ignored_count; i++) {
-        const image_rectangle *r = &pair->ignored[i];
-        if (x >= r->x && y >= r->y && x - r->x < r->width && y - r->y < r->height)
-            return true;
-    }
-    return false;
-}
-
-static bool list_spots(const image *a, const image *b, const diff_pair *pair, int samples, spots *s)
-{
+    image_tolerance tolerance;
     *s = (spots){.width = a->width, .samples = samples};
     s->at = malloc(((size_t)pair->difference.unlike.pixels + 1) * sizeof *s->at);
-    for (int y = 0; s->at && y < a->height; y++)
+    const bool ok = pair_tolerance(pair, options, &tolerance) && s->at;
+    for (int y = 0; ok && y < a->height; y++)
         for (int x = 0; x < a->width; x++) {
             const image_color p = image_color_at(a, x, y), q = image_color_at(b, x, y);
-            if ((p.r != q.r || p.g != q.g || p.b != q.b) && !is_ignored(pair, x, y) &&
+            if ((p.r != q.r || p.g != q.g || p.b != q.b) && !image_is_ignored(&tolerance, a->width, x, y) &&
                 s->count < pair->difference.unlike.pixels)
                 s->at[s->count++] = (size_t)y * (size_t)a->width + (size_t)x;
         }
-    s->numbers = s->at ? calloc(s->count + 1, sizeof *s->numbers * (size_t)(samples * samples)) : NULL;
+    pair_tolerance_release(&tolerance);
+    s->numbers = ok ? calloc(s->count + 1, sizeof *s->numbers * (size_t)(samples * samples)) : NULL;
     return s->numbers != NULL;
 }
 
@@ -267,8 +261,8 @@ static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
     return ok;
 }
 
-static bool trace_frames(tracer *t, const octree_game *const games[2], const diff_pair *pair, const image frames[2],
-                         octreel_error *error)
+static bool trace_frames(tracer *t, const octree_game *const games[2], const diff_pair *pair,
+                         const diff_options *options, const image frames[2], octreel_error *error)
 {
     const int samples = view_samples(&t->scenes[0].view);
     const size_t size = (size_t)frames[0].width * (size_t)frames[0].height * (size_t)(samples * samples);
@@ -279,7 +273,7 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
         return true;
     }
     uint32_t *numbers = malloc(size * sizeof *numbers);
-    bool ok = list_spots(&frames[0], &frames[1], pair, samples, &s) && numbers;
+    bool ok = list_spots(&frames[0], &frames[1], pair, options, samples, &s) && numbers;
     if (ok && pick(t, &t->scenes[0], numbers)) {
         keep_numbers(&s, numbers);
         ok = !pick(t, &t->scenes[1], numbers) || add_trace(t, games, &s, numbers);
@@ -290,7 +284,7 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
 }
 
 bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
-                     octreel_error *error)
+                     const diff_options *options, octreel_error *error)
 {
     const view *a = &sides[0].look.view, *b = &sides[1].look.view;
     image frames[2] = {{0}, {0}};
@@ -299,7 +293,7 @@ bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *cons
     for (int i = 0; i < 2; i++)
         if (!tick_scene_build(&t->scenes[i], &sides[i].look.view, games[i], &t->heats[i]))
             return error_set(error, "there is no memory for a scene");
-    const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, frames, error);
+    const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, error);
     image_release(&frames[0]);
     image_release(&frames[1]);
     return ok;

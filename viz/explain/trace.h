@@ -40,10 +40,11 @@ void tracer_close(tracer *t);
 /* To be called at each tick, for layers that show what ticks have left. */
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error);
 
-/* Trace the pair of the tick at which the games are. Nothing is added where a frame does not show the scene of its tick
- * or cannot be read, where sizes are unlike, or where nothing can be drawn: that is no error. */
+/* Trace the pair, compared with these options, of the tick at which the games are. Nothing is added where a frame does
+ * not show the scene of its tick or cannot be read, where sizes are unlike, or where nothing can be drawn: that is no
+ * error. */
 bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
-                     octreel_error *error);
+                     const diff_options *options, octreel_error *error);
 
 /* What is known of a tick, or null. */
 const trace *tracer_at(const tracer *t, uint64_t tick);

@@ -66,7 +66,7 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
 {
     const image_tolerance *tolerance = c->tolerance;
     image_difference *difference = &c->difference;
-    if (tolerance_ignores(tolerance, r->a->width, x, r->first + y)) {
+    if (image_is_ignored(tolerance, r->a->width, x, r->first + y)) {
         difference->ignored++;
         return;
     }

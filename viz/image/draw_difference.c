@@ -53,7 +53,7 @@ static uint8_t grey_index(const pixel_samples *p, int range)
 static uint8_t unlike_index(const image *a, const image *b, const image_tolerance *tolerance, int x, int y,
                             double square)
 {
-    if (tolerance_ignores(tolerance, a->width, x, y) || square <= tolerance->max_delta * tolerance->max_delta ||
+    if (image_is_ignored(tolerance, a->width, x, y) || square <= tolerance->max_delta * tolerance->max_delta ||
         (tolerance->antialias && antialias_explains(a, b, x, y)))
         return FORGIVEN;
     return (uint8_t)(HEAT + (int)((HEATS - 1) * sqrt(sqrt(square))));

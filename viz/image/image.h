@@ -174,6 +174,19 @@ typedef struct image_tolerance {
     const uint8_t *ignored_mask; /* a byte a pixel, not 0: ignored too; as large as the images. Null: none */
 } image_tolerance;
 
+/* Whether a pixel of images that are `width` pixels wide is ignored. */
+static inline bool image_is_ignored(const image_tolerance *tolerance, int width, int x, int y)
+{
+    if (tolerance->ignored_mask && tolerance->ignored_mask[(size_t)y * (size_t)width + (size_t)x])
+        return true;
+    for (size_t i = 0; i < tolerance->ignored_count; i++) {
+        const image_rectangle *r = &tolerance->ignored[i];
+        if (x >= r->x && y >= r->y && x - r->x < r->width && y - r->y < r->height)
+            return true;
+    }
+    return false;
+}
+
 /* Some unlike pixels: how many, how bad, where. Places are -1 when there are none. */
 typedef struct image_tally {
     uint64_t pixels;

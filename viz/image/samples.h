@@ -1,4 +1,4 @@
-/* samples.h - pixels as samples, however an image stores them, and what is ignored of them. Private to this folder. */
+/* samples.h - pixels as samples, however an image stores them. Private to this folder. */
 #ifndef OCTREEL_IMAGE_SAMPLES_H
 #define OCTREEL_IMAGE_SAMPLES_H
 
@@ -20,19 +20,6 @@ void samples_read(const image *image, size_t n, int count, int range, pixel_samp
 static inline bool samples_equal(const pixel_samples *a, const pixel_samples *b)
 {
     return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
-}
-
-/* A pixel of images that are `width` pixels wide. */
-static inline bool tolerance_ignores(const image_tolerance *tolerance, int width, int x, int y)
-{
-    if (tolerance->ignored_mask && tolerance->ignored_mask[(size_t)y * (size_t)width + (size_t)x])
-        return true;
-    for (size_t i = 0; i < tolerance->ignored_count; i++) {
-        const image_rectangle *r = &tolerance->ignored[i];
-        if (x >= r->x && y >= r->y && x - r->x < r->width && y - r->y < r->height)
-            return true;
-    }
-    return false;
 }
 
 #endif

@@ -1,11 +1,16 @@
 /* evidence.c - see evidence.h. */
 #include "evidence.h"
+#include "file.h"
 #include "folder.h"
+#include "octree/digest.h"
 
 #include <dirent.h>
 #include <errno.h>
+#include <inttypes.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 /* What tells our folders from those of others, and people what they may do in them. */
@@ -14,7 +19,75 @@ static const char marker_beginning[] = "octreel evidence 1\n";
 static const char marker_text[] = "octreel evidence 1\n"
                                   "What octreel diff found: open " EVIDENCE_PAGE ".\n"
                                   "The next octreel diff -o into this folder removes the page and all pictures named\n"
-                                  "*.expected.png, *.actual.png, *.difference.png and *.side.png.\n";
+                                  "*.expected.png, *.actual.png and *.difference.png.\n";
+
+/* ---- Names --------------------------------------------------------------------------------------------------- */
+
+const char *evidence_word(evidence_picture picture)
+{
+    static const char *const words[] = {
+#define EVIDENCE_WORD(name, word) word,
+        EVIDENCE_PICTURE_MAP(EVIDENCE_WORD)
+#undef EVIDENCE_WORD
+    };
+    return words[picture];
+}
+
+/* Where the suffix begins: the end of a name that has none. */
+static size_t stem_length(const char *name)
+{
+    const size_t length = strlen(name);
+    return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
+}
+
+/* What is put behind a stem at most, also while it is written. */
+#define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
+
+/* How much of a stem fits into the name of a file, whole letters of UTF-8. */
+static size_t fitting_length(const char *stem)
+{
+    size_t length = NAME_MAX - (sizeof LONGEST_ENDING - 1);
+    while (length > 0 && ((unsigned char)stem[length] & 0xc0) == 0x80)
+        length--;
+    return length;
+}
+
+/* The word goes before the suffix, which stays as it is: names that were unlike stay so. A name that would be too long
+ * has a digest of itself in place of its end. */
+char *evidence_name(const char *frame, evidence_picture picture)
+{
+    const size_t stem = stem_length(frame), size = strlen(frame) + sizeof LONGEST_ENDING;
+    const bool fits = stem + sizeof ".difference.png.part" - 1 <= NAME_MAX;
+    char digest[24] = "", *name = malloc(size);
+    if (!fits)
+        snprintf(digest, sizeof digest, "~%016" PRIx64, octree_digest_bytes(OCTREE_DIGEST_START, frame, strlen(frame)));
+    if (name)
+        snprintf(name, size, "%.*s%s.%s%s", (int)(fits ? stem : fitting_length(frame)), frame, digest,
+                 evidence_word(picture), frame[stem] ? frame + stem : ".png");
+    return name;
+}
+
+bool evidence_is_name(const char *name)
+{
+    static const char part[] = ".part";
+    size_t length = strlen(name);
+    if (length > sizeof part - 1 && strcmp(name + length - (sizeof part - 1), part) == 0)
+        length -= sizeof part - 1;
+    for (int i = 0; i < EVIDENCE_PICTURES; i++) {
+        char end[32];
+        const size_t size = (size_t)snprintf(end, sizeof end, ".%s.png", evidence_word((evidence_picture)i));
+        if (length > size && strncasecmp(name + length - size, end, size) == 0)
+            return true;
+    }
+    return false;
+}
+
+static char *picture_path(const char *folder, const diff_pair *pair, evidence_picture picture)
+{
+    char *name = evidence_name(diff_pair_name(pair), picture), *path = name ? path_join(folder, name) : NULL;
+    free(name);
+    return path;
+}
 
 /* ---- The folder ---------------------------------------------------------------------------------------------- */
 
@@ -87,16 +160,100 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
            clear(folder, error) && folder_write(folder, MARKER, marker_text, sizeof marker_text - 1, error);
 }
 
-/* ---- The pictures -------------------------------------------------------------------------------------------- */
+/* ---- The files of both sides --------------------------------------------------------------------------------- */
 
-bool evidence_collect(evidence *e, const char *folder, const diff_result *result, const diff_options *options,
-                      octreel_error *error)
+/* What is no regular file is no picture: that is said as the pair's trouble. */
+static bool has_file(const diff_frame *frame)
+{
+    struct stat status;
+    return frame && frame->path && stat(frame->path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_picture picture, const char *folder,
+                       unsigned *written, octreel_error *error)
+{
+    if (!has_file(frame))
+        return true;
+    char *path = picture_path(folder, pair, picture);
+    const bool ok = path ? file_copy_to(frame->path, path, error) : error_no_memory(error);
+    free(path);
+    *written |= ok ? 1u << picture : 0;
+    return ok;
+}
+
+/* ---- The difference ------------------------------------------------------------------------------------------ */
+
+/* Both images, and what the rows of their difference are made of. */
+typedef struct canvas {
+    image images[2];
+    image_tolerance tolerance;
+    uint8_t *row;
+} canvas;
+
+static const uint8_t *difference_row(int y, void *context)
+{
+    const canvas *c = context;
+    image_difference_row(&c->images[0], &c->images[1], &c->tolerance, y, c->row);
+    return c->row;
+}
+
+static bool read_canvas(canvas *c, const diff_pair *pair, const diff_options *options, octreel_error *error)
+{
+    return (pair_tolerance(pair, options, &c->tolerance) || error_no_memory(error)) &&
+           image_read_png_over(pair->a->path, options->background, &c->images[0], error) &&
+           image_read_png_over(pair->b->path, options->background, &c->images[1], error);
+}
+
+static bool write_canvas(canvas *c, const char *path, octreel_error *error)
+{
+    const image *a = &c->images[0], *b = &c->images[1];
+    const image_palette palette = image_difference_palette();
+    const image_rows rows = {.width = a->width > b->width ? a->width : b->width,
+                             .height = a->height > b->height ? a->height : b->height,
+                             .palette = &palette,
+                             .row = difference_row,
+                             .context = c};
+    c->row = malloc((size_t)rows.width);
+    const bool ok = c->row ? image_write_png_rows(&rows, path, error) : error_no_memory(error);
+    free(c->row);
+    return ok;
+}
+
+static bool draw_difference(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
+                            octreel_error *error)
+{
+    canvas c = {0};
+    char *path = picture_path(folder, pair, EVIDENCE_DIFFERENCE);
+    bool ok = path || error_no_memory(error);
+    ok = ok && read_canvas(&c, pair, options, error) && write_canvas(&c, path, error);
+    *written |= ok ? 1u << EVIDENCE_DIFFERENCE : 0;
+    image_release(&c.images[0]);
+    image_release(&c.images[1]);
+    pair_tolerance_release(&c.tolerance);
+    free(path);
+    return ok;
+}
+
+bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
+                   octreel_error *error)
+{
+    *written = 0;
+    if (!copy_frame(pair->a, pair, EVIDENCE_EXPECTED, folder, written, error) ||
+        !copy_frame(pair->b, pair, EVIDENCE_ACTUAL, folder, written, error))
+        return false;
+    const bool both = (pair->finding == FOUND_PIXELS || pair->finding == FOUND_SIZE) && pair->a->path && pair->b->path;
+    return !both || draw_difference(pair, options, folder, written, error);
+}
+
+/* ---- All pairs ----------------------------------------------------------------------------------------------- */
+
+bool evidence_collect(evidence *e, const char *folder, const diff_result *result, octreel_error *error)
 {
     *e = (evidence){.folder = folder, .pictures = calloc(result->count, sizeof *e->pictures)};
     bool ok = e->pictures || error_set(error, "there is no memory for %zu frames", result->count);
     for (size_t i = 0; ok && i < result->count; i++)
         if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME)
-            ok = evidence_draw(&result->pairs[i], options, folder, &e->pictures[i], error);
+            ok = evidence_draw(&result->pairs[i], &result->options, folder, &e->pictures[i], error);
     if (!ok)
         evidence_release(e);
     return ok;

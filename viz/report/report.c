@@ -4,6 +4,7 @@
 #include "text.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 /* Names and what is quoted may hold anything; a line stays one. */
 static void print_line(FILE *out, const char *beginning, const char *text)
@@ -74,8 +75,8 @@ static bool is_outside(const image_rectangle *r, const diff_result *result)
 
 void diff_print_tolerance(FILE *out, const diff_report *report)
 {
-    const image_tolerance *t = &report->options->tolerance;
-    const image_color ground = report->options->background;
+    const image_tolerance *t = &report->result->options.tolerance;
+    const image_color ground = report->result->options.background;
     bool first = true;
     if (t->max_pixels) {
         separate(out, &first);
@@ -95,9 +96,10 @@ void diff_print_tolerance(FILE *out, const diff_report *report)
         fprintf(out, "the %dx%d pixels at (%d,%d)%s", r->width, r->height, r->x, r->y,
                 is_outside(r, report->result) ? ", outside every frame that was compared" : "");
     }
-    if (report->options->ignore) {
+    if (report->result->options.mask) {
         separate(out, &first);
-        fprintf(out, "the %s layer", report->options->layers);
+        fprintf(out, "the layer%s %s", strchr(report->result->options.layers, ',') ? "s" : "",
+                report->result->options.layers);
     }
     if (first)
         fputs("compared exactly", out);

@@ -10,7 +10,6 @@
 /* What is reported: both sides, how they were compared, what came of it and why, and where that can be seen. */
 typedef struct diff_report {
     const diff_side *a, *b;
-    const diff_options *options;
     const diff_result *result;
     const explanation *why;
     const evidence *evidence; /* null: none was left */

@@ -5,6 +5,7 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void write_bool(json_writer *w, const char *key, bool value)
 {
@@ -31,6 +32,18 @@ static void write_side(json_writer *w, const char *key, const diff_side *side)
     json_write_end_object(w);
 }
 
+/* A list with commas between. */
+static void write_layers(json_writer *w, const char *layers)
+{
+    char name[64];
+    for (const char *at = layers; *at; at += *at == ',') {
+        const size_t length = strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        json_write_string(w, name);
+        at += length;
+    }
+}
+
 static void write_tolerance(json_writer *w, const diff_options *options)
 {
     const image_tolerance *t = &options->tolerance;
@@ -52,8 +65,8 @@ static void write_tolerance(json_writer *w, const diff_options *options)
     json_write_end_array(w);
     json_write_key(w, "ignore_layers");
     json_write_begin_array(w);
-    if (options->ignore)
-        json_write_string(w, options->layers);
+    if (options->mask)
+        write_layers(w, options->layers);
     json_write_end_array(w);
     json_write_end_object(w);
     snprintf(color, sizeof color, "#%02x%02x%02x", ground.r, ground.g, ground.b);
@@ -166,7 +179,7 @@ void diff_json_summary(json_writer *w, const diff_report *report)
         json_member_text(w, "trouble", why->trouble);
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
-    write_tolerance(w, report->options);
+    write_tolerance(w, &report->result->options);
     write_counts(w, result);
 }
 

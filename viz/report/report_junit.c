@@ -48,8 +48,8 @@ static void write_paths(FILE *out, const diff_report *report, size_t i)
         if (path) {
             fprintf(out, "%s: ", evidence_word((evidence_picture)picture));
             write_escaped(out, path, escape_xml);
-            fputs(picture == EVIDENCE_SIDE ? "\n[[ATTACHMENT|" : "\n", out);
-            if (picture == EVIDENCE_SIDE) {
+            fputs(picture == EVIDENCE_DIFFERENCE ? "\n[[ATTACHMENT|" : "\n", out);
+            if (picture == EVIDENCE_DIFFERENCE) {
                 write_escaped(out, path, escape_xml);
                 fputs("]]\n", out);
             }

@@ -24,11 +24,10 @@ typedef struct page {
 
 /* ---- What is in it ------------------------------------------------------------------------------------------- */
 
-/* Of all three pictures; what cannot be read shall not be tried by a browser either. */
+/* What cannot be read shall not be tried by a browser either. */
 static bool is_embedded(const diff_report *report, size_t i, evidence_picture picture)
 {
-    return picture != EVIDENCE_SIDE && (report->evidence->pictures[i] & 1u << picture) &&
-           report->result->pairs[i].finding != FOUND_UNREADABLE;
+    return (report->evidence->pictures[i] & 1u << picture) && report->result->pairs[i].finding != FOUND_UNREADABLE;
 }
 
 static uint64_t pictures_size(const diff_report *report, size_t i)

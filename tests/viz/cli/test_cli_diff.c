@@ -85,8 +85,8 @@ static void trouble_is_said_and_is_status_2(void **state)
         {"--ignore 1,2,3,4,5", "--ignore takes left, top, width and height"},
         {"--ignore 0,0,99999999999,1", "each at most 2147483647"},
         {"--ignore 0,0,0,0", "the last two at least 1"},
-        {"--ignore-layer nodes", "--ignore-layer takes text"},
-        {"--ignore-layer text", "recordings alone"},
+        {"--ignore-layer nix", "--ignore-layer takes names of layers with commas between, and \"nix\" is none"},
+        {"--ignore-layer nodes,points", "recordings alone"},
         {"--background red", "--background takes a colour"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {

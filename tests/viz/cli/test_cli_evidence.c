@@ -49,9 +49,9 @@ static void evidence_and_reports_are_written_beside_the_verdict(void **state)
     snprintf(part, sizeof part, "\ncompared exactly\nevidence: %s/report.html\n", t.out.path);
     assert_says(result.out, part);
     command_release(&result);
-    assert_true(file_exists(place_below(t.out.path, "2.side.png").path));
+    assert_true(file_exists(place_below(t.out.path, "2.difference.png").path));
     assert_file_says(place_below(t.out.path, "report.html").path, "\"frame\": \"2.png\", \"finding\": \"pixels\"");
-    snprintf(part, sizeof part, "side: %s/2.side.png\n", t.out.path);
+    snprintf(part, sizeof part, "difference: %s/2.difference.png\n", t.out.path);
     assert_file_says(t.xml.path, part);
     snprintf(part, sizeof part, "\nEvidence: <code>%s/report.html</code>\n", t.out.path);
     assert_file_says(t.markdown.path, part);
@@ -93,7 +93,7 @@ static void all_is_written_where_a_frame_cannot_be_read(void **state)
 
 static void json_names_the_pictures(void **state)
 {
-    static const char *const words[] = {"expected", "actual", "difference", "side"};
+    static const char *const words[] = {"expected", "actual", "difference"};
     const twins t = make_twins_of(state);
     command_result result = run_octreel(NULL, "diff %s %s -o %s --json", t.a.path, t.b.path, t.out.path);
     assert_int_equal(result.status, 1);
@@ -104,8 +104,8 @@ static void json_names_the_pictures(void **state)
     assert_true(file_exists(json_string_value(json_member(whole, "page"))));
     const json_t *finding = json_array_get(json_member(object, "findings"), 0);
     const json_t *pictures = json_member(finding, "evidence");
-    assert_members(pictures, "expected actual difference side");
-    for (size_t i = 0; i < 4; i++)
+    assert_members(pictures, "expected actual difference");
+    for (size_t i = 0; i < 3; i++)
         assert_true(file_exists(json_string_value(json_member(pictures, words[i]))));
     json_decref(object);
     command_release(&result);
@@ -133,13 +133,13 @@ static void overlong_names_have_evidence_too(void **state)
         assert_int_equal(json_array_size(findings), 2);
         for (size_t i = 0; i < 2; i++) {
             const json_t *pictures = json_member(json_array_get(findings, i), "evidence");
-            assert_members(pictures, "expected actual difference side");
-            assert_true(file_exists(json_string_value(json_member(pictures, "side"))));
+            assert_members(pictures, "expected actual difference");
+            assert_true(file_exists(json_string_value(json_member(pictures, "difference"))));
         }
         json_decref(object);
         command_release(&result);
         listing left = folder_list(out.path);
-        assert_int_equal(left.count, 10); /* eight pictures, the page and the marker */
+        assert_int_equal(left.count, 8); /* eight pictures, the page and the marker */
         listing_release(&left);
     }
 }

@@ -115,7 +115,7 @@ static void job_fails_where_a_frame_differs_and_keeps_the_evidence(void **state)
     assert_non_null(kept);
     char *folder = strndup(kept + sizeof path - 1, strcspn(kept + sizeof path - 1, "}\n"));
     assert_true(file_exists(place_below(place_in(j->folder, folder).path, "report.html").path));
-    assert_true(file_exists(place_below(place_in(j->folder, folder).path, "frame_000002.side.png").path));
+    assert_true(file_exists(place_below(place_in(j->folder, folder).path, "frame_000002.difference.png").path));
     free(folder);
 }
 

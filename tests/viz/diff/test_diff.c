@@ -1,6 +1,7 @@
 /* test_diff.c - two sides: which frame belongs to which, and what is found of each pair. */
 #include "galleries.h"
 #include "ignored_layers.h"
+#include "view.h"
 #include "fixture.h"
 #include "images.h"
 #include "recordings.h"
@@ -118,7 +119,8 @@ static void what_cannot_be_compared_is_refused(void **state)
     diff_options options = diff_options_default();
     assert_not_compared(folder.path, picture.path, NULL, "a picture is compared with a picture");
     assert_not_compared(empty.path, empty.path, NULL, "nothing to compare");
-    options.ignore = ignore_text_layer;
+    options.mask = ignore_layers;
+    options.mask_context = &(unsigned){1u << LAYER_TEXT};
     assert_not_compared(folder.path, folder.path, &options, "recordings alone");
     comparison_of made = assert_compared(empty.path, folder.path, NULL);
     assert_int_equal(finding_of(&made, "1.png"), FOUND_NO_REFERENCE);
@@ -247,68 +249,6 @@ static void many_pairs_at_once_keep_apart(void **state)
     comparison_release(&made);
 }
 
-/* ---- Text --------------------------------------------------------------------------------------------------- */
-
-static void set_red(const char *path, int x, int y)
-{
-    image frame = assert_read_rgb(path);
-    memcpy(frame.pixels + 3 * (y * frame.width + x), "\xff\0\0", 3);
-    assert_written(&frame, path);
-    image_release(&frame);
-}
-
-static void text_of_recordings_is_ignored_where_it_is(void **state)
-{
-    const place a = place_in(*state, "a"), b = place_in(*state, "b");
-    octree_session session = octree_session_default();
-    film_options film = small_film(a.path);
-    diff_options options = diff_options_default();
-    session.keys = "wd";
-    film.view.width = 480;
-    film.view.height = 270;
-    assert_filmed(&session, &film);
-    film.folder = b.path;
-    assert_filmed(&session, &film);
-    set_red(place_below(b.path, "frame_000001.png").path, 70, 10);  /* in the panel */
-    set_red(place_below(b.path, "frame_000002.png").path, 470, 10); /* in no letter */
-    comparison_of made = assert_compared(a.path, b.path, &options);
-    assert_int_equal(made.result.found[FOUND_PIXELS], 2);
-    comparison_release(&made);
-    options.ignore = ignore_text_layer;
-    made = assert_compared(a.path, b.path, &options);
-    assert_int_equal(finding_of(&made, "frame_000000.png"), FOUND_SAME_BYTES);
-    assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_WITHIN);
-    assert_int_equal(diff_find(&made.result, "frame_000001.png")->difference.ignored, 1);
-    assert_int_equal(finding_of(&made, "frame_000002.png"), FOUND_PIXELS);
-    comparison_release(&made);
-    for (int i = 0; i < 2; i++) { /* a tick that the session does not have */
-        const char *folder = i ? b.path : a.path;
-        assert_int_equal(
-            rename(place_below(folder, "frame_000002.png").path, place_below(folder, "frame_000009.png").path), 0);
-    }
-    assert_not_compared(a.path, b.path, &options, "there is no tick 9: the session's last tick is 2");
-}
-
-/* One side is enough, and a folder of plain pictures may be the other. */
-static void text_is_told_by_the_side_that_is_a_recording(void **state)
-{
-    const place a = place_in(*state, "a"), b = place_in(*state, "b");
-    octree_session session = octree_session_default();
-    film_options film = small_film(a.path);
-    const diff_options options = {.ignore = ignore_text_layer};
-    session.keys = "";
-    assert_filmed(&session, &film);
-    film.folder = b.path;
-    assert_filmed(&session, &film);
-    remove(place_below(b.path, "recording.json").path);
-    set_red(place_below(b.path, "frame_000000.png").path, 5, 6); /* in "tick 0" */
-    comparison_of made = assert_compared(a.path, b.path, &options);
-    assert_int_equal(made.result.verdict, DIFF_SAME);
-    comparison_release(&made);
-    remove(place_below(a.path, "session.json").path);
-    assert_not_compared(a.path, b.path, &options, "session.json");
-}
-
 #define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -327,8 +267,6 @@ int main(void)
         WITH_FOLDER(bytes_behind_the_end_of_equal_files_do_no_harm),
         WITH_FOLDER(tolerance_forgives_what_was_asked_for),
         WITH_FOLDER(many_pairs_at_once_keep_apart),
-        WITH_FOLDER(text_of_recordings_is_ignored_where_it_is),
-        WITH_FOLDER(text_is_told_by_the_side_that_is_a_recording),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,7 +77,7 @@ static void nothing_is_forgiven_by_digests(void **state)
         {.tolerance = {.max_delta = 0.1}, .background = {255, 255, 255}},
         {.tolerance = {.antialias = true}, .background = {255, 255, 255}},
         {.tolerance = {.ignored = &corner, .ignored_count = 1}, .background = {255, 255, 255}},
-        {.ignore = ignore_text_layer, .background = {255, 255, 255}},
+        {.mask = ignore_layers, .background = {255, 255, 255}},
     };
     write_digests(a.path, digests.path);
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)

@@ -1,5 +1,5 @@
 /* test_row_by_row.c - pictures that are read and compared row by row, beside the same held whole. */
-#include "compare_pair.h"
+#include "compare.h"
 #include "images.h"
 #include "naive_compare.h"
 #include "stored_png.h"
@@ -180,10 +180,7 @@ static void assert_compared_alike(char *paths[2], const image_tolerance *toleran
 {
     const diff_frame frames[2] = {{.name = "a.png", .path = paths[0]}, {.name = "b.png", .path = paths[1]}};
     const diff_options options = {.tolerance = *tolerance, .background = ground};
-    diff_pair pair = {.a = &frames[0],
-                      .b = &frames[1],
-                      .ignored = (image_rectangle *)(uintptr_t)tolerance->ignored,
-                      .ignored_count = tolerance->ignored_count};
+    diff_pair pair = {.a = &frames[0], .b = &frames[1]};
     image images[2];
     octreel_error errors[2];
     bool read[2];
@@ -227,7 +224,7 @@ static stored_png other_picture(uint64_t *random, const stored_png *first)
     return other;
 }
 
-/* So large that they have more bands than a thread may be ahead, or small. */
+/* So large that they have many bands, or small. */
 static void save_pair(uint64_t *random, int i, char *paths[2])
 {
     stored_png pictures[2] = {random_picture(random, i % PNG_STORAGES)};

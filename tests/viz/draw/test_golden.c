@@ -1,7 +1,7 @@
 /* test_golden.c - the frames of golden/ are drawn as they were: exactly.
  *
  * All are drawn into the folder golden/ of the build's tests and compared with the references as octreel diff does it;
- * what differs leaves its evidence in the current folder (<name>.ref.side.png), and both renderers are named.
+ * what differs leaves its evidence in the current folder (<name>.ref.difference.png), and both renderers are named.
  * `test_golden --draw` draws and does no more: the target golden-update runs it, and octreel accept behind it.
  */
 #include <setjmp.h>
@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "evidence_pictures.h"
+#include "evidence.h"
 #include "golden_frames.h"
 #include "diff_words.h"
 
@@ -127,8 +127,9 @@ static void fail_pair(const gallery *g, const diff_pair *pair)
     diff_print_pair(out, pair);
     fclose(out);
     read_renderer(before);
-    fail_msg("%s: see its .side.png and the others beside it, in the current folder.\nreference: %s\nnow:       %s",
-             sentence, before, g->renderer);
+    fail_msg(
+        "%s: see its .difference.png and the others beside it, in the current folder.\nreference: %s\nnow:       %s",
+        sentence, before, g->renderer);
 }
 
 static void frame_is_its_reference(void **state)

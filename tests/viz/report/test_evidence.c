@@ -14,12 +14,10 @@
 /* Compare, and leave evidence. */
 static comparison_of leave_evidence(const char *a, const char *b, const diff_options *options, const char *folder)
 {
-    const diff_options exact = diff_options_default();
     comparison_of made = assert_compared(a, b, options);
     octreel_error error = {""};
     evidence e;
-    if (!evidence_prepare(folder, &made.a, &made.b, &error) ||
-        !evidence_collect(&e, folder, &made.result, options ? options : &exact, &error))
+    if (!evidence_prepare(folder, &made.a, &made.b, &error) || !evidence_collect(&e, folder, &made.result, &error))
         fail_msg("%s", error.text);
     evidence_release(&e);
     return made;
@@ -65,8 +63,8 @@ static void each_finding_leaves_what_can_be_had(void **state)
     image_release(&small);
     assert_int_equal(truncate(place_below(b.path, "4.png").path, 99), 0);
     leave_and_forget(a.path, b.path, folder.path);
-    assert_holds(folder.path, "2.actual.png 2.difference.png 2.expected.png 2.side.png "
-                              "3.actual.png 3.difference.png 3.expected.png 3.side.png "
+    assert_holds(folder.path, "2.actual.png 2.difference.png 2.expected.png "
+                              "3.actual.png 3.difference.png 3.expected.png "
                               "4.actual.png 4.expected.png 5.expected.png 6.actual.png evidence.txt");
     assert_same_files(place_below(folder.path, "2.expected.png").path, place_below(a.path, "2.png").path);
     assert_same_files(place_below(folder.path, "2.actual.png").path, place_below(b.path, "2.png").path);
@@ -82,10 +80,9 @@ static void digests_leave_the_frame_alone(void **state)
     assert_holds(folder.path, "1.actual.png evidence.txt");
 }
 
-/* The side by side picture is both as they are and then the difference, whose glowing pixels are those that count. */
+/* The glowing pixels of the difference are those that count. */
 static void pictures_show_what_they_are_named_for(void **state)
 {
-    enum { GAP = 12 };
     const image_rectangle ignored = {0, 0, 3, 16};
     diff_options options = diff_options_default();
     const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png"), folder = place_in(*state, "out");
@@ -94,26 +91,17 @@ static void pictures_show_what_they_are_named_for(void **state)
     gallery_write(b.path, 3, 10);
     comparison_of made = leave_evidence(a.path, b.path, &options, folder.path);
     assert_int_equal(made.result.pairs[0].difference.counted.pixels, 7);
-    image images[3] = {assert_read_rgb(a.path), assert_read_rgb(b.path),
-                       assert_read_rgb(place_below(folder.path, "b.difference.png").path)};
-    image side = assert_read_rgb(place_below(folder.path, "b.side.png").path);
-    assert_int_equal(side.width, 3 * GALLERY_WIDTH + 2 * GAP);
-    assert_int_equal(side.height, GALLERY_HEIGHT);
+    image difference = assert_read_rgb(place_below(folder.path, "b.difference.png").path);
+    assert_int_equal(difference.width, GALLERY_WIDTH);
+    assert_int_equal(difference.height, GALLERY_HEIGHT);
     for (int n = 0; n < GALLERY_WIDTH * GALLERY_HEIGHT; n++) {
         const int x = n % GALLERY_WIDTH, y = n / GALLERY_WIDTH;
-        for (int i = 0; i < 3; i++) {
-            const image_color one = image_color_at(&images[i], x, y),
-                              beside = image_color_at(&side, x + i * (GALLERY_WIDTH + GAP), y);
-            assert_memory_equal(&one, &beside, sizeof one);
-        }
-        const image_color drawn = image_color_at(&images[2], x, y);
+        const image_color drawn = image_color_at(&difference, x, y);
         const bool unlike = y == 3 && x < 10;
         assert_int_equal(unlike && x >= 3, drawn.r > drawn.b);
         assert_int_equal(unlike && x<3, drawn.b> drawn.r);
     }
-    for (int i = 0; i < 3; i++)
-        image_release(&images[i]);
-    image_release(&side);
+    image_release(&difference);
     comparison_release(&made);
 }
 
@@ -128,15 +116,15 @@ static void names_that_are_unlike_stay_so(void **state)
 {
     (void)state;
     static const char *const names[][2] = {
-        {"frame_000041.png", "frame_000041.side.png"},
-        {"a.PNG", "a.side.PNG"},
-        {"a.ref.png", "a.ref.side.png"},
-        {"photo", "photo.side.png"},
-        {"png", "png.side.png"},
-        {".png", ".png.side.png"},
+        {"frame_000041.png", "frame_000041.actual.png"},
+        {"a.PNG", "a.actual.PNG"},
+        {"a.ref.png", "a.ref.actual.png"},
+        {"photo", "photo.actual.png"},
+        {"png", "png.actual.png"},
+        {".png", ".png.actual.png"},
     };
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        char *name = evidence_name(names[i][0], EVIDENCE_SIDE);
+        char *name = evidence_name(names[i][0], EVIDENCE_ACTUAL);
         assert_string_equal(name, names[i][1]);
         assert_true(evidence_is_name(name));
         assert_false(evidence_is_name(names[i][0]));
@@ -156,7 +144,7 @@ static void next_evidence_takes_the_place_of_the_last(void **state)
     leave_and_forget(a.path, b.path, folder.path);
     assert_holds(folder.path, "2.expected.png evidence.txt");
     file_write_text(place_below(folder.path, "report.html.part").path, "torn");
-    file_write_text(place_below(folder.path, "2.side.png.part").path, "torn");
+    file_write_text(place_below(folder.path, "2.actual.png.part").path, "torn");
     file_write_text(place_below(folder.path, "notes.txt").path, "mine");
     leave_and_forget(b.path, a.path, folder.path);
     assert_holds(folder.path, "2.actual.png evidence.txt notes.txt");
@@ -166,12 +154,12 @@ static void next_evidence_takes_the_place_of_the_last(void **state)
 
 static void folder_of_others_is_refused_and_left_as_it_is(void **state)
 {
-    const place a = gallery_make(*state, "a", "1.png"), other = gallery_make(*state, "b", "1.side.png");
-    assert_refused(a.path, a.path, other.path, "holds 1.side.png, and no evidence of octreel diff");
-    assert_holds(other.path, "1.side.png");
+    const place a = gallery_make(*state, "a", "1.png"), other = gallery_make(*state, "b", "1.actual.png");
+    assert_refused(a.path, a.path, other.path, "holds 1.actual.png, and no evidence of octreel diff");
+    assert_holds(other.path, "1.actual.png");
     file_write_text(place_below(other.path, "evidence.txt").path, "octreel evid");
     assert_refused(a.path, a.path, other.path, "no evidence of octreel diff");
-    assert_holds(other.path, "1.side.png evidence.txt");
+    assert_holds(other.path, "1.actual.png evidence.txt");
 }
 
 static void empty_folder_is_taken(void **state)
@@ -205,21 +193,20 @@ static void folder_that_cannot_be_made_is_named(void **state)
 
 static void picture_that_cannot_be_written_is_named(void **state)
 {
-    static const char *const names[] = {"2.expected.png", "2.actual.png", "2.difference.png", "2.side.png"};
+    static const char *const names[] = {"2.expected.png", "2.actual.png", "2.difference.png", "2.actual.png"};
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
     gallery_write(place_below(b.path, "2.png").path, 1, 3);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char name[16];
         snprintf(name, sizeof name, "out%zu", i);
         const place folder = place_in(*state, name);
-        const diff_options exact = diff_options_default();
         comparison_of made = assert_compared(a.path, b.path, NULL);
         octreel_error error = {""};
         evidence e;
         assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error));
         const place taken = place_below(folder.path, names[i]); /* by a folder, which nothing is renamed over */
         assert_int_equal(mkdir(taken.path, 0777), 0);
-        assert_false(evidence_collect(&e, folder.path, &made.result, &exact, &error));
+        assert_false(evidence_collect(&e, folder.path, &made.result, &error));
         if (!strstr(error.text, taken.path))
             fail_msg("\"%s\" does not name %s", error.text, taken.path);
         comparison_release(&made);

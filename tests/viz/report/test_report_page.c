@@ -52,12 +52,10 @@ typedef void meddler(const char *folder);
 
 static void write_page_of(comparison_of *made, const char *folder, meddler *meddle)
 {
-    const diff_options exact = diff_options_default();
     octreel_error error = {""};
     evidence e;
-    const diff_report report = {&made->a, &made->b, &exact, &made->result, &made->why, &e};
-    if (!evidence_prepare(folder, &made->a, &made->b, &error) ||
-        !evidence_collect(&e, folder, &made->result, &exact, &error))
+    const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e};
+    if (!evidence_prepare(folder, &made->a, &made->b, &error) || !evidence_collect(&e, folder, &made->result, &error))
         fail_msg("%s", error.text);
     if (meddle)
         meddle(folder);

@@ -27,8 +27,7 @@ typedef bool reporter(FILE *out, const diff_report *report);
 
 static char *report_text(comparison_of *made, const evidence *e, reporter *write)
 {
-    const diff_options exact = diff_options_default();
-    const diff_report report = {&made->a, &made->b, &exact, &made->result, &made->why, e};
+    const diff_report report = {&made->a, &made->b, &made->result, &made->why, e};
     char *text;
     size_t size;
     FILE *out = open_memstream(&text, &size);
@@ -138,17 +137,16 @@ static void junit_survives_any_name_and_cause(void **state)
 static void junit_names_the_pictures_that_were_left(void **state)
 {
     comparison_of made = compare_three(state, NULL);
-    const diff_options exact = diff_options_default();
     const place folder = place_in(*state, "out");
     char part[4096];
     octreel_error error = {""};
     evidence e;
     assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error) &&
-                evidence_collect(&e, folder.path, &made.result, &exact, &error));
+                evidence_collect(&e, folder.path, &made.result, &error));
     char *xml = report_text(&made, &e, diff_report_junit);
     assert_int_equal(xml_count(xml, "system-out"), 3);
-    snprintf(part, sizeof part, "difference: %s/2.difference.png\nside: %s/2.side.png\n[[ATTACHMENT|%s/2.side.png]]\n",
-             folder.path, folder.path, folder.path);
+    snprintf(part, sizeof part, "difference: %s/2.difference.png\n[[ATTACHMENT|%s/2.difference.png]]\n", folder.path,
+             folder.path);
     assert_says(xml, part);
     evidence_release(&e);
     free(xml);

@@ -1,0 +1,63 @@
+/* mask.c - see mask.h. */
+#include "mask.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static size_t count_runs(const uint8_t *bytes, size_t size)
+{
+    size_t count = 1;
+    for (size_t i = 0; i < size; i++)
+        count += !bytes[i] != (i == 0 || !bytes[i - 1]);
+    return count;
+}
+
+static bool pack(pixel_mask *mask, const uint8_t *bytes)
+{
+    const size_t size = (size_t)mask->width * (size_t)mask->height;
+    uint32_t *runs = calloc(count_runs(bytes, size), sizeof *runs);
+    if (!runs)
+        return false;
+    free(mask->runs);
+    mask->runs = runs;
+    mask->count = 1;
+    for (size_t i = 0; i < size; i++) {
+        const bool left_out = mask->count % 2 == 0;
+        mask->count += (bytes[i] != 0) != left_out;
+        runs[mask->count - 1]++;
+    }
+    return true;
+}
+
+bool mask_add(pixel_mask *mask, const uint8_t *bytes, int width, int height)
+{
+    const size_t size = (size_t)width * (size_t)height;
+    if (!mask->runs) {
+        mask->width = width;
+        mask->height = height;
+        return pack(mask, bytes);
+    }
+    if (mask->width != width || mask->height != height)
+        return true;
+    uint8_t *both = mask_bytes(mask);
+    for (size_t i = 0; both && i < size; i++)
+        both[i] |= bytes[i];
+    const bool ok = both && pack(mask, both);
+    free(both);
+    return ok;
+}
+
+void mask_release(pixel_mask *mask)
+{
+    free(mask->runs);
+    *mask = (pixel_mask){0};
+}
+
+uint8_t *mask_bytes(const pixel_mask *mask)
+{
+    uint8_t *bytes = mask->runs ? malloc((size_t)mask->width * (size_t)mask->height) : NULL;
+    size_t at = 0;
+    for (size_t i = 0; bytes && i < mask->count; at += mask->runs[i++])
+        memset(bytes + at, i % 2 ? 1 : 0, mask->runs[i]);
+    return bytes;
+}
