@@ -139,7 +139,7 @@ static void overlong_names_have_evidence_too(void **state)
         json_decref(object);
         command_release(&result);
         listing left = folder_list(out.path);
-        assert_int_equal(left.count, 8); /* eight pictures, the page and the marker */
+        assert_int_equal(left.count, 8); /* six pictures, the page and the marker */
         listing_release(&left);
     }
 }
