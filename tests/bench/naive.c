@@ -125,9 +125,9 @@ static void add_vertex(vertex_list *list, double x, double y, double z, theme_co
     list->items[list->count++] = (vertex){(GLfloat)x, (GLfloat)y, (GLfloat)z, {color.r, color.g, color.b, 255}};
 }
 
-static theme_color color_of(scene_look look)
+static theme_color color_of(scene_style style)
 {
-    return theme_color_at(theme_index(look.role, 0));
+    return theme_color_at(theme_index(style.role, 0));
 }
 
 static void flush(naive *n, GLenum kind)
@@ -143,7 +143,7 @@ static void add_box(naive *n, const scene_box *box)
 {
     static const uint8_t edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                                          {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-    const theme_color color = color_of(box->look);
+    const theme_color color = color_of(box->style);
     for (int i = 0; i < 12; i++)
         for (int end = 0; end < 2; end++) {
             const unsigned corner = edges[i][end];
@@ -192,7 +192,7 @@ static void draw_lines(naive *n, const scene *s, bool in_picture)
         const scene_segment *segment = &s->segments.items[i];
         for (int end = 0; end < 2 && segment->in_picture == in_picture; end++)
             add_vertex(&n->vertices, segment->ends[end][0], segment->ends[end][1],
-                       in_picture ? 0 : segment->ends[end][2], color_of(segment->look));
+                       in_picture ? 0 : segment->ends[end][2], color_of(segment->style));
     }
     flush(n, GL_LINES);
 }
@@ -202,9 +202,9 @@ static void draw_markers(naive *n, const scene *s)
 {
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *m = &s->markers.items[i];
-        add_vertex(&n->vertices, m->at[0], m->at[1], m->at[2], color_of(m->look));
-        if (i + 1 == s->markers.count || m[1].look.width != m->look.width) {
-            n->PointSize((GLfloat)(2 * (m->look.width * s->unit / 2) + 1));
+        add_vertex(&n->vertices, m->at[0], m->at[1], m->at[2], color_of(m->style));
+        if (i + 1 == s->markers.count || m[1].style.width != m->style.width) {
+            n->PointSize((GLfloat)(2 * (m->style.width * s->unit / 2) + 1));
             flush(n, GL_POINTS);
         }
     }
@@ -216,7 +216,7 @@ static void draw_panels(naive *n, const scene *s)
         const scene_panel *p = &s->panels.items[i];
         for (int corner = 0; corner < 4; corner++)
             add_vertex(&n->vertices, p->x + (corner == 1 || corner == 2 ? p->width : 0),
-                       p->y + (corner >= 2 ? p->height : 0), 0, color_of(p->look));
+                       p->y + (corner >= 2 ? p->height : 0), 0, color_of(p->style));
     }
     flush(n, GL_QUADS);
 }
@@ -233,11 +233,11 @@ static void draw_labels(naive *n, const scene *s)
             camera_transform(&s->camera, label->at, seen);
             camera_project(&s->camera, seen, at);
         }
-        const int scale = s->unit * label->look.width,
+        const int scale = s->unit * label->style.width,
                   count = stb_easy_font_print(0, 0, text, NULL, letters, sizeof letters);
         for (int j = 0; j < 4 * count; j++)
             add_vertex(&n->vertices, (int)at[0] + (double)letters[j].x * scale,
-                       (int)at[1] + (double)letters[j].y * scale, 0, color_of(label->look));
+                       (int)at[1] + (double)letters[j].y * scale, 0, color_of(label->style));
     }
     flush(n, GL_QUADS);
 }

@@ -4,6 +4,7 @@
 
 #include "frames.h"
 #include "knob.h"
+#include "layer.h"
 #include "paint.h"
 #include "picture.h"
 #include "timing.h"
@@ -94,7 +95,7 @@ static leaving_out find_left_out(const scene *picture, const octree *tree)
 {
     leaving_out l = {.picture = picture, .shown = memory(NULL, picture->boxes.count * sizeof *l.shown)};
     for (size_t i = 0; i < picture->boxes.count; i++)
-        if (picture->boxes.items[i].look.layer == LAYER_NODES)
+        if (picture->boxes.items[i].style.layer == LAYER_NODES)
             l.shown[l.count++] = picture->boxes.items[i].id;
     qsort(l.shown, l.count, sizeof *l.shown, by_address);
     must(octree_walk(tree, look_at, &l));

@@ -29,4 +29,7 @@ bool number_parse_nonfinite(const char *begin, const char *limit, const char **e
  * point, no point in integers, "-0" for minus zero. Returns the length. */
 size_t number_print(double value, char text[NUMBER_TEXT]);
 
+/* Write a double with at most so many significant digits, as people read it. Returns `text`. */
+const char *number_text(double value, int digits, char text[NUMBER_TEXT]);
+
 #endif

@@ -214,3 +214,10 @@ size_t number_print(double value, char text[NUMBER_TEXT])
     printed shortest;
     return print_exactly(value, &shortest) ? write_digits(&shortest, text) : print_by_library(value, text);
 }
+
+const char *number_text(double value, int digits, char text[NUMBER_TEXT])
+{
+    snprintf(text, NUMBER_TEXT, "%.*g", digits, value);
+    restore_point(text);
+    return text;
+}

@@ -1,5 +1,6 @@
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "options.h"
+#include "layer.h"
 #include "number.h"
 #include "session_file.h"
 #include "view_file.h"

@@ -58,30 +58,10 @@ size_t renderer_left_out(const renderer *r);
 
 /* ---- What is drawn where ------------------------------------------------------------------------------------ */
 
-/* The arrays of a scene, in the order in which their elements are numbered. */
-typedef enum draw_kind { DRAW_BOX, DRAW_SEGMENT, DRAW_MARKER, DRAW_PANEL, DRAW_LABEL, DRAW_KINDS } draw_kind;
-
-/* One element of a scene: that of this index in the array of its kind. */
-typedef struct draw_element {
-    draw_kind kind;
-    size_t index;
-} draw_element;
-
-/* "box", "segment", "marker", "panel", "label". */
-const char *draw_kind_name(draw_kind kind);
-
-/* A scene's elements are numbered from 1 on: its boxes, then its segments, markers, panels and labels. What belongs to
- * none, the background, is 0, which has no element. */
-draw_element draw_element_of(const scene *s, uint32_t number);
-uint32_t draw_number_of(const scene *s, draw_element element);
-
-/* What every element has. */
-scene_look draw_look_of(const scene *s, draw_element element);
-uint64_t draw_id_of(const scene *s, draw_element element);
-
 /* Draw a scene as renderer_draw() does, the same quads in the same order; but in place of its colour each sample gets
- * the number of the element that was painted there last. Where boxes share an edge that is the shallowest of those
- * which are there; where points share a quad, the one it was painted for: renderer_pixel() names them all. */
+ * the number (scene_number_of) of the element that was painted there last. Where boxes share an edge that is the
+ * shallowest of those which are there; where points share a quad, the one it was painted for: renderer_pixel() names
+ * them all. */
 bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error);
 
 /* Where a set of layers (bits 1 << view_layer, LAYER_DIAGRAM too) is seen in a scene's picture: a byte a pixel, 1 where

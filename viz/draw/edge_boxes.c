@@ -82,7 +82,7 @@ static stroke stroke_of(const scene *s, const edge *e)
     if (e->ends[0][axis] == e->ends[1][axis])
         axis = 0;
     stroke k = {
-        .edge = e, .line = line_key_at(e->look, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
+        .edge = e, .line = line_key_at(e->style, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
     piece pieces[QUAD_BANDS];
     bool overflowed;
     const unsigned count = project_segment(s, e->ends[0], e->ends[1], pieces, &overflowed);
@@ -146,7 +146,7 @@ size_t edge_boxes_giver(const edge_boxes *all, const edge *e, int x, int y)
     const box_edge *best = NULL;
     for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++) {
         const box_edge *found = &all->items[i];
-        const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].look.role == e->look.role;
+        const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].style.role == e->style.role;
         if (gives && found->to >= k.from && (!best || distance(found, at) < distance(best, at)))
             best = found;
     }

@@ -13,7 +13,7 @@ typedef struct stretch {
     double from, to;
     uint64_t id;
     uint32_t line; /* its place in the set of lines */
-    scene_look look;
+    scene_style style;
     uint8_t depth;
 } stretch;
 
@@ -57,18 +57,18 @@ void edges_release(edge_list *list)
     memset(list, 0, sizeof *list);
 }
 
-static bool same_look(scene_look a, scene_look b)
+static bool same_style(scene_style a, scene_style b)
 {
-    return a.layer == b.layer && a.role == b.role && a.style == b.style && a.width == b.width;
+    return a.layer == b.layer && a.role == b.role && a.stroke == b.stroke && a.width == b.width;
 }
 
-/* Add the stretch [from, to] with the look of `of`, to the last edge where it goes on from there on the same line. */
+/* Add the stretch [from, to] with the style of `of`, to the last edge where it goes on from there on the same line. */
 static bool emit(edge_list *list, const stretch *of, double from, double to, bool same_line)
 {
     const line *on = &list->lines.items[of->line];
     const unsigned axis = line_key_axis(&on->key);
     edge *last = list->count ? &list->items[list->count - 1] : NULL;
-    if (same_line && last && last->depth == of->depth && same_look(last->look, of->look) &&
+    if (same_line && last && last->depth == of->depth && same_style(last->style, of->style) &&
         last->ends[1][axis] == from) {
         last->ends[1][axis] = to;
         return true;
@@ -76,7 +76,7 @@ static bool emit(edge_list *list, const stretch *of, double from, double to, boo
     if (!make_room(list, 1))
         return false;
     edge *added = &list->items[list->count++];
-    *added = (edge){.id = of->id, .look = of->look, .depth = of->depth};
+    *added = (edge){.id = of->id, .style = of->style, .depth = of->depth};
     for (int end = 0; end < 2; end++) {
         added->ends[end][axis] = end ? to : from;
         added->ends[end][(axis + 1) % 3] = on->key.u;
@@ -164,7 +164,7 @@ static bool collect_edge(stretch_list *all, line *on, uint32_t place, const scen
                         .to = box->box.max[axis],
                         .id = box->id,
                         .line = place,
-                        .look = box->look,
+                        .style = box->style,
                         .depth = box->depth};
     if (on->last != LINE_NONE && is_covered(&it, &all->items[on->last]))
         return true;

@@ -9,7 +9,7 @@
 typedef struct edge {
     double ends[2][3];
     uint64_t id; /* of the shallowest box that it belongs to; of several that meet end to end, the first one's */
-    scene_look look;
+    scene_style style;
     uint8_t depth;
 } edge;
 

@@ -41,8 +41,8 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
         return;
     memcpy(text, label->text, sizeof text);
     const int count = stb_easy_font_print(0, 0, text, NULL, corners, sizeof corners);
-    const int pixel = QUAD_SUBPIXELS * view_samples(&s->view), scale = s->unit * label->look.width * pixel;
-    quad q = {.color = theme_index(label->look.role, 0), .order = quad_order_of_text(label->look.layer)};
+    const int pixel = QUAD_SUBPIXELS * view_samples(&s->view), scale = s->unit * label->style.width * pixel;
+    quad q = {.color = theme_index(label->style.role, 0), .order = quad_order_of_text(label->style.layer)};
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < 4; j++) {
             q.x[j] = left * pixel + (int)corners[4 * i + j].x * scale;
@@ -58,7 +58,7 @@ bool letters_box(const scene *s, const scene_label *label, draw_box *box)
     if (!place(s, label, &box->x, &box->y))
         return false;
     memcpy(text, label->text, sizeof text);
-    const int scale = s->unit * label->look.width;
+    const int scale = s->unit * label->style.width;
     box->width = stb_easy_font_width(text) * scale;
     box->height = stb_easy_font_height(text) * scale;
     return true;

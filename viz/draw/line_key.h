@@ -12,12 +12,12 @@ typedef struct line_key {
 } line_key;
 
 /* The line through a place. */
-static inline line_key line_key_at(scene_look look, unsigned axis, const double at[3])
+static inline line_key line_key_at(scene_style style, unsigned axis, const double at[3])
 {
     return (line_key){
         .u = at[(axis + 1) % 3],
         .v = at[(axis + 2) % 3],
-        .kind = (uint32_t)look.layer << 24 | (uint32_t)look.style << 16 | (uint32_t)look.width << 8 | axis,
+        .kind = (uint32_t)style.layer << 24 | (uint32_t)style.stroke << 16 | (uint32_t)style.width << 8 | axis,
     };
 }
 
@@ -27,7 +27,7 @@ static inline line_key line_key_of(const scene_box *box, unsigned axis, unsigned
     double at[3] = {0};
     at[(axis + 1) % 3] = (corner & 1 ? box->box.max : box->box.min)[(axis + 1) % 3];
     at[(axis + 2) % 3] = (corner & 2 ? box->box.max : box->box.min)[(axis + 2) % 3];
-    return line_key_at(box->look, axis, at);
+    return line_key_at(box->style, axis, at);
 }
 
 static inline unsigned line_key_axis(const line_key *key)

@@ -23,12 +23,12 @@ void merged_boxes_release(merged_boxes *kept)
 
 static bool is_among(const scene_box *box, unsigned first, unsigned behind)
 {
-    return box->look.layer >= first && box->look.layer < behind;
+    return box->style.layer >= first && box->style.layer < behind;
 }
 
 static bool same_box(const scene_box *a, const scene_box *b)
 {
-    return a->id == b->id && a->depth == b->depth && memcmp(&a->look, &b->look, sizeof a->look) == 0 &&
+    return a->id == b->id && a->depth == b->depth && memcmp(&a->style, &b->style, sizeof a->style) == 0 &&
            memcmp(&a->box, &b->box, sizeof a->box) == 0;
 }
 

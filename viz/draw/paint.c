@@ -1,5 +1,6 @@
 /* paint.c - see paint.h. */
 #include "paint.h"
+#include "layer.h"
 #include "project.h"
 #include "letters.h"
 #include "stroke.h"
@@ -18,32 +19,32 @@ void painter_release(painter *p)
     memset(p, 0, sizeof *p);
 }
 
-static void stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_look look, unsigned depth)
+static void stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_style style, unsigned depth)
 {
     static void (*const strokes[])(quad_list *, const pencil *, const piece *,
-                                   unsigned) = {[STYLE_SOLID] = stroke_solid,
-                                                [STYLE_DASHED] = stroke_dashed,
-                                                [STYLE_CUT] = stroke_cut,
-                                                [STYLE_ARROW] = stroke_arrow};
-    const pencil with = pencil_make(s, look, depth);
-    strokes[look.style](&p->quads, &with, pieces, count);
+                                   unsigned) = {[STROKE_SOLID] = stroke_solid,
+                                                [STROKE_DASHED] = stroke_dashed,
+                                                [STROKE_CUT] = stroke_cut,
+                                                [STROKE_ARROW] = stroke_arrow};
+    const pencil with = pencil_make(s, style, depth);
+    strokes[style.stroke](&p->quads, &with, pieces, count);
 }
 
-static void paint_segment(painter *p, const scene *s, const double from[3], const double to[3], scene_look look,
+static void paint_segment(painter *p, const scene *s, const double from[3], const double to[3], scene_style style,
                           unsigned depth)
 {
     piece pieces[QUAD_BANDS];
     bool overflowed;
     const unsigned count = project_segment(s, from, to, pieces, &overflowed);
     p->overflowed += overflowed;
-    stroke(p, s, pieces, count, look, depth);
+    stroke(p, s, pieces, count, style, depth);
 }
 
 static void paint_flat(painter *p, const scene *s, const scene_segment *segment)
 {
     piece flat;
     if (project_flat(s, segment->ends[0], segment->ends[1], &flat))
-        stroke(p, s, &flat, 1, segment->look, 0);
+        stroke(p, s, &flat, 1, segment->style, 0);
 }
 
 /* Those of the world, or those of the picture. */
@@ -53,11 +54,11 @@ static void paint_segments(painter *p, const scene *s, bool in_picture)
         const scene_segment *segment = &s->segments.items[i];
         if (segment->in_picture != in_picture)
             continue;
-        quads_begin(&p->quads, DRAW_SEGMENT, i);
+        quads_begin(&p->quads, SCENE_SEGMENT, i);
         if (in_picture)
             paint_flat(p, s, segment);
         else
-            paint_segment(p, s, segment->ends[0], segment->ends[1], segment->look, 0);
+            paint_segment(p, s, segment->ends[0], segment->ends[1], segment->style, 0);
     }
 }
 
@@ -67,8 +68,8 @@ static bool paint_boxes(painter *p, const scene *s)
         return false;
     for (size_t i = 0; i < paint_edge_count(p); i++) {
         const edge *e = paint_edge_at(p, i);
-        quads_begin(&p->quads, DRAW_BOX, i);
-        paint_segment(p, s, e->ends[0], e->ends[1], e->look, e->depth);
+        quads_begin(&p->quads, SCENE_BOX, i);
+        paint_segment(p, s, e->ends[0], e->ends[1], e->style, e->depth);
     }
     return true;
 }
@@ -89,13 +90,13 @@ static void paint_marker(painter *p, const scene *s, const scene_marker *marker)
     unsigned band;
     if (!project_point(s, marker->at, pixel, &band))
         return;
-    const pencil with = pencil_make(s, marker->look, 0);
+    const pencil with = pencil_make(s, marker->style, 0);
     stroke_marker(&p->quads, &with, (scene_shape)marker->shape, pixel, band);
 }
 
 static bool is_point(const scene_marker *marker)
 {
-    return marker->look.layer == LAYER_POINTS;
+    return marker->style.layer == LAYER_POINTS;
 }
 
 bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place, unsigned *band)
@@ -162,9 +163,9 @@ static bool paint_points(painter *p, const scene *s)
         const scene_marker *marker = &s->markers.items[i];
         if (!at.seen || p->nearest[at.pixel] != at.band + 1)
             continue;
-        const pencil with = pencil_make(s, marker->look, 0);
+        const pencil with = pencil_make(s, marker->style, 0);
         const uint32_t width = (uint32_t)s->view.width;
-        quads_begin(&p->quads, DRAW_MARKER, i);
+        quads_begin(&p->quads, SCENE_MARKER, i);
         stroke_marker(&p->quads, &with, (scene_shape)marker->shape,
                       (const double[2]){at.pixel % width, (double)(at.pixel / width)}, at.band);
         p->nearest[at.pixel] = UINT8_MAX; /* painted */
@@ -194,17 +195,17 @@ bool paint(painter *p, const scene *picture)
         return false;
     paint_segments(p, s, false);
     for (size_t i = 0; i < s->markers.count; i++) {
-        quads_begin(&p->quads, DRAW_MARKER, i);
+        quads_begin(&p->quads, SCENE_MARKER, i);
         if (!is_point(&s->markers.items[i]))
             paint_marker(p, s, &s->markers.items[i]);
     }
     for (size_t i = 0; i < s->panels.count; i++) {
-        quads_begin(&p->quads, DRAW_PANEL, i);
+        quads_begin(&p->quads, SCENE_PANEL, i);
         stroke_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
     }
     paint_segments(p, s, true); /* on the panels of their layer */
     for (size_t i = 0; i < s->labels.count; i++) {
-        quads_begin(&p->quads, DRAW_LABEL, i);
+        quads_begin(&p->quads, SCENE_LABEL, i);
         letters_add(&p->quads, s, &s->labels.items[i]);
     }
     return !p->quads.out_of_memory && quads_sort(&p->quads);

@@ -15,9 +15,9 @@
 /* What is painted has numbers too: the merged edges take the places of the boxes. */
 static uint64_t stroke_number(const scene *s, const painter *p, const quad *q)
 {
-    if (q->kind == DRAW_BOX)
+    if (q->kind == SCENE_BOX)
         return 1 + (uint64_t)q->index;
-    return (uint64_t)draw_number_of(s, (draw_element){(draw_kind)q->kind, q->index}) - s->boxes.count +
+    return (uint64_t)scene_number_of(s, (scene_element){(scene_kind)q->kind, q->index}) - s->boxes.count +
            paint_edge_count(p);
 }
 
@@ -92,8 +92,8 @@ bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error
 
 static unsigned layer_of(const scene *s, const painter *p, const quad *q)
 {
-    return q->kind == DRAW_BOX ? paint_edge_at(p, q->index)->look.layer
-                               : draw_look_of(s, (draw_element){(draw_kind)q->kind, q->index}).layer;
+    return q->kind == SCENE_BOX ? paint_edge_at(p, q->index)->style.layer
+                                : scene_style_of(s, (scene_element){(scene_kind)q->kind, q->index}).layer;
 }
 
 /* Draw a 1 for the quads of the wanted layers and a 0 for all others, in the picture's order. */

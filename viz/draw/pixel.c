@@ -39,10 +39,10 @@ static draw_touch *find_touch(draw_touches *list, uint32_t number)
 }
 
 /* The entry of an element, at the end of the list where it has none yet; null when there is no memory. */
-static draw_touch *take_touch(probe *p, draw_kind kind, size_t index)
+static draw_touch *take_touch(probe *p, scene_kind kind, size_t index)
 {
     draw_touches *list = p->list;
-    const uint32_t number = draw_number_of(p->picture, (draw_element){kind, index});
+    const uint32_t number = scene_number_of(p->picture, (scene_element){kind, index});
     draw_touch *found = find_touch(list, number);
     if (found)
         return found;
@@ -57,7 +57,7 @@ static draw_touch *take_touch(probe *p, draw_kind kind, size_t index)
 }
 
 /* A sample that was painted for an element, from the last quad to the first. */
-static void add_paint(probe *p, draw_kind kind, size_t index, uint8_t color, int sample)
+static void add_paint(probe *p, scene_kind kind, size_t index, uint8_t color, int sample)
 {
     draw_touch *touch = take_touch(p, kind, index);
     const bool shown = !(p->taken >> sample & 1);
@@ -73,7 +73,7 @@ static void add_paint(probe *p, draw_kind kind, size_t index, uint8_t color, int
 /* A box that is there by another's edge. */
 static void add_box_too(size_t box, void *context)
 {
-    take_touch(context, DRAW_BOX, box);
+    take_touch(context, SCENE_BOX, box);
 }
 
 /* The points that are on one sample with a point that is drawn. */
@@ -86,7 +86,7 @@ static void add_points_too(probe *p, size_t drawn)
         return;
     for (size_t i = 0; i < s->markers.count; i++)
         if (paint_point_pixel(s, &s->markers.items[i], &other, &band) && other == place)
-            take_touch(p, DRAW_MARKER, i);
+            take_touch(p, SCENE_MARKER, i);
 }
 
 /* ---- The quads ----------------------------------------------------------------------------------------------- */
@@ -153,7 +153,7 @@ static void add_edge(probe *p, const quad *q, unsigned bits)
             if (!(bits >> i & 1))
                 continue;
             if (pass == 0)
-                add_paint(p, DRAW_BOX, edge_boxes_giver(&p->boxes, e, x, y), q->color, i);
+                add_paint(p, SCENE_BOX, edge_boxes_giver(&p->boxes, e, x, y), q->color, i);
             else
                 edge_boxes_visit(&p->boxes, e, x, y, add_box_too, p);
         }
@@ -162,12 +162,12 @@ static void add_edge(probe *p, const quad *q, unsigned bits)
 
 static void add_quad(probe *p, const quad *q, unsigned bits)
 {
-    if (q->kind == DRAW_BOX)
+    if (q->kind == SCENE_BOX)
         add_edge(p, q, bits);
-    for (int i = 0; q->kind != DRAW_BOX && i < MOST_SAMPLES; i++)
+    for (int i = 0; q->kind != SCENE_BOX && i < MOST_SAMPLES; i++)
         if (bits >> i & 1)
-            add_paint(p, (draw_kind)q->kind, q->index, q->color, i);
-    if (q->kind == DRAW_MARKER)
+            add_paint(p, (scene_kind)q->kind, q->index, q->color, i);
+    if (q->kind == SCENE_MARKER)
         add_points_too(p, q->index);
     p->taken |= bits;
 }

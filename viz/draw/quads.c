@@ -1,5 +1,6 @@
 /* quads.c - see quads.h. */
 #include "quads.h"
+#include "layer.h"
 
 #include <stdlib.h>
 #include <string.h>

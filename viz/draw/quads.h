@@ -13,7 +13,7 @@
 typedef struct quad {
     int32_t x[4], y[4];
     uint8_t color;  /* an index of the theme's table */
-    uint8_t kind;   /* draw_kind of what it is a part of */
+    uint8_t kind;   /* scene_kind of what it is a part of */
     uint16_t order; /* smaller is painted first */
     uint32_t index; /* of that element; of a box, that of the edge in the painter's list */
 } quad;
@@ -29,7 +29,7 @@ typedef struct quad_list {
 void quads_release(quad_list *list);
 
 /* What is added from now on is a part of this element. */
-static inline void quads_begin(quad_list *list, draw_kind kind, size_t index)
+static inline void quads_begin(quad_list *list, scene_kind kind, size_t index)
 {
     list->kind = (uint8_t)kind;
     list->index = (uint32_t)index;

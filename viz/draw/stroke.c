@@ -1,5 +1,6 @@
 /* stroke.c - see stroke.h. */
 #include "stroke.h"
+#include "layer.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,11 +20,11 @@ static int line_width(const scene *s, unsigned wanted)
     return width > least ? width : least;
 }
 
-pencil pencil_make(const scene *s, scene_look look, unsigned depth)
+pencil pencil_make(const scene *s, scene_style style, unsigned depth)
 {
     const int samples = view_samples(&s->view);
-    return (pencil){.look = look,
-                    .width = line_width(s, look.width) * samples,
+    return (pencil){.style = style,
+                    .width = line_width(s, style.width) * samples,
                     .unit = s->unit,
                     .samples = samples,
                     .depth = depth};
@@ -32,19 +33,16 @@ pencil pencil_make(const scene *s, scene_look look, unsigned depth)
 /* What the tick is about fades less than the tree around it: the last bands would drown it. */
 static unsigned shade_of(const pencil *with, unsigned band)
 {
-#define LAYER_FADES(name, text, words, role, fades) [LAYER_##name] = fades,
-    static const bool fades[LAYER_DIAGRAM + 1] = {VIEW_LAYER_MAP(LAYER_FADES)};
-#undef LAYER_FADES
-    if (with->look.role == ROLE_BACKGROUND)
+    if (with->style.role == ROLE_BACKGROUND)
         return 0;
-    return fades[with->look.layer] ? band : band / 3;
+    return layer_rows[with->style.layer].fades ? band : band / 3;
 }
 
 static quad blank(const pencil *with, unsigned band)
 {
     return (quad){
-        .color = theme_index(with->look.role, shade_of(with, band)),
-        .order = quad_order(with->look.layer, band, with->depth),
+        .color = theme_index(with->style.role, shade_of(with, band)),
+        .order = quad_order(with->style.layer, band, with->depth),
     };
 }
 
@@ -131,7 +129,7 @@ void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, uns
 void stroke_cut(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     pencil ground = *with;
-    ground.look.role = ROLE_BACKGROUND;
+    ground.style.role = ROLE_BACKGROUND;
     stroke_solid(list, &ground, pieces, count);
     stroke_dashed(list, with, pieces, count);
 }
@@ -197,7 +195,7 @@ static void add_cross(quad_list *list, const pencil *with, unsigned band, int x,
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
 {
-    const int half = with->look.width * with->unit / 2, side = (2 * half + 1) * with->samples;
+    const int half = with->style.width * with->unit / 2, side = (2 * half + 1) * with->samples;
     const int left = (int)floor(pixel[0]) - (side - 1) / 2, top = (int)floor(pixel[1]) - (side - 1) / 2;
     const int line = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
     const quad q = blank(with, band);
@@ -222,6 +220,6 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
 
 void stroke_panel(quad_list *list, const scene_panel *panel, int samples)
 {
-    const quad q = {.color = theme_index(panel->look.role, 0), .order = quad_order_of_text(panel->look.layer)};
+    const quad q = {.color = theme_index(panel->style.role, 0), .order = quad_order_of_text(panel->style.layer)};
     add_rectangle(list, q, panel->x * samples, panel->y * samples, panel->width * samples, panel->height * samples);
 }

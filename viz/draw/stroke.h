@@ -7,14 +7,14 @@
 
 /* What a line is drawn with. */
 typedef struct pencil {
-    scene_look look;
+    scene_style style;
     int width;      /* of lines, samples */
     int unit;       /* view_unit of the scene: pixels */
     int samples;    /* a pixel, on each axis */
     unsigned depth; /* of the node that the line belongs to */
 } pencil;
 
-pencil pencil_make(const scene *s, scene_look look, unsigned depth);
+pencil pencil_make(const scene *s, scene_style style, unsigned depth);
 
 /* The pieces of one segment. However short, it leaves a mark of at least one pixel. */
 void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count);

@@ -1,5 +1,6 @@
 /* settings.c - see settings.h. */
 #include "settings.h"
+#include "layer.h"
 #include "session_file.h"
 
 #include <inttypes.h>

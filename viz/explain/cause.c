@@ -1,5 +1,6 @@
 /* cause.c - see cause.h. */
 #include "cause.h"
+#include "layer.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

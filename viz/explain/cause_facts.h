@@ -6,6 +6,7 @@
 #define DIFF_CAUSE_FACTS_H
 
 #include "cause_value.h"
+#include "layer.h"
 #include "octree/game.h"
 
 /* Each kind of fact and its name in JSON. */

@@ -1,5 +1,6 @@
 /* cause_looks.c - in what the looks of two recordings differ; see cause_compare.h. */
 #include "cause_compare.h"
+#include "layer.h"
 #include "number.h"
 
 #include <stdio.h>

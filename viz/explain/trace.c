@@ -1,6 +1,7 @@
 /* trace.c - see trace.h. */
 #include "trace.h"
 #include "frame_file.h"
+#include "layer.h"
 #include "tick_scene.h"
 
 #include <stdlib.h>
@@ -110,15 +111,15 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
     trace_part part = {.layer = TRACE_BACKGROUND, .pixels = 1};
     if (number == 0)
         return part;
-    const draw_element element = draw_element_of(s, number);
-    part.layer = draw_look_of(s, element).layer;
+    const scene_element element = scene_element_at(s, number);
+    part.layer = scene_style_of(s, element).layer;
     const bool about_node = part.layer == LAYER_NODES || part.layer == LAYER_VISITED || part.layer == LAYER_PRUNED ||
                             part.layer == LAYER_HIT;
-    const octree_address changed = about_node ? changed_node(games, draw_id_of(s, element)) : 0;
+    const octree_address changed = about_node ? changed_node(games, scene_id_of(s, element)) : 0;
     if (changed)
         part.layer = LAYER_NODES;
     if (changed || part.layer == LAYER_NODES || part.layer == LAYER_POINTS)
-        part.id = changed ? changed : draw_id_of(s, element);
+        part.id = changed ? changed : scene_id_of(s, element);
     return part;
 }
 

@@ -5,6 +5,7 @@
 #include "diff.h"
 #include "draw.h"
 #include "heat.h"
+#include "layer.h"
 #include "octree/game.h"
 #include "recorded.h"
 

@@ -1,5 +1,6 @@
 /* trace_words.c - see trace_words.h. */
 #include "trace_words.h"
+#include "layer.h"
 #include "text.h"
 
 #include <inttypes.h>

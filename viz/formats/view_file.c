@@ -1,5 +1,6 @@
 /* view_file.c - see view_file.h. */
 #include "view_file.h"
+#include "layer.h"
 #include "number.h"
 #include "session_reader.h"
 #include "theme.h"

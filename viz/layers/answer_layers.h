@@ -3,6 +3,7 @@
 #define SCENE_ANSWER_LAYERS_H
 
 #include "octree/game.h"
+#include "layer.h"
 #include "scene.h"
 
 /* The great circles of a ball, and the chords that each is drawn by. */

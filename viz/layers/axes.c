@@ -1,6 +1,7 @@
 /* axes.c - see axes.h. */
 #include "axes.h"
-#include "number_text.h"
+#include "layer.h"
+#include "number.h"
 #include "text_space.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ typedef struct axes {
     text_space words;
 } axes;
 
-static const scene_look axis_look = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
+static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
 
 /* The smallest of 1, 2 and 5 times a power of ten that is at least `limit`; 0 where doubles end, at either side. */
 static double round_up(double limit)
@@ -82,14 +83,14 @@ static bool place_number(axes *a, const double end[3], scene_label *number)
 static void add_tick(axes *a, int axis, double at, uint64_t id)
 {
     scene *s = a->scene;
-    scene_segment line = {.id = id, .look = axis_look};
+    scene_segment line = {.id = id, .style = axis_style};
     const double length = TICK_LENGTH * (s->camera.size / s->camera.scale);
     for (int i = 0; i < 3; i++) {
         line.ends[0][i] = i == axis ? at : a->box->min[i];
         line.ends[1][i] = i == axis ? at : a->box->min[i] - length;
     }
-    scene_label number = {.id = id, .look = axis_look};
-    char text[NUMBER_WORDS];
+    scene_label number = {.id = id, .style = axis_style};
+    char text[NUMBER_TEXT];
     snprintf(number.text, sizeof number.text, "%s", number_text(at, DIGITS, text));
     scene_add_segment(s, line);
     if (place_number(a, line.ends[1], &number)) {
@@ -125,7 +126,7 @@ static void add_letter(axes *a, int axis)
 {
     if (is_end_on(a, axis))
         return;
-    scene_label letter = {.id = (uint64_t)axis, .in_world = true, .look = axis_look, .text = {(char)('x' + axis), 0}};
+    scene_label letter = {.id = (uint64_t)axis, .in_world = true, .style = axis_style, .text = {(char)('x' + axis), 0}};
     double pixel[2], corner[2];
     memcpy(letter.at, a->box->min, sizeof letter.at);
     letter.at[axis] = a->box->max[axis];
@@ -139,7 +140,7 @@ static void add_letter(axes *a, int axis)
 /* Where the box is not the world's, its edges are not drawn otherwise. */
 static void add_line(axes *a, int axis)
 {
-    scene_segment line = {.id = (uint64_t)axis, .look = axis_look};
+    scene_segment line = {.id = (uint64_t)axis, .style = axis_style};
     memcpy(line.ends[0], a->box->min, sizeof line.ends[0]);
     memcpy(line.ends[1], a->box->min, sizeof line.ends[1]);
     line.ends[1][axis] = a->box->max[axis];

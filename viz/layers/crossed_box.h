@@ -5,6 +5,6 @@
 #include "scene.h"
 
 /* The diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1: see element_ids.h. */
-void add_crossed_faces(scene *s, const octree_box *box, scene_look look);
+void add_crossed_faces(scene *s, const octree_box *box, scene_style style);
 
 #endif

@@ -3,6 +3,7 @@
 #include "diagram_place.h"
 #include "element_ids.h"
 #include "filter.h"
+#include "layer.h"
 #include "layout.h"
 #include "tree_nodes.h"
 
@@ -10,10 +11,10 @@
 
 #define RING 2 /* units that the ring around a node on the way is larger than what is in it, both sides together */
 
-static scene_look line_look(theme_role role, scene_style style, unsigned width)
+static scene_style line_style(theme_role role, scene_stroke stroke, unsigned width)
 {
-    return (scene_look){
-        .layer = LAYER_DIAGRAM, .role = (uint8_t)role, .style = (uint8_t)style, .width = (uint8_t)width};
+    return (scene_style){
+        .layer = LAYER_DIAGRAM, .role = (uint8_t)role, .stroke = (uint8_t)stroke, .width = (uint8_t)width};
 }
 
 /* The order of a walk: the root first, and each node before its children. */
@@ -41,14 +42,14 @@ static const octree_visit *find_visit(const diagram_marks *marks, octree_address
 }
 
 /* The line to a node from above: bold where it was looked into, dashed where it was left out. */
-static scene_look look_of(const diagram_place *p, const diagram_marks *marks, octree_address node, theme_role role)
+static scene_style style_of(const diagram_place *p, const diagram_marks *marks, octree_address node, theme_role role)
 {
     const octree_visit *visit = find_visit(marks, node);
     const bool pruned = visit && marks->pruned && visit->touch == OCTREE_TOUCH_PRUNED;
     const bool visited = visit && marks->visited && visit->touch != OCTREE_TOUCH_PRUNED;
     p->scene->tally.marked_visited += visited;
     p->scene->tally.marked_pruned += pruned;
-    return line_look(role, pruned ? STYLE_DASHED : STYLE_SOLID, visited ? 2 : 1);
+    return line_style(role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
 /* As high as the row allows, and as wide as the slot: a leaf is half as large as an inner node. */
@@ -69,12 +70,12 @@ static unsigned role_of(const diagram_place *p, const diagram_node *node, const 
 
 /* From the foot of a node to the head of its child. */
 static void add_line(const diagram_place *p, octree_address child, const diagram_stop *from, const diagram_stop *to,
-                     scene_look look)
+                     scene_style style)
 {
     scene_add_segment(p->scene, (scene_segment){.id = child,
                                                 .in_picture = true,
                                                 .ends = {{from->x, from->foot, 0}, {to->x, to->head, 0}},
-                                                .look = look});
+                                                .style = style});
 }
 
 /* A ring around a node on the way, which a dark one keeps apart from the node's own colour. */
@@ -112,7 +113,7 @@ static void add_nodes(diagram_place *p, const octree_box *world, const diagram_m
             p->stops[depth] = stops[depth];
         else if (depth)
             add_line(p, node->address, &stops[depth - 1], &stops[depth],
-                     look_of(p, marks, node->address, (theme_role)role));
+                     style_of(p, marks, node->address, (theme_role)role));
         add_node(p, node, stops[depth].x, size, role);
     }
 }
@@ -124,7 +125,7 @@ static void add_way(const diagram_place *p)
     for (unsigned depth = 0; depth <= deep; depth++) {
         const diagram_stop *at = &p->stops[depth];
         if (depth)
-            add_line(p, p->way >> 3 * (deep - depth), at - 1, at, line_look(ROLE_PLAYER, STYLE_SOLID, 2));
+            add_line(p, p->way >> 3 * (deep - depth), at - 1, at, line_style(ROLE_PLAYER, STROKE_SOLID, 2));
         if (depth > p->slots.deepest)
             diagram_fill(p, diagram_way_id(depth), at->x, diagram_row(p, depth), RING * p->scene->unit,
                          at->foot - at->head, ROLE_PLAYER);
@@ -141,7 +142,7 @@ static void add_ground(scene *s)
                                      .y = (int)w.y,
                                      .width = (int)w.width,
                                      .height = (int)w.height,
-                                     .look = {.layer = LAYER_DIAGRAM, .role = ROLE_BACKGROUND}});
+                                     .style = {.layer = LAYER_DIAGRAM, .role = ROLE_BACKGROUND}});
 }
 
 void add_diagram(scene *s, const octree *tree, const diagram_marks *marks)

@@ -1,6 +1,7 @@
 /* diagram_legend.c - see diagram_legend.h. */
 #include "diagram_legend.h"
 #include "filter.h"
+#include "layer.h"
 
 /* What each line stands for, and its swatch: rectangles in a square of SWATCH units, x, y, width and height. */
 typedef struct mark {

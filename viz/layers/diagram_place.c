@@ -1,6 +1,7 @@
 /* diagram_place.c - see diagram_place.h. */
 #include "diagram_place.h"
 #include "diagram_words.h"
+#include "layer.h"
 #include "layout.h"
 
 #include <math.h>
@@ -64,5 +65,5 @@ void diagram_fill(const diagram_place *place, uint64_t id, double x, double y, d
                                                 .y = (int)floor(y - along / 2.0 + 0.5),
                                                 .width = across,
                                                 .height = along,
-                                                .look = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role}});
+                                                .style = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role}});
 }

@@ -2,8 +2,9 @@
  * shown leads to. */
 #include "diagram_words.h"
 #include "diagram_place.h"
+#include "layer.h"
 #include "layout.h"
-#include "number_text.h"
+#include "number.h"
 #include "text.h"
 #include "text_space.h"
 
@@ -25,7 +26,7 @@ static void write_words(writing *w, double x, double y, theme_role role, const c
 {
     scene_label label = {.id = w->next_id++,
                          .at = {floor(x), floor(y)},
-                         .look = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role, .width = 1}};
+                         .style = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role, .width = 1}};
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(label.text, sizeof label.text, format, arguments);
@@ -35,7 +36,7 @@ static void write_words(writing *w, double x, double y, theme_role role, const c
 
 static void write_count(writing *w, double x, double y, size_t count)
 {
-    char text[NUMBER_WORDS];
+    char text[NUMBER_TEXT];
     if (count <= MOST)
         snprintf(text, sizeof text, "%zu", count);
     else

@@ -1,6 +1,7 @@
 /* heat_layers.c - see heat_layers.h. */
 #include "heat_layers.h"
 #include "filter.h"
+#include "layer.h"
 
 unsigned heat_step(uint64_t amount, unsigned shift)
 {
@@ -29,9 +30,9 @@ static uint8_t mark_width(const scene *s, const octree_box *leaf, unsigned step)
 
 static void add_mark(scene *s, const octree_node *leaf, view_layer layer, scene_shape shape, unsigned step)
 {
-    const scene_look look = {
+    const scene_style style = {
         .layer = (uint8_t)layer, .role = (uint8_t)theme_node_role(step), .width = mark_width(s, &leaf->box, step)};
-    scene_marker marker = {.id = leaf->address, .look = look, .shape = (uint8_t)shape};
+    scene_marker marker = {.id = leaf->address, .style = style, .shape = (uint8_t)shape};
     for (int i = 0; i < 3; i++)
         marker.at[i] = leaf->box.min[i] / 2 + leaf->box.max[i] / 2;
     scene_add_marker(s, marker);

@@ -1,11 +1,12 @@
 /* node_labels.c - see node_labels.h. */
 #include "node_labels.h"
+#include "layer.h"
 #include "text_space.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static const scene_look label_look = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1};
+static const scene_style label_style = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1};
 
 /* A label wider than the picture of its box would be taken for another's. */
 static bool fits_box(const scene *s, const scene_box *box, const char *text)
@@ -15,7 +16,7 @@ static bool fits_box(const scene *s, const scene_box *box, const char *text)
 
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
-    scene_label label = {.id = box->id, .look = label_look};
+    scene_label label = {.id = box->id, .style = label_style};
     char text[OCTREE_ADDRESS_TEXT];
     double middle[3], pixel[2];
     for (int i = 0; i < 3; i++)
@@ -36,6 +37,6 @@ void add_node_labels(scene *s)
     text_space words = {.count = 0};
     for (unsigned depth = 0; depth <= OCTREE_MAX_DEPTH; depth++)
         for (size_t i = 0; i < s->boxes.count; i++)
-            if (s->boxes.items[i].look.layer == LAYER_NODES && s->boxes.items[i].depth == depth)
+            if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth == depth)
                 s->tally.labels += add_label(s, &words, &s->boxes.items[i]);
 }

@@ -1,8 +1,9 @@
 /* panel.c - see panel.h. */
 #include "panel.h"
 #include "answer_layers.h"
+#include "layer.h"
 #include "layout.h"
-#include "number_text.h"
+#include "number.h"
 #include "panel_legend.h"
 #include "panel_pen.h"
 #include "panel_view.h"
@@ -16,7 +17,7 @@
 /* On one line where it fits, else on three. */
 static void write_position(pen *p, const char *name, const double position[3])
 {
-    char axes[3][NUMBER_WORDS], line[SCENE_TEXT * 2];
+    char axes[3][NUMBER_TEXT], line[SCENE_TEXT * 2];
     for (int i = 0; i < 3; i++)
         number_text(position[i], 6, axes[i]);
     snprintf(line, sizeof line, "%s %s %s", axes[0], axes[1], axes[2]);
@@ -32,7 +33,7 @@ static void write_world(pen *p, const octree_box *world)
 {
     for (int i = 0; i < 3; i++) {
         const char name[2] = {(char)('x' + i), 0};
-        char from[NUMBER_WORDS], to[NUMBER_WORDS];
+        char from[NUMBER_TEXT], to[NUMBER_TEXT];
         write_row(p, name, "%s", number_text(world->min[i], 9, from));
         write_row(p, "  to", "%s", number_text(world->max[i], 9, to));
     }
@@ -113,7 +114,7 @@ static void write_ids(pen *p, const char *name, const octree_point *points, size
 
 static void write_nearest(pen *p, const octree_answer *answer)
 {
-    char id[SCENE_TEXT], distance[NUMBER_WORDS];
+    char id[SCENE_TEXT], distance[NUMBER_TEXT];
     if (answer->count == 0) {
         write_row(p, "nearest", "none");
         return;
@@ -136,7 +137,7 @@ static void write_knearest(pen *p, const octree_answer *answer)
 
 static void write_radius(pen *p, const octree_answer *answer)
 {
-    char radius[NUMBER_WORDS];
+    char radius[NUMBER_TEXT];
     write_row(p, "radius", "%zu within %s", answer->count, number_text(answer->radius, 6, radius));
 }
 
@@ -156,7 +157,7 @@ static void write_answers(pen *p, const octree_answer *answers, size_t count)
     };
     for (size_t i = 0; i < count; i++) {
         const view_layer layer = answer_layer(answers[i].kind);
-        p->name = view_shows(&p->scene->view, layer) ? scene_layer_role(layer) : ROLE_FAINT;
+        p->name = view_shows(&p->scene->view, layer) ? (theme_role)layer_rows[layer].role : ROLE_FAINT;
         writers[answers[i].kind](p, &answers[i]);
     }
     p->name = ROLE_FAINT;
@@ -237,7 +238,7 @@ static void end_rows(pen *p)
         return;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label label = s->labels.items[i];
-        if (label.look.layer != LAYER_TEXT || label.at[1] <= (last - LINE) * s->unit) {
+        if (label.style.layer != LAYER_TEXT || label.at[1] <= (last - LINE) * s->unit) {
             s->labels.items[kept++] = label;
             continue;
         }

@@ -3,6 +3,7 @@
 #include "answer_layers.h"
 #include "diagram_legend.h"
 #include "heat_layers.h"
+#include "layer.h"
 #include "panel_view.h"
 #include "text.h"
 #include "velocity_layer.h"
@@ -132,13 +133,13 @@ static bool is_listed(const scene *s, const legend_entry *entry, const legend_su
 static bool is_in_frame(const scene *s, view_layer layer)
 {
     for (size_t i = 0; i < s->boxes.count; i++)
-        if (s->boxes.items[i].look.layer == layer)
+        if (s->boxes.items[i].style.layer == layer)
             return true;
     for (size_t i = 0; i < s->segments.count; i++)
-        if (s->segments.items[i].look.layer == layer)
+        if (s->segments.items[i].style.layer == layer)
             return true;
     for (size_t i = 0; i < s->markers.count; i++)
-        if (s->markers.items[i].look.layer == layer)
+        if (s->markers.items[i].style.layer == layer)
             return true;
     return false;
 }
@@ -166,7 +167,7 @@ static void fill_plus(pen *p, int dash, theme_role role)
 
 static void fill_swatch(pen *p, const legend_entry *entry)
 {
-    const theme_role role = scene_layer_role(entry->layer);
+    const theme_role role = (theme_role)layer_rows[entry->layer].role;
     switch (entry->swatch) {
     case SWATCH_NODES:
     case SWATCH_DIAGRAM:

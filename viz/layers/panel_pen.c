@@ -1,5 +1,6 @@
 /* panel_pen.c - see panel_pen.h. */
 #include "panel_pen.h"
+#include "layer.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@ void write_text(pen *p, int x, theme_role role, int size, const char *text)
 {
     const scene *s = p->scene;
     scene_label label = {.id = p->next_id++,
-                         .look = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
+                         .style = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
     label.at[0] = x * s->unit;
     label.at[1] = p->y * s->unit;
     const int fits = (int)text_room(x, size);
@@ -45,5 +46,5 @@ void fill(pen *p, int x, int y, int width, int height, unsigned role)
                                             .y = y * unit,
                                             .width = width * unit,
                                             .height = height * unit,
-                                            .look = {.layer = LAYER_TEXT, .role = (uint8_t)role}});
+                                            .style = {.layer = LAYER_TEXT, .role = (uint8_t)role}});
 }

@@ -1,7 +1,8 @@
 /* panel_view.c - see panel_view.h. */
 #include "panel_view.h"
 #include "filter.h"
-#include "number_text.h"
+#include "layer.h"
+#include "number.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -10,14 +11,14 @@
 /* "from to to" of one axis of the region. */
 static void write_region_axis(pen *p, const char *name, const octree_box *region, int axis)
 {
-    char from[NUMBER_WORDS], to[NUMBER_WORDS];
+    char from[NUMBER_TEXT], to[NUMBER_TEXT];
     write_row(p, name, "%c %s to %s", "xyz"[axis], number_text(region->min[axis], 6, from),
               number_text(region->max[axis], 6, to));
 }
 
 static void write_filter(pen *p, const view_filter *f)
 {
-    char at[NUMBER_WORDS];
+    char at[NUMBER_TEXT];
     if (f->slice)
         write_row(p, "slice", "%c = %s", f->slice, number_text(f->slice_at, 9, at));
     if (f->by_depth && f->min_depth == f->max_depth)
@@ -80,7 +81,7 @@ static void write_small(pen *p, const scene_tally *tally)
     } kinds[] = {{tally->small, ""},
                  {tally->small_met, " met"},
                  {tally->arrows.small, tally->arrows.small == 1 ? " arrow" : " arrows"}};
-    char lod[NUMBER_WORDS];
+    char lod[NUMBER_TEXT];
     bool first = true;
     number_text(p->scene->view.lod, 3, lod);
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {

@@ -24,7 +24,7 @@ bool tick_node_shown(scene *s, const octree *tree, octree_address address, octre
     return !small;
 }
 
-void add_node_box(scene *s, const octree_node *node, scene_look look)
+void add_node_box(scene *s, const octree_node *node, scene_style style)
 {
-    scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .look = look, .depth = (uint8_t)node->depth});
+    scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth});
 }

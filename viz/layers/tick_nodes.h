@@ -10,6 +10,6 @@
 bool tick_node_shown(scene *s, const octree *tree, octree_address address, octree_node *node);
 
 /* A node's box, with its address as id. */
-void add_node_box(scene *s, const octree_node *node, scene_look look);
+void add_node_box(scene *s, const octree_node *node, scene_style style);
 
 #endif

@@ -6,6 +6,7 @@
 #include "diagram.h"
 #include "element_ids.h"
 #include "heat_layers.h"
+#include "layer.h"
 #include "panel.h"
 #include "shape_layer.h"
 #include "tick_nodes.h"
@@ -32,7 +33,7 @@ static octree_box box_about(const double center[3], double size)
 static void add_plumb_line(scene *s, const octree_tick *tick, const octree_box *world)
 {
     scene_segment plumb = {.id = 0,
-                           .look = {.layer = LAYER_PLAYER, .role = ROLE_FAINT, .style = STYLE_DASHED, .width = 1}};
+                           .style = {.layer = LAYER_PLAYER, .role = ROLE_FAINT, .stroke = STROKE_DASHED, .width = 1}};
     memcpy(plumb.ends[0], tick->player, sizeof plumb.ends[0]);
     memcpy(plumb.ends[1], tick->player, sizeof plumb.ends[1]);
     plumb.ends[1][2] = world->min[2];
@@ -43,24 +44,24 @@ static void add_player(scene *s, const octree_tick *tick, const octree_session *
 {
     add_plumb_line(s, tick, &session->tree.world);
     scene_marker marker = {
-        .id = session->player.id, .look = scene_layer_look(LAYER_PLAYER, STYLE_SOLID, 4), .shape = SHAPE_DIAMOND};
+        .id = session->player.id, .style = layer_style(LAYER_PLAYER, STROKE_SOLID, 4), .shape = SHAPE_DIAMOND};
     memcpy(marker.at, tick->player, sizeof marker.at);
     scene_add_marker(s, marker);
     scene_add_box(s, (scene_box){
                          .id = session->player.id,
                          .box = box_about(tick->player, session->player.box_size),
-                         .look = {.layer = LAYER_BOX, .role = ROLE_PLAYER, .width = 1},
+                         .style = {.layer = LAYER_BOX, .role = ROLE_PLAYER, .width = 1},
                      });
 }
 
 /* The ids of the lines of a collision begin with those that cross its box out, then come these. */
 enum { CORNERS = 8 };
 
-static void add_way(scene *s, uint64_t id, const double from[3], const double to[3], scene_look look)
+static void add_way(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style)
 {
     if (from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
         return;
-    scene_segment line = {.id = id, .look = look};
+    scene_segment line = {.id = id, .style = style};
     memcpy(line.ends[0], from, sizeof line.ends[0]);
     memcpy(line.ends[1], to, sizeof line.ends[1]);
     scene_add_segment(s, line);
@@ -73,24 +74,24 @@ static void pick_corner(const octree_box *box, unsigned corner, double position[
 }
 
 /* The ways that met: of the corners of the player's box, which is drawn at both ends, and of each hit that moved. */
-static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, scene_look look)
+static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, scene_style style)
 {
     const octree_box start = box_about(tick->from, box_size), end = box_about(tick->attempt, box_size);
     double from[3], to[3];
-    look.style = STYLE_DASHED;
+    style.stroke = STROKE_DASHED;
     for (unsigned corner = 0; corner < CORNERS; corner++) {
         pick_corner(&start, corner, from);
         pick_corner(&end, corner, to);
-        add_way(s, CROSS_LINES + corner, from, to, look);
+        add_way(s, CROSS_LINES + corner, from, to, style);
     }
     for (size_t i = 0; i < tick->hit_count; i++)
-        add_way(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, look);
+        add_way(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
 }
 
-static void add_cross(scene *s, uint64_t id, const double at[3], scene_look look, uint8_t half)
+static void add_cross(scene *s, uint64_t id, const double at[3], scene_style style, uint8_t half)
 {
-    scene_marker marker = {.id = id, .look = look, .shape = SHAPE_CROSS};
-    marker.look.width = half;
+    scene_marker marker = {.id = id, .style = style, .shape = SHAPE_CROSS};
+    marker.style.width = half;
     memcpy(marker.at, at, sizeof marker.at);
     scene_add_marker(s, marker);
 }
@@ -101,17 +102,17 @@ static void add_collision(scene *s, const octree_tick *tick, const octree_sessio
 {
     if (tick->hit_count == 0)
         return;
-    const scene_look look = scene_layer_look(LAYER_BOX, STYLE_SOLID, 1);
+    const scene_style style = layer_style(LAYER_BOX, STROKE_SOLID, 1);
     const octree_box box = box_about(tick->attempt, session->player.box_size);
-    scene_box outline = {.id = COLLISION_BOX_ID, .box = box, .look = look};
-    outline.look.width = 2;
+    scene_box outline = {.id = COLLISION_BOX_ID, .box = box, .style = style};
+    outline.style.width = 2;
     scene_add_box(s, outline);
-    add_crossed_faces(s, &box, look);
+    add_crossed_faces(s, &box, style);
     if (tick->swept)
-        add_swept_ways(s, tick, session->player.box_size, look);
-    add_cross(s, session->player.id, tick->attempt, look, 28);
+        add_swept_ways(s, tick, session->player.box_size, style);
+    add_cross(s, session->player.id, tick->attempt, style, 28);
     for (size_t i = 0; i < tick->hit_count; i++)
-        add_cross(s, tick->hits[i].id, tick->hits[i].position, look, 6);
+        add_cross(s, tick->hits[i].id, tick->hits[i].position, style, 6);
 }
 
 /* The leaf that the player is in. */
@@ -154,14 +155,14 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
 static void add_asked(scene *s, const octree *tree, octree_address address)
 {
     octree_node node;
-    const scene_look look = scene_layer_look(LAYER_ASKED, STYLE_SOLID, 2);
+    const scene_style style = layer_style(LAYER_ASKED, STROKE_SOLID, 2);
     if (!address || octree_node_at(tree, address, &node) != OCTREE_OK)
         return;
-    add_node_box(s, &node, look);
+    add_node_box(s, &node, style);
     if (camera_box_pixels(&s->camera, &node.box) > 2 * ASKED_MARK * s->unit)
         return;
-    scene_marker mark = {.id = address, .look = look, .shape = SHAPE_LOZENGE};
-    mark.look.width = ASKED_MARK;
+    scene_marker mark = {.id = address, .style = style, .shape = SHAPE_LOZENGE};
+    mark.style.width = ASKED_MARK;
     for (int i = 0; i < 3; i++)
         mark.at[i] = node.box.min[i] / 2 + node.box.max[i] / 2;
     scene_add_marker(s, mark);

@@ -3,6 +3,7 @@
 #include "tree_nodes.h"
 #include "camera.h"
 #include "filter.h"
+#include "layer.h"
 #include "node_labels.h"
 #include "thinning.h"
 
@@ -31,7 +32,7 @@ static void thin_points(tree_walk *w)
     w->sieve = thinning_finer(w->sieve);
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *marker = &s->markers.items[i];
-        const bool out = marker->look.layer == LAYER_POINTS && thinning_drops(w->sieve, marker->id);
+        const bool out = marker->style.layer == LAYER_POINTS && thinning_drops(w->sieve, marker->id);
         s->tally.points -= out;
         s->tally.thinned += out;
         if (!out)
@@ -44,7 +45,7 @@ static void thin_points(tree_walk *w)
 static void add_sorted(tree_walk *w, const octree_point *points, size_t count)
 {
     scene *s = w->scene;
-    scene_add_points(s, scene_layer_look(LAYER_POINTS, STYLE_SOLID, w->point_width), points, count);
+    scene_add_points(s, layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width), points, count);
     s->tally.points += count;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
         thin_points(w);
@@ -134,7 +135,7 @@ static void drop_level(tree_walk *w)
     size_t kept = 0;
     for (size_t i = 0; i < s->boxes.count; i++) {
         const scene_box *box = &s->boxes.items[i];
-        if (box->look.layer != LAYER_NODES || box->depth != w->deepest)
+        if (box->style.layer != LAYER_NODES || box->depth != w->deepest)
             s->boxes.items[kept++] = *box;
     }
     s->boxes.count = kept;
@@ -155,7 +156,7 @@ static void add_box(tree_walk *w, const octree_node *node)
                          .id = node->address,
                          .box = node->box,
                          .depth = (uint8_t)node->depth,
-                         .look = {.layer = LAYER_NODES, .role = (uint8_t)role, .width = 1},
+                         .style = {.layer = LAYER_NODES, .role = (uint8_t)role, .width = 1},
                      });
     w->at_depth[node->depth]++;
     s->tally.nodes++;

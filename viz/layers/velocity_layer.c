@@ -1,6 +1,7 @@
 /* velocity_layer.c - see velocity_layer.h. */
 #include "velocity_layer.h"
 #include "filter.h"
+#include "layer.h"
 #include "thinning.h"
 
 #include <math.h>
@@ -70,7 +71,7 @@ static bool make_arrow(const scene *s, const octree_game *game, const octree_bod
     const octree_box *world = &octree_game_session(game)->tree.world;
     *arrow = (scene_segment){
         .id = body->id,
-        .look = scene_layer_look(LAYER_VELOCITIES, STYLE_ARROW, 1),
+        .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1),
     };
     memcpy(arrow->ends[0], body->position, sizeof arrow->ends[0]);
     go_on(body, world, ticks, arrow->ends[1]);

@@ -2,6 +2,7 @@
 #include "world_layer.h"
 #include "axes.h"
 #include "element_ids.h"
+#include "layer.h"
 #include "layout.h"
 
 void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick)
@@ -18,20 +19,20 @@ void begin_scene(scene *s, const view *v, const octree_box *world, const double 
 static void add_filter(scene *s, const octree_box *world)
 {
     const view_filter *f = &s->view.filter;
-    const scene_look look = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .style = STYLE_DASHED, .width = 1};
+    const scene_style style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .stroke = STROKE_DASHED, .width = 1};
     octree_box plane = *world;
     if (f->slice) {
         plane.min[f->slice - 'x'] = plane.max[f->slice - 'x'] = f->slice_at;
-        scene_add_box(s, (scene_box){.id = SLICE_ID, .box = plane, .look = look});
+        scene_add_box(s, (scene_box){.id = SLICE_ID, .box = plane, .style = style});
     }
     if (f->by_region)
-        scene_add_box(s, (scene_box){.id = REGION_ID, .box = f->region, .look = look});
+        scene_add_box(s, (scene_box){.id = REGION_ID, .box = f->region, .style = style});
 }
 
 void add_world(scene *s, const octree_box *world)
 {
-    const scene_look look = scene_layer_look(LAYER_WORLD, STYLE_SOLID, 1);
-    scene_add_box(s, (scene_box){.id = WORLD_ID, .box = *world, .look = look});
+    const scene_style style = layer_style(LAYER_WORLD, STROKE_SOLID, 1);
+    scene_add_box(s, (scene_box){.id = WORLD_ID, .box = *world, .style = style});
     add_filter(s, world);
     add_axes(s, world);
 }

@@ -1,6 +1,7 @@
 /* take.c - see take.h. */
 #include "take.h"
 #include "frame_file.h"
+#include "layer.h"
 #include "tick_scene.h"
 
 #include <inttypes.h>

@@ -1,6 +1,7 @@
 /* element_words.c - see element_words.h. */
 #include "element_words.h"
 #include "element_ids.h"
+#include "layer.h"
 #include "number.h"
 #include "text.h"
 #include "velocity_layer.h"
@@ -205,7 +206,7 @@ static void box_words(teller *t, const scene_box *box)
         [LAYER_HIT] = "; it holds what the tick's questions found",
         [LAYER_BROKEN] = "; an invariant is broken there",
     };
-    switch (box->look.layer) {
+    switch (box->style.layer) {
     case LAYER_WORLD:
         say_own_box(t, box);
         break;
@@ -220,7 +221,7 @@ static void box_words(teller *t, const scene_box *box)
         break;
     default:
         say_node(t, box->id);
-        say(t, "%s", ends[box->look.layer] ? ends[box->look.layer] : "");
+        say(t, "%s", ends[box->style.layer] ? ends[box->style.layer] : "");
         break;
     }
 }
@@ -241,7 +242,7 @@ static void say_change(teller *t, uint64_t id, const char *what)
 
 static void say_tree_line(teller *t, const scene_segment *line)
 {
-    say(t, line->look.role == ROLE_PLAYER ? "in the diagram, the way to the player: " : "in the diagram, ");
+    say(t, line->style.role == ROLE_PLAYER ? "in the diagram, the way to the player: " : "in the diagram, ");
     say(t, "the line from its parent to ");
     say_node(t, line->id);
 }
@@ -262,7 +263,7 @@ static void say_velocity(teller *t, uint64_t id)
 
 static void segment_words(teller *t, const scene_segment *line)
 {
-    switch (line->look.layer) {
+    switch (line->style.layer) {
     case LAYER_WORLD:
         say_axis(t, line->id);
         break;
@@ -308,7 +309,7 @@ static void segment_words(teller *t, const scene_segment *line)
 static void say_heat(teller *t, const scene_marker *mark)
 {
     const heat_cell seen = heat_at(t->heat, mark->id);
-    if (mark->look.layer == LAYER_VISIT_HEAT)
+    if (mark->style.layer == LAYER_VISIT_HEAT)
         say(t, "visited in %" PRIu64 " of %" PRIu64 " ticks, ", seen.visits, t->tick->number + 1);
     else
         say(t, "%" PRIu64 " points in all ticks together, ", seen.points);
@@ -323,22 +324,22 @@ static void marker_words(teller *t, const scene_marker *mark)
         [LAYER_NEAREST] = ", found by a nearest query",
         [LAYER_BOX] = ", in the player's collision box",
     };
-    if (mark->look.layer == LAYER_VISIT_HEAT || mark->look.layer == LAYER_POINT_HEAT) {
+    if (mark->style.layer == LAYER_VISIT_HEAT || mark->style.layer == LAYER_POINT_HEAT) {
         say_heat(t, mark);
         return;
     }
-    if (mark->look.layer == LAYER_SHAPES) {
+    if (mark->style.layer == LAYER_SHAPES) {
         say_shape(t, mark->id);
         return;
     }
-    if (mark->look.layer == LAYER_BOX && mark->id == octree_game_session(t->game)->player.id) {
+    if (mark->style.layer == LAYER_BOX && mark->id == octree_game_session(t->game)->player.id) {
         say(t, "a cross that crosses the collision out"); /* the player is none of its own hits */
         return;
     }
-    if (mark->look.layer == LAYER_PLAYER)
+    if (mark->style.layer == LAYER_PLAYER)
         say(t, "the player, ");
     say_point(t, mark->id, mark->at);
-    say(t, "%s", ends[mark->look.layer] ? ends[mark->look.layer] : "");
+    say(t, "%s", ends[mark->style.layer] ? ends[mark->style.layer] : "");
 }
 
 static void say_diagram(teller *t, uint64_t id)
@@ -357,22 +358,22 @@ static void say_diagram(teller *t, uint64_t id)
 
 static void panel_words(teller *t, const scene_panel *panel)
 {
-    if (panel->look.layer == LAYER_DIAGRAM) {
+    if (panel->style.layer == LAYER_DIAGRAM) {
         say_diagram(t, panel->id);
-    } else if (panel->look.layer == LAYER_NODES) {
+    } else if (panel->style.layer == LAYER_NODES) {
         say(t, "the ground of the path on ");
         say_node(t, panel->id);
-    } else if (panel->look.layer == LAYER_WORLD) {
+    } else if (panel->style.layer == LAYER_WORLD) {
         say(t, "the ground of a number of an axis");
     } else {
-        say(t, panel->look.role == ROLE_PANEL ? "the panel that the text is on" : "a sign in the panel");
+        say(t, panel->style.role == ROLE_PANEL ? "the panel that the text is on" : "a sign in the panel");
     }
 }
 
 static void label_words(teller *t, const scene_label *label)
 {
     say(t, "text \"%s\"", label->text + strspn(label->text, " "));
-    switch (label->look.layer) {
+    switch (label->style.layer) {
     case LAYER_WORLD:
         say(t, " of an axis");
         break;
@@ -395,21 +396,21 @@ static void label_words(teller *t, const scene_label *label)
     }
 }
 
-element_subject element_words(const octree_game *game, const heat *h, const scene *s, draw_element element)
+element_subject element_words(const octree_game *game, const heat *h, const scene *s, scene_element element)
 {
     element_subject subject = {.text = ""};
     teller t = {game, octree_game_tick(game), h, &subject, 0};
     switch (element.kind) {
-    case DRAW_BOX:
+    case SCENE_BOX:
         box_words(&t, &s->boxes.items[element.index]);
         break;
-    case DRAW_SEGMENT:
+    case SCENE_SEGMENT:
         segment_words(&t, &s->segments.items[element.index]);
         break;
-    case DRAW_MARKER:
+    case SCENE_MARKER:
         marker_words(&t, &s->markers.items[element.index]);
         break;
-    case DRAW_PANEL:
+    case SCENE_PANEL:
         panel_words(&t, &s->panels.items[element.index]);
         break;
     default:
@@ -419,7 +420,7 @@ element_subject element_words(const octree_game *game, const heat *h, const scen
     return subject;
 }
 
-const char *element_layer(const scene *s, draw_element element)
+const char *element_layer(const scene *s, scene_element element)
 {
-    return view_layer_name((view_layer)draw_look_of(s, element).layer);
+    return view_layer_name((view_layer)scene_style_of(s, element).layer);
 }

@@ -19,9 +19,9 @@ typedef struct element_subject {
 } element_subject;
 
 /* `s` must be the scene of the game's last tick, and `h` the heat that it was made with. */
-element_subject element_words(const octree_game *game, const heat *h, const scene *s, draw_element element);
+element_subject element_words(const octree_game *game, const heat *h, const scene *s, scene_element element);
 
 /* The layer of an element: view_layer_name(), or "diagram". */
-const char *element_layer(const scene *s, draw_element element);
+const char *element_layer(const scene *s, scene_element element);
 
 #endif

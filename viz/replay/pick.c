@@ -123,7 +123,7 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
     ok = ok && (p->elements || touches.count == 0 || error_set(error, "there is no memory for what is there"));
     for (size_t i = 0; ok && i < touches.count; i++) {
-        const draw_element element = draw_element_of(s, touches.items[i].number);
+        const scene_element element = scene_element_at(s, touches.items[i].number);
         p->elements[p->count++] = (pick_element){
             .touch = touches.items[i],
             .kind = element.kind,
@@ -195,7 +195,7 @@ static double distance(const pick *p)
 /* It is in the gaps between dashes, which are painted too. */
 static bool is_gap(const pick_element *e)
 {
-    return e->touch.painted > 0 && e->touch.color == 0 && e->kind != DRAW_PANEL;
+    return e->touch.painted > 0 && e->touch.color == 0 && e->kind != SCENE_PANEL;
 }
 
 /* ---- For people --------------------------------------------------------------------------------------------- */
@@ -218,7 +218,7 @@ static void print_element(FILE *out, const pick *p, const pick_element *e)
 {
     if (e->touch.painted == 0) {
         fprintf(out, "      %s %s\n",
-                e->kind == DRAW_BOX ? "its edge is also that of" : "on the same pixel:", e->subject.text);
+                e->kind == SCENE_BOX ? "its edge is also that of" : "on the same pixel:", e->subject.text);
         return;
     }
     fputs(e->touch.shown ? "  " : "    over ", out);
@@ -274,7 +274,7 @@ static void write_point(json_writer *w, const octree_point *point)
 static void write_element(json_writer *w, const pick_element *e)
 {
     json_write_begin_object(w);
-    json_member_text(w, "kind", draw_kind_name(e->kind));
+    json_member_text(w, "kind", scene_kind_name(e->kind));
     json_member_text(w, "layer", e->layer);
     json_member_integer(w, "shown", (uint64_t)e->touch.shown);
     json_member_integer(w, "painted", (uint64_t)e->touch.painted);

@@ -18,7 +18,7 @@ typedef struct pick_options {
 /* An element of a pixel, from the top one on; see draw_touch. */
 typedef struct pick_element {
     draw_touch touch;
-    draw_kind kind;
+    scene_kind kind;
     const char *layer;
     element_subject subject;
 } pick_element;

@@ -1,6 +1,6 @@
 /* filter.c - see filter.h. */
 #include "filter.h"
-#include "number_text.h"
+#include "number.h"
 
 #include <stdio.h>
 
@@ -54,7 +54,7 @@ bool filter_is_on(const view_filter *f)
 static const char *refuse_slice(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
 {
     const int axis = f->slice - 'x';
-    char at[NUMBER_WORDS], min[NUMBER_WORDS], max[NUMBER_WORDS];
+    char at[NUMBER_TEXT], min[NUMBER_TEXT], max[NUMBER_TEXT];
     if (f->slice_at >= world->min[axis] && f->slice_at <= world->max[axis])
         return NULL;
     snprintf(text, FILTER_TEXT, "the slice %c = %s lies outside the world, which reaches from %s to %s there", f->slice,
@@ -66,7 +66,7 @@ static const char *refuse_slice(const view_filter *f, const octree_box *world, c
 static const char *refuse_region(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
 {
     for (int i = 0; i < 3; i++) {
-        char from[NUMBER_WORDS], to[NUMBER_WORDS], min[NUMBER_WORDS], max[NUMBER_WORDS];
+        char from[NUMBER_TEXT], to[NUMBER_TEXT], min[NUMBER_TEXT], max[NUMBER_TEXT];
         if (f->region.max[i] >= world->min[i] && f->region.min[i] <= world->max[i])
             continue;
         snprintf(text, FILTER_TEXT,

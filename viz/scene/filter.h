@@ -13,7 +13,20 @@
 #ifndef SCENE_FILTER_H
 #define SCENE_FILTER_H
 
-#include "view.h"
+#include "octree/octree.h"
+
+#include <stdbool.h>
+
+/* What of the tree is shown; all zero is all of it. */
+typedef struct view_filter {
+    char slice;                    /* 'x', 'y' or 'z': the nodes that cut a plane across this axis; 0: all */
+    double slice_at;               /* where the plane is */
+    bool by_depth;                 /* only nodes from min_depth to max_depth */
+    unsigned min_depth, max_depth; /* 0 to OCTREE_MAX_DEPTH */
+    bool leaves;                   /* only leaves */
+    bool by_region;                /* only what meets a closed box */
+    octree_box region;
+} view_filter;
 
 /* Whether a node's box is shown. `world` is the tree's. */
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node);

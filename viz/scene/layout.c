@@ -1,5 +1,6 @@
 /* layout.c - see layout.h. */
 #include "layout.h"
+#include "layer.h"
 
 int panel_width(const view *v)
 {

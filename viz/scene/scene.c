@@ -1,6 +1,6 @@
-/* scene.c - see scene.h. */
 #include "scene.h"
 #include "array.h"
+#include "layer.h"
 #include "octree/digest.h"
 
 #include <math.h>
@@ -53,9 +53,9 @@ static bool all_finite(const double *values, size_t count)
 }
 
 /* True when an element is to be drawn at all. */
-static bool admits(scene *s, scene_look look, bool finite)
+static bool admits(scene *s, scene_style style, bool finite)
 {
-    if (!view_shows(&s->view, look.layer))
+    if (!view_shows(&s->view, style.layer))
         return false;
     s->refused += !finite;
     return finite;
@@ -63,25 +63,25 @@ static bool admits(scene *s, scene_look look, bool finite)
 
 void scene_add_box(scene *s, scene_box box)
 {
-    if (admits(s, box.look, all_finite(box.box.min, 3) && all_finite(box.box.max, 3)))
+    if (admits(s, box.style, all_finite(box.box.min, 3) && all_finite(box.box.max, 3)))
         APPEND(s, s->boxes, box);
 }
 
 void scene_add_segment(scene *s, scene_segment segment)
 {
-    if (admits(s, segment.look, all_finite(segment.ends[0], 3) && all_finite(segment.ends[1], 3)))
+    if (admits(s, segment.style, all_finite(segment.ends[0], 3) && all_finite(segment.ends[1], 3)))
         APPEND(s, s->segments, segment);
 }
 
 void scene_add_marker(scene *s, scene_marker marker)
 {
-    if (admits(s, marker.look, all_finite(marker.at, 3)))
+    if (admits(s, marker.style, all_finite(marker.at, 3)))
         APPEND(s, s->markers, marker);
 }
 
-void scene_add_points(scene *s, scene_look look, const octree_point *points, size_t count)
+void scene_add_points(scene *s, scene_style style, const octree_point *points, size_t count)
 {
-    if (count == 0 || !view_shows(&s->view, look.layer))
+    if (count == 0 || !view_shows(&s->view, style.layer))
         return;
     void *grown = grow(s, s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
     if (!grown)
@@ -91,7 +91,7 @@ void scene_add_points(scene *s, scene_look look, const octree_point *points, siz
         const double *at = points[i].position;
         const bool finite = all_finite(at, 3);
         s->markers.items[s->markers.count] =
-            (scene_marker){.id = points[i].id, .at = {at[0], at[1], at[2]}, .look = look};
+            (scene_marker){.id = points[i].id, .at = {at[0], at[1], at[2]}, .style = style};
         s->markers.count += finite;
         s->refused += !finite;
     }
@@ -99,15 +99,79 @@ void scene_add_points(scene *s, scene_look look, const octree_point *points, siz
 
 void scene_add_label(scene *s, scene_label label)
 {
-    if (admits(s, label.look, all_finite(label.at, 3)))
+    if (admits(s, label.style, all_finite(label.at, 3)))
         APPEND(s, s->labels, label);
 }
 
 void scene_add_panel(scene *s, scene_panel panel)
 {
-    if (admits(s, panel.look, true))
+    if (admits(s, panel.style, true))
         APPEND(s, s->panels, panel);
 }
+
+static const char *const kind_names[SCENE_KINDS] = {"box", "segment", "marker", "panel", "label"};
+
+const char *scene_kind_name(scene_kind kind)
+{
+    return kind_names[kind];
+}
+
+static size_t count_of(const scene *s, scene_kind kind)
+{
+    const size_t counts[SCENE_KINDS] = {s->boxes.count, s->segments.count, s->markers.count, s->panels.count,
+                                        s->labels.count};
+    return counts[kind];
+}
+
+scene_element scene_element_at(const scene *s, uint32_t number)
+{
+    scene_element element = {SCENE_BOX, number - 1};
+    while (element.kind < SCENE_LABEL && element.index >= count_of(s, element.kind))
+        element.index -= count_of(s, element.kind++);
+    return element;
+}
+
+uint32_t scene_number_of(const scene *s, scene_element element)
+{
+    size_t number = element.index + 1;
+    for (scene_kind kind = SCENE_BOX; kind < element.kind; kind++)
+        number += count_of(s, kind);
+    return (uint32_t)number;
+}
+
+scene_style scene_style_of(const scene *s, scene_element element)
+{
+    switch (element.kind) {
+    case SCENE_BOX:
+        return s->boxes.items[element.index].style;
+    case SCENE_SEGMENT:
+        return s->segments.items[element.index].style;
+    case SCENE_MARKER:
+        return s->markers.items[element.index].style;
+    case SCENE_PANEL:
+        return s->panels.items[element.index].style;
+    default:
+        return s->labels.items[element.index].style;
+    }
+}
+
+uint64_t scene_id_of(const scene *s, scene_element element)
+{
+    switch (element.kind) {
+    case SCENE_BOX:
+        return s->boxes.items[element.index].id;
+    case SCENE_SEGMENT:
+        return s->segments.items[element.index].id;
+    case SCENE_MARKER:
+        return s->markers.items[element.index].id;
+    case SCENE_PANEL:
+        return s->panels.items[element.index].id;
+    default:
+        return s->labels.items[element.index].id;
+    }
+}
+
+/* ---- The digest --------------------------------------------------------------------------------------------- */
 
 static uint64_t digest_doubles(uint64_t digest, const double *values, size_t count)
 {
@@ -137,11 +201,11 @@ static digest_names hash_names(void)
     return n;
 }
 
-static uint64_t digest_look(const digest_names *n, uint64_t id, scene_look look, unsigned extra)
+static uint64_t digest_style(const digest_names *n, uint64_t id, scene_style style, unsigned extra)
 {
-    const uint64_t how = (uint64_t)look.style | (uint64_t)look.width << 8 | (uint64_t)extra << 16;
+    const uint64_t how = (uint64_t)style.stroke | (uint64_t)style.width << 8 | (uint64_t)extra << 16;
     const uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
-    return octree_digest_word(digest, n->layers[look.layer] + n->roles[look.role] + how);
+    return octree_digest_word(digest, n->layers[style.layer] + n->roles[style.role] + how);
 }
 
 static uint64_t digest_view(const scene *s)
@@ -163,31 +227,31 @@ static uint64_t digest_view(const scene *s)
 
 static uint64_t digest_box(const digest_names *n, const scene_box *box)
 {
-    const uint64_t digest = digest_look(n, box->id, box->look, box->depth);
+    const uint64_t digest = digest_style(n, box->id, box->style, box->depth);
     return digest_doubles(digest_doubles(digest, box->box.min, 3), box->box.max, 3);
 }
 
 static uint64_t digest_segment(const digest_names *n, const scene_segment *segment)
 {
-    const uint64_t digest = digest_look(n, segment->id, segment->look, segment->in_picture);
+    const uint64_t digest = digest_style(n, segment->id, segment->style, segment->in_picture);
     return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
 }
 
 static uint64_t digest_marker(const digest_names *n, const scene_marker *marker)
 {
-    return digest_doubles(digest_look(n, marker->id, marker->look, marker->shape), marker->at, 3);
+    return digest_doubles(digest_style(n, marker->id, marker->style, marker->shape), marker->at, 3);
 }
 
 static uint64_t digest_label(const digest_names *n, const scene_label *label)
 {
-    uint64_t digest = digest_look(n, label->id, label->look, label->in_world);
+    uint64_t digest = digest_style(n, label->id, label->style, label->in_world);
     digest = digest_doubles(digest, label->at, 3);
     return octree_digest_bytes(digest, label->text, strlen(label->text));
 }
 
 static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
 {
-    uint64_t digest = digest_look(n, panel->id, panel->look, 0);
+    uint64_t digest = digest_style(n, panel->id, panel->style, 0);
     digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }

@@ -12,40 +12,25 @@
 #include "theme.h"
 #include "view.h"
 
-typedef enum scene_style {
-    STYLE_SOLID,
-    STYLE_DASHED,
-    STYLE_CUT,   /* dashed, and in its gaps nothing is seen of the lines beneath: what was solid there is dashed now */
-    STYLE_ARROW, /* solid, with a head at its second end where it is long enough to be seen */
+typedef enum scene_stroke {
+    STROKE_SOLID,
+    STROKE_DASHED,
+    STROKE_CUT,   /* dashed, and in its gaps nothing is seen of the lines beneath: what was solid there is dashed now */
+    STROKE_ARROW, /* solid, with a head at its second end where it is long enough to be seen */
+} scene_stroke;
+
+/* How an element appears. Width is in half units of the frame (view_unit): at 1280 x 720 a pixel. */
+typedef struct scene_style {
+    uint8_t layer;  /* view_layer: layer.h */
+    uint8_t role;   /* theme_role */
+    uint8_t stroke; /* scene_stroke */
+    uint8_t width;  /* of lines, half the size of markers, and the size of text: 1 is 12 units a line */
 } scene_style;
-
-/* How an element looks. Width is in half units of the frame (view_unit): at 1280 x 720 a pixel. */
-typedef struct scene_look {
-    uint8_t layer; /* view_layer */
-    uint8_t role;  /* theme_role */
-    uint8_t style; /* scene_style */
-    uint8_t width; /* of lines, half the size of markers, and the size of text: 1 is 12 units a line */
-} scene_look;
-
-/* The colour of what a layer is about, as VIEW_LAYER_MAP has it. */
-static inline theme_role scene_layer_role(view_layer layer)
-{
-#define SCENE_LAYER_ROLE(name, text, words, role, fades) [LAYER_##name] = role,
-    static const uint8_t roles[LAYER_DIAGRAM + 1] = {VIEW_LAYER_MAP(SCENE_LAYER_ROLE)};
-#undef SCENE_LAYER_ROLE
-    return (theme_role)roles[layer];
-}
-
-/* A look in that colour. */
-static inline scene_look scene_layer_look(view_layer layer, scene_style style, unsigned width)
-{
-    return (scene_look){(uint8_t)layer, (uint8_t)scene_layer_role(layer), (uint8_t)style, (uint8_t)width};
-}
 
 typedef struct scene_box {
     uint64_t id; /* a node's address in LAYER_NODES */
     octree_box box;
-    scene_look look;
+    scene_style style;
     uint8_t depth; /* a node's; of two boxes that share an edge the shallower gives it its colour */
 } scene_box;
 
@@ -53,7 +38,7 @@ typedef struct scene_segment {
     uint64_t id;
     bool in_picture;
     double ends[2][3]; /* world positions; or, in the picture, x and y in pixels */
-    scene_look look;
+    scene_style style;
 } scene_segment;
 
 typedef enum scene_shape {
@@ -67,7 +52,7 @@ typedef enum scene_shape {
 typedef struct scene_marker {
     uint64_t id; /* a point's in LAYER_POINTS */
     double at[3];
-    scene_look look;
+    scene_style style;
     uint8_t shape;
 } scene_marker;
 
@@ -79,14 +64,14 @@ typedef struct scene_label {
     bool in_world;
     double at[3]; /* a world position, or x and y in pixels of the text's top left corner */
     char text[SCENE_TEXT];
-    scene_look look;
+    scene_style style;
 } scene_label;
 
 /* A filled rectangle of the picture, in pixels. */
 typedef struct scene_panel {
     uint64_t id;
     int x, y, width, height;
-    scene_look look;
+    scene_style style;
 } scene_panel;
 
 /* A growing array; see scene_add_*. */
@@ -146,7 +131,28 @@ void scene_add_label(scene *s, scene_label label);
 void scene_add_panel(scene *s, scene_panel panel);
 
 /* The same for a marker on each of many points, with their ids. */
-void scene_add_points(scene *s, scene_look look, const octree_point *points, size_t count);
+void scene_add_points(scene *s, scene_style style, const octree_point *points, size_t count);
+
+/* ---- Elements ----------------------------------------------------------------------------------------------- */
+
+/* The arrays of a scene, in the order in which their elements are numbered. */
+typedef enum scene_kind { SCENE_BOX, SCENE_SEGMENT, SCENE_MARKER, SCENE_PANEL, SCENE_LABEL, SCENE_KINDS } scene_kind;
+
+/* One element: that of this index in the array of its kind. */
+typedef struct scene_element {
+    scene_kind kind;
+    size_t index;
+} scene_element;
+
+/* "box", "segment", "marker", "panel", "label". */
+const char *scene_kind_name(scene_kind kind);
+
+/* Elements are numbered from 1 on, kind by kind. 0 is the background, which is no element. */
+scene_element scene_element_at(const scene *s, uint32_t number);
+uint32_t scene_number_of(const scene *s, scene_element element);
+
+scene_style scene_style_of(const scene *s, scene_element element);
+uint64_t scene_id_of(const scene *s, scene_element element);
 
 /* A digest of the whole draw list, camera and size included: the same on every machine. */
 uint64_t scene_digest(const scene *s);

@@ -47,5 +47,5 @@ void text_add_ground(scene *s, const scene_label *label, theme_role role)
                                      .y = (int)label->at[1] - unit,
                                      .width = (letters * TEXT_LETTER + 1) * unit,
                                      .height = (TEXT_HEIGHT + 1) * unit,
-                                     .look = {.layer = label->look.layer, .role = (uint8_t)role}});
+                                     .style = {.layer = label->style.layer, .role = (uint8_t)role}});
 }

@@ -1,6 +1,7 @@
 /* column.c - see column.h. */
 #include "column.h"
 #include "fixture.h"
+#include "layer.h"
 #include "layout.h"
 
 #include <string.h>
@@ -8,7 +9,7 @@
 const scene_label *find_text(const scene *s, const char *text)
 {
     for (size_t i = 0; i < s->labels.count; i++)
-        if (s->labels.items[i].look.layer == LAYER_TEXT && strstr(s->labels.items[i].text, text))
+        if (s->labels.items[i].style.layer == LAYER_TEXT && strstr(s->labels.items[i].text, text))
             return &s->labels.items[i];
     return NULL;
 }
@@ -16,7 +17,7 @@ const scene_label *find_text(const scene *s, const char *text)
 bool has_swatch(const scene *s, unsigned role)
 {
     for (size_t i = 0; i < s->panels.count; i++)
-        if (s->panels.items[i].look.role == role)
+        if (s->panels.items[i].style.role == role)
             return true;
     return false;
 }
@@ -26,21 +27,21 @@ void check_place(const scene *s)
     const int width = panel_width(&s->view);
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->look.layer != LAYER_TEXT)
+        if (label->style.layer != LAYER_TEXT)
             continue;
         assert_non_null(memchr(label->text, 0, SCENE_TEXT));
         assert_false(label->in_world);
         assert_true(label->at[0] >= 0 && label->at[1] >= 0 && (width == 0 || label->at[0] < width));
         for (size_t j = 0; j < i; j++)
-            assert_true(s->labels.items[j].look.layer != LAYER_TEXT || s->labels.items[j].id != label->id);
+            assert_true(s->labels.items[j].style.layer != LAYER_TEXT || s->labels.items[j].id != label->id);
     }
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
-        if (panel->look.layer != LAYER_TEXT)
+        if (panel->style.layer != LAYER_TEXT)
             continue;
         assert_true(panel->x >= 0 && panel->width > 0 && panel->height > 0 && panel->x + panel->width <= width);
         for (size_t j = 0; j < i; j++)
-            assert_true(s->panels.items[j].look.layer != LAYER_TEXT || s->panels.items[j].id != panel->id);
+            assert_true(s->panels.items[j].style.layer != LAYER_TEXT || s->panels.items[j].id != panel->id);
     }
 }
 

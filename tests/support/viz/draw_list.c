@@ -8,7 +8,7 @@ const scene_box *only_box(const scene *s, unsigned layer, uint64_t id)
     const scene_box *found = NULL;
     for (size_t i = 0; i < s->boxes.count; i++) {
         const scene_box *box = &s->boxes.items[i];
-        if (box->look.layer != layer || box->id != id)
+        if (box->style.layer != layer || box->id != id)
             continue;
         assert_null(found);
         found = box;
@@ -22,7 +22,7 @@ size_t markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3
     size_t count = 0;
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *marker = &s->markers.items[i];
-        count += marker->look.layer == layer && marker->id == id && same_position(marker->at, at);
+        count += marker->style.layer == layer && marker->id == id && same_position(marker->at, at);
     }
     return count;
 }
@@ -31,15 +31,15 @@ layer_counts count_layer(const scene *s, unsigned layer)
 {
     layer_counts found = {0};
     for (size_t i = 0; i < s->boxes.count; i++)
-        found.boxes += s->boxes.items[i].look.layer == layer;
+        found.boxes += s->boxes.items[i].style.layer == layer;
     for (size_t i = 0; i < s->segments.count; i++)
-        found.segments += s->segments.items[i].look.layer == layer;
+        found.segments += s->segments.items[i].style.layer == layer;
     for (size_t i = 0; i < s->markers.count; i++)
-        found.markers += s->markers.items[i].look.layer == layer;
+        found.markers += s->markers.items[i].style.layer == layer;
     for (size_t i = 0; i < s->labels.count; i++)
-        found.labels += s->labels.items[i].look.layer == layer;
+        found.labels += s->labels.items[i].style.layer == layer;
     for (size_t i = 0; i < s->panels.count; i++)
-        found.panels += s->panels.items[i].look.layer == layer;
+        found.panels += s->panels.items[i].style.layer == layer;
     return found;
 }
 
@@ -53,7 +53,7 @@ size_t lines_between(const scene *s, unsigned layer, uint64_t id, const double f
     size_t count = 0;
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *line = &s->segments.items[i];
-        count += line->look.layer == layer && line->id == id && same_position(line->ends[0], from) &&
+        count += line->style.layer == layer && line->id == id && same_position(line->ends[0], from) &&
                  same_position(line->ends[1], to);
     }
     return count;

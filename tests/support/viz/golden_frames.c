@@ -2,6 +2,7 @@
 #include "golden_frames.h"
 #include "broken_tree.h"
 #include "fit.h"
+#include "layer.h"
 #include "picture.h"
 #include "octree/sample.h"
 #include "tick_scene.h"
@@ -61,8 +62,8 @@ const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0]
 /* What else the views of some frames have. */
 static const struct {
     const char *name;
-    view look;
-} looks[] = {
+    view view;
+} views[] = {
     {"slice", {.filter = {.slice = 'z', .slice_at = -600}}},
     {"region", {.filter = {.by_region = true, .region = {{-900, -900, -300}, {100, 0, 300}}}}},
     {"fit", {.fit = FIT_POINTS, .filter = {.by_region = true, .region = {{-900, -900, -900}, {0, 0, 0}}}}},
@@ -80,9 +81,9 @@ static const struct {
 static view view_of_frame(const golden_frame *frame)
 {
     view v = {0};
-    for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++)
-        if (strcmp(looks[i].name, frame->name) == 0)
-            v = looks[i].look;
+    for (size_t i = 0; i < sizeof views / sizeof views[0]; i++)
+        if (strcmp(views[i].name, frame->name) == 0)
+            v = views[i].view;
     v.width = frame->width ? frame->width : 320;
     v.height = frame->height ? frame->height : 180;
     return v;

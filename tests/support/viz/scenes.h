@@ -5,6 +5,7 @@
 
 #include "fixture.h"
 #include "game_fixture.h"
+#include "layer.h"
 #include "tick_scene.h"
 
 /* A view with these layers. */

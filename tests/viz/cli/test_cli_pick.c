@@ -68,7 +68,7 @@ static void every_point_is_named_at_its_pixel(void **state)
     for (size_t i = 0; i < what.scene->markers.count; i++) {
         const scene_marker *marker = &what.scene->markers.items[i];
         double pixel[2];
-        if (marker->look.layer != LAYER_POINTS)
+        if (marker->style.layer != LAYER_POINTS)
             continue;
         pixel_of(what.scene, marker->at, pixel);
         json_t *said = pick_json(&what, (int)floor(pixel[0]), (int)floor(pixel[1]), 0);

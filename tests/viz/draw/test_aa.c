@@ -6,6 +6,7 @@
 #include "files.h"
 #include "frames.h"
 #include "images.h"
+#include "layer.h"
 #include "picture.h"
 #include "recordings.h"
 #include "tick_lines.h"
@@ -214,11 +215,11 @@ static void largest_picture_with_samples_is_drawn_to_its_edges(void **state)
 {
     (void)state;
     const octree_box world = cube(-1, 1);
-    const scene_look look = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
+    const scene_style style = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
     view v = view_of(4096, 2, CAMERA_ISO, VIEW_ALL_LAYERS);
     v.aa = 4;
     scene s = empty_scene(&v, &world);
-    scene_add_panel(&s, (scene_panel){.x = 4095, .y = 1, .width = 1, .height = 1, .look = look});
+    scene_add_panel(&s, (scene_panel){.x = 4095, .y = 1, .width = 1, .height = 1, .style = style});
     image drawn = picture_of(&s);
     const image_color last = image_color_at(&drawn, 4095, 1), before = image_color_at(&drawn, 4094, 1);
     const theme_color text = theme_color_at(theme_index(ROLE_TEXT, 0)), ground = theme_color_at(0);

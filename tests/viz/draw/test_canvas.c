@@ -1,6 +1,7 @@
 /* test_canvas.c - what is not sent to the rasteriser, or not sent again, is drawn all the same. */
 #include "frames.h"
 #include "canvas.h"
+#include "layer.h"
 #include "octree/sample.h"
 
 #include <stdlib.h>
@@ -27,7 +28,7 @@ static void add_lines(scene *s, uint64_t *random, uint64_t count)
             s, (scene_segment){
                    .id = i,
                    .in_picture = true,
-                   .look = {.layer = LAYER_TEXT, .role = role, .style = style, .width = width},
+                   .style = {.layer = LAYER_TEXT, .role = role, .stroke = style, .width = width},
                    .ends = {{some_place(random), some_place(random)}, {some_place(random), some_place(random)}},
                });
     }
@@ -43,10 +44,10 @@ static void add_upright_lines(scene *s, uint64_t *random, uint64_t count)
         const double from = octree_random(random) & 1 ? at : half, to = octree_random(random) % (2 * SIDE) - SIDE / 2.0;
         scene_segment line = {.id = i,
                               .in_picture = true,
-                              .look = {.layer = LAYER_TEXT,
-                                       .role = (uint8_t)(1 + octree_random(random) % (ROLE_COUNT - 1)),
-                                       .style = style ? STYLE_DASHED : STYLE_SOLID,
-                                       .width = (uint8_t)(1 + octree_random(random) % 4)}};
+                              .style = {.layer = LAYER_TEXT,
+                                        .role = (uint8_t)(1 + octree_random(random) % (ROLE_COUNT - 1)),
+                                        .stroke = style ? STROKE_DASHED : STROKE_SOLID,
+                                        .width = (uint8_t)(1 + octree_random(random) % 4)}};
         line.ends[0][axis] = from;
         line.ends[1][axis] = to;
         line.ends[0][1 - axis] = line.ends[1][1 - axis] = octree_random(random) & 1 ? at : half;
@@ -69,7 +70,7 @@ static void check_against_gl(void (*add)(scene *s, uint64_t *random, uint64_t co
         uint8_t *filled = draw(r, &s);
         scene_add_marker(&s, (scene_marker){.shape = SHAPE_DIAMOND,
                                             .at = {0, 0, 0},
-                                            .look = {.layer = LAYER_DIAGRAM, .role = ROLE_TEXT, .width = 4}});
+                                            .style = {.layer = LAYER_DIAGRAM, .role = ROLE_TEXT, .width = 4}});
         uint8_t *sent = draw(other, &s);
         pixel_of(&s, (const double[3]){0, 0, 0}, middle);
         assert_int_equal(sent[(int)middle[1] * SIDE + (int)middle[0]] / THEME_SHADES, ROLE_TEXT);

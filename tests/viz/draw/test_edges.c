@@ -11,9 +11,9 @@
 #define KINDS 3
 
 /* Boxes that do not share a layer, style and width have nothing to do with each other. */
-static const scene_look kinds[KINDS] = {
+static const scene_style kinds[KINDS] = {
     {.layer = LAYER_NODES, .width = 1},
-    {.layer = LAYER_RANGE, .style = STYLE_DASHED, .width = 1},
+    {.layer = LAYER_RANGE, .stroke = STROKE_DASHED, .width = 1},
     {.layer = LAYER_NODES, .width = 2},
 };
 
@@ -22,8 +22,8 @@ static scene random_boxes(uint64_t seed, size_t count)
     scene s = {.view = view_default()};
     for (size_t i = 0; i < count; i++) {
         scene_box box = {.id = i + 1, .depth = (uint8_t)random_below(&seed, 4)};
-        box.look = kinds[random_below(&seed, KINDS)];
-        box.look.role = (uint8_t)(ROLE_NODE + box.depth / 2); /* as deep nodes share one colour */
+        box.style = kinds[random_below(&seed, KINDS)];
+        box.style.role = (uint8_t)(ROLE_NODE + box.depth / 2); /* as deep nodes share one colour */
         for (int axis = 0; axis < 3; axis++) {
             box.box.min[axis] = (double)random_below(&seed, GRID);
             box.box.max[axis] =
@@ -40,9 +40,9 @@ typedef struct unit_stretch {
     double from, u, v;
 } unit_stretch;
 
-static bool same_kind(scene_look a, scene_look b)
+static bool same_kind(scene_style a, scene_style b)
 {
-    return a.layer == b.layer && a.style == b.style && a.width == b.width;
+    return a.layer == b.layer && a.stroke == b.stroke && a.width == b.width;
 }
 
 static bool box_covers(const octree_box *box, const unit_stretch *of)
@@ -54,12 +54,12 @@ static bool box_covers(const octree_box *box, const unit_stretch *of)
 }
 
 /* The depth of the shallowest box whose edge covers a stretch; -1 for none. */
-static int shallowest_depth(const scene *s, scene_look kind, const unit_stretch *of)
+static int shallowest_depth(const scene *s, scene_style kind, const unit_stretch *of)
 {
     int best = -1;
     for (size_t i = 0; i < s->boxes.count; i++) {
         const scene_box *box = &s->boxes.items[i];
-        if (same_kind(box->look, kind) && box_covers(&box->box, of) && (best < 0 || box->depth < best))
+        if (same_kind(box->style, kind) && box_covers(&box->box, of) && (best < 0 || box->depth < best))
             best = box->depth;
     }
     return best;
@@ -85,16 +85,16 @@ static bool edge_covers(const edge *e, const unit_stretch *of)
            e->ends[1][of->axis] >= of->from + 1;
 }
 
-static void check_stretch(const edge_list *list, const scene *s, scene_look kind, const unit_stretch *of)
+static void check_stretch(const edge_list *list, const scene *s, scene_style kind, const unit_stretch *of)
 {
     const int expected = shallowest_depth(s, kind, of);
     size_t found = 0;
     for (size_t i = 0; i < list->count; i++) {
         const edge *e = &list->items[i];
-        if (!same_kind(e->look, kind) || !edge_covers(e, of))
+        if (!same_kind(e->style, kind) || !edge_covers(e, of))
             continue;
         assert_int_equal(e->depth, expected);
-        assert_int_equal(e->look.role, ROLE_NODE + expected / 2);
+        assert_int_equal(e->style.role, ROLE_NODE + expected / 2);
         found++;
     }
     assert_int_equal(found, expected >= 0);
@@ -121,7 +121,7 @@ static void every_stretch_is_covered_once_in_the_colour_of_the_shallowest_box(vo
 static bool go_on(const edge *a, const edge *b)
 {
     return memcmp(a->ends[1], b->ends[0], sizeof a->ends[1]) == 0 && axis_of(a) == axis_of(b) &&
-           same_kind(a->look, b->look) && a->look.role == b->look.role && a->depth == b->depth;
+           same_kind(a->style, b->style) && a->style.role == b->style.role && a->depth == b->depth;
 }
 
 static void assert_maximal(const edge_list *list)
@@ -158,7 +158,7 @@ static void ids_are_of_boxes_that_the_edge_belongs_to(void **state)
             const unit_stretch start = {axis, e->ends[0][axis], e->ends[0][(axis + 1) % 3], e->ends[0][(axis + 2) % 3]};
             assert_true(box_covers(&box->box, &start));
             assert_int_equal(box->depth, e->depth);
-            assert_true(same_kind(box->look, e->look));
+            assert_true(same_kind(box->style, e->style));
         }
         scene_release(&s);
     }
@@ -171,7 +171,7 @@ static void assert_same_edges(const edge_list *a, const edge_list *b)
     for (size_t i = 0; i < a->count; i++) {
         const edge *p = &a->items[i], *q = &b->items[i];
         assert_memory_equal(p->ends, q->ends, sizeof p->ends);
-        assert_memory_equal(&p->look, &q->look, sizeof p->look);
+        assert_memory_equal(&p->style, &q->style, sizeof p->style);
         assert_true(p->id == q->id && p->depth == q->depth);
     }
 }
@@ -193,7 +193,7 @@ static void the_order_of_the_boxes_does_not_matter(void **state)
     for (uint64_t seed = 1; seed <= 20; seed++) {
         scene s = random_boxes(seed, BOXES);
         for (size_t i = 0; i < s.boxes.count; i++) /* colours that do not follow from the depth */
-            s.boxes.items[i].look.role = (uint8_t)(i % 3);
+            s.boxes.items[i].style.role = (uint8_t)(i % 3);
         assert_true(edges_merge(&first, &s, 0, LAYER_DIAGRAM + 1));
         for (int round = 0; round < 10; round++) {
             shuffle(&s, &seed);
@@ -218,10 +218,10 @@ static void change_boxes(scene *s, uint64_t *random)
         box->depth ^= 1;
         break;
     case 2:
-        box->look.role++;
+        box->style.role++;
         break;
     case 3:
-        box->look = kinds[random_below(random, KINDS)];
+        box->style = kinds[random_below(random, KINDS)];
         break;
     case 4:
         box->box.max[random_below(random, 3)]++;
@@ -308,8 +308,8 @@ static void layers_one_by_one_have_the_edges_of_all_together(void **state)
 static void add_nodes(scene *s, const octree_box *world, octree_address address, unsigned depth, unsigned deepest)
 {
     const octree_box box = octree_cell_box(world, address);
-    const scene_look look = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1};
-    scene_add_box(s, (scene_box){.id = address, .box = box, .look = look, .depth = (uint8_t)depth});
+    const scene_style style = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1};
+    scene_add_box(s, (scene_box){.id = address, .box = box, .style = style, .depth = (uint8_t)depth});
     for (unsigned octant = 0; depth < deepest && octant < 8; octant++)
         add_nodes(s, world, address << 3 | octant, depth + 1, deepest);
 }

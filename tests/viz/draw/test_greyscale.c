@@ -5,6 +5,7 @@
  * ground. A line that only changes its colour lights the same pixels as before.
  */
 #include "frames.h"
+#include "layer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -37,12 +38,12 @@ static void leave_red_alone(scene *s)
 {
     size_t kept = 0;
     for (size_t i = 0; i < s->segments.count; i++)
-        if (s->segments.items[i].look.role != ROLE_COLLISION)
+        if (s->segments.items[i].style.role != ROLE_COLLISION)
             s->segments.items[kept++] = s->segments.items[i];
     s->segments.count = kept;
     kept = 0;
     for (size_t i = 0; i < s->markers.count; i++)
-        if (s->markers.items[i].look.role != ROLE_COLLISION)
+        if (s->markers.items[i].style.role != ROLE_COLLISION)
             s->markers.items[kept++] = s->markers.items[i];
     s->markers.count = kept;
 }
@@ -52,8 +53,8 @@ static void leave_nothing_red(scene *s)
 {
     leave_red_alone(s);
     for (size_t i = 0; i < s->boxes.count; i++)
-        if (s->boxes.items[i].look.role == ROLE_COLLISION)
-            s->boxes.items[i].look.role = ROLE_PLAYER;
+        if (s->boxes.items[i].style.role == ROLE_COLLISION)
+            s->boxes.items[i].style.role = ROLE_PLAYER;
 }
 
 static uint8_t *draw_changed(renderer *r, const octree_game *game, const view *v, void (*change)(scene *))

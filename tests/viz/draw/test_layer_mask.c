@@ -1,5 +1,6 @@
 /* test_layer_mask.c - where layers are seen in a picture. */
 #include "frames.h"
+#include "layer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -49,7 +50,7 @@ static void check_against_elements(const scene *s, const uint32_t *numbers, unsi
     assert_non_null(expected);
     for (size_t i = 0; i < frame_samples(s); i++)
         if (numbers[i])
-            expected[pixel_of_sample(s, i)] |= layers >> draw_look_of(s, draw_element_of(s, numbers[i])).layer & 1;
+            expected[pixel_of_sample(s, i)] |= layers >> scene_style_of(s, scene_element_at(s, numbers[i])).layer & 1;
     assert_memory_equal(mask, expected, size);
     free(expected);
 }
@@ -80,7 +81,7 @@ static void a_mask_is_where_elements_of_its_layers_are_seen(void **state)
     do {                                                                                                               \
         size_t kept = 0;                                                                                               \
         for (size_t i = 0; i < (array).count; i++)                                                                     \
-            if ((array).items[i].look.layer != (unwanted))                                                             \
+            if ((array).items[i].style.layer != (unwanted))                                                            \
                 (array).items[kept++] = (array).items[i];                                                              \
         (array).count = kept;                                                                                          \
     } while (0)

@@ -1,5 +1,6 @@
 /* test_line_styles.c - lines that are bold, and lines that are cut out of what lies beneath: what pixels they light. */
 #include "frames.h"
+#include "layer.h"
 
 #include <stdlib.h>
 
@@ -15,7 +16,7 @@ static scene blank_scene(view_camera camera)
 
 static scene_segment line_of(double x0, double y0, double z0, double x1, double y1, double z1)
 {
-    return (scene_segment){.ends = {{x0, y0, z0}, {x1, y1, z1}}, .look = {.role = ROLE_RANGE, .width = 1}};
+    return (scene_segment){.ends = {{x0, y0, z0}, {x1, y1, z1}}, .style = {.role = ROLE_RANGE, .width = 1}};
 }
 
 /* Where a cut line lies on another, its dashes are seen and between them the ground, and nothing of the other. */
@@ -26,10 +27,10 @@ static void a_cut_line_leaves_nothing_of_the_one_beneath(void **state)
     for (int i = 0; i < 40; i++) {
         scene s = blank_scene(CAMERA_ISO);
         scene_segment line = line_of(-100, 2 * i, -90, 120, 10 - i, i);
-        line.look.layer = LAYER_NODES;
+        line.style.layer = LAYER_NODES;
         scene_add_segment(&s, line);
         uint8_t *alone = draw(r, &s);
-        line.look = (scene_look){.layer = LAYER_RANGE, .role = ROLE_NEAREST, .style = STYLE_CUT, .width = 1};
+        line.style = (scene_style){.layer = LAYER_RANGE, .role = ROLE_NEAREST, .stroke = STROKE_CUT, .width = 1};
         scene_add_segment(&s, line);
         uint8_t *cut = draw(r, &s);
         size_t dashes = 0, gaps = 0;
@@ -53,7 +54,7 @@ static void a_bold_line_is_two_pixels_wide_in_a_small_picture(void **state)
     assert_int_equal(s.unit, 1);
     scene_segment line = line_of(0, -100, 0, 0, 100, 0);
     double ends[2][2];
-    line.look.width = 2;
+    line.style.width = 2;
     pixel_of(&s, line.ends[0], ends[0]);
     pixel_of(&s, line.ends[1], ends[1]);
     scene_add_segment(&s, line);
@@ -86,7 +87,7 @@ static void an_arrow_has_its_head_at_its_second_end(void **state)
         scene_segment line = line_of(-length, 0, 0, length, 0, 0);
         double ends[2][2];
         size_t wide = 0;
-        line.look.style = STYLE_ARROW;
+        line.style.stroke = STROKE_ARROW;
         pixel_of(&s, line.ends[0], ends[0]);
         pixel_of(&s, line.ends[1], ends[1]);
         scene_add_segment(&s, line);

@@ -1,6 +1,7 @@
 /* test_pixel.c - all elements of one pixel: what is on top, what it covers, and what is there by another's paint. */
 #include "frames.h"
 #include "golden_frames.h"
+#include "layer.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,10 +28,10 @@ static draw_touches touches_at(renderer *r, const scene *s, int x, int y)
 }
 
 /* Its place in the list, or -1. */
-static int place_of(const scene *s, const draw_touches *list, draw_kind kind, size_t index)
+static int place_of(const scene *s, const draw_touches *list, scene_kind kind, size_t index)
 {
     for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].number == draw_number_of(s, (draw_element){kind, index}))
+        if (list->items[i].number == scene_number_of(s, (scene_element){kind, index}))
             return (int)i;
     return -1;
 }
@@ -97,13 +98,13 @@ static void what_is_covered_comes_behind_what_covers_it(void **state)
     (void)state;
     scene s = blank_scene(CAMERA_TOP, 1);
     const scene_panel panel = {
-        .x = 10, .y = 10, .width = 20, .height = 20, .look = {.layer = LAYER_TEXT, .role = ROLE_PANEL}};
+        .x = 10, .y = 10, .width = 20, .height = 20, .style = {.layer = LAYER_TEXT, .role = ROLE_PANEL}};
     scene_add_panel(&s, panel);
     scene_add_panel(&s, panel);
     renderer *r = open_renderer_for(&s);
     draw_touches list = touches_at(r, &s, 12, 12);
     assert_int_equal(list.count, 2);
-    assert_int_equal(place_of(&s, &list, DRAW_PANEL, 1), 0);
+    assert_int_equal(place_of(&s, &list, SCENE_PANEL, 1), 0);
     assert_int_equal(list.items[0].shown, 1);
     assert_int_equal(list.items[0].color, theme_index(ROLE_PANEL, 0));
     assert_int_equal(list.items[1].shown, 0);
@@ -121,14 +122,14 @@ static void samples_of_a_pixel_are_shared(void **state)
 {
     (void)state;
     scene s = blank_scene(CAMERA_TOP, 4);
-    const scene_look look = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 1};
+    const scene_style style = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 1};
     for (int i = 0; i < 2; i++) /* lines of a pixel's width, a quarter and a half of the way into the row of pixels */
         scene_add_segment(&s, (scene_segment){.in_picture = true,
-                                              .look = look,
+                                              .style = style,
                                               .ends = {{20, 30.75 + 0.5 * i, 0}, {60, 30.75 + 0.5 * i, 0}}});
     renderer *r = open_renderer_for(&s);
     draw_touches list = touches_at(r, &s, 40, 30);
-    const int above = place_of(&s, &list, DRAW_SEGMENT, 0), below = place_of(&s, &list, DRAW_SEGMENT, 1);
+    const int above = place_of(&s, &list, SCENE_SEGMENT, 0), below = place_of(&s, &list, SCENE_SEGMENT, 1);
     assert_true(above >= 0 && below >= 0);
     assert_int_equal(list.items[below].shown, 4); /* painted last: from 30.75 on */
     assert_int_equal(list.items[above].painted, 12);
@@ -143,7 +144,7 @@ static void samples_of_a_pixel_are_shared(void **state)
 static scene_marker point_at(uint64_t id, double x, double y)
 {
     return (scene_marker){
-        .id = id, .at = {x, y, 0}, .look = {.layer = LAYER_POINTS, .role = ROLE_POINT}, .shape = SHAPE_SQUARE};
+        .id = id, .at = {x, y, 0}, .style = {.layer = LAYER_POINTS, .role = ROLE_POINT}, .shape = SHAPE_SQUARE};
 }
 
 static void all_points_of_a_pixel_are_named(void **state)
@@ -160,7 +161,7 @@ static void all_points_of_a_pixel_are_named(void **state)
     assert_int_equal(list.count, 5);
     assert_int_equal(list.items[0].shown, 1);
     for (size_t i = 0; i < 5; i++)
-        assert_true(place_of(&s, &list, DRAW_MARKER, i) >= 0);
+        assert_true(place_of(&s, &list, SCENE_MARKER, i) >= 0);
     for (size_t i = 1; i < 5; i++)
         assert_int_equal(list.items[i].painted, 0);
     draw_touches_release(&list);
@@ -173,7 +174,7 @@ static scene_box cell(uint64_t id, double x0, double x1, uint8_t depth)
     return (scene_box){.id = id,
                        .box = {{x0, -40, -40}, {x1, 40, 40}},
                        .depth = depth,
-                       .look = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1}};
+                       .style = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1}};
 }
 
 /* Seen from the front: its top edges at z = 40 lie on one line of the picture. */
@@ -191,9 +192,9 @@ static void all_boxes_of_an_edge_are_named(void **state)
     pixel_of(&s, left, pixel);
     draw_touches list = touches_at(r, &s, (int)floor(pixel[0]), (int)floor(pixel[1]));
     assert_int_equal(list.count, 2);
-    assert_int_equal(place_of(&s, &list, DRAW_BOX, 0), 0);
+    assert_int_equal(place_of(&s, &list, SCENE_BOX, 0), 0);
     assert_true(list.items[0].shown == 1 && list.items[0].painted >= 1);
-    assert_int_equal(place_of(&s, &list, DRAW_BOX, 1), 1);
+    assert_int_equal(place_of(&s, &list, SCENE_BOX, 1), 1);
     assert_int_equal(list.items[1].painted, 0);
     draw_touches_release(&list);
 
@@ -204,7 +205,7 @@ static void all_boxes_of_an_edge_are_named(void **state)
         list = touches_at(r, &s, (int)floor(pixel[0] + 0.5), (int)floor(pixel[1]));
     }
     assert_int_equal(list.count, 2);
-    assert_true(place_of(&s, &list, DRAW_BOX, 1) >= 0 && place_of(&s, &list, DRAW_BOX, 2) >= 0);
+    assert_true(place_of(&s, &list, SCENE_BOX, 1) >= 0 && place_of(&s, &list, SCENE_BOX, 2) >= 0);
     draw_touches_release(&list);
     renderer_close(r);
     scene_release(&s);
@@ -213,13 +214,13 @@ static void all_boxes_of_an_edge_are_named(void **state)
 static void a_gap_of_a_cut_line_is_the_lines_own_and_one_of_a_dashed_line_is_not(void **state)
 {
     (void)state;
-    for (int style = STYLE_DASHED; style <= STYLE_CUT; style++) {
+    for (int style = STROKE_DASHED; style <= STROKE_CUT; style++) {
         scene s = blank_scene(CAMERA_TOP, 1);
         scene_segment line = {
-            .in_picture = true, .ends = {{20, 50, 0}, {120, 50, 0}}, .look = {.role = ROLE_NODE, .width = 1}};
-        line.look.layer = LAYER_NODES;
+            .in_picture = true, .ends = {{20, 50, 0}, {120, 50, 0}}, .style = {.role = ROLE_NODE, .width = 1}};
+        line.style.layer = LAYER_NODES;
         scene_add_segment(&s, line);
-        line.look = (scene_look){.layer = LAYER_PRUNED, .role = ROLE_RANGE, .style = (uint8_t)style, .width = 1};
+        line.style = (scene_style){.layer = LAYER_PRUNED, .role = ROLE_RANGE, .stroke = (uint8_t)style, .width = 1};
         scene_add_segment(&s, line);
         renderer *r = open_renderer_for(&s);
         int gaps = 0, dashes = 0;
@@ -229,9 +230,9 @@ static void a_gap_of_a_cut_line_is_the_lines_own_and_one_of_a_dashed_line_is_not
                 draw_touches_release(&list);
                 list = touches_at(r, &s, x, 49);
             }
-            const int upper = place_of(&s, &list, DRAW_SEGMENT, 1);
-            assert_true(place_of(&s, &list, DRAW_SEGMENT, 0) >= 0);
-            assert_true(style == STYLE_DASHED || upper == 0);
+            const int upper = place_of(&s, &list, SCENE_SEGMENT, 1);
+            assert_true(place_of(&s, &list, SCENE_SEGMENT, 0) >= 0);
+            assert_true(style == STROKE_DASHED || upper == 0);
             if (upper == 0 && list.items[0].color)
                 dashes++;
             else

@@ -99,8 +99,8 @@ static scene point_scene(view_camera kind)
 
 static void add_point(scene *s, uint64_t id, double x, double y, double z)
 {
-    const scene_look look = {.layer = LAYER_POINTS, .role = ROLE_POINT, .width = 2};
-    scene_add_marker(s, (scene_marker){.id = id, .at = {x, y, z}, .look = look});
+    const scene_style style = {.layer = LAYER_POINTS, .role = ROLE_POINT, .width = 2};
+    scene_add_marker(s, (scene_marker){.id = id, .at = {x, y, z}, .style = style});
 }
 
 static void points_on_one_pixel_are_one_quad_of_the_nearest_band(void **state)

@@ -1,5 +1,6 @@
 /* test_renderer.c - renderers: which sizes they take, and that the same scene is the same frame. */
 #include "frames.h"
+#include "layer.h"
 
 #include <limits.h>
 #include <math.h>
@@ -82,13 +83,13 @@ static void extreme_sizes_are_drawn_to_their_edges(void **state)
         const int width = sizes[i][0], height = sizes[i][1];
         const view v = view_of(width, height, CAMERA_ISO, VIEW_ALL_LAYERS);
         const octree_box world = cube(-1, 1);
-        const scene_look look = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
+        const scene_style style = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
         scene s = empty_scene(&v, &world);
         renderer *r = open_renderer(width, height);
         uint8_t *blank = draw(r, &s);
         assert_int_equal(lit_pixels(blank, &s), 0);
-        scene_add_panel(&s, (scene_panel){.x = 0, .y = 0, .width = 1, .height = 1, .look = look});
-        scene_add_panel(&s, (scene_panel){.x = width - 1, .y = height - 1, .width = 1, .height = 1, .look = look});
+        scene_add_panel(&s, (scene_panel){.x = 0, .y = 0, .width = 1, .height = 1, .style = style});
+        scene_add_panel(&s, (scene_panel){.x = width - 1, .y = height - 1, .width = 1, .height = 1, .style = style});
         uint8_t *corners = draw(r, &s);
         assert_int_equal(lit_pixels(corners, &s), width * height == 1 ? 1 : 2);
         assert_int_equal(corners[0], theme_index(ROLE_TEXT, 0));
@@ -112,13 +113,14 @@ static void the_largest_picture_is_drawn_to_its_corners(void **state)
     enum { SIDE = VIEW_MAX_SIDE };
     const view v = view_of(SIDE, SIDE, CAMERA_ISO, VIEW_ALL_LAYERS);
     const octree_box world = cube(-1, 1);
-    const scene_look look = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
+    const scene_style style = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
     const size_t last = (size_t)SIDE * SIDE - 1;
     octreel_error error = {""};
     scene s = empty_scene(&v, &world);
     for (int i = 0; i < 4; i++)
         scene_add_panel(
-            &s, (scene_panel){.x = i % 2 * (SIDE - 1), .y = i / 2 * (SIDE - 1), .width = 1, .height = 1, .look = look});
+            &s,
+            (scene_panel){.x = i % 2 * (SIDE - 1), .y = i / 2 * (SIDE - 1), .width = 1, .height = 1, .style = style});
     renderer *r = open_renderer(SIDE, SIDE);
     uint8_t *frame = malloc(last + 1);
     assert_non_null(frame);
@@ -146,10 +148,10 @@ static void what_is_not_finite_changes_no_pixel_and_is_counted(void **state)
     for (size_t w = 0; w < 3; w++) {
         for (int axis = 0; axis < 3; axis++) {
             scene_box box = {.box = cube(-100, 100),
-                             .look = {.layer = LAYER_NODES, .role = ROLE_COLLISION, .width = 9}};
-            scene_segment segment = {.ends = {{1, 2, 3}, {4, 5, 6}}, .look = box.look};
-            scene_marker marker = {.look = box.look};
-            scene_label label = {.in_world = true, .text = "X", .look = box.look};
+                             .style = {.layer = LAYER_NODES, .role = ROLE_COLLISION, .width = 9}};
+            scene_segment segment = {.ends = {{1, 2, 3}, {4, 5, 6}}, .style = box.style};
+            scene_marker marker = {.style = box.style};
+            scene_label label = {.in_world = true, .text = "X", .style = box.style};
             box.box.max[axis] = segment.ends[1][axis] = marker.at[axis] = label.at[axis] = wrong[w];
             scene_add_box(&s, box);
             scene_add_segment(&s, segment);
@@ -286,7 +288,7 @@ static void segments_to_far_off_are_drawn_without_harm(void **state)
         const view v = view_of(64, 64, (view_camera)kind, VIEW_ALL_LAYERS);
         scene s = empty_scene(&v, &world);
         for (uint64_t i = 0; i < 2000; i++) {
-            scene_segment segment = {.id = i, .look = {.role = ROLE_RANGE, .style = (uint8_t)(i % 2), .width = 1}};
+            scene_segment segment = {.id = i, .style = {.role = ROLE_RANGE, .stroke = (uint8_t)(i % 2), .width = 1}};
             for (int j = 0; j < 6; j++)
                 segment.ends[j / 3][j % 3] =
                     sizes[random_below(&random, sizeof sizes / sizeof sizes[0])] * (random_below(&random, 2) ? 1 : -1);

@@ -6,6 +6,7 @@
 #include "fixture.h"
 #include "frame_file.h"
 #include "galleries.h"
+#include "layer.h"
 #include "recordings.h"
 #include "text.h"
 #include "trace_words.h"

@@ -7,6 +7,7 @@
 #include "explain.h"
 #include "fixture.h"
 #include "galleries.h"
+#include "layer.h"
 #include "recordings.h"
 #include "theme.h"
 

@@ -8,6 +8,7 @@
 #include "files.h"
 #include "fixture.h"
 #include "folder_files.h"
+#include "layer.h"
 #include "view_file.h"
 
 static octree_box random_box(uint64_t *random)

@@ -43,7 +43,7 @@ static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, cons
     snprintf(number, sizeof number, " %zu", rank);
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->look.layer != LAYER_KNEAREST || label->id != id)
+        if (label->style.layer != LAYER_KNEAREST || label->id != id)
             continue;
         assert_true(label->in_world && strcmp(label->text, number) == 0 && same_position(label->at, at));
         return label;
@@ -94,7 +94,7 @@ static void check_radius(const scene *s, const octree_answer *answer, size_t pla
     const double *last = NULL;
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *chord = &s->segments.items[i];
-        if (chord->look.layer != LAYER_RADIUS || chord->id >> 32 != place)
+        if (chord->style.layer != LAYER_RADIUS || chord->id >> 32 != place)
             continue;
         const size_t number = chord->id & UINT32_MAX, plane = number / BALL_CHORDS;
         double square = 0;
@@ -257,7 +257,7 @@ static void marks_are_smaller_where_there_are_many(void **state)
         scene s = empty_scene(&v, &world);
         add_answers(&s, &answer, 1);
         assert_int_equal(s.markers.count, counts[i]);
-        const unsigned width = s.markers.items[0].look.width;
+        const unsigned width = s.markers.items[0].style.width;
         assert_true(width > 0 && (i % 2 ? width == before : width < before));
         before = width;
         scene_release(&s);

@@ -32,7 +32,7 @@ static octree_walk_order check_asked(const octree_node *node, void *context)
     const layer_counts found = count_layer(&s, LAYER_ASKED);
     const scene_box *box = only_box(&s, LAYER_ASKED, node->address);
     assert_true(same_box(&box->box, &node->box));
-    assert_true(box->look.role == ROLE_PLAYER && box->look.width == 2);
+    assert_true(box->style.role == ROLE_PLAYER && box->style.width == 2);
     for (int i = 0; i < 3; i++)
         middle[i] = node->box.min[i] / 2 + node->box.max[i] / 2;
     const bool small = camera_box_pixels(&s.camera, &node->box) <= 24;

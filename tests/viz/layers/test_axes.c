@@ -20,7 +20,7 @@ static scene scene_of_world(const octree_box *world, const view *v)
 
 static bool is_number(const scene_label *label)
 {
-    return label->look.layer == LAYER_WORLD && label->id >= FIRST_ID;
+    return label->style.layer == LAYER_WORLD && label->id >= FIRST_ID;
 }
 
 static size_t count_numbers(const scene *s)
@@ -35,7 +35,7 @@ static const scene_segment *tick_of(const scene *s, uint64_t id)
 {
     const scene_segment *found = NULL;
     for (size_t i = 0; i < s->segments.count; i++) {
-        if (s->segments.items[i].look.layer != LAYER_WORLD || s->segments.items[i].id != id)
+        if (s->segments.items[i].style.layer != LAYER_WORLD || s->segments.items[i].id != id)
             continue;
         assert_null(found);
         found = &s->segments.items[i];
@@ -82,7 +82,7 @@ static void check_grounds(const scene *s)
 {
     size_t numbers = 0, grounds = 0;
     for (size_t i = 0; i < s->panels.count; i++)
-        grounds += s->panels.items[i].look.layer == LAYER_WORLD;
+        grounds += s->panels.items[i].style.layer == LAYER_WORLD;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
         if (!is_number(label))
@@ -91,7 +91,7 @@ static void check_grounds(const scene *s)
         bool has = false;
         for (size_t j = 0; j < s->panels.count; j++) {
             const scene_panel *p = &s->panels.items[j];
-            has = has || (p->look.layer == LAYER_WORLD && p->id == label->id && p->look.role == ROLE_BACKGROUND &&
+            has = has || (p->style.layer == LAYER_WORLD && p->id == label->id && p->style.role == ROLE_BACKGROUND &&
                           p->x <= label->at[0] && p->y <= label->at[1] && p->x + p->width >= label->at[0] + width &&
                           p->y + p->height >= label->at[1] + 8 * s->unit);
         }
@@ -220,7 +220,7 @@ static void an_orbit_keeps_its_ticks(void **state)
         size_t ticks = 0;
         build_tick(&s, &v, game);
         for (size_t i = 0; i < s.segments.count; i++)
-            ticks += s.segments.items[i].look.layer == LAYER_WORLD;
+            ticks += s.segments.items[i].style.layer == LAYER_WORLD;
         first = tick == 0 ? ticks : first;
         assert_int_equal(ticks, first);
         check_apart(&s);

@@ -10,7 +10,7 @@
 #include "random_session.h"
 
 /* Three lines from face to face through the corner that a cell's eight octants share. */
-static void check_planes(const scene *s, const octree *tree, view_layer layer, scene_style style,
+static void check_planes(const scene *s, const octree *tree, view_layer layer, scene_stroke style,
                          const octree_address *nodes, size_t count)
 {
     const octree_box world = octree_definition(tree).world;
@@ -29,16 +29,16 @@ static void check_planes(const scene *s, const octree *tree, view_layer layer, s
     assert_int_equal(found.segments, 3 * count);
     assert_int_equal(found.boxes + found.markers + found.labels + found.panels, 0);
     for (size_t i = 0; i < s->segments.count; i++)
-        if (s->segments.items[i].look.layer == layer)
-            assert_true(s->segments.items[i].look.style == style && s->segments.items[i].look.width == 2);
+        if (s->segments.items[i].style.layer == layer)
+            assert_true(s->segments.items[i].style.stroke == style && s->segments.items[i].style.width == 2);
 }
 
 static void check_tick(const scene *s, const octree_game *game, size_t *splits, size_t *merges)
 {
     const octree_tick *tick = octree_game_tick(game);
     const octree *tree = octree_game_tree(game);
-    check_planes(s, tree, LAYER_SPLITS, STYLE_SOLID, tick->splits, tick->split_count);
-    check_planes(s, tree, LAYER_MERGES, STYLE_DASHED, tick->merges, tick->merge_count);
+    check_planes(s, tree, LAYER_SPLITS, STROKE_SOLID, tick->splits, tick->split_count);
+    check_planes(s, tree, LAYER_MERGES, STROKE_DASHED, tick->merges, tick->merge_count);
     const layer_counts broken = count_layer(s, LAYER_BROKEN);
     assert_int_equal(broken.boxes + broken.segments + broken.markers + broken.labels, 0);
     *splits += tick->split_count;
@@ -109,7 +109,7 @@ static void collect_warning(const scene *s, char text[256])
     text[0] = 0;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->look.layer != LAYER_TEXT || label->look.role != ROLE_WARNING)
+        if (label->style.layer != LAYER_TEXT || label->style.role != ROLE_WARNING)
             continue;
         if (text[0])
             strncat(text, " ", 255 - strlen(text));
@@ -126,9 +126,9 @@ static void check_broken(const scene *s, const octree_box *world, octree_address
     assert_true(same_box(&only_box(s, LAYER_BROKEN, where)->box, &cell));
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *line = &s->segments.items[i];
-        assert_true(line->look.layer != LAYER_BROKEN ||
+        assert_true(line->style.layer != LAYER_BROKEN ||
                     (box_holds(&cell, line->ends[0]) && box_holds(&cell, line->ends[1])));
-        assert_true(line->look.layer != LAYER_BROKEN || line->look.role == ROLE_WARNING);
+        assert_true(line->style.layer != LAYER_BROKEN || line->style.role == ROLE_WARNING);
     }
     collect_warning(s, told);
     assert_string_equal(told, sentence);

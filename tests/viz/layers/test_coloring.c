@@ -42,8 +42,8 @@ static uint32_t legend_roles(const scene *s)
 {
     uint32_t roles = 0;
     for (size_t i = 0; i < s->panels.count; i++)
-        if (s->panels.items[i].look.role >= ROLE_NODE)
-            roles |= UINT32_C(1) << s->panels.items[i].look.role;
+        if (s->panels.items[i].style.role >= ROLE_NODE)
+            roles |= UINT32_C(1) << s->panels.items[i].style.role;
     return roles;
 }
 
@@ -62,11 +62,11 @@ static void the_colour_of_each_node_is_that_of_its_depth_its_points_or_none(void
         build_tree(&s, &v, tree, "colours");
         for (size_t i = 0; i < s.boxes.count; i++) {
             const scene_box *box = &s.boxes.items[i];
-            if (box->look.layer != LAYER_NODES)
+            if (box->style.layer != LAYER_NODES)
                 continue;
             const size_t count = points_in(&points, tree, box->id);
-            assert_int_equal(box->look.role, expected_role(v.coloring, octree_address_depth(box->id), count));
-            used |= UINT32_C(1) << box->look.role;
+            assert_int_equal(box->style.role, expected_role(v.coloring, octree_address_depth(box->id), count));
+            used |= UINT32_C(1) << box->style.role;
         }
         assert_int_equal(used & ~legend_roles(&s), 0);
         assert_int_equal(has_text(&s, "shallow to deep"), coloring == COLORING_DEPTH);

@@ -18,7 +18,7 @@ static const scene_panel *find_panel(const scene *s, uint64_t id)
     const scene_panel *found = NULL;
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
-        if (panel->look.layer != LAYER_DIAGRAM || panel->id != id)
+        if (panel->style.layer != LAYER_DIAGRAM || panel->id != id)
             continue;
         assert_null(found);
         found = panel;
@@ -31,7 +31,7 @@ static const scene_segment *find_line(const scene *s, uint64_t id)
     const scene_segment *found = NULL;
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *line = &s->segments.items[i];
-        if (line->look.layer != LAYER_DIAGRAM || line->id != id)
+        if (line->style.layer != LAYER_DIAGRAM || line->id != id)
             continue;
         assert_null(found);
         assert_true(line->in_picture);
@@ -44,7 +44,7 @@ static const scene_segment *find_line(const scene *s, uint64_t id)
 static const char *find_words(const scene *s, const char *begin)
 {
     for (size_t i = 0; i < s->labels.count; i++)
-        if (s->labels.items[i].look.layer == LAYER_DIAGRAM &&
+        if (s->labels.items[i].style.layer == LAYER_DIAGRAM &&
             strncmp(s->labels.items[i].text, begin, strlen(begin)) == 0)
             return s->labels.items[i].text;
     return NULL;
@@ -53,7 +53,7 @@ static const char *find_words(const scene *s, const char *begin)
 static bool panel_says(const scene *s, const char *text)
 {
     for (size_t i = 0; i < s->labels.count; i++)
-        if (s->labels.items[i].look.layer == LAYER_TEXT && strcmp(s->labels.items[i].text, text) == 0)
+        if (s->labels.items[i].style.layer == LAYER_TEXT && strcmp(s->labels.items[i].text, text) == 0)
             return true;
     return false;
 }
@@ -86,7 +86,7 @@ static bool is_above(octree_address node, octree_address other)
 static void check_panel(recount *r, const octree_node *node, const scene_panel *panel)
 {
     const unsigned depth = node->depth;
-    assert_int_equal(panel->look.role, node_role(&r->s->view, depth, node->count));
+    assert_int_equal(panel->style.role, node_role(&r->s->view, depth, node->count));
     assert_true(panel->x >= r->right[depth]);
     r->right[depth] = panel->x + panel->width;
     r->foot[depth] = fmax(r->foot[depth], panel->y + panel->height);
@@ -100,7 +100,7 @@ static void check_line(recount *r, const octree_node *node, const scene_panel *p
     const scene_panel *parent = find_panel(r->s, node->address >> 3);
     const bool on_way = r->way && is_above(node->address, r->way);
     assert_true(line && parent);
-    assert_int_equal(line->look.role, on_way ? ROLE_PLAYER : panel->look.role);
+    assert_int_equal(line->style.role, on_way ? ROLE_PLAYER : panel->style.role);
     assert_true(fabs(line->ends[0][0] - center_of(parent)) <= 1 && fabs(line->ends[1][0] - center_of(panel)) <= 1);
     assert_true(fabs(line->ends[0][1] - (parent->y + parent->height)) <= 1 && fabs(line->ends[1][1] - panel->y) <= 1);
 }
@@ -129,7 +129,7 @@ static void check_bars(const scene *s, unsigned depth, size_t nodes, double pitc
     size_t bars = 0;
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
-        if (panel->look.layer != LAYER_DIAGRAM || !diagram_is_bar(panel->id) || diagram_bar_depth(panel->id) != depth)
+        if (panel->style.layer != LAYER_DIAGRAM || !diagram_is_bar(panel->id) || diagram_bar_depth(panel->id) != depth)
             continue;
         const double steps = ceil(panel->height * 16 / (pitch - 2 * s->unit));
         assert_true(steps >= 1 && steps <= 16);
@@ -161,7 +161,7 @@ static double check_counts(const scene *s, const recount *r)
     unsigned depth = 0;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->look.layer != LAYER_DIAGRAM || label->look.role != ROLE_TEXT)
+        if (label->style.layer != LAYER_DIAGRAM || label->style.role != ROLE_TEXT)
             continue;
         assert_int_equal(strtoul(label->text, NULL, 10), r->at_depth[depth]);
         rows[depth++] = label->at[1];
@@ -208,14 +208,14 @@ static void check_way(const scene *s, octree_address leaf)
     for (unsigned depth = 0; depth <= deep; depth++) {
         const scene_panel *mark = find_panel(s, diagram_way_id(depth));
         const scene_panel *node = find_panel(s, leaf >> 3 * (deep - depth));
-        assert_true(mark && mark->look.role == ROLE_PLAYER);
+        assert_true(mark && mark->style.role == ROLE_PLAYER);
         if (node)
             assert_true(mark->x < node->x && mark->y < node->y && mark->x + mark->width > node->x + node->width);
         if (depth)
-            assert_int_equal(find_line(s, leaf >> 3 * (deep - depth))->look.role, ROLE_PLAYER);
+            assert_int_equal(find_line(s, leaf >> 3 * (deep - depth))->style.role, ROLE_PLAYER);
     }
     for (size_t i = 0; i < s->segments.count; i++)
-        yellow += s->segments.items[i].look.layer == LAYER_DIAGRAM && s->segments.items[i].look.role == ROLE_PLAYER;
+        yellow += s->segments.items[i].style.layer == LAYER_DIAGRAM && s->segments.items[i].style.role == ROLE_PLAYER;
     assert_int_equal(yellow, deep);
     assert_int_equal(s->tally.way, deep + 1);
     snprintf(wanted, sizeof wanted, ": %s", octree_address_format(leaf, text));
@@ -360,9 +360,9 @@ static void filling_an_empty_octant_moves_nothing(void **state)
 static octree_walk_order grey_unless_leaf(const octree_node *node, void *context)
 {
     const scene *s = context;
-    assert_int_equal(find_panel(s, node->address)->look.role == ROLE_WORLD, !node->leaf);
+    assert_int_equal(find_panel(s, node->address)->style.role == ROLE_WORLD, !node->leaf);
     if (node->depth)
-        assert_int_equal(find_line(s, node->address)->look.role == ROLE_WORLD, !node->leaf);
+        assert_int_equal(find_line(s, node->address)->style.role == ROLE_WORLD, !node->leaf);
     return OCTREE_WALK_ON;
 }
 
@@ -431,8 +431,9 @@ static void check_inside(const scene *s)
     assert_true(space.width >= 1 && space.height >= 1);
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *p = &s->panels.items[i];
-        assert_true(p->look.layer != LAYER_DIAGRAM || (p->x >= w.x && p->y >= w.y && p->x + p->width <= w.x + w.width &&
-                                                       p->y + p->height <= w.y + w.height));
+        assert_true(
+            p->style.layer != LAYER_DIAGRAM ||
+            (p->x >= w.x && p->y >= w.y && p->x + p->width <= w.x + w.width && p->y + p->height <= w.y + w.height));
     }
     for (size_t i = 0; i < s->segments.count; i++)
         for (int end = 0; end < 2 && s->segments.items[i].in_picture; end++) {
@@ -442,7 +443,7 @@ static void check_inside(const scene *s)
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
         const double right = label->at[0] + (double)strlen(label->text) * 6 * s->unit;
-        assert_true(label->look.layer != LAYER_DIAGRAM ||
+        assert_true(label->style.layer != LAYER_DIAGRAM ||
                     (label->at[0] >= w.x && right <= w.x + w.width && label->at[1] + 8 * s->unit <= w.y + w.height));
     }
 }

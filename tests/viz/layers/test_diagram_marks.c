@@ -11,7 +11,7 @@
 static bool panel_says(const scene *s, const char *text)
 {
     for (size_t i = 0; i < s->labels.count; i++)
-        if (s->labels.items[i].look.layer == LAYER_TEXT && strcmp(s->labels.items[i].text, text) == 0)
+        if (s->labels.items[i].style.layer == LAYER_TEXT && strcmp(s->labels.items[i].text, text) == 0)
             return true;
     return false;
 }
@@ -31,13 +31,13 @@ static size_t check_lines(const scene *s, const recount *met, unsigned layers)
     size_t told = 0;
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *line = &s->segments.items[i];
-        if (line->look.layer != LAYER_DIAGRAM || line->look.role == ROLE_PLAYER)
+        if (line->style.layer != LAYER_DIAGRAM || line->style.role == ROLE_PLAYER)
             continue;
         const unsigned touch = touch_of(met, line->id);
         const bool pruned = touch == OCTREE_TOUCH_PRUNED && layers >> LAYER_PRUNED & 1;
         const bool visited = touch != OCTREE_TOUCH_PRUNED && touch != OCTREE_TOUCH_KINDS && layers >> LAYER_VISITED & 1;
-        assert_int_equal(line->look.style, pruned ? STYLE_DASHED : STYLE_SOLID);
-        assert_int_equal(line->look.width, visited ? 2 : 1);
+        assert_int_equal(line->style.stroke, pruned ? STROKE_DASHED : STROKE_SOLID);
+        assert_int_equal(line->style.width, visited ? 2 : 1);
         told += pruned || visited;
     }
     return told;

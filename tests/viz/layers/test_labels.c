@@ -27,7 +27,7 @@ static const scene_label *label_of(const scene *s, uint64_t id)
 {
     const scene_label *found = NULL;
     for (size_t i = 0; i < s->labels.count; i++) {
-        if (s->labels.items[i].look.layer != LAYER_NODES || s->labels.items[i].id != id)
+        if (s->labels.items[i].style.layer != LAYER_NODES || s->labels.items[i].id != id)
             continue;
         assert_null(found);
         found = &s->labels.items[i];
@@ -85,7 +85,7 @@ static bool has_no_room(const scene *s, const scene_box *box, const char *path)
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
         const room other = room_of(s, label->text, label->at[0], label->at[1]);
-        if (label->look.layer == LAYER_NODES && overlap(&wanted, &other, slack))
+        if (label->style.layer == LAYER_NODES && overlap(&wanted, &other, slack))
             return true;
     }
     return false;
@@ -103,7 +103,7 @@ static void check_label(const scene *s, const scene_box *box, const scene_label 
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *other = &s->labels.items[i];
         const room theirs = room_of(s, other->text, other->at[0], other->at[1]);
-        assert_true(other == label || other->look.layer != LAYER_NODES || !overlap(&taken, &theirs, 0));
+        assert_true(other == label || other->style.layer != LAYER_NODES || !overlap(&taken, &theirs, 0));
     }
 }
 
@@ -111,7 +111,7 @@ static bool has_ground(const scene *s, const scene_label *label)
 {
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
-        if (panel->look.layer == LAYER_NODES && panel->id == label->id)
+        if (panel->style.layer == LAYER_NODES && panel->id == label->id)
             return panel->x <= label->at[0] && panel->y <= label->at[1];
     }
     return false;
@@ -133,7 +133,7 @@ static size_t check_labels(const octree *tree, const view *v)
     build_tree(&s, v, tree, "labels");
     for (size_t i = 0; i < s.boxes.count; i++) {
         const scene_box *box = &s.boxes.items[i];
-        if (box->look.layer != LAYER_NODES)
+        if (box->style.layer != LAYER_NODES)
             continue;
         char path[64];
         const scene_label *label = label_of(&s, box->id);
@@ -149,7 +149,7 @@ static size_t check_labels(const octree *tree, const view *v)
         labels++;
     }
     for (size_t i = 0; i < s.panels.count; i++)
-        grounds += s.panels.items[i].look.layer == LAYER_NODES;
+        grounds += s.panels.items[i].style.layer == LAYER_NODES;
     char text[SCENE_TEXT];
     snprintf(text, sizeof text, "%zu of %zu fit", labels, nodes);
     assert_int_equal(has_text(&s, text), labels < nodes);

@@ -41,7 +41,7 @@ static bool is_explained(const scene *s, const struct legend_row *row)
 {
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->look.layer != LAYER_TEXT || label->at[0] != 34 * s->unit)
+        if (label->style.layer != LAYER_TEXT || label->at[0] != 34 * s->unit)
             continue;
         if (row->layer == LAYER_POINTS ? strcmp(label->text, row->text) == 0 : strstr(label->text, row->text) != NULL)
             return true;

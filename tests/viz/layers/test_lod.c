@@ -37,7 +37,7 @@ static scene scene_of(const octree *tree, const view *v)
 static bool has_box(const scene *s, octree_address address)
 {
     for (size_t i = 0; i < s->boxes.count; i++)
-        if (s->boxes.items[i].look.layer == LAYER_NODES && s->boxes.items[i].id == address)
+        if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].id == address)
             return true;
     return false;
 }
@@ -45,7 +45,7 @@ static bool has_box(const scene *s, octree_address address)
 static bool has_point(const scene *s, uint64_t id)
 {
     for (size_t i = 0; i < s->markers.count; i++)
-        if (s->markers.items[i].look.layer == LAYER_POINTS && s->markers.items[i].id == id)
+        if (s->markers.items[i].style.layer == LAYER_POINTS && s->markers.items[i].id == id)
             return true;
     return false;
 }
@@ -200,7 +200,7 @@ static void nodes_beyond_the_budget_are_left_out_by_whole_levels(void **state)
         scene s = scene_of(tree, &v);
         assert_int_equal(count_layer(&s, LAYER_NODES).boxes, within);
         for (size_t i = 0; i < s.boxes.count; i++)
-            assert_true(s.boxes.items[i].look.layer != LAYER_NODES || s.boxes.items[i].depth < levels);
+            assert_true(s.boxes.items[i].style.layer != LAYER_NODES || s.boxes.items[i].depth < levels);
         assert_int_equal(s.tally.beyond, stats.nodes - within);
         snprintf(text, sizeof text, "nodes to depth %zu", levels - 1);
         assert_int_equal(has_text(&s, text), within < stats.nodes);

@@ -24,7 +24,7 @@ static void check_red_words(const scene *s, const octree_tick *tick)
 {
     size_t words = 0;
     for (size_t i = 0; i < s->labels.count; i++)
-        words += s->labels.items[i].look.role == ROLE_COLLISION;
+        words += s->labels.items[i].style.role == ROLE_COLLISION;
     assert_int_equal(words, tick->hit_count != 0);
     if (tick->hit_count)
         assert_non_null(find_text(s, "collided"));
@@ -102,7 +102,7 @@ static size_t count_rows(const scene *s, int below)
     double at = -1;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->look.layer != LAYER_TEXT || label->at[1] == at)
+        if (label->style.layer != LAYER_TEXT || label->at[1] == at)
             continue;
         at = label->at[1];
         rows += at <= below;
@@ -129,11 +129,11 @@ static void rows_that_have_no_room_are_counted(void **state)
             assert_int_equal(count_rows(&s, v.height - 10 * s.unit), count_rows(&s, 10000));
             size_t told = 0, legend = 0;
             for (size_t i = 0; i < s.labels.count; i++)
-                legend += s.labels.items[i].look.layer == LAYER_TEXT && s.labels.items[i].at[0] == 34 * s.unit;
+                legend += s.labels.items[i].style.layer == LAYER_TEXT && s.labels.items[i].at[0] == 34 * s.unit;
             for (size_t n = 1; n < all; n++) {
                 snprintf(more, sizeof more, "and %zu more", n);
                 for (size_t i = 0; i < s.labels.count; i++)
-                    if (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].look.role == ROLE_WARNING)
+                    if (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].style.role == ROLE_WARNING)
                         told = n;
             }
             const size_t shown = count_rows(&s, 10000) - legend - (told > 0);

@@ -130,7 +130,7 @@ static const char *row_of(const scene *s, const char *name, size_t n)
 {
     for (size_t i = 0; i + 1 < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i], *value = label + 1;
-        if (label->look.layer != LAYER_TEXT || strcmp(label->text, name) != 0 || label->at[0] != MARGIN * s->unit)
+        if (label->style.layer != LAYER_TEXT || strcmp(label->text, name) != 0 || label->at[0] != MARGIN * s->unit)
             continue;
         if (value->at[1] != label->at[1] || value->at[0] != VALUE * s->unit)
             continue; /* an event's word */

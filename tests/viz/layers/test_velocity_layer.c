@@ -24,7 +24,7 @@ static const scene_segment *find_arrow(const scene *s, uint64_t id)
     const scene_segment *found = NULL;
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *segment = &s->segments.items[i];
-        if (segment->look.layer != LAYER_VELOCITIES || segment->id != id)
+        if (segment->style.layer != LAYER_VELOCITIES || segment->id != id)
             continue;
         assert_null(found);
         found = segment;
@@ -47,7 +47,7 @@ static void check_arrow(const scene_segment *arrow, const octree_body *body, con
     double part = 1;
     bool on_face = false;
     assert_true(same_position(arrow->ends[0], body->position) && !arrow->in_picture);
-    assert_true(arrow->look.style == STYLE_ARROW && arrow->look.role == ROLE_POINT);
+    assert_true(arrow->style.stroke == STROKE_ARROW && arrow->style.role == ROLE_POINT);
     for (int i = 0; i < 3; i++) {
         const double whole = body->velocity[i] * ticks;
         assert_true(end[i] >= world->min[i] && end[i] <= world->max[i]);

@@ -42,7 +42,7 @@ typedef struct dues {
     size_t boxes[LAYER_COUNT], small;
 } dues;
 
-static void check_box(const scene *s, const octree *tree, octree_address address, scene_look look, dues *due)
+static void check_box(const scene *s, const octree *tree, octree_address address, scene_style style, dues *due)
 {
     const octree_node node = node_or_cell(tree, address);
     const octree_box world = octree_definition(tree).world;
@@ -51,13 +51,13 @@ static void check_box(const scene *s, const octree *tree, octree_address address
     due->small += is_small(s, &node);
     if (is_small(s, &node))
         return;
-    const scene_box *box = only_box(s, look.layer, address);
+    const scene_box *box = only_box(s, style.layer, address);
     assert_true(same_box(&box->box, &node.box));
     assert_int_equal(box->depth, node.depth);
-    assert_int_equal(box->look.role, look.role ? look.role : theme_node_role(node.depth));
-    assert_int_equal(box->look.style, look.style);
-    assert_int_equal(box->look.width, look.width);
-    due->boxes[look.layer]++;
+    assert_int_equal(box->style.role, style.role ? style.role : theme_node_role(node.depth));
+    assert_int_equal(box->style.stroke, style.stroke);
+    assert_int_equal(box->style.width, style.width);
+    due->boxes[style.layer]++;
 }
 
 static bool says(const scene *s, const char *text)
@@ -71,16 +71,16 @@ static bool says(const scene *s, const char *text)
 /* Each node that was met is in the layer of its touch, each leaf of what was found in another, and nothing else is. */
 static void check_visits(const scene *s, const recount *met, const octree *tree)
 {
-    static const scene_look looks[OCTREE_TOUCH_KINDS] = {
-        [OCTREE_TOUCH_VISITED] = {LAYER_VISITED, 0, STYLE_SOLID, 2},
-        [OCTREE_TOUCH_TAKEN] = {LAYER_VISITED, 0, STYLE_SOLID, 2},
-        [OCTREE_TOUCH_PRUNED] = {LAYER_PRUNED, 0, STYLE_CUT, 1},
+    static const scene_style styles[OCTREE_TOUCH_KINDS] = {
+        [OCTREE_TOUCH_VISITED] = {LAYER_VISITED, 0, STROKE_SOLID, 2},
+        [OCTREE_TOUCH_TAKEN] = {LAYER_VISITED, 0, STROKE_SOLID, 2},
+        [OCTREE_TOUCH_PRUNED] = {LAYER_PRUNED, 0, STROKE_CUT, 1},
     };
-    static const scene_look hit = {LAYER_HIT, ROLE_POINT, STYLE_SOLID, 2};
+    static const scene_style hit = {LAYER_HIT, ROLE_POINT, STROKE_SOLID, 2};
     dues due = {{0}, 0};
     char text[SCENE_TEXT];
     for (size_t i = 0; i < met->count; i++)
-        check_box(s, tree, met->visits[i].node, looks[met->visits[i].touch], &due);
+        check_box(s, tree, met->visits[i].node, styles[met->visits[i].touch], &due);
     for (size_t i = 0; i < met->leaf_count; i++)
         check_box(s, tree, met->leaves[i], hit, &due);
     for (unsigned layer = 0; layer < LAYER_COUNT; layer++) {
@@ -234,9 +234,9 @@ static void nodes_that_were_met_keep_their_colour(void **state)
         build_tick(&s, &v, game);
         for (size_t i = 0; i < s.boxes.count; i++) {
             const scene_box *box = &s.boxes.items[i];
-            if (box->look.layer != LAYER_VISITED && box->look.layer != LAYER_PRUNED)
+            if (box->style.layer != LAYER_VISITED && box->style.layer != LAYER_PRUNED)
                 continue;
-            assert_int_equal(box->look.role, only_box(&s, LAYER_NODES, box->id)->look.role);
+            assert_int_equal(box->style.role, only_box(&s, LAYER_NODES, box->id)->style.role);
             met++;
         }
         assert_true(met > 20);

@@ -6,6 +6,7 @@
 #include "files.h"
 #include "fixture.h"
 #include "game_fixture.h"
+#include "layer.h"
 #include "octree/digest.h"
 #include "random_session.h"
 #include "recordings.h"

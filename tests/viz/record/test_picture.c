@@ -1,5 +1,6 @@
 /* test_picture.c - what pixels a scene lights, and which it leaves alone. */
 #include "frames.h"
+#include "layer.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -204,7 +205,7 @@ static scene blank_scene(view_camera camera)
 
 static scene_segment line_of(double x0, double y0, double z0, double x1, double y1, double z1)
 {
-    return (scene_segment){.ends = {{x0, y0, z0}, {x1, y1, z1}}, .look = {.role = ROLE_RANGE, .width = 1}};
+    return (scene_segment){.ends = {{x0, y0, z0}, {x1, y1, z1}}, .style = {.role = ROLE_RANGE, .width = 1}};
 }
 
 /* One lit pixel in each column (or row) that a line passes, none elsewhere, each beside the line. */
@@ -285,7 +286,7 @@ static double world_at(const camera *c, int axis, double unit)
 }
 
 /* Boxes from nothing to some pixels, one at a time; flat and long ones too. */
-static void assert_boxes_leave_a_mark(scene_style style)
+static void assert_boxes_leave_a_mark(scene_stroke style)
 {
     static const double sizes[] = {0, 1e-300, 1e-9, 0.01, 0.3, 0.7, 0.99, 1, 1.01, 1.5, 3, 40};
     const size_t count = sizeof sizes / sizeof sizes[0];
@@ -293,7 +294,7 @@ static void assert_boxes_leave_a_mark(scene_style style)
     uint64_t random = 6;
     for (size_t i = 0; i < 400; i++) {
         scene s = blank_scene((view_camera)(i / count % CAMERA_COUNT));
-        scene_box box = {.look = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .style = (uint8_t)style, .width = 1}};
+        scene_box box = {.style = {.layer = LAYER_RANGE, .role = ROLE_RANGE, .stroke = (uint8_t)style, .width = 1}};
         double pixel[2];
         for (int axis = 0; axis < 3; axis++) {
             box.box.min[axis] = random_between(&random, -60, 20);
@@ -312,13 +313,13 @@ static void assert_boxes_leave_a_mark(scene_style style)
 static void a_box_of_any_size_leaves_a_mark_at_its_place(void **state)
 {
     (void)state;
-    assert_boxes_leave_a_mark(STYLE_SOLID);
+    assert_boxes_leave_a_mark(STROKE_SOLID);
 }
 
 static void a_dashed_box_of_any_size_leaves_a_mark_at_its_place(void **state)
 {
     (void)state;
-    assert_boxes_leave_a_mark(STYLE_DASHED);
+    assert_boxes_leave_a_mark(STROKE_DASHED);
 }
 
 /* The line to a neighbour that is very near, too. */
@@ -334,7 +335,7 @@ static void a_segment_of_any_length_leaves_a_mark_at_its_place(void **state)
         const double x = random_between(&random, -50, 50), length = lengths[i / 2 % count];
         scene_segment line = line_of(x, x / 2, -x / 3, x + length, x / 2 + length / 2, -x / 3 - length / 3);
         double pixel[2];
-        line.look.style = (uint8_t)(i % 2);
+        line.style.stroke = (uint8_t)(i % 2);
         pixel_of(&s, line.ends[0], pixel);
         scene_add_segment(&s, line);
         uint8_t *frame = draw(r, &s);
@@ -347,8 +348,8 @@ static void a_segment_of_any_length_leaves_a_mark_at_its_place(void **state)
 
 static void add_point(scene *s, uint64_t id, double x, double z)
 {
-    const scene_look look = {.layer = LAYER_POINTS, .role = ROLE_POINT, .width = 1};
-    scene_add_marker(s, (scene_marker){.id = id, .at = {x, 0, z}, .look = look});
+    const scene_style style = {.layer = LAYER_POINTS, .role = ROLE_POINT, .width = 1};
+    scene_add_marker(s, (scene_marker){.id = id, .at = {x, 0, z}, .style = style});
 }
 
 static void a_thousand_points_on_a_pixel_look_like_one(void **state)
@@ -384,7 +385,7 @@ static void panels_and_marks_are_cut_off_at_the_edge_of_the_picture(void **state
                                           .y = places[i][1],
                                           .width = places[i][2],
                                           .height = places[i][3],
-                                          .look = {.layer = LAYER_TEXT, .role = ROLE_TEXT}});
+                                          .style = {.layer = LAYER_TEXT, .role = ROLE_TEXT}});
         uint8_t *frame = draw_once(&s);
         assert_int_equal(lit_pixels(frame, &s), lit[i]);
         free(frame);
@@ -394,8 +395,8 @@ static void panels_and_marks_are_cut_off_at_the_edge_of_the_picture(void **state
         scene s = blank_scene(CAMERA_FRONT);
         const camera *c = &s.camera;
         const double left = world_at(c, 0, -c->middle[0] / c->zoom); /* the picture's left edge */
-        const scene_look look = {.layer = LAYER_BOX, .role = ROLE_COLLISION, .width = 20};
-        scene_add_marker(&s, (scene_marker){.at = {left, 0, 0}, .look = look, .shape = (uint8_t)shape});
+        const scene_style style = {.layer = LAYER_BOX, .role = ROLE_COLLISION, .width = 20};
+        scene_add_marker(&s, (scene_marker){.at = {left, 0, 0}, .style = style, .shape = (uint8_t)shape});
         uint8_t *frame = draw_once(&s);
         assert_true(lit_pixels(frame, &s) > 0);
         for (int y = 0; y < HEIGHT; y++)
@@ -440,9 +441,9 @@ static void later_layers_lie_on_top(void **state)
             scene s = blank_scene(CAMERA_TOP);
             scene_segment above = line_of(-50, 1, 100, 50, 1, 100), below = line_of(-50, 1, -100, 50, 1, -100);
             double pixel[2];
-            above.look.layer = low;
-            below.look.layer = high;
-            below.look.role = ROLE_NEAREST;
+            above.style.layer = low;
+            below.style.layer = high;
+            below.style.role = ROLE_NEAREST;
             pixel_of(&s, (double[3]){0, 1, 0}, pixel);
             scene_add_segment(&s, below);
             scene_add_segment(&s, above);

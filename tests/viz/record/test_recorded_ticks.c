@@ -1,5 +1,6 @@
 /* test_recorded_ticks.c - a recording is opened and played to any of its ticks: the scenes are those of its frames. */
 #include "recordings.h"
+#include "layer.h"
 #include "replay.h"
 #include "frame_file.h"
 #include "verified.h"

@@ -12,6 +12,7 @@
 #include "fixture.h"
 #include "frame_file.h"
 #include "images.h"
+#include "layer.h"
 #include "recordings.h"
 
 enum { TICKS = 12 };

@@ -9,48 +9,48 @@
 /* What the words about an element of a layer and kind hold, whichever it is. */
 static const struct {
     view_layer layer;
-    draw_kind kind;
+    scene_kind kind;
     const char *part;
     bool about_node, about_point;
 } expected[] = {
-    {LAYER_WORLD, DRAW_BOX, "the world, box (-1000, -1000, -1000) to (1000, 1000, 1000)", false, false},
-    {LAYER_WORLD, DRAW_SEGMENT, "axis", false, false},
-    {LAYER_WORLD, DRAW_LABEL, "of an axis", false, false},
-    {LAYER_WORLD, DRAW_PANEL, "the ground of a number of an axis", false, false},
-    {LAYER_NODES, DRAW_BOX, "at depth ", true, false},
-    {LAYER_NODES, DRAW_PANEL, "the ground of the path on node ", true, false},
-    {LAYER_NODES, DRAW_LABEL, "on node ", true, false},
-    {LAYER_VISIT_HEAT, DRAW_MARKER, "visited in ", true, false},
-    {LAYER_POINT_HEAT, DRAW_MARKER, "in all ticks together, node ", true, false},
-    {LAYER_PRUNED, DRAW_BOX, "left it out", true, false},
-    {LAYER_VISITED, DRAW_BOX, "looked into it", true, false},
-    {LAYER_HIT, DRAW_BOX, "holds what", true, false},
-    {LAYER_MERGES, DRAW_SEGMENT, "that merged at this tick, node ", true, false},
-    {LAYER_SPLITS, DRAW_SEGMENT, "that split at this tick, node ", true, false},
-    {LAYER_POINTS, DRAW_MARKER, "point ", false, true},
-    {LAYER_VELOCITIES, DRAW_SEGMENT, "the velocity of point 700 at (", false, true},
-    {LAYER_RANGE, DRAW_BOX, "the box of the range query", false, false},
-    {LAYER_RANGE, DRAW_MARKER, "found by a range query", false, true},
-    {LAYER_RADIUS, DRAW_SEGMENT, "radius 450 about (", false, false},
-    {LAYER_RADIUS, DRAW_MARKER, "found by a radius query", false, true},
-    {LAYER_KNEAREST, DRAW_SEGMENT, "to neighbour ", false, true},
-    {LAYER_KNEAREST, DRAW_LABEL, "the rank of a neighbour", false, false},
-    {LAYER_NEAREST, DRAW_SEGMENT, "to neighbour 1: point ", false, true},
-    {LAYER_NEAREST, DRAW_MARKER, "found by a nearest query", false, true},
-    {LAYER_PLAYER, DRAW_SEGMENT, "down to the world's floor", false, false},
-    {LAYER_PLAYER, DRAW_MARKER, "the player, point 6 at ", false, true},
-    {LAYER_BOX, DRAW_BOX, "collision box", false, false},
-    {LAYER_BOX, DRAW_SEGMENT, "crosses the collision out", false, false},
-    {LAYER_BOX, DRAW_MARKER, "in the player's collision box", false, true},
-    {LAYER_SHAPES, DRAW_BOX, "shape 0 of the session, box (-400, 100, -300) to (-100, 300, 0)", false, false},
-    {LAYER_SHAPES, DRAW_SEGMENT, "shape 1 of the session, segment (-900, -900, 0) to (900, 900, 0)", false, false},
-    {LAYER_SHAPES, DRAW_MARKER, "shape 2 of the session, point (300, -300, 300)", false, false},
-    {LAYER_SHAPES, DRAW_LABEL, "text \"goal\", shape 3 of the session, label at (300, -300, 300)", false, false},
-    {LAYER_TEXT, DRAW_PANEL, "the panel", false, false},
-    {LAYER_TEXT, DRAW_LABEL, "text \"", false, false},
-    {LAYER_DIAGRAM, DRAW_PANEL, "the diagram", false, false},
-    {LAYER_DIAGRAM, DRAW_SEGMENT, "the line from its parent to node ", true, false},
-    {LAYER_DIAGRAM, DRAW_LABEL, "of the diagram", false, false},
+    {LAYER_WORLD, SCENE_BOX, "the world, box (-1000, -1000, -1000) to (1000, 1000, 1000)", false, false},
+    {LAYER_WORLD, SCENE_SEGMENT, "axis", false, false},
+    {LAYER_WORLD, SCENE_LABEL, "of an axis", false, false},
+    {LAYER_WORLD, SCENE_PANEL, "the ground of a number of an axis", false, false},
+    {LAYER_NODES, SCENE_BOX, "at depth ", true, false},
+    {LAYER_NODES, SCENE_PANEL, "the ground of the path on node ", true, false},
+    {LAYER_NODES, SCENE_LABEL, "on node ", true, false},
+    {LAYER_VISIT_HEAT, SCENE_MARKER, "visited in ", true, false},
+    {LAYER_POINT_HEAT, SCENE_MARKER, "in all ticks together, node ", true, false},
+    {LAYER_PRUNED, SCENE_BOX, "left it out", true, false},
+    {LAYER_VISITED, SCENE_BOX, "looked into it", true, false},
+    {LAYER_HIT, SCENE_BOX, "holds what", true, false},
+    {LAYER_MERGES, SCENE_SEGMENT, "that merged at this tick, node ", true, false},
+    {LAYER_SPLITS, SCENE_SEGMENT, "that split at this tick, node ", true, false},
+    {LAYER_POINTS, SCENE_MARKER, "point ", false, true},
+    {LAYER_VELOCITIES, SCENE_SEGMENT, "the velocity of point 700 at (", false, true},
+    {LAYER_RANGE, SCENE_BOX, "the box of the range query", false, false},
+    {LAYER_RANGE, SCENE_MARKER, "found by a range query", false, true},
+    {LAYER_RADIUS, SCENE_SEGMENT, "radius 450 about (", false, false},
+    {LAYER_RADIUS, SCENE_MARKER, "found by a radius query", false, true},
+    {LAYER_KNEAREST, SCENE_SEGMENT, "to neighbour ", false, true},
+    {LAYER_KNEAREST, SCENE_LABEL, "the rank of a neighbour", false, false},
+    {LAYER_NEAREST, SCENE_SEGMENT, "to neighbour 1: point ", false, true},
+    {LAYER_NEAREST, SCENE_MARKER, "found by a nearest query", false, true},
+    {LAYER_PLAYER, SCENE_SEGMENT, "down to the world's floor", false, false},
+    {LAYER_PLAYER, SCENE_MARKER, "the player, point 6 at ", false, true},
+    {LAYER_BOX, SCENE_BOX, "collision box", false, false},
+    {LAYER_BOX, SCENE_SEGMENT, "crosses the collision out", false, false},
+    {LAYER_BOX, SCENE_MARKER, "in the player's collision box", false, true},
+    {LAYER_SHAPES, SCENE_BOX, "shape 0 of the session, box (-400, 100, -300) to (-100, 300, 0)", false, false},
+    {LAYER_SHAPES, SCENE_SEGMENT, "shape 1 of the session, segment (-900, -900, 0) to (900, 900, 0)", false, false},
+    {LAYER_SHAPES, SCENE_MARKER, "shape 2 of the session, point (300, -300, 300)", false, false},
+    {LAYER_SHAPES, SCENE_LABEL, "text \"goal\", shape 3 of the session, label at (300, -300, 300)", false, false},
+    {LAYER_TEXT, SCENE_PANEL, "the panel", false, false},
+    {LAYER_TEXT, SCENE_LABEL, "text \"", false, false},
+    {LAYER_DIAGRAM, SCENE_PANEL, "the diagram", false, false},
+    {LAYER_DIAGRAM, SCENE_SEGMENT, "the line from its parent to node ", true, false},
+    {LAYER_DIAGRAM, SCENE_LABEL, "of the diagram", false, false},
 };
 
 #define EXPECTED (sizeof expected / sizeof expected[0])
@@ -67,45 +67,45 @@ static void check_node(const octree_game *game, const element_subject *subject, 
     assert_non_null(strstr(subject->text, !there ? "no node any more" : node.leaf ? "leaf" : "inner node"));
 }
 
-static size_t expectation_of(scene_look look, draw_kind kind)
+static size_t expectation_of(scene_style style, scene_kind kind)
 {
     size_t i = 0;
-    while (i < EXPECTED && (expected[i].layer != (view_layer)look.layer || expected[i].kind != kind))
+    while (i < EXPECTED && (expected[i].layer != (view_layer)style.layer || expected[i].kind != kind))
         i++;
     if (i == EXPECTED)
-        fail_msg("nothing is expected of kind %d in layer %d", (int)kind, look.layer);
+        fail_msg("nothing is expected of kind %d in layer %d", (int)kind, style.layer);
     return i;
 }
 
 /* The mark that has the player's id, and is none of what was hit. */
-static bool is_cross(const octree_game *game, const scene *s, draw_element element)
+static bool is_cross(const octree_game *game, const scene *s, scene_element element)
 {
-    return element.kind == DRAW_MARKER && draw_look_of(s, element).layer == LAYER_BOX &&
-           draw_id_of(s, element) == octree_game_session(game)->player.id;
+    return element.kind == SCENE_MARKER && scene_style_of(s, element).layer == LAYER_BOX &&
+           scene_id_of(s, element) == octree_game_session(game)->player.id;
 }
 
-static void check_element(const octree_game *game, const heat *h, const scene *s, draw_element element,
+static void check_element(const octree_game *game, const heat *h, const scene *s, scene_element element,
                           size_t seen[EXPECTED])
 {
     const element_subject subject = element_words(game, h, s, element);
-    const size_t i = expectation_of(draw_look_of(s, element), element.kind);
+    const size_t i = expectation_of(scene_style_of(s, element), element.kind);
     if (is_cross(game, s, element)) {
         assert_string_equal(subject.text, "a cross that crosses the collision out");
         assert_false(subject.has_point || subject.has_node);
         return;
     }
-    if (!strstr(subject.text, expected[i].part) && !(element.kind == DRAW_PANEL && strstr(subject.text, "diagram")) &&
-        !(element.kind == DRAW_PANEL && strstr(subject.text, "a sign in the panel")))
+    if (!strstr(subject.text, expected[i].part) && !(element.kind == SCENE_PANEL && strstr(subject.text, "diagram")) &&
+        !(element.kind == SCENE_PANEL && strstr(subject.text, "a sign in the panel")))
         fail_msg("\"%s\" says nothing of \"%s\"", subject.text, expected[i].part);
     assert_true(strlen(subject.text) + 1 < ELEMENT_WORDS);
     assert_true(expected[i].about_node <= subject.has_node);
     assert_int_equal(expected[i].about_point, subject.has_point);
     if (subject.has_node)
         check_node(game, &subject,
-                   expected[i].layer == LAYER_SPLITS || expected[i].layer == LAYER_MERGES ? draw_id_of(s, element) >> 2
-                                                                                          : draw_id_of(s, element));
-    if (subject.has_point && element.kind == DRAW_MARKER)
-        assert_int_equal(subject.point.id, draw_id_of(s, element));
+                   expected[i].layer == LAYER_SPLITS || expected[i].layer == LAYER_MERGES ? scene_id_of(s, element) >> 2
+                                                                                          : scene_id_of(s, element));
+    if (subject.has_point && element.kind == SCENE_MARKER)
+        assert_int_equal(subject.point.id, scene_id_of(s, element));
     seen[i]++;
 }
 
@@ -126,7 +126,7 @@ static void every_element_of_every_layer_is_told(void **state)
         build_hot_tick(&s, &v, game, &h);
         const size_t all = s.boxes.count + s.segments.count + s.markers.count + s.panels.count + s.labels.count;
         for (uint32_t number = 1; number <= all; number++)
-            check_element(game, &h, &s, draw_element_of(&s, number), seen);
+            check_element(game, &h, &s, scene_element_at(&s, number), seen);
         if (octree_game_over(game))
             break;
         play_tick(game);
@@ -150,18 +150,18 @@ static void words_of_a_node_and_of_a_point_are_these(void **state)
     build_tick(&s, &v, game);
     bool found = false;
     for (size_t i = 0; i < s.markers.count; i++) {
-        const element_subject subject = element_words(game, NULL, &s, (draw_element){DRAW_MARKER, i});
+        const element_subject subject = element_words(game, NULL, &s, (scene_element){SCENE_MARKER, i});
         found |= strcmp(subject.text, "point 5 at (-1, 2, 3)") == 0;
     }
     assert_true(found);
     for (size_t i = 0; i < s.boxes.count; i++) {
-        if (s.boxes.items[i].look.layer != LAYER_NODES || s.boxes.items[i].id != OCTREE_ROOT)
+        if (s.boxes.items[i].style.layer != LAYER_NODES || s.boxes.items[i].id != OCTREE_ROOT)
             continue;
-        const element_subject subject = element_words(game, NULL, &s, (draw_element){DRAW_BOX, i});
+        const element_subject subject = element_words(game, NULL, &s, (scene_element){SCENE_BOX, i});
         assert_string_equal(subject.text,
                             "node root: inner node at depth 0, 11 points, box (-1000, -1000, -1000) to (1000, 1000, "
                             "1000)");
-        assert_string_equal(element_layer(&s, (draw_element){DRAW_BOX, i}), "nodes");
+        assert_string_equal(element_layer(&s, (scene_element){SCENE_BOX, i}), "nodes");
     }
     scene_release(&s);
     octree_game_destroy(game);

@@ -2,6 +2,7 @@
  * the places of boxes, which are found by the camera alone. */
 #include "frames.h"
 #include "golden_frames.h"
+#include "layer.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,8 +33,8 @@ static bool has_color_of(const scene *s, uint32_t number, uint8_t index)
 {
     if (number == 0)
         return index == 0;
-    const scene_look look = draw_look_of(s, draw_element_of(s, number));
-    return index / THEME_SHADES == look.role || (index == 0 && look.style == STYLE_CUT);
+    const scene_style style = scene_style_of(s, scene_element_at(s, number));
+    return index / THEME_SHADES == style.role || (index == 0 && style.stroke == STROKE_CUT);
 }
 
 static void every_sample_of_every_golden_frame_has_the_colour_of_its_element(void **state)
@@ -77,7 +78,7 @@ static void picking_leaves_no_trace_in_later_frames(void **state)
 /* ---- Elements alone ----------------------------------------------------------------------------------------- */
 
 /* The same scene with no element but one, which is no box. */
-static scene alone(const scene *s, draw_element element)
+static scene alone(const scene *s, scene_element element)
 {
     scene one = *s;
     memset(&one.boxes, 0, sizeof one.boxes);
@@ -86,13 +87,13 @@ static scene alone(const scene *s, draw_element element)
     memset(&one.panels, 0, sizeof one.panels);
     memset(&one.labels, 0, sizeof one.labels);
     switch (element.kind) {
-    case DRAW_SEGMENT:
+    case SCENE_SEGMENT:
         scene_add_segment(&one, s->segments.items[element.index]);
         break;
-    case DRAW_MARKER:
+    case SCENE_MARKER:
         scene_add_marker(&one, s->markers.items[element.index]);
         break;
-    case DRAW_PANEL:
+    case SCENE_PANEL:
         scene_add_panel(&one, s->panels.items[element.index]);
         break;
     default:
@@ -105,7 +106,7 @@ static scene alone(const scene *s, draw_element element)
 /* Wherever it is seen it has, alone, the same colour. */
 static void check_alone(renderer *r, const scene *s, const uint8_t *frame, const uint32_t *numbers, uint32_t number)
 {
-    scene one = alone(s, draw_element_of(s, number));
+    scene one = alone(s, scene_element_at(s, number));
     uint8_t *drawn = draw(r, &one);
     for (size_t at = 0; at < frame_samples(s); at++)
         if (numbers[at] == number)
@@ -156,12 +157,12 @@ static void a_hundred_thousand_elements_are_told_apart(void **state)
                                           .y = i / WIDTH,
                                           .width = 1,
                                           .height = 1,
-                                          .look = {.layer = LAYER_TEXT, .role = ROLE_PANEL}});
+                                          .style = {.layer = LAYER_TEXT, .role = ROLE_PANEL}});
     renderer *r = open_renderer_for(&s);
     uint32_t *numbers = pick(r, &s);
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
-        const draw_element element = draw_element_of(&s, numbers[i]);
-        assert_int_equal(element.kind, DRAW_PANEL);
+        const scene_element element = scene_element_at(&s, numbers[i]);
+        assert_int_equal(element.kind, SCENE_PANEL);
         assert_int_equal(element.index, i);
     }
     free(numbers);
@@ -230,14 +231,14 @@ static void check_places_of_boxes(const scene *s)
     const size_t samples = (size_t)view_samples(&s->view), width = (size_t)s->view.width * samples;
     size_t boxes = 0;
     for (size_t at = 0; at < frame_samples(s); at++) {
-        const draw_element element = numbers[at] ? draw_element_of(s, numbers[at]) : (draw_element){DRAW_LABEL, 0};
-        if (element.kind != DRAW_BOX)
+        const scene_element element = numbers[at] ? scene_element_at(s, numbers[at]) : (scene_element){SCENE_LABEL, 0};
+        if (element.kind != SCENE_BOX)
             continue;
         const double place[2] = {((double)(at % width) + 0.5) / (double)samples,
                                  ((double)(at / width) + 0.5) / (double)samples};
         const scene_box *box = &s->boxes.items[element.index];
         const double off = distance_to_box(s, &box->box, place);
-        if (off > 0.5 * box->look.width * s->unit + 1)
+        if (off > 0.5 * box->style.width * s->unit + 1)
             fail_msg("box %zu is %g pixels from (%g, %g)", element.index, off, place[0], place[1]);
         boxes++;
     }
@@ -262,7 +263,7 @@ static scene_box node_of(octree_address id, double x0, double x1, uint8_t depth)
     return (scene_box){.id = id,
                        .box = {{x0, -50, -50}, {x1, 50, 50}},
                        .depth = depth,
-                       .look = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1}};
+                       .style = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1}};
 }
 
 /* A row of cells of one colour is one stroke; each of its pixels is the cell's that it lies on, or the whole row's
@@ -297,10 +298,10 @@ static void check_row(view_camera camera, bool within)
             continue;
         const size_t sample = (size_t)pixel[1] * (size_t)v.width + (size_t)pixel[0];
         assert_true(numbers[sample] != 0);
-        const draw_element element = draw_element_of(&s, numbers[sample]);
-        assert_int_equal(element.kind, DRAW_BOX);
-        if (draw_id_of(&s, element) != (within ? 100u : (unsigned)at / STEPS + 1))
-            fail_msg("camera %d: box %d at x = %g", (int)camera, (int)draw_id_of(&s, element), x);
+        const scene_element element = scene_element_at(&s, numbers[sample]);
+        assert_int_equal(element.kind, SCENE_BOX);
+        if (scene_id_of(&s, element) != (within ? 100u : (unsigned)at / STEPS + 1))
+            fail_msg("camera %d: box %d at x = %g", (int)camera, (int)scene_id_of(&s, element), x);
         checked++;
     }
     assert_true(checked > 200);
@@ -331,16 +332,16 @@ static void numbers_and_elements_are_each_others_inverse(void **state)
 {
     (void)state;
     scene s = busy_scene(320, 180, CAMERA_ISO);
-    const size_t counts[DRAW_KINDS] = {s.boxes.count, s.segments.count, s.markers.count, s.panels.count,
-                                       s.labels.count};
+    const size_t counts[SCENE_KINDS] = {s.boxes.count, s.segments.count, s.markers.count, s.panels.count,
+                                        s.labels.count};
     uint32_t number = 0;
-    for (draw_kind kind = DRAW_BOX; kind < DRAW_KINDS; kind++) {
+    for (scene_kind kind = SCENE_BOX; kind < SCENE_KINDS; kind++) {
         assert_true(counts[kind] > 0);
         for (size_t index = 0; index < counts[kind]; index++) {
-            const draw_element element = draw_element_of(&s, ++number);
+            const scene_element element = scene_element_at(&s, ++number);
             assert_int_equal(element.kind, kind);
             assert_int_equal(element.index, index);
-            assert_int_equal(draw_number_of(&s, element), number);
+            assert_int_equal(scene_number_of(&s, element), number);
         }
     }
     scene_release(&s);

@@ -2,6 +2,7 @@
  * looking any way, straight up too. */
 #include "frames.h"
 #include "brute.h"
+#include "layer.h"
 #include "paint.h"
 
 #include <math.h>

@@ -95,7 +95,7 @@ static bool point_passes(const known_tree *t, const view_filter *f, const octree
 static bool has_box(const scene *s, const octree_node *node)
 {
     for (size_t i = 0; i < s->boxes.count; i++)
-        if (s->boxes.items[i].look.layer == LAYER_NODES && s->boxes.items[i].id == node->address)
+        if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].id == node->address)
             return same_position(s->boxes.items[i].box.min, node->box.min) &&
                    same_position(s->boxes.items[i].box.max, node->box.max);
     return false;
@@ -104,7 +104,7 @@ static bool has_box(const scene *s, const octree_node *node)
 static bool has_point(const scene *s, const octree_point *point)
 {
     for (size_t i = 0; i < s->markers.count; i++)
-        if (s->markers.items[i].look.layer == LAYER_POINTS && s->markers.items[i].id == point->id)
+        if (s->markers.items[i].style.layer == LAYER_POINTS && s->markers.items[i].id == point->id)
             return same_position(s->markers.items[i].at, point->position);
     return false;
 }
@@ -245,7 +245,7 @@ static void the_slice_and_the_region_are_outlined(void **state)
     size_t outlines = 0;
     for (size_t i = 0; i < s.boxes.count; i++) {
         const scene_box *box = &s.boxes.items[i];
-        if (box->look.layer != LAYER_WORLD || box->look.style != STYLE_DASHED)
+        if (box->style.layer != LAYER_WORLD || box->style.stroke != STROKE_DASHED)
             continue;
         const octree_box plane = {{-1000, 7, -1000}, {1000, 7, 1000}};
         const octree_box *expected = box->id == 1 ? &plane : &v.filter.region;

@@ -174,13 +174,13 @@ static bool has_mark(const scene *s, view_layer layer, scene_shape shape, const 
         middle[axis] = leaf->box.min[axis] / 2 + leaf->box.max[axis] / 2;
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *mark = &s->markers.items[i];
-        if (mark->look.layer != layer || mark->id != leaf->address)
+        if (mark->style.layer != layer || mark->id != leaf->address)
             continue;
         const double room = camera_box_pixels(&s->camera, &leaf->box);
         assert_true(same_position(mark->at, middle) && mark->shape == shape);
-        assert_int_equal(mark->look.role, theme_node_role(step));
-        assert_true(mark->look.width == step + 1 ||
-                    (mark->look.width < step + 1 && (mark->look.width + 1) * 2 * s->unit > room));
+        assert_int_equal(mark->style.role, theme_node_role(step));
+        assert_true(mark->style.width == step + 1 ||
+                    (mark->style.width < step + 1 && (mark->style.width + 1) * 2 * s->unit > room));
         return true;
     }
     return false;

@@ -19,7 +19,7 @@ static octree_walk_order check_node(const octree_node *node, void *context)
     const scene_box *box = only_box(check->scene, LAYER_NODES, node->address);
     assert_true(same_box(&box->box, &node->box));
     assert_int_equal(box->depth, node->depth);
-    assert_int_equal(box->look.role, theme_node_role(node->depth));
+    assert_int_equal(box->style.role, theme_node_role(node->depth));
     for (size_t i = 0; node->leaf && i < node->count; i++) {
         assert_int_equal(markers_at(check->scene, LAYER_POINTS, node->points[i].id, node->points[i].position), 1);
         assert_true(box_holds(&box->box, node->points[i].position));
@@ -51,7 +51,7 @@ static void check_box_about(const octree_box *box, const double center[3], doubl
 static void check_player(const scene *s, const octree_tick *tick, const octree_player *player)
 {
     const scene_box *box = only_box(s, LAYER_BOX, player->id);
-    assert_int_equal(box->look.role, ROLE_PLAYER);
+    assert_int_equal(box->style.role, ROLE_PLAYER);
     check_box_about(&box->box, tick->player, player->box_size);
     assert_int_equal(count_layer(s, LAYER_PLAYER).markers, 1);
     assert_int_equal(markers_at(s, LAYER_PLAYER, player->id, tick->player), 1);
@@ -62,8 +62,8 @@ static bool has_way(const scene *s, uint64_t id, const double from[3], const dou
 {
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *line = &s->segments.items[i];
-        if (line->look.layer == LAYER_BOX && line->id == id)
-            return line->look.style == STYLE_DASHED && same_position(line->ends[0], from) &&
+        if (line->style.layer == LAYER_BOX && line->id == id)
+            return line->style.stroke == STROKE_DASHED && same_position(line->ends[0], from) &&
                    same_position(line->ends[1], to);
     }
     return false;
@@ -104,7 +104,7 @@ static void check_collision(const scene *s, const octree_tick *tick, const octre
         return;
     assert_int_equal(markers_at(s, LAYER_BOX, player->id, tick->attempt), 1);
     const scene_box *box = only_box(s, LAYER_BOX, UINT64_MAX);
-    assert_int_equal(box->look.role, ROLE_COLLISION);
+    assert_int_equal(box->style.role, ROLE_COLLISION);
     check_box_about(&box->box, tick->attempt, player->box_size);
 }
 
@@ -112,13 +112,14 @@ static void check_red(const scene *s, const octree_tick *tick)
 {
     size_t red = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
-        red += s->boxes.items[i].look.role == ROLE_COLLISION;
+        red += s->boxes.items[i].style.role == ROLE_COLLISION;
     assert_int_equal(red, tick->hit_count != 0);
     for (size_t i = 0; i < s->markers.count; i++)
-        assert_int_equal(s->markers.items[i].look.role == ROLE_COLLISION, s->markers.items[i].look.layer == LAYER_BOX);
+        assert_int_equal(s->markers.items[i].style.role == ROLE_COLLISION,
+                         s->markers.items[i].style.layer == LAYER_BOX);
     for (size_t i = 0; i < s->segments.count; i++)
-        assert_int_equal(s->segments.items[i].look.role == ROLE_COLLISION,
-                         s->segments.items[i].look.layer == LAYER_BOX);
+        assert_int_equal(s->segments.items[i].style.role == ROLE_COLLISION,
+                         s->segments.items[i].style.layer == LAYER_BOX);
 }
 
 static void check_tick(const scene *s, const octree_game *game)

@@ -8,13 +8,13 @@ static scene one_of_each(void)
 {
     const view v = view_of(320, 180, CAMERA_ORBIT, VIEW_ALL_LAYERS);
     const octree_box box = {{1, 2, 3}, {4, 5, 6}};
-    const scene_look look = {.layer = LAYER_NODES, .role = ROLE_NODE, .style = STYLE_DASHED, .width = 3};
+    const scene_style style = {.layer = LAYER_NODES, .role = ROLE_NODE, .stroke = STROKE_DASHED, .width = 3};
     scene s = empty_scene(&v, &box);
-    scene_add_box(&s, (scene_box){.id = 1, .box = box, .look = look, .depth = 2});
-    scene_add_segment(&s, (scene_segment){.id = 2, .ends = {{1, 2, 3}, {4, 5, 6}}, .look = look});
-    scene_add_marker(&s, (scene_marker){.id = 3, .at = {1, 2, 3}, .look = look, .shape = SHAPE_FRAME});
-    scene_add_label(&s, (scene_label){.id = 4, .at = {1, 2, 3}, .text = "four", .look = look});
-    scene_add_panel(&s, (scene_panel){.id = 5, .x = 1, .y = 2, .width = 3, .height = 4, .look = look});
+    scene_add_box(&s, (scene_box){.id = 1, .box = box, .style = style, .depth = 2});
+    scene_add_segment(&s, (scene_segment){.id = 2, .ends = {{1, 2, 3}, {4, 5, 6}}, .style = style});
+    scene_add_marker(&s, (scene_marker){.id = 3, .at = {1, 2, 3}, .style = style, .shape = SHAPE_FRAME});
+    scene_add_label(&s, (scene_label){.id = 4, .at = {1, 2, 3}, .text = "four", .style = style});
+    scene_add_panel(&s, (scene_panel){.id = 5, .x = 1, .y = 2, .width = 3, .height = 4, .style = style});
     return s;
 }
 
@@ -50,14 +50,14 @@ static void assert_byte_counts(const scene *s, uint8_t *byte)
     assert_member_counts(s, byte, 1, &(uint8_t){(uint8_t)(*byte ^ 128)});
 }
 
-static void assert_named_counts(const scene *s, uint64_t *id, scene_look *look)
+static void assert_named_counts(const scene *s, uint64_t *id, scene_style *style)
 {
     assert_member_counts(s, id, sizeof *id, &(uint64_t){*id ^ 1});
     assert_member_counts(s, id, sizeof *id, &(uint64_t){*id ^ UINT64_C(1) << 63});
-    assert_member_counts(s, &look->layer, 1, &(uint8_t){LAYER_DIAGRAM});
-    assert_member_counts(s, &look->role, 1, &(uint8_t){ROLE_RANGE});
-    assert_byte_counts(s, &look->style);
-    assert_byte_counts(s, &look->width);
+    assert_member_counts(s, &style->layer, 1, &(uint8_t){LAYER_DIAGRAM});
+    assert_member_counts(s, &style->role, 1, &(uint8_t){ROLE_RANGE});
+    assert_byte_counts(s, &style->stroke);
+    assert_byte_counts(s, &style->width);
 }
 
 static void every_member_of_every_element_counts(void **state)
@@ -65,27 +65,27 @@ static void every_member_of_every_element_counts(void **state)
     (void)state;
     scene s = one_of_each();
     scene_box *box = s.boxes.items;
-    assert_named_counts(&s, &box->id, &box->look);
+    assert_named_counts(&s, &box->id, &box->style);
     assert_doubles_count(&s, box->box.min, 3);
     assert_doubles_count(&s, box->box.max, 3);
     assert_byte_counts(&s, &box->depth);
     scene_segment *segment = s.segments.items;
-    assert_named_counts(&s, &segment->id, &segment->look);
+    assert_named_counts(&s, &segment->id, &segment->style);
     assert_doubles_count(&s, segment->ends[0], 3);
     assert_doubles_count(&s, segment->ends[1], 3);
     assert_member_counts(&s, &segment->in_picture, sizeof segment->in_picture, &(bool){true});
     scene_marker *marker = s.markers.items;
-    assert_named_counts(&s, &marker->id, &marker->look);
+    assert_named_counts(&s, &marker->id, &marker->style);
     assert_doubles_count(&s, marker->at, 3);
     assert_byte_counts(&s, &marker->shape);
     scene_label *label = s.labels.items;
-    assert_named_counts(&s, &label->id, &label->look);
+    assert_named_counts(&s, &label->id, &label->style);
     assert_doubles_count(&s, label->at, 3);
     assert_member_counts(&s, &label->in_world, sizeof label->in_world, &(bool){true});
     for (size_t i = 0; i <= strlen(label->text); i++)
         assert_member_counts(&s, &label->text[i], 1, "x");
     scene_panel *panel = s.panels.items;
-    assert_named_counts(&s, &panel->id, &panel->look);
+    assert_named_counts(&s, &panel->id, &panel->style);
     assert_int_counts(&s, &panel->x);
     assert_int_counts(&s, &panel->y);
     assert_int_counts(&s, &panel->width);

@@ -1,0 +1,62 @@
+/* layer.c - the table of layers, and lists of them as people type them. */
+#include "layer.h"
+
+#include <string.h>
+
+#define LAYER_ROW(layer, name, words, role, fades, shown) {name, words, role, fades},
+const layer_row layer_rows[LAYER_COUNT + 1] = {LAYER_MAP(LAYER_ROW)};
+
+const char *view_layer_name(view_layer layer)
+{
+    return (unsigned)layer <= LAYER_COUNT ? layer_rows[layer].name : NULL;
+}
+
+const char *view_layer_words(view_layer layer)
+{
+    return (unsigned)layer <= LAYER_COUNT ? layer_rows[layer].words : NULL;
+}
+
+static bool is_word(const char *name, size_t length, const char *word)
+{
+    return strlen(word) == length && strncmp(name, word, length) == 0;
+}
+
+/* The bits that a name of this length stands for; false when it is unknown. */
+static bool find_layers(const char *name, size_t length, unsigned *bits)
+{
+    static const struct {
+        const char *name;
+        unsigned bits;
+    } sets[] = {{"all", VIEW_ALL_LAYERS}, {"default", VIEW_DEFAULT_LAYERS}, {"none", 0}};
+    for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
+        *bits = sets[i].bits;
+        if (is_word(name, length, sets[i].name))
+            return true;
+    }
+    for (int i = 0; i < LAYER_COUNT; i++) {
+        *bits = 1u << i;
+        if (is_word(name, length, layer_rows[i].name))
+            return true;
+    }
+    return false;
+}
+
+bool view_layers_parse(const char *list, unsigned *layers, const char **bad)
+{
+    unsigned result = list[0] == '-' ? VIEW_DEFAULT_LAYERS : 0;
+    for (const char *at = list;; at++) {
+        const bool without = *at == '-';
+        *bad = at;
+        at += without;
+        const size_t length = strcspn(at, ",");
+        unsigned bits;
+        if (!find_layers(at, length, &bits))
+            return false;
+        result = without ? result & ~bits : result | bits;
+        at += length;
+        if (*at == 0)
+            break;
+    }
+    *layers = result;
+    return true;
+}

@@ -1,0 +1,83 @@
+/* layer.h - the layers of a scene, one row each.
+ *
+ * To add a layer: a row here, a file in viz/layers with its layer_type (layer_type.h), its test, and a frame in
+ * golden/. What a tick does not say yet goes into octree_tick first; a new colour is a row of theme.h; a curve of a
+ * recording's page is a line of CURVES in viz/record/page/facts.js.
+ */
+#ifndef SCENE_LAYER_H
+#define SCENE_LAYER_H
+
+#include "scene.h"
+
+/* Each layer: its name, what it shows in words, its colour (theme.h), whether it fades with distance as the tree does
+ * (what the tick is about fades less), and whether it is shown unless somebody says otherwise. In painter's order:
+ * later rows lie on top. Scene digests hash the names. Where a layer has several colours, the one here stands for all.
+ */
+#define LAYER_MAP(X)                                                                                                   \
+    X(WORLD, "world", "the world", ROLE_WORLD, true, true)                                                             \
+    X(NODES, "nodes", "nodes", ROLE_NODE_PLAIN, true, true)                                                            \
+    X(VISIT_HEAT, "visit-heat", "heat", ROLE_NODE, false, false) /* in how many ticks leaves were visited */           \
+    X(POINT_HEAT, "point-heat", "heat", ROLE_NODE, false,                                                              \
+      false) /* how many points were in them, in all ticks together */                                                 \
+    X(PRUNED, "pruned", "pruned nodes", ROLE_NODE_2, true, true)     /* nodes that the tick's questions left out */    \
+    X(VISITED, "visited", "visited nodes", ROLE_NODE_2, false, true) /* those that they looked into, or took whole */  \
+    X(HIT, "hit", "leaves with hits", ROLE_POINT, false, true)       /* leaves that hold what they found */            \
+    X(MERGES, "merges", "merges", ROLE_POINT, false, true) /* nodes that ceased to be inner ones at this tick */       \
+    X(SPLITS, "splits", "splits", ROLE_POINT, false, true) /* nodes that became inner ones */                          \
+    X(ASKED, "asked", "the node asked for", ROLE_PLAYER, false, true) /* the node that inspect is asked for */         \
+    X(POINTS, "points", "points", ROLE_POINT, true, true)                                                              \
+    X(VELOCITIES, "velocities", "velocities", ROLE_POINT, true, true) /* where points that move go on to */            \
+    X(RANGE, "range", "range queries", ROLE_RANGE, false, true)                                                        \
+    X(RADIUS, "radius", "radius queries", ROLE_RADIUS, false, true)                                                    \
+    X(KNEAREST, "knearest", "k-nearest queries", ROLE_KNEAREST, false, true)                                           \
+    X(NEAREST, "nearest", "nearest queries", ROLE_NEAREST, false, true)                                                \
+    X(PLAYER, "player", "the player", ROLE_PLAYER, false, true)                                                        \
+    X(BOX, "box", "the collision box", ROLE_COLLISION, false,                                                          \
+      true)                                                /* the player's collision box, and what is in it */         \
+    X(SHAPES, "shapes", "shapes", ROLE_SHAPE, false, true) /* what the session shows beside the points */              \
+    X(BROKEN, "broken", "the broken node", ROLE_WARNING, false,                                                        \
+      true) /* where the validator finds an invariant broken */                                                        \
+    X(TEXT, "text", "text", ROLE_TEXT, false, true)                                                                    \
+    X(DIAGRAM, "diagram", "the diagram", ROLE_BACKGROUND, false, false) /* where view.diagram says so */
+
+typedef enum view_layer {
+#define LAYER_ENUM(layer, ...) LAYER_##layer,
+    LAYER_MAP(LAYER_ENUM)
+#undef LAYER_ENUM
+        LAYER_COUNT = LAYER_DIAGRAM /* those that a view chooses from, a bit of view.layers each */
+} view_layer;
+
+typedef struct layer_row {
+    const char *name, *words;
+    uint8_t role; /* theme_role */
+    bool fades;
+} layer_row;
+
+extern const layer_row layer_rows[LAYER_COUNT + 1];
+
+#define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
+#define VIEW_HEAT_LAYERS (1u << LAYER_VISIT_HEAT | 1u << LAYER_POINT_HEAT)
+
+#define LAYER_DEFAULT_BIT(layer, name, words, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
+#define VIEW_DEFAULT_LAYERS ((0u LAYER_MAP(LAYER_DEFAULT_BIT)) & VIEW_ALL_LAYERS)
+
+/* "visit-heat", and "the world", "pruned nodes"; null beyond the last. */
+const char *view_layer_name(view_layer layer);
+const char *view_layer_words(view_layer layer);
+
+/* Layers by a list of names with commas between, or "all", "default" or "none"; "-text" leaves one out, and a list that
+ * begins so starts from the default. On failure *bad points at the name that is unknown. */
+bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
+
+static inline bool view_shows(const view *v, view_layer layer)
+{
+    return layer == LAYER_DIAGRAM ? v->diagram != DIAGRAM_NONE : v->layers >> layer & 1;
+}
+
+/* How a layer's elements look, in its colour. */
+static inline scene_style layer_style(view_layer layer, scene_stroke stroke, unsigned width)
+{
+    return (scene_style){(uint8_t)layer, layer_rows[layer].role, (uint8_t)stroke, (uint8_t)width};
+}
+
+#endif
