@@ -1,5 +1,5 @@
 /* batch.c - see batch.h. */
-#include "batch.h"
+#include "bulk.h"
 #include "float_mode.h"
 
 static void *take_array(octree *tree, size_t count, size_t size)

@@ -6,7 +6,7 @@
 #ifndef OCTREE_LEAF_H
 #define OCTREE_LEAF_H
 
-#include "crowd.h"
+#include "hashed_leaf.h"
 #include "tree.h"
 
 #define LEAF_CROWD 255

@@ -1,6 +1,6 @@
 /* remove_many.c - many points at once: what a node becomes is made from what is left of it. */
-#include "batch.h"
-#include "journal.h"
+#include "bulk.h"
+#include "undo_log.h"
 #include "leaf.h"
 
 #include <string.h>

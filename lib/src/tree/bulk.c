@@ -1,6 +1,6 @@
 /* insert_many.c - many points at once: what a node becomes is made from its old self and its share of the points. */
-#include "batch.h"
-#include "journal.h"
+#include "bulk.h"
+#include "undo_log.h"
 #include "leaf.h"
 #include "tune.h"
 

@@ -1,5 +1,5 @@
 /* crowd.c - see crowd.h. Open addressing with linear probing; a slot holds an index + 1, or 0. */
-#include "crowd.h"
+#include "hashed_leaf.h"
 #include "octree/digest.h"
 #include "point.h"
 

@@ -1,5 +1,5 @@
 /* journal.c - see journal.h. */
-#include "journal.h"
+#include "undo_log.h"
 #include "leaf.h"
 
 /* What is given back: a group of nodes, or a leaf's points. */
