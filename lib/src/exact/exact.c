@@ -1,23 +1,19 @@
-/* exact.c - see exact.h. */
 #include "exact.h"
 
-#include <math.h>
-#include <string.h>
-
-/* A finite double as mantissa * 2^exponent, the mantissa an integer below 2^53 with the sign apart. */
-typedef struct parts {
+/* A finite double as mantissa * 2^exponent, the mantissa an integer below 2^53, and a sign. */
+typedef struct decomposed {
     uint64_t mantissa;
     int exponent; /* at least -1074 */
     int sign;
-} parts;
+} decomposed;
 
-static parts take_apart(double value)
+static decomposed decompose(double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
     const int biased = (int)(bits >> 52 & 0x7ff);
     const uint64_t fraction = bits & ((UINT64_C(1) << 52) - 1);
-    return (parts){
+    return (decomposed){
         .mantissa = biased ? fraction | UINT64_C(1) << 52 : fraction,
         .exponent = (biased ? biased : 1) - 1075,
         .sign = bits >> 63 ? -1 : 1,
@@ -26,18 +22,18 @@ static parts take_apart(double value)
 
 void exact_clear(exact_sum *sum)
 {
-    sum->first = sum->after = 0;
+    sum->first = sum->end = 0;
 }
 
-/* Three digits from a place on. Those that come into use, and all between them and the others, begin as 0. */
+/* Three digits from a place on. The range in use grows to cover them; new digits begin as 0. */
 static int64_t *use_digits(exact_sum *sum, int place)
 {
-    if (sum->first == sum->after)
-        sum->first = sum->after = place;
+    if (sum->first == sum->end)
+        sum->first = sum->end = place;
     while (sum->first > place)
         sum->digits[--sum->first] = 0;
-    while (sum->after < place + 3)
-        sum->digits[sum->after++] = 0;
+    while (sum->end < place + 3)
+        sum->digits[sum->end++] = 0;
     return sum->digits + place;
 }
 
@@ -55,7 +51,7 @@ static void add_at(exact_sum *sum, int sign, uint64_t value, int offset)
 
 void exact_add_product(exact_sum *sum, int factor, double a, double b)
 {
-    const parts p = take_apart(a), q = take_apart(b);
+    const decomposed p = decompose(a), q = decompose(b);
     const int sign = p.sign * q.sign * (factor < 0 ? -1 : 1);
     const int offset = p.exponent + q.exponent + 2 * 1074 + (factor == 2 || factor == -2);
     const uint64_t p_low = p.mantissa & UINT32_MAX, p_high = p.mantissa >> 32;
@@ -69,7 +65,7 @@ int exact_sign(exact_sum *sum)
 {
     int64_t carry = 0;
     int any = 0;
-    for (int i = sum->first; i < sum->after; i++) {
+    for (int i = sum->first; i < sum->end; i++) {
         const int64_t digit = sum->digits[i] + carry;
         sum->digits[i] = digit & UINT32_MAX;
         carry = (digit - sum->digits[i]) / (INT64_C(1) << 32);
@@ -89,8 +85,7 @@ double exact_step_down(double value)
     return value;
 }
 
-/* The rounding error of sum = fl(a + b), exactly (Dekker's FastTwoSum; Knuth's TwoSum, which asks for no order, can
- * overflow on the way). */
+/* The rounding error of sum = fl(a + b), exactly (Dekker's FastTwoSum; Knuth's TwoSum can overflow in between). */
 static double sum_error(double a, double b, double sum)
 {
     return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);

@@ -8,14 +8,12 @@
 
 #include "float_rules.h"
 
-#include <stdint.h>
-
 #define EXACT_DIGITS 140
 
-/* Digits of 32 bits in 64-bit signed cells, so that carries can wait until the sign is asked for. Those from `first` to
- * `after` - 1 are in use, a few where the terms are of like size; the others are 0 and not written. */
+/* Digits of 32 bits in 64-bit signed cells, so that carries can wait until the sign is asked for. Only [first, end) is
+ * in use, a few digits where the terms are of similar size; the others count as 0 and are not initialized. */
 typedef struct exact_sum {
-    int first, after;
+    int first, end;
     int64_t digits[EXACT_DIGITS];
 } exact_sum;
 
@@ -24,11 +22,11 @@ void exact_clear(exact_sum *sum);
 /* Add factor * a * b, for a factor of -2, -1, 1 or 2 and finite a, b. */
 void exact_add_product(exact_sum *sum, int factor, double a, double b);
 
-/* -1, 0 or 1. The sum is used up. */
+/* -1, 0 or 1. Changes the sum: clear it before it is used again. */
 int exact_sign(exact_sum *sum);
 
-/* The largest double at most a + b, and the smallest at least: of the real sum, not the rounded one. Beyond the range
- * of doubles these are +-DBL_MAX, or an infinity where no finite double is a bound. */
+/* The largest double at most a + b, and the smallest at least: of the real sum, not the rounded one. Where the sum is
+ * beyond the range of doubles, these are +-DBL_MAX, or an infinity where no finite double is a bound. */
 double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 

@@ -1,9 +1,6 @@
-/* metric.c - see metric.h. */
 #include "metric.h"
 #include "exact.h"
 #include "point.h"
-
-#include <math.h>
 
 double metric_scale(const octree_box *world)
 {
@@ -29,7 +26,7 @@ metric metric_make(double scale, bool subnormal, const double target[3])
 }
 
 #ifdef OCTREE_SSE2
-/* Of two at once, in ordinary worlds. */
+/* The squares of two points at once; not for subnormal worlds. */
 static inline __m128d square_pair(const double a[3], const double b[3], const __m128d target[3], __m128d scale)
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b), z = _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2]);
@@ -66,7 +63,7 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
 {
     /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, less where coordinates agree. */
     if (same_position(a, b))
-        return 0; /* crowds are compared often */
+        return 0; /* many points at one position are compared often */
     exact_sum sum;
     exact_clear(&sum);
     for (int i = 0; i < 3; i++) {

@@ -10,17 +10,15 @@
 
 #include "float_rules.h"
 #include "octree/octree.h"
-#include "simd.h"
-#include "subnormal.h"
 
 typedef struct metric {
     double target[3]; /* as given */
     double scaled[3]; /* times scale */
     double scale;
-    double grain; /* scale * 2^-1074 where all coordinates of the world are subnormal, else 0 */
+    double grain; /* scale * 2^-1074 in a world whose coordinates are all subnormal, else 0 */
 } metric;
 
-/* The power of two for a world; between 2^-1020 and 2^1000, so that it is an ordinary double. */
+/* The power of two for a world; between 2^-1020 and 2^1000, so that it is a normal double. */
 double metric_scale(const octree_box *world);
 
 metric metric_make(double scale, bool subnormal, const double target[3]);
@@ -40,11 +38,10 @@ static inline double metric_point(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* The same of many, to the bit; returns the least. */
+/* The same for many points, bit for bit; returns the smallest. */
 double metric_points(const metric *m, const octree_point *points, unsigned count, double squares[]);
 
-/* Which of up to 64 squares are not beyond a reach: a bit each. Without branches: which way they go cannot be foreseen.
- */
+/* Which of up to 64 squares are not above a reach: a bit each. Without branches, which would be unpredictable. */
 static inline uint64_t metric_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;
@@ -67,13 +64,13 @@ static inline double metric_gap(const metric *m, int i, double min, double max)
     return below > 0 ? below : above > 0 ? above : 0;
 }
 
-/* A square below this has not overflowed; a larger one may stand for anything beyond. */
+/* A square below this has not overflowed; a larger one may stand for any larger number. */
 #define METRIC_FINITE 0x1p1020
 
 /* Bounds to compare many squares with: a square above metric_above(b) is surely more than b, one below metric_below(b)
  * surely less, by the real numbers. The band is 64u: 12u for the two errors of 6u, 3u for its own roundings, and room
- * for the 16u by which siblings may be out of order (nearest.c). Where b is infinite nothing is beyond it, and NaN is
- * beyond nothing. */
+ * for the 16u by which siblings may be out of order (nearest.c). Nothing is above an infinite b, and
+ * NaN is above nothing. */
 static inline double metric_above(double b)
 {
     return b * (1 + 0x1p-47) + 0x1p-998;

@@ -1,16 +1,16 @@
-/* point.h - comparing positions. Private. */
+/* point.h - comparing positions. */
 #ifndef OCTREE_POINT_H
 #define OCTREE_POINT_H
 
+#include "float_rules.h"
 #include "octree/octree.h"
-#include "simd.h"
 
 static inline bool same_position(const double a[3], const double b[3])
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Is this the one pair that a collision leaves out? */
+/* Whether this is the pair that a collision test leaves out. */
 static inline bool is_self(const octree_point *self, const octree_point *point)
 {
     return self && self->id == point->id && same_position(self->position, point->position);
@@ -27,7 +27,7 @@ static inline bool box_contains(const octree_box *box, const double p[3])
     return _mm_movemask_pd(_mm_and_pd(above_min, below_max)) == 3;
 #else
     bool inside = true;
-    for (int i = 0; i < 3; i++) /* without branches: which way they go cannot be foreseen */
+    for (int i = 0; i < 3; i++) /* without branches, which would be unpredictable */
         inside &= (box->min[i] <= p[i]) & (p[i] <= box->max[i]);
     return inside;
 #endif

@@ -1,15 +1,11 @@
-/* sweep.c - see sweep.h.
- *
- * Relative to the box's middle the point goes from u = p - a to w = q - b, where p, q are the point's ends and a, b the
+/* Relative to the box's middle the point goes from u = p - a to w = q - b, where p, q are the point's ends and a, b the
  * box's. On an axis on which it goes downwards by d = u - w > 0, it is within the size r from enter = (u - r) / d to
  * leave = (u + r) / d; upwards everything is mirrored. It is touched when the three intervals and 0..1 have a moment in
- * common: when every enter is at most 1 and every leave, and every leave at least 0. The moments are compared in
- * doubles where their error allows; else as fractions, by their cross products, exactly.
+ * common: when every enter is at most 1 and at most every leave, and every leave is at least 0. The moments are
+ * compared in doubles where their error allows; otherwise as fractions, by their cross products, exactly.
  */
 #include "sweep.h"
 #include "exact.h"
-
-#include <math.h>
 
 /* The ends on one axis. */
 typedef struct ends {
@@ -23,10 +19,10 @@ static ends ends_on(const sweep *box, const double from[3], const double to[3], 
 
 /* ---- In doubles --------------------------------------------------------------------------------------------- */
 
-/* What is known of the moments of touching. */
+/* When the box begins and ends to touch the point, as far as doubles can tell. */
 typedef struct moments {
     double enter, leave; /* the last to enter, the first to leave */
-    double error;        /* of both, at most */
+    double error;        /* bound for both */
 } moments;
 
 /* At rest relative to the box: 1 or 0 when doubles can tell whether the axis is covered, else -1. Three roundings. */
@@ -39,7 +35,7 @@ static int guess_at_rest(const ends *e, double size)
 /* Narrow the moments to those of one axis; false when doubles cannot tell its direction. With v = 2^-53, `length` is
  * off by at most 4v * travel, less than an eighth of itself, and the numerators by at most 4v * (|u| + r); so the
  * quotients are off by at most 16v times what is added up here, of which 32v is taken. The last term is for underflow.
- * Where a step of this reckoning overflows, the error is infinite or NaN. */
+ * Where a step of this computation overflows, the error is infinite or NaN. */
 static bool narrow(moments *known, const ends *e, double size)
 {
     const double step = e->b - e->a, own = e->q - e->p, travel = fabs(step) + fabs(own);
@@ -66,10 +62,10 @@ static int guess(const sweep *box, const double from[3], const double to[3])
     for (int i = 0; i < 3; i++) {
         const ends e = ends_on(box, from, to, i);
         const bool rests = e.a == e.b && e.p == e.q;
-        const int told = rests ? guess_at_rest(&e, box->size) : narrow(&known, &e, box->size) ? 1 : -1;
-        if (told == 0)
+        const int answer = rests ? guess_at_rest(&e, box->size) : narrow(&known, &e, box->size) ? 1 : -1;
+        if (answer == 0)
             return 0;
-        guessed = told < 0 ? -1 : guessed;
+        guessed = answer < 0 ? -1 : guessed;
     }
     if (known.enter - known.leave > 2 * known.error)
         return 0;
@@ -78,27 +74,25 @@ static int guess(const sweep *box, const double from[3], const double to[3])
 
 /* ---- Exactly ------------------------------------------------------------------------------------------------ */
 
-/* The sign of (u - w): 1 where the point comes from above relative to the box, 0 at rest. */
-static int direction(const ends *e)
+static int sign_of_sum(const double terms[], int count)
 {
     exact_sum sum;
     exact_clear(&sum);
-    exact_add_product(&sum, 1, e->p, 1);
-    exact_add_product(&sum, -1, e->a, 1);
-    exact_add_product(&sum, -1, e->q, 1);
-    exact_add_product(&sum, 1, e->b, 1);
+    for (int i = 0; i < count; i++)
+        exact_add_product(&sum, 1, terms[i], 1);
     return exact_sign(&sum);
+}
+
+/* The sign of (u - w): 1 where the point comes from above relative to the box, 0 at rest. */
+static int direction(const ends *e)
+{
+    return sign_of_sum((double[]){e->p, -e->a, -e->q, e->b}, 4);
 }
 
 /* Whether side * (point - middle) <= size. */
 static bool is_inside(double point, double middle, int side, double size)
 {
-    exact_sum sum;
-    exact_clear(&sum);
-    exact_add_product(&sum, 1, size, 1);
-    exact_add_product(&sum, -side, point, 1);
-    exact_add_product(&sum, side, middle, 1);
-    return exact_sign(&sum) >= 0;
+    return sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
 }
 
 /* Add factor * (way * u + side * r) of one axis times the length of the way on another. */
@@ -106,12 +100,10 @@ static void add_cross(exact_sum *sum, int factor, const ends *e, int way, double
                       int other_way)
 {
     const double terms[3] = {way * e->p, -way * e->a, reach};
-    for (int i = 0; i < 3; i++) {
-        exact_add_product(sum, factor * other_way, terms[i], other->p);
-        exact_add_product(sum, -factor * other_way, terms[i], other->a);
-        exact_add_product(sum, -factor * other_way, terms[i], other->q);
-        exact_add_product(sum, factor * other_way, terms[i], other->b);
-    }
+    const double length[4] = {other->p, -other->a, -other->q, other->b};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            exact_add_product(sum, factor * other_way, terms[i], length[j]);
 }
 
 /* Whether the point is within the size on axis `i` before it leaves it on axis `j`: leave_j - enter_i >= 0, times both
@@ -125,14 +117,15 @@ static bool enters_before(const ends *i, int way_i, const ends *j, int way_j, do
     return exact_sign(&sum) >= 0;
 }
 
-static bool truly_touches(const sweep *box, const double from[3], const double to[3])
+static bool touches_exactly(const sweep *box, const double from[3], const double to[3])
 {
     ends e[3];
     int way[3];
     for (int i = 0; i < 3; i++) {
         e[i] = ends_on(box, from, to, i);
         way[i] = direction(&e[i]);
-        const int side = way[i] ? way[i] : 1; /* at rest both ends are one place, and the two tests its two sides */
+        const int side =
+            way[i] ? way[i] : 1; /* at rest both ends are one position, and the tests are of its two sides */
         if (!is_inside(e[i].q, e[i].b, side, box->size) || !is_inside(e[i].p, e[i].a, -side, box->size))
             return false;
     }
@@ -146,5 +139,5 @@ static bool truly_touches(const sweep *box, const double from[3], const double t
 bool sweep_touches(const sweep *box, const double from[3], const double to[3])
 {
     const int guessed = guess(box, from, to);
-    return guessed < 0 ? truly_touches(box, from, to) : guessed == 1;
+    return guessed < 0 ? touches_exactly(box, from, to) : guessed == 1;
 }

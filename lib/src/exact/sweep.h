@@ -1,17 +1,18 @@
-/* sweep.h - does a box on its way touch a point on its way? Private. */
+/* sweep.h - whether a moving box touches a moving point. */
 #ifndef OCTREE_SWEEP_H
 #define OCTREE_SWEEP_H
 
 #include <stdbool.h>
 
-/* A box position +- size that goes straight from one place to another in a unit of time. All finite, size >= 0. */
+/* The box position +- size, moving in a straight line from one position to another during the time 0..1. All finite,
+ * size >= 0. */
 typedef struct sweep {
     const double *from, *to;
     double size;
 } sweep;
 
-/* Whether the box touches, at some time of 0..1, a point that goes straight from one place to another in that time; a
- * point at rest has one place for both. Decided by the real numbers. */
+/* Whether the box touches, at some time of 0..1, a point that moves in a straight line from one position to another
+ * (both the same for a point at rest). Decided by the real numbers. */
 bool sweep_touches(const sweep *box, const double from[3], const double to[3]);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef OCTREE_BODIES_H
 #define OCTREE_BODIES_H
 
-#include "list.h"
+#include "pool.h"
 #include "octree/game.h"
 
 /* A body's place is computed from its origin and the ticks since then, never by adding tick by tick. */

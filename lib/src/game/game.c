@@ -1,5 +1,5 @@
 /* game.c - the game loop: one tick after another, in the order that game.h states. */
-#include "float_mode.h"
+#include "float_rules.h"
 #include "game_state.h"
 
 #include <string.h>

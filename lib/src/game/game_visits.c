@@ -2,7 +2,6 @@
  * found.
  */
 #include "game_state.h"
-#include "node_set.h"
 #include "tree.h"
 
 #include <stdlib.h>
@@ -28,7 +27,7 @@ static int compare_visits(const void *a, const void *b)
     static const int weakness[OCTREE_TOUCH_KINDS] = {
         [OCTREE_TOUCH_VISITED] = 0, [OCTREE_TOUCH_TAKEN] = 1, [OCTREE_TOUCH_PRUNED] = 2};
     const octree_visit *p = a, *q = b;
-    return p->node == q->node ? weakness[p->touch] - weakness[q->touch] : node_set_compare(&p->node, &q->node);
+    return p->node == q->node ? weakness[p->touch] - weakness[q->touch] : address_compare(&p->node, &q->node);
 }
 
 static void sort_visits(octree_game *game)
@@ -80,7 +79,7 @@ static void sort_leaves(octree_game *game)
     octree_address *leaves = game->hit_leaves.items;
     size_t kept = 0;
     if (game->hit_leaves.count > 1)
-        qsort(leaves, game->hit_leaves.count, sizeof *leaves, node_set_compare);
+        qsort(leaves, game->hit_leaves.count, sizeof *leaves, address_compare);
     for (size_t i = 0; i < game->hit_leaves.count; i++)
         if (kept == 0 || leaves[i] != leaves[kept - 1])
             leaves[kept++] = leaves[i];

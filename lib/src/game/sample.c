@@ -1,6 +1,5 @@
 /* sample.c - see sample.h. No libm beyond sqrt: the same points on every machine. */
 #include "octree/sample.h"
-#include "float_mode.h"
 #include "float_rules.h"
 
 #include <math.h>

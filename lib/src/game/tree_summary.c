@@ -1,8 +1,6 @@
 /* survey.c - see survey.h. */
 #include "tree_summary.h"
-#include "node_count.h"
-#include "node_set.h"
-#include "tree_digest.h"
+#include "walk.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -72,19 +70,18 @@ static void look_at(octree_stats *stats, uint64_t *sum, const node *n, octree_ad
     *sum += digest_node(n, address);
 }
 
-static void look_below(surveying *w, part *p, const node *n)
+/* The nodes of a part, in pre-order. */
+static void look_below(surveying *w, part *p, const node *n, octree_address address)
 {
-    inner_stack stack;
-    inner_stack_begin(&stack, n, p->address);
-    while (stack.size > 0 && !w->out_of_memory) {
-        const inner next = inner_stack_next(&stack);
-        const node *child = children_of(next.node);
-        add_inner(w, next.address);
-        prefetch_below(next.node);
-        for (unsigned octant = 0; octant < 8; octant++)
-            if (next.node->octants >> octant & 1)
-                look_at(&p->stats, &p->sum, child++, next.address << 3 | octant);
-    }
+    look_at(&p->stats, &p->sum, n, address);
+    if (n->octants == 0)
+        return;
+    add_inner(w, address);
+    prefetch_below(n);
+    const node *child = children_of(n);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (n->octants >> octant & 1)
+            look_below(w, p, child++, address << 3 | octant);
 }
 
 /* The part that was at this address at the last survey, or null. */
@@ -92,7 +89,7 @@ static const part *part_before(surveying *w, octree_address address)
 {
     const part *before = w->to->parts_before.items;
     const size_t count = w->to->parts_before.count;
-    while (w->next_before < count && node_set_compare(&before[w->next_before].address, &address) < 0)
+    while (w->next_before < count && address_compare(&before[w->next_before].address, &address) < 0)
         w->next_before++;
     return w->next_before < count && before[w->next_before].address == address ? &before[w->next_before] : NULL;
 }
@@ -130,8 +127,7 @@ static void add_part(surveying *w, const node *n, octree_address address)
     if (kept) {
         keep_inner(w, before);
     } else {
-        look_at(&p->stats, &p->sum, n, address);
-        look_below(w, p, n);
+        look_below(w, p, n, address);
     }
     p->first_inner = first_inner;
     p->inner_count = w->to->inner.count - first_inner;
@@ -157,22 +153,20 @@ static bool is_part(const node *n)
 }
 
 /* The nodes above the parts, in pre-order, and between them the parts. */
-static void look_at_all(surveying *w)
+static void look_at_all(surveying *w, const node *n, octree_address address)
 {
-    inner_stack stack = {.size = 1};
-    stack.items[0] = (inner){&w->tree->root, OCTREE_ROOT};
-    while (stack.size > 0 && !w->out_of_memory) {
-        const inner next = stack.items[--stack.size];
-        if (is_part(next.node)) {
-            add_part(w, next.node, next.address);
-            continue;
-        }
-        look_at(&w->to->stats, &w->sum, next.node, next.address);
-        add_inner(w, next.address);
-        for (unsigned octant = 8; octant-- > 0;)
-            if (next.node->octants >> octant & 1)
-                stack.items[stack.size++] = (inner){child_at(next.node, octant), next.address << 3 | octant};
+    if (w->out_of_memory)
+        return;
+    if (is_part(n)) {
+        add_part(w, n, address);
+        return;
     }
+    look_at(&w->to->stats, &w->sum, n, address);
+    add_inner(w, address);
+    const node *child = children_of(n);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (n->octants >> octant & 1)
+            look_at_all(w, child++, address << 3 | octant);
 }
 
 static void add_up_parts(surveying *w)
@@ -207,8 +201,8 @@ octree_status survey_update(survey *s, arena *memory, const octree *tree)
         s->parts_before.count = 0;
     if (s->touched.count > 1)
         qsort(s->touched.items, s->touched.count, sizeof(uint64_t), compare_codes);
-    s->stats = (octree_stats){.points = tree->root.count, .memory = tree->memory.bytes};
-    look_at_all(&w);
+    s->stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
+    look_at_all(&w, &tree->root, OCTREE_ROOT);
     add_up_parts(&w);
     s->digest = digest_of_sum(tree, w.sum);
     s->known = !w.out_of_memory;

@@ -7,7 +7,7 @@
 #ifndef OCTREE_SURVEY_H
 #define OCTREE_SURVEY_H
 
-#include "list.h"
+#include "pool.h"
 #include "tree.h"
 
 typedef struct survey {

@@ -1,7 +1,7 @@
 /* collide.c - Algorithm 5: what is within box_size of a centre on every axis. */
 #include "collision.h"
 #include "exact.h"
-#include "float_mode.h"
+#include "float_rules.h"
 #include "tree.h"
 
 #include <math.h>

@@ -237,7 +237,7 @@ static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
     uint32_t differ = 0;
     for (int i = 0; i < 3; i++) {
         const axis *a = &s->tree->axes[i];
-        const double width = reach * a->keys_per_unit + a->doubt + 2;
+        const double width = reach * a->keys_per_unit + a->guess_error + 2;
         if (!(width < PLANE_GRID) || !(a->keys_per_unit > 0) || a->subnormal || s->root_squares[i] > 0)
             return 0;
         const uint32_t wide = (uint32_t)width + 1, low = keys[i] > wide ? keys[i] - wide : 0;

@@ -1,6 +1,6 @@
 /* search.c - see search.h. */
 #include "search.h"
-#include "float_mode.h"
+#include "float_rules.h"
 #include "leaf.h"
 
 #include <math.h>

@@ -1,52 +1,186 @@
-/* insert_many.c - many points at once: what a node becomes is made from its old self and its share of the points. */
-#include "bulk.h"
+/* bulk.c - many points inserted or removed at once: what a node becomes is made from its old self and its share of the
+ * points, which are sorted by Morton code. A bulk change either happens as a whole or does not.
+ */
+#include "float_rules.h"
+#include "morton_sort.h"
+#include "tree.h"
 #include "undo_log.h"
-#include "leaf.h"
-#include "tune.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct insertion {
-    octree *tree;
-    batch *batch;
-    journal journal;
-    list repetitions;
-} insertion;
+/* A point that repeats an earlier one of the batch: both by their index. */
+typedef struct repetition {
+    uint32_t place, first;
+} repetition;
 
-/* What was stored comes first, then the caller's points in their order: so leaves refuse as one by one. */
-static int by_place(const void *a, const void *b)
+typedef struct bulk {
+    octree *tree;
+    const octree_point *points; /* the caller's */
+    size_t point_count;
+    octree_status *statuses;    /* the caller's, one for each point; may be null */
+    const octree_point *stored; /* of the leaf whose points are among the items, if there is one */
+    morton_item *items;         /* the points inside the world, by code; in cells that become leaves in any order */
+    size_t count;
+    bool repeated; /* some items may have the same code */
+    list repetitions;
+    undo_log log;
+} bulk;
+
+static const octree_point *point_of(const bulk *b, const morton_item *item)
+{
+    return (item->stored ? b->stored : b->points) + item->place;
+}
+
+static void set_status(const bulk *b, const morton_item *item, octree_status status)
+{
+    if (!item->stored && b->statuses)
+        b->statuses[item->place] = status;
+}
+
+/* ---- Loading the points ------------------------------------------------------------------------------------- */
+
+static void *take_items(const bulk *b)
+{
+    const size_t size = sizeof(morton_item);
+    return b->point_count < SIZE_MAX / size ? arena_take(&b->tree->store.memory, (b->point_count + 1) * size) : NULL;
+}
+
+static void give_items(const bulk *b, morton_item *items)
+{
+    arena_give(&b->tree->store.memory, items, (b->point_count + 1) * sizeof *items);
+}
+
+/* How many items of a cell need not be sorted where nothing is stored yet: they become a leaf. */
+static size_t unsorted_count(const octree *tree)
+{
+    return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;
+}
+
+static bool sort_items(bulk *b)
+{
+    morton_item *spare = take_items(b);
+    if (!spare)
+        return false;
+    const size_t unsorted = b->tree->root.count > 0 ? 0 : unsorted_count(b->tree);
+    b->repeated = morton_sort(b->items, spare, b->count, 0, unsorted);
+    give_items(b, spare);
+    return true;
+}
+
+static void collect_items(bulk *b)
+{
+    const octree_box world = b->tree->def.world;
+    for (size_t i = 0; i < b->point_count; i++) {
+        const double *position = b->points[i].position;
+        const octree_status status = box_contains(&world, position) ? OCTREE_OK : check_position(b->tree, position);
+        if (status == OCTREE_OK)
+            b->items[b->count++] = (morton_item){morton_code(b->tree->axes, position), (uint32_t)i, false};
+        if (b->statuses)
+            b->statuses[i] = status;
+    }
+}
+
+/* Statuses are then OK, or say why a point is not among the items. */
+static octree_status load(bulk *b)
+{
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
+    if (b->point_count >= UINT32_MAX)
+        return OCTREE_TOO_MANY;
+    b->items = take_items(b);
+    if (!b->items)
+        return OCTREE_NO_MEMORY;
+    collect_items(b);
+    return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+/* How many of the sorted items lie in the same octant of a cell of this depth as the first of them. */
+static size_t octant_share(const morton_item *items, size_t count, unsigned depth)
+{
+    const unsigned octant = morton_octant(items[0].code, depth);
+    size_t low = 1, high = count; /* the first that lies elsewhere is in [low, high] */
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (morton_octant(items[middle].code, depth) == octant)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* How many items each octant of a cell receives. Returns the octants that receive any. */
+static unsigned share_out(const morton_item *items, size_t count, unsigned depth, size_t shares[8])
+{
+    unsigned octants = 0;
+    memset(shares, 0, 8 * sizeof *shares);
+    for (size_t at = 0; at < count;) {
+        const unsigned octant = morton_octant(items[at].code, depth);
+        shares[octant] = octant_share(items + at, count - at, depth);
+        octants |= 1u << octant;
+        at += shares[octant];
+    }
+    return octants;
+}
+
+/* Load the points, make the new root from them, and put it in the place of the old one if it differs. */
+static octree_status change_many(bulk *b, octree_status (*change)(bulk *b, node *root))
+{
+    octree *tree = b->tree;
+    node root;
+    octree_status status = load(b);
+    b->log.store = &tree->store;
+    if (status == OCTREE_OK)
+        status = change(b, &root);
+    if (status == OCTREE_OK && root.count != tree->root.count) {
+        tree->root = root;
+        tree->version++;
+        undo_log_commit(&b->log);
+    } else {
+        undo_log_abandon(&b->log);
+    }
+    list_release(&tree->store.memory, &b->repetitions, sizeof(repetition));
+    give_items(b, b->items);
+    return status;
+}
+
+/* ---- Inserting
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* Stored points first, then the caller's in their order: so a leaf refuses the same points as one by one. */
+static int compare_places(const void *a, const void *b)
 {
     const morton_item *p = a, *q = b;
     return p->stored != q->stored ? q->stored - p->stored : (p->place > q->place) - (p->place < q->place);
 }
 
-/* A leaf of those of the items that it takes; the others are told why not. */
-static bool make_leaf(insertion *in, morton_item *items, size_t count, node *made)
+/* A leaf of the items, or of as many as it takes; the others are refused. */
+static bool make_leaf(bulk *b, morton_item *items, size_t count, node *made)
 {
-    const size_t capacity = in->tree->def.leaf_capacity;
+    const size_t capacity = b->tree->def.leaf_capacity;
     size_t taken = count;
-    if (count > capacity && in->tree->def.full_leaf == OCTREE_REFUSE) {
-        qsort(items, count, sizeof *items, by_place);
+    if (count > capacity && b->tree->def.full_leaf == OCTREE_REFUSE) {
+        qsort(items, count, sizeof *items, compare_places);
         taken = capacity;
     }
-    if (!journal_make_leaf(&in->journal, made, (uint32_t)taken))
+    if (!undo_log_make_leaf(&b->log, made, (uint32_t)taken))
         return false;
     for (size_t i = 0; i < taken; i++)
-        prefetch(batch_point(in->batch, &items[i])); /* they lie in the caller's order, far apart */
+        prefetch(point_of(b, &items[i])); /* scattered, in the caller's order */
     for (size_t i = 0; i < taken; i++)
-        leaf_put(made, batch_point(in->batch, &items[i]));
+        leaf_put(made, point_of(b, &items[i]));
     for (size_t i = taken; i < count; i++)
-        batch_set(in->batch, &items[i], OCTREE_FULL);
+        set_status(b, &items[i], OCTREE_FULL);
     return true;
 }
 
-/* The children that the items' octants become, and those that are there already. `old` is an inner node, or null. */
-static bool build_children(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made);
+/* An inner node of the old one's children (it may be null) and those that the items need. */
+static bool build_children(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made);
 
-/* Whether sorted items share one cell that cannot be divided: dividing this one would not part them. A leaf that
- * refuses asks this first, so that nothing is divided for points that are refused then; and where items do part, more
- * than a leaf's worth of them are taken, so that no division is in vain. */
+/* Whether all sorted items lie in one cell of the greatest depth, so that splitting this one would not separate them.
+ * Asked under OCTREE_REFUSE, where most of them are then refused: nothing is split for refused points. Where items are
+ * separated, more of them are stored than one leaf holds, so that the split is needed. */
 static bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count)
 {
     const uint64_t unlike = items[0].code ^ items[count - 1].code;
@@ -56,18 +190,18 @@ static bool inseparable(const octree *tree, cell c, const morton_item *items, si
     return true;
 }
 
-/* What a cell without anything stored, or with all that was stored among the items, becomes. */
-static bool build(insertion *in, cell c, morton_item *items, size_t count, node *made)
+/* What a cell becomes that stores nothing but the items. */
+static bool build(bulk *b, cell c, morton_item *items, size_t count, node *made)
 {
-    const octree_def *def = &in->tree->def;
-    if (count <= def->leaf_capacity || !may_split(in->tree, c) ||
-        (def->full_leaf == OCTREE_REFUSE && inseparable(in->tree, c, items, count)))
-        return make_leaf(in, items, count, made);
-    return build_children(in, NULL, c, items, count, made);
+    const octree_def *def = &b->tree->def;
+    if (count <= def->leaf_capacity || !may_split(b->tree, c) ||
+        (def->full_leaf == OCTREE_REFUSE && inseparable(b->tree, c, items, count)))
+        return make_leaf(b, items, count, made);
+    return build_children(b, NULL, c, items, count, made);
 }
 
-/* A leaf's points and its share of the batch, in one order where the cell can be divided; where it cannot, as in a
- * crowd, nobody reads the order. There is room for twice as many. */
+/* A leaf's points and its items together, sorted if the cell can be divided; the order does not matter where it cannot,
+ * as for a hashed leaf. `all` has room for twice as many. */
 static void merge_items(const octree *tree, const node *leaf, cell c, const morton_item *items, size_t count,
                         morton_item *all)
 {
@@ -76,174 +210,127 @@ static void merge_items(const octree *tree, const node *leaf, cell c, const mort
         all[i] = (morton_item){morton_code(tree->axes, leaf_points(leaf)[i].position), i, true};
     memcpy(all + leaf->count, items, count * sizeof *items);
     if (may_split(tree, c))
-        morton_sort(all, all + sum, sum, c.depth, batch_loose(tree));
+        morton_sort(all, all + sum, sum, c.depth, unsorted_count(tree));
 }
 
-/* Leave out those that the leaf holds already. Returns how many are left. */
-static size_t drop_stored(const insertion *in, const node *leaf, morton_item *items, size_t count)
+/* Drop the items that the leaf stores already. Returns how many are left. */
+static size_t drop_stored(const bulk *b, const node *leaf, morton_item *items, size_t count)
 {
     size_t left = 0;
     for (size_t i = 0; i < count; i++) {
-        const octree_point *point = batch_point(in->batch, &items[i]);
+        const octree_point *point = point_of(b, &items[i]);
         if (leaf_find(leaf, point->position, point->id) == LEAF_NONE)
             items[left++] = items[i];
         else
-            batch_set(in->batch, &items[i], OCTREE_DUPLICATE);
+            set_status(b, &items[i], OCTREE_DUPLICATE);
     }
     return left;
 }
 
-static bool add_to_leaf(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made)
+static bool add_to_leaf(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     if (old->count == 0)
-        return build(in, c, items, count, made) && journal_replace(&in->journal, old);
-    count = drop_stored(in, old, items, count);
+        return build(b, c, items, count, made) && undo_log_replace(&b->log, old);
+    count = drop_stored(b, old, items, count);
     if (count == 0)
         return true;
     const size_t room = 2 * (old->count + count) * sizeof(morton_item);
-    morton_item *all = arena_take(&in->tree->memory, room);
+    morton_item *all = arena_take(&b->tree->store.memory, room);
     if (!all)
         return false;
-    merge_items(in->tree, old, c, items, count, all);
-    in->batch->stored = leaf_points(old);
-    const bool ok = build(in, c, all, old->count + count, made) && journal_replace(&in->journal, old);
-    arena_give(&in->tree->memory, all, room);
+    merge_items(b->tree, old, c, items, count, all);
+    b->stored = leaf_points(old);
+    const bool ok = build(b, c, all, old->count + count, made) && undo_log_replace(&b->log, old);
+    arena_give(&b->tree->store.memory, all, room);
     return ok;
 }
 
-/* What a node becomes. */
-static bool add(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made)
+/* What a node becomes with the items added. */
+static bool add(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     *made = *old;
     if (count == 0)
         return true;
-    return old->octants ? build_children(in, old, c, items, count, made) : add_to_leaf(in, old, c, items, count, made);
+    return old->octants ? build_children(b, old, c, items, count, made) : add_to_leaf(b, old, c, items, count, made);
 }
 
-static bool build_children(insertion *in, const node *old, cell c, morton_item *items, size_t count, node *made)
+static bool build_children(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     static const node empty = {0};
-    size_t shares[8] = {0};
-    unsigned octants = old ? old->octants : 0;
-    for (size_t at = 0; at < count;) {
-        const unsigned octant = morton_octant(items[at].code, c.depth);
-        shares[octant] = batch_share(items + at, count - at, c.depth);
-        octants |= 1u << octant;
-        at += shares[octant];
-    }
-    node *group = journal_make_group(&in->journal, bits_count8(octants));
+    size_t shares[8];
+    const unsigned octants = share_out(items, count, c.depth, shares) | (old ? old->octants : 0u);
+    node *group = undo_log_make_group(&b->log, bits_count8(octants));
     *made = (node){.below = group, .octants = (uint8_t)octants};
     for (unsigned octant = 0; group && octant < 8; octant++) {
         if (!(octants >> octant & 1))
             continue;
         const node *before = old ? child_at(old, octant) : NULL;
-        if (!add(in, before ? before : &empty, cell_child(c, octant), items, shares[octant], group))
+        if (!add(b, before ? before : &empty, cell_child(c, octant), items, shares[octant], group))
             return false;
         made->count += group->count;
         items += shares[octant];
         group++;
     }
-    return group && (!old || journal_replace(&in->journal, old));
+    return group && (!old || undo_log_replace(&b->log, old));
 }
 
-/* A point of the batch, and its place there. */
-typedef struct placed {
-    octree_point point;
-    uint32_t place;
-} placed;
-
-static int compare_placed(const void *a, const void *b)
+/* Keep the first of each pair among items of one code, which are in the caller's order. *kept receives how many are
+ * left. False when there is no memory. */
+static bool drop_repeated(bulk *b, morton_item *items, size_t count, size_t *kept)
 {
-    const placed *p = a, *q = b;
-    const int order = octree_compare_points(&p->point, &q->point);
-    return order ? order : (p->place > q->place) - (p->place < q->place);
-}
-
-/* A point that repeats an earlier one of the batch. */
-typedef struct repetition {
-    uint32_t place, first;
-} repetition;
-
-/* Of sorted points of one code the first of each becomes an item, the others are noted. */
-static bool note_repetitions(insertion *in, const placed *sorted, size_t count, morton_item *items, size_t *left)
-{
-    const placed *first = NULL;
-    for (const placed *p = sorted; p < sorted + count; p++) {
-        if (!first || octree_compare_points(&first->point, &p->point) != 0) {
-            first = p;
-            items[(*left)++].place = p->place;
+    arena *memory = &b->tree->store.memory;
+    octree_point *seen = hashed_leaf_create(memory, (uint32_t)count);
+    bool ok = seen != NULL;
+    *kept = 0;
+    for (size_t i = 0; ok && i < count; i++) {
+        const uint32_t first = hashed_leaf_append(seen, (uint32_t)*kept, point_of(b, &items[i]));
+        if (first == *kept) {
+            items[(*kept)++] = items[i];
             continue;
         }
-        repetition *r = list_append(&in->tree->memory, &in->repetitions, sizeof *r);
-        if (!r)
-            return false;
-        *r = (repetition){p->place, first->place};
-        if (in->batch->statuses)
-            in->batch->statuses[p->place] = OCTREE_DUPLICATE;
+        repetition *r = list_append(memory, &b->repetitions, sizeof *r);
+        ok = r != NULL;
+        if (ok)
+            *r = (repetition){items[i].place, items[first].place};
     }
-    return true;
-}
-
-/* Leave out those of the items of one code that repeat an earlier one. *left receives how many are left. */
-static bool drop_alike(insertion *in, morton_item *items, size_t count, size_t *left)
-{
-    *left = 0;
-    placed *sorted = arena_take(&in->tree->memory, count * sizeof *sorted);
-    if (!sorted)
-        return false;
-    for (size_t i = 0; i < count; i++)
-        sorted[i] = (placed){*batch_point(in->batch, &items[i]), items[i].place};
-    qsort(sorted, count, sizeof *sorted, compare_placed);
-    const bool ok = note_repetitions(in, sorted, count, items, left);
-    arena_give(&in->tree->memory, sorted, count * sizeof *sorted);
+    if (seen)
+        hashed_leaf_release(memory, seen);
     return ok;
 }
 
-/* Take those that repeat an earlier one out of the batch: they must not make leaves split. */
-static bool drop_repetitions(insertion *in)
+/* Drop the items that repeat an earlier one of the batch: they must not make leaves split. */
+static bool drop_repetitions(bulk *b)
 {
-    batch *b = in->batch;
     size_t left = 0;
-    for (size_t start = 0, end, some; start < b->count; start = end, left += some) {
+    for (size_t start = 0, end, kept; start < b->count; start = end, left += kept) {
         for (end = start + 1; end < b->count && b->items[end].code == b->items[start].code; end++)
             ;
-        some = 1;
-        if (end - start > 1 && !drop_alike(in, b->items + start, end - start, &some))
+        kept = 1;
+        if (end - start > 1 && !drop_repeated(b, b->items + start, end - start, &kept))
             return false;
-        memmove(b->items + left, b->items + start, some * sizeof *b->items);
+        memmove(b->items + left, b->items + start, kept * sizeof *b->items);
     }
     b->count = left;
     return true;
 }
 
-/* What repeats a point that its leaf refused would have been refused too. */
-static void judge_repetitions(const insertion *in)
+/* A repeated point is a duplicate, unless the first one was refused, as it would then be too. */
+static void judge_repetitions(const bulk *b)
 {
-    const repetition *all = in->repetitions.items;
-    octree_status *statuses = in->batch->statuses;
-    for (size_t i = 0; statuses && i < in->repetitions.count; i++)
-        if (statuses[all[i].first] == OCTREE_FULL)
-            statuses[all[i].place] = OCTREE_FULL;
+    const repetition *all = b->repetitions.items;
+    for (size_t i = 0; b->statuses && i < b->repetitions.count; i++)
+        b->statuses[all[i].place] = b->statuses[all[i].first] == OCTREE_FULL ? OCTREE_FULL : OCTREE_DUPLICATE;
 }
 
-static octree_status insert_batch(insertion *in)
+static octree_status insert_items(bulk *b, node *root)
 {
-    octree *tree = in->tree;
-    batch *b = in->batch;
-    node root;
-    if (b->repeated && !drop_repetitions(in))
+    if (b->repeated && !drop_repetitions(b))
         return OCTREE_NO_MEMORY;
-    if (b->count > UINT32_MAX - tree->root.count)
+    if (b->count > UINT32_MAX - b->tree->root.count)
         return OCTREE_TOO_MANY;
-    if (!add(in, &tree->root, root_cell(), b->items, b->count, &root)) {
-        journal_abandon(&in->journal);
+    if (!add(b, &b->tree->root, root_cell(), b->items, b->count, root))
         return OCTREE_NO_MEMORY;
-    }
-    judge_repetitions(in);
-    if (root.count == tree->root.count)
-        journal_abandon(&in->journal); /* nothing was taken */
-    else
-        journal_commit(&in->journal, root);
+    judge_repetitions(b);
     return OCTREE_OK;
 }
 
@@ -252,16 +339,113 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
 {
     if (!tree || (!points && count))
         return OCTREE_NULL_ARGUMENT;
-    batch b;
-    insertion in = {.tree = tree, .batch = &b, .journal = {.tree = tree}};
     const uint32_t before = tree->root.count;
-    octree_status status = batch_begin(&b, tree, points, count, statuses);
-    if (status == OCTREE_OK)
-        status = insert_batch(&in);
+    bulk b = {.tree = tree, .points = points, .point_count = count, .statuses = statuses};
+    const octree_status status = change_many(&b, insert_items);
     if (status == OCTREE_OK && inserted)
         *inserted = tree->root.count - before;
-    list_release(&tree->memory, &in.repetitions, sizeof(repetition));
-    batch_end(&b);
     tune_if_due(tree);
+    return status;
+}
+
+/* ---- Removing
+ * --------------------------------------------------------------------------------------------------------- */
+
+/* A leaf of the points that are not marked. */
+static bool make_rest(bulk *b, const node *old, const bool *gone, uint32_t left, node *made)
+{
+    if (!undo_log_make_leaf(&b->log, made, left))
+        return false;
+    for (uint32_t i = 0; i < old->count; i++)
+        if (!gone[i])
+            leaf_put(made, &leaf_points(old)[i]);
+    return undo_log_replace(&b->log, old);
+}
+
+static bool take_from_leaf(bulk *b, const node *old, const morton_item *items, size_t count, node *made)
+{
+    bool *gone = arena_take(&b->tree->store.memory, old->count + 1);
+    if (!gone)
+        return false;
+    memset(gone, 0, old->count + 1);
+    uint32_t left = old->count;
+    for (size_t i = 0; i < count; i++) {
+        const octree_point *point = point_of(b, &items[i]);
+        const uint32_t index = leaf_find(old, point->position, point->id);
+        if (index == LEAF_NONE || gone[index]) {
+            set_status(b, &items[i], OCTREE_NOT_FOUND);
+        } else {
+            gone[index] = true;
+            left--;
+        }
+    }
+    const bool ok = left == old->count || make_rest(b, old, gone, left, made);
+    arena_give(&b->tree->store.memory, gone, old->count + 1);
+    return ok;
+}
+
+/* An inner node of the children that are not empty, or one leaf if it fits. */
+static bool make_parent(bulk *b, const node children[8], unsigned octants, uint32_t count, node *made)
+{
+    unsigned left = 0, mask = 0;
+    for (unsigned octant = 0; octant < 8; octant++)
+        if ((octants >> octant & 1) && children[octant].count > 0)
+            mask |= 1u << octant;
+    if (mask == 0)
+        return undo_log_make_leaf(&b->log, made, 0);
+    node *group = undo_log_make_group(&b->log, bits_count8(mask));
+    if (!group)
+        return false;
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (mask >> octant & 1)
+            group[left++] = children[octant];
+    *made = (node){.below = group, .count = count, .octants = (uint8_t)mask};
+    return !fits_leaf(b->tree, count) || undo_log_collapse(&b->log, made);
+}
+
+/* What a node of this depth becomes without the items. */
+static bool take(bulk *b, const node *old, unsigned depth, const morton_item *items, size_t count, node *made)
+{
+    *made = *old;
+    if (count == 0)
+        return true;
+    if (!old->octants)
+        return take_from_leaf(b, old, items, count, made);
+    node children[8];
+    size_t shares[8];
+    uint32_t left = old->count;
+    share_out(items, count, depth, shares);
+    for (unsigned octant = 0; octant < 8; items += shares[octant++]) {
+        const node *child = child_at(old, octant);
+        for (size_t i = 0; !child && i < shares[octant]; i++)
+            set_status(b, &items[i], OCTREE_NOT_FOUND);
+        if (child)
+            children[octant] = *child;
+        if (!child || shares[octant] == 0)
+            continue;
+        if (!take(b, child, depth + 1, items, shares[octant], &children[octant]))
+            return false;
+        left -= child->count - children[octant].count;
+    }
+    if (left == old->count)
+        return true;
+    return make_parent(b, children, old->octants, left, made) && undo_log_replace(&b->log, old);
+}
+
+static octree_status remove_items(bulk *b, node *root)
+{
+    return take(b, &b->tree->root, 0, b->items, b->count, root) ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                 size_t *removed)
+{
+    if (!tree || (!points && count))
+        return OCTREE_NULL_ARGUMENT;
+    const uint32_t before = tree->root.count;
+    bulk b = {.tree = tree, .points = points, .point_count = count, .statuses = statuses};
+    const octree_status status = change_many(&b, remove_items);
+    if (status == OCTREE_OK && removed)
+        *removed = before - tree->root.count;
     return status;
 }

@@ -1,7 +1,7 @@
 /* check.c - the validator: every invariant of the nodes. */
 #include "exact.h"
-#include "float_mode.h"
-#include "leaf.h"
+#include "float_rules.h"
+#include "walk.h"
 
 static const char *check_inner(const octree *tree, const node *n, cell c)
 {
@@ -21,22 +21,22 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
     return NULL;
 }
 
-/* Where a cell's points may lie: by the planes, which is what a key is found by. A cell is open above, unless it is one
- * of the world's last, which is closed; so what is in its cell is in the world too. */
-static octree_box room_of(const stacked *leaf)
+/* Where the points of a leaf may lie. A cell is open at its upper planes, except at the world's maximum faces, which
+ * belong to it. */
+static octree_box points_box(const stacked *leaf)
 {
-    octree_box room = leaf->box;
+    octree_box box = leaf->box;
     for (int i = 0; i < 3; i++)
         if (leaf->cell.low[i] + cell_size(leaf->cell.depth) != PLANE_GRID)
-            room.max[i] = exact_step_down(room.max[i]);
-    return room;
+            box.max[i] = exact_step_down(box.max[i]);
+    return box;
 }
 
-/* Whether a leaf's point is there before its own index too. */
+/* Whether a leaf's point is stored at a lower index too. */
 static bool is_repeated(const node *n, uint32_t index)
 {
     const octree_point *points = leaf_points(n), *point = &points[index];
-    if (n->room == LEAF_CROWD)
+    if (n->room == LEAF_HASHED)
         return leaf_find(n, point->position, point->id) != index;
     for (uint32_t i = 0; i < index; i++)
         if (points[i].id == point->id && same_position(points[i].position, point->position))
@@ -47,14 +47,14 @@ static bool is_repeated(const node *n, uint32_t index)
 static const char *check_leaf(const octree *tree, const stacked *leaf)
 {
     const node *n = leaf->node;
-    const octree_box room = room_of(leaf);
+    const octree_box box = points_box(leaf);
     if (!fits_leaf(tree, n->count) && may_split(tree, leaf->cell))
         return "a leaf that could split is over its capacity";
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
     for (uint32_t i = 0; i < n->count; i++) {
         const double *position = leaf_points(n)[i].position;
-        if (!box_contains(&room, position))
+        if (!box_contains(&box, position))
             return box_contains(&tree->def.world, position) ? "a point is not in its leaf's cell"
                                                             : "a point is outside the world";
         if (is_repeated(n, i))

@@ -1,34 +1,33 @@
-/* insert.c - Algorithm 1: a point goes down to its leaf; a full leaf splits, refuses or grows. */
-#include "insert.h"
-#include "leaf.h"
-#include "tune.h"
+/* insert.c - Algorithm 1: a point goes down to its leaf; a full leaf splits, refuses or grows. A move is an insertion
+ * and a removal, or stays within its leaf. */
+#include "remove.h"
 
 #include <string.h>
 
-/* The path's last node is inner, and the octant is not occupied: give it a leaf with this point. */
+/* The path ends at an inner node whose octant is not occupied: add a leaf with this point. */
 static octree_status add_child(octree *tree, node *parent, unsigned octant, const octree_point *point)
 {
     const unsigned children = bits_count8(parent->octants), index = child_index(parent, octant);
     node leaf = {0};
-    if (!leaf_append(tree, &leaf, point))
+    if (!leaf_append(&tree->store, &leaf, point))
         return OCTREE_NO_MEMORY;
-    node *group = pool_take(&tree->nodes, children + 1);
+    node *group = pool_take(&tree->store.nodes, children + 1);
     if (!group) {
-        leaf_release(tree, &leaf);
+        leaf_release(&tree->store, &leaf);
         return OCTREE_NO_MEMORY;
     }
     memcpy(group, parent->below, index * sizeof(node));
     group[index] = leaf;
     memcpy(group + index + 1, children_of(parent) + index, (children - index) * sizeof(node));
-    pool_give(&tree->nodes, parent->below, children);
+    pool_give(&tree->store.nodes, parent->below, children);
     parent->below = group;
     parent->octants |= (uint8_t)(1u << octant);
     return OCTREE_OK;
 }
 
-/* How many points of a full leaf, and of a new one, each octant of a cell receives. */
+/* How the points of a full leaf and a new one are distributed to the octants of a cell. */
 typedef struct shares {
-    double planes[3]; /* that cut the cell */
+    double planes[3]; /* in the middle of the cell */
     uint32_t counts[8];
     uint8_t mask;
 } shares;
@@ -58,9 +57,9 @@ static shares count_shares(const octree *tree, cell c, const node *full, const o
     return s;
 }
 
-/* From the cell of a full leaf down to the one in which its points and a new one come apart, or that holds them all and
- * cannot be divided. True in the first case. */
-static bool find_parting(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
+/* From the cell of a full leaf down to the first one whose octants separate its points and a new one: true. False when
+ * the last cell that can be divided does not; *c is then the one below it, which holds them all. */
+static bool find_split(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
 {
     for (; may_split(tree, *c); *c = cell_child(*c, bits_lowest(s->mask))) {
         *s = count_shares(tree, *c, full, point);
@@ -73,22 +72,23 @@ static bool find_parting(const octree *tree, const node *full, const octree_poin
 static bool make_leaves(octree *tree, node *group, const shares *s)
 {
     for (unsigned octant = 0; octant < 8; octant++)
-        if (s->counts[octant] && !leaf_create(tree, group++, s->counts[octant]))
+        if (s->counts[octant] && !leaf_create(&tree->store, group++, s->counts[octant]))
             return false;
     return true;
 }
 
-/* An inner node whose leaves share the points of a full leaf and a new one. No memory: nothing is left behind. */
-static bool make_parting(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
+/* An inner node with leaves for the points of a full leaf and a new one. False when there is no memory; nothing is
+ * allocated then. */
+static bool make_split(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
 {
     const unsigned children = bits_count8(s->mask);
-    node *group = pool_take(&tree->nodes, children);
+    node *group = pool_take(&tree->store.nodes, children);
     if (!group)
         return false;
     memset(group, 0, children * sizeof(node));
     *made = (node){.below = group, .count = full->count + 1, .octants = s->mask};
     if (!make_leaves(tree, group, s)) {
-        node_release(tree, made);
+        node_release(&tree->store, made);
         return false;
     }
     for (uint32_t i = 0; i < full->count; i++)
@@ -100,10 +100,9 @@ static bool make_parting(octree *tree, node *made, const node *full, const octre
 /* A leaf of the points of a full leaf and a new one. */
 static bool make_grown(octree *tree, node *made, const node *full, const octree_point *point)
 {
-    if (!leaf_create(tree, made, full->count + 1))
+    if (!leaf_create(&tree->store, made, full->count + 1))
         return false;
-    for (uint32_t i = 0; i < full->count; i++)
-        leaf_put(made, &leaf_points(full)[i]);
+    node_gather(made, full, NULL);
     leaf_put(made, point);
     return true;
 }
@@ -112,9 +111,9 @@ static bool make_grown(octree *tree, node *made, const node *full, const octree_
 static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
 {
     for (; from > to; from--) {
-        node *only = pool_take(&tree->nodes, 1);
+        node *only = pool_take(&tree->store.nodes, 1);
         if (!only) {
-            node_release(tree, bottom);
+            node_release(&tree->store, bottom);
             return false;
         }
         *only = *bottom;
@@ -124,22 +123,22 @@ static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from,
     return true;
 }
 
-/* A full leaf of depth `depth` meets one more point. What replaces it is made beside it and then put in its place, so
- * that nothing has happened when memory runs out. */
-static octree_status overflow(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth)
+/* Add a point to a full leaf of this depth. The replacement is built first and then put in its place, so that nothing
+ * has changed when memory runs out. */
+static octree_status split_or_grow(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth)
 {
     cell bottom = path_cell(code, depth);
     shares s;
-    const bool parts = find_parting(tree, leaf, point, &bottom, &s);
-    if (!parts && tree->def.full_leaf == OCTREE_REFUSE)
+    const bool splits = find_split(tree, leaf, point, &bottom, &s);
+    if (!splits && tree->def.full_leaf == OCTREE_REFUSE)
         return OCTREE_FULL;
-    if (!parts && bottom.depth == depth)
-        return leaf_append(tree, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    if (!splits && bottom.depth == depth)
+        return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
     node made;
-    const bool enough = parts ? make_parting(tree, &made, leaf, point, &s) : make_grown(tree, &made, leaf, point);
+    const bool enough = splits ? make_split(tree, &made, leaf, point, &s) : make_grown(tree, &made, leaf, point);
     if (!enough || !make_chain(tree, &made, code, bottom.depth, depth))
         return OCTREE_NO_MEMORY;
-    leaf_release(tree, leaf);
+    leaf_release(&tree->store, leaf);
     *leaf = made;
     return OCTREE_OK;
 }
@@ -149,25 +148,26 @@ static octree_status add_to_leaf(octree *tree, node *leaf, const octree_point *p
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
         return OCTREE_DUPLICATE;
     if (leaf->count >= tree->def.leaf_capacity)
-        return overflow(tree, leaf, point, code, depth);
-    return leaf_append(tree, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
+        return split_or_grow(tree, leaf, point, code, depth);
+    return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
-octree_status insert_point(octree *tree, const octree_point *point)
+/* DUPLICATE, FULL, NO_MEMORY, TOO_MANY or OK, for a position that was checked. */
+static octree_status insert_point(octree *tree, const octree_point *point)
 {
     if (tree->root.count == UINT32_MAX)
         return OCTREE_TOO_MANY;
     const uint64_t code = morton_code(tree->axes, point->position);
-    path way = path_to(tree, code);
-    node *end = path_end(&way);
+    path p = path_to(tree, code);
+    node *end = path_end(&p);
     const bool is_leaf = end->octants == 0;
-    const octree_status status = is_leaf ? add_to_leaf(tree, end, point, code, way.depth)
-                                         : add_child(tree, end, morton_octant(code, way.depth), point);
+    const octree_status status = is_leaf ? add_to_leaf(tree, end, point, code, p.depth)
+                                         : add_child(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
-    const unsigned inner = is_leaf ? way.depth : way.depth + 1; /* a leaf has counted its point itself */
+    const unsigned inner = is_leaf ? p.depth : p.depth + 1; /* leaf_append() has counted the leaf's */
     for (unsigned i = 0; i < inner; i++)
-        way.nodes[i]->count++;
+        p.nodes[i]->count++;
     tree->version++;
     return OCTREE_OK;
 }
@@ -180,4 +180,47 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
     const octree_status inserted = insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id});
     tune_if_due(tree);
     return inserted;
+}
+
+/* ---- Moving ------------------------------------------------------------------------------------------------- */
+
+/* Only the insertion can be refused, so it comes first; memory for the removal is reserved before it. That is enough:
+ * the tree only grows in between, so nodes that would not merge now will not merge then. */
+static octree_status move_across(octree *tree, const found_point *found, const octree_point *moved)
+{
+    const octree_point old = leaf_points(path_end(&found->path))[found->index];
+    node spare;
+    if (!reserve_merge(tree, found, &spare))
+        return OCTREE_NO_MEMORY;
+    const octree_status status = insert_point(tree, moved);
+    if (status != OCTREE_OK) {
+        leaf_release(&tree->store, &spare);
+        return status;
+    }
+    found_point again; /* the insertion may have moved nodes in memory */
+    find_point(tree, old.position, old.id, &again);
+    remove_found(tree, &again, &spare);
+    return OCTREE_OK;
+}
+
+octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
+{
+    octree_status status = check_position(tree, from);
+    if (status == OCTREE_OK)
+        status = check_position(tree, to);
+    if (status != OCTREE_OK)
+        return status;
+    found_point found;
+    if (!find_point(tree, from, id, &found))
+        return OCTREE_NOT_FOUND;
+    const octree_point moved = {{to[0], to[1], to[2]}, id};
+    const path p = path_to(tree, morton_code(tree->axes, to));
+    if (path_end(&p) != path_end(&found.path))
+        return move_across(tree, &found, &moved);
+    const uint32_t taken = leaf_find(path_end(&p), to, id);
+    if (taken != LEAF_NONE && taken != found.index)
+        return OCTREE_DUPLICATE;
+    leaf_replace(path_end(&p), found.index, &moved);
+    tree->version++;
+    return OCTREE_OK;
 }

@@ -1,24 +1,67 @@
-/* leaf.h - the points of one leaf.
+/* leaf.h - the nodes of a tree, and the points of those that are leaves.
  *
- * Up to 64 points lie in a block of the tree's pool. A leaf beyond that, a crowd, has a block of its own with a hash
- * table behind the points, so that a million equal points are inserted and removed in constant time each.
+ * Up to 64 points lie in a block of the tree's pool. A larger leaf is hashed: it has a block of its own with a hash
+ * table, so that a million equal points are inserted and removed in constant time each.
  */
 #ifndef OCTREE_LEAF_H
 #define OCTREE_LEAF_H
 
+#include "bits.h"
 #include "hashed_leaf.h"
-#include "tree.h"
 
-#define LEAF_CROWD 255
+typedef struct node {
+    void *below;     /* inner: struct node[], the occupied octants' children; leaf: octree_point[]; may be null */
+    uint32_t count;  /* points in and below */
+    uint8_t octants; /* bit mask of the occupied ones; 0 for a leaf */
+    uint8_t room;    /* leaf: points that its block has room for, or LEAF_HASHED */
+} node;
+
+#define LEAF_HASHED 255
 #define LEAF_NONE UINT32_MAX
+
+/* A stack of nodes still to be visited never holds more: 7 siblings for each level, and 8 at the deepest. */
+#define STACK_ROOM (7 * OCTREE_MAX_DEPTH + 8)
+
+/* The memory of a tree. */
+typedef struct store {
+    arena memory;
+    pool nodes; /* groups of siblings */
+    pool points;
+} store;
+
+static inline node *children_of(const node *n)
+{
+    return n->below;
+}
 
 static inline octree_point *leaf_points(const node *leaf)
 {
     return leaf->below;
 }
 
-/* Ask for the memory of all points of a leaf, of a crowd the first. The processor's own guess comes some lines late,
- * which is a quarter of the time of a query whose leaves are not in its cache. */
+static inline unsigned child_index(const node *n, unsigned octant)
+{
+    return bits_count8(n->octants & ((1u << octant) - 1));
+}
+
+/* The child in an octant, or null when the octant is not occupied. */
+static inline node *child_at(const node *n, unsigned octant)
+{
+    return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
+}
+
+/* Start loading memory that will be read soon. Only speed depends on it. */
+static inline void prefetch(const void *memory)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(memory);
+#else
+    (void)memory;
+#endif
+}
+
+/* All points of a leaf; of a hashed one the first. The processor's own prefetching comes some cache lines late, a
+ * quarter of the time of a query whose leaves are not in the cache. */
 static inline void leaf_prefetch(const node *leaf)
 {
     for (uint32_t i = 0; i < leaf->count && i < POOL_MAX_UNITS; i += 2)
@@ -28,31 +71,37 @@ static inline void leaf_prefetch(const node *leaf)
 /* The index of the pair (position, id), or LEAF_NONE. */
 uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id);
 
-/* A leaf of no points with room for `count` of them. False when there is no memory. */
-bool leaf_create(octree *tree, node *leaf, uint32_t count);
+/* An empty leaf with room for `count` points. False when there is no memory. */
+bool leaf_create(store *s, node *leaf, uint32_t count);
+void leaf_release(store *s, node *leaf);
 
 /* Append a pair that is not there yet. False when there is no memory; nothing has changed then. */
-bool leaf_append(octree *tree, node *leaf, const octree_point *point);
+bool leaf_append(store *s, node *leaf, const octree_point *point);
 
-/* Append a pair that is not there yet to a leaf that has room for it. */
+/* The same for a leaf that has room for it. */
 static inline void leaf_put(node *leaf, const octree_point *point)
 {
-    if (leaf->room == LEAF_CROWD)
-        crowd_append(leaf->below, leaf->count, point);
+    if (leaf->room == LEAF_HASHED)
+        hashed_leaf_append(leaf->below, leaf->count, point);
     else
         leaf_points(leaf)[leaf->count] = *point;
     leaf->count++;
 }
 
-/* Take the point at an index out; the last one takes its place. Cannot fail. */
-void leaf_take(octree *tree, node *leaf, uint32_t index);
+/* Remove the point at an index; the last point moves into its place. Cannot fail. */
+void leaf_remove(store *s, node *leaf, uint32_t index);
 
 /* Overwrite the point at an index with a pair that is not there yet. Cannot fail. */
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 
-/* Append all points in and below `from` to a leaf with room for them, but for the one to be left out (or null). */
-void leaf_gather(node *leaf, const node *from, const octree_point *left_out);
+/* Append all points in and below a node, except for one (may be null), to a leaf that has room for them. */
+void node_gather(node *leaf, const node *from, const octree_point *except);
 
-void leaf_release(octree *tree, node *leaf);
+/* Copy the points in and below a node, in the order of their leaves, to [to, end), as far as they fit. Returns the end
+ * of the copies. */
+octree_point *node_copy_points(const node *n, octree_point *to, const octree_point *end);
+
+/* Free a node's children or points, and all below; the node itself is the caller's. */
+void node_release(store *s, node *n);
 
 #endif

@@ -1,14 +1,14 @@
-/* morton_sort.c - a radix sort from the world down to small cells: what lies in one cell soon fits a cache. */
+/* A radix sort from the world down to small cells, whose items soon fit a cache. */
 #include "morton_sort.h"
 #include "plane.h"
 
 #include <string.h>
 
 #define FEW 16   /* sorted by insertion */
-#define LEVELS 3 /* of cells that a pass goes down, at most: it writes to 8^3 places */
+#define LEVELS 3 /* of cells a pass goes down, at most: it scatters to 8^3 places */
 
 typedef struct sorter {
-    size_t loose;
+    size_t unsorted;
     bool repeated; /* some items may have one code */
 } sorter;
 
@@ -31,42 +31,42 @@ static bool is_among(const morton_item *items, size_t count, uint64_t code)
     return false;
 }
 
-/* Whether two of up to MORTON_LOOSE items have one code. Of a code 12 bits of a product (Knuth's multiplicative hash)
- * are noted: most often no two are alike, and nothing is compared. */
+/* Whether two of up to MORTON_UNSORTED items have the same code. A filter of 12 bits of a product (Knuth's
+ * multiplicative hash) rarely finds two alike, so that most often nothing is compared. */
 static bool has_repetition(const morton_item *items, size_t count)
 {
-    uint64_t noted[(1u << 12) / 64] = {0};
+    uint64_t filter[(1u << 12) / 64] = {0};
     for (size_t i = 0; i < count; i++) {
         const unsigned hash = (unsigned)(items[i].code * UINT64_C(0x9e3779b97f4a7c15) >> 52);
         const uint64_t bit = UINT64_C(1) << hash % 64;
-        if ((noted[hash / 64] & bit) && is_among(items, i, items[i].code))
+        if ((filter[hash / 64] & bit) && is_among(items, i, items[i].code))
             return true;
-        noted[hash / 64] |= bit;
+        filter[hash / 64] |= bit;
     }
     return false;
 }
 
-/* The items of a cell with `left` levels below it that is not gone into. */
+/* The items of a cell with `left` levels below it that is not divided any further. */
 static void finish(sorter *s, morton_item *items, size_t count, unsigned left)
 {
-    if (left > 0 && count <= s->loose && !has_repetition(items, count))
+    if (left > 0 && count <= s->unsorted && !has_repetition(items, count))
         return;
     s->repeated = true;
     if (left > 0)
         insertion_sort(items, count);
 }
 
-/* As many levels as bring a cell's items down to a few a cell. */
+/* As many levels as leave a few items in each cell. */
 static unsigned levels_for(const sorter *s, size_t count, unsigned left)
 {
-    const size_t wanted = s->loose > 4 ? s->loose : 4;
+    const size_t wanted = s->unsorted > 4 ? s->unsorted : 4;
     unsigned levels = 1;
     while (levels < left && levels < LEVELS && count >> 3 * levels > wanted)
         levels++;
     return levels;
 }
 
-/* Move the items to where their digit begins. ends[d], the number of those with digit d, becomes the end of them. */
+/* Move the items to where those of their digit begin. ends[d], the number of items with digit d, becomes their end. */
 static void scatter(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
                     uint32_t ends[])
 {
@@ -84,7 +84,7 @@ static void scatter(const morton_item *from, morton_item *to, size_t count, unsi
 static void sort(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
                  uint32_t ends[])
 {
-    if (left == 0 || count <= FEW || count <= s->loose) {
+    if (left == 0 || count <= FEW || count <= s->unsorted) {
         finish(s, items, count, left);
         if (!in_place)
             memcpy(other, items, count * sizeof *items);
@@ -94,7 +94,7 @@ static void sort(sorter *s, morton_item *items, morton_item *other, size_t count
     memset(ends, 0, digits * sizeof *ends);
     for (size_t i = 0; i < count; i++)
         ends[items[i].code >> shift & (digits - 1)]++;
-    if (ends[items[0].code >> shift & (digits - 1)] == count) { /* all alike */
+    if (ends[items[0].code >> shift & (digits - 1)] == count) { /* all in one cell */
         sort(s, items, other, count, left - levels, in_place, ends);
         return;
     }
@@ -104,10 +104,10 @@ static void sort(sorter *s, morton_item *items, morton_item *other, size_t count
             sort(s, other + start, items + start, ends[digit] - start, left - levels, !in_place, ends + digits);
 }
 
-bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t loose)
+bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted)
 {
-    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* one part a pass that is under way */
-    sorter s = {.loose = loose};
+    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* a section for each pass in progress */
+    sorter s = {.unsorted = unsorted};
     sort(&s, items, spare, count, OCTREE_MAX_DEPTH - depth, true, ends);
     return s.repeated;
 }

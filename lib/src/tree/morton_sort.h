@@ -1,4 +1,4 @@
-/* morton_sort.h - points in the order of their Morton codes. Private. */
+/* morton_sort.h - sorting points by their Morton codes. */
 #ifndef OCTREE_MORTON_SORT_H
 #define OCTREE_MORTON_SORT_H
 
@@ -6,21 +6,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A point by its code, and where it is. */
+/* A point: its code, and its index. */
 typedef struct morton_item {
     uint64_t code;
-    uint32_t place; /* in the caller's array, or in a leaf */
-    bool stored;    /* in a leaf */
+    uint32_t place; /* index in the caller's array, or in a leaf */
+    bool stored;    /* in a leaf of the tree */
 } morton_item;
 
-/* As many items as may be left loose. */
-#define MORTON_LOOSE 64
+/* Cells of at most this many items may be left unsorted. */
+#define MORTON_UNSORTED 64
 
-/* Sort the items of a cell of this depth by code. The items of a cell that holds at most `loose` of them, up to
- * MORTON_LOOSE, lie together in any order, those of one code side by side: what becomes a leaf is not worth sorting.
- * False when no two items have one code, true when some may. `spare` is room for as many items. Cost: O(count), for up
- * to 21 passes, most often two or three.
- */
-bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t loose);
+/* Sort the items of a cell of this depth by code; those of one code keep their order. Cells that hold at most
+ * `unsorted` items, up to MORTON_UNSORTED, are left in any order, but with equal codes side by side: what becomes a
+ * leaf need not be sorted. False when all codes differ, true when some may be equal. `spare` has room for as many
+ * items. Cost: O(count), in up to 21 passes, most often two or three. */
+bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted);
 
 #endif

@@ -1,8 +1,4 @@
-/* plane.c - see plane.h. */
 #include "plane.h"
-
-#include <math.h>
-#include <string.h>
 
 /* sum[0] + sum[1] = a + b, without error (Knuth's TwoSum). */
 static void add_exactly(double a, double b, double sum[2])
@@ -12,7 +8,7 @@ static void add_exactly(double a, double b, double sum[2])
     sum[1] = (a - (sum[0] - b_seen)) + (b - b_seen);
 }
 
-/* The first 31 bits of a double: their product with a key's 22 is exact. */
+/* The first 31 bits of a double: their product with the 22 bits of a key is exact. */
 static double first_bits(double value)
 {
     uint64_t bits;
@@ -35,10 +31,10 @@ axis axis_make(double min, double max)
     a.half[0] = first_bits(half[0]);
     a.half[1] = half[0] - a.half[0];
     a.half[2] = half[1];
-    a.doubt = 0x1p-29 + 2 * (fmax(fabs(min), fabs(max)) * 0x1p-52 + 0x1p-1074) * a.keys_per_unit;
+    a.guess_error = 0x1p-29 + 2 * (fmax(fabs(min), fabs(max)) * 0x1p-52 + 0x1p-1074) * a.keys_per_unit;
     if (a.subnormal) {
         a.keys_per_unit = (double)PLANE_GRID / subnormal_count(max - min);
-        a.doubt = 0x1p-29 + 4 * a.keys_per_unit;
+        a.guess_error = 0x1p-29 + 4 * a.keys_per_unit;
     }
     a.plain = a.unit == 1 && a.center[1] == 0 && a.half[1] == 0 && a.half[2] == 0;
     return a;
@@ -67,8 +63,8 @@ static uint32_t key_search(const axis *a, double x)
     return key;
 }
 
-/* A division gives the key up to rounding, and planes decide. Where the guess is wild (worlds a few ulps wide, extents
- * that overflow) the search is the answer. */
+/* The guess is right up to rounding, so the planes decide between it and its neighbours. Where it is useless (worlds a
+ * few ulps wide, extents that overflow) a binary search finds the key. */
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess(a, x);
@@ -105,4 +101,76 @@ bool cell_divisible(const axis axes[3], cell c)
             return true;
     }
     return false;
+}
+
+/* ---- Addresses ---------------------------------------------------------------------------------------------- */
+
+int address_compare(const void *a, const void *b)
+{
+    const octree_address p = *(const octree_address *)a, q = *(const octree_address *)b;
+    const uint64_t p_corner = p << (63 - bits_highest(p)), q_corner = q << (63 - bits_highest(q));
+    return p_corner != q_corner ? (p_corner < q_corner ? -1 : 1) : (p > q) - (p < q);
+}
+
+bool is_address(octree_address address)
+{
+    return address != 0 && bits_highest(address) % 3 == 0;
+}
+
+unsigned octree_address_depth(octree_address address)
+{
+    return address ? bits_highest(address) / 3 : 0;
+}
+
+unsigned octree_address_octant(octree_address address, unsigned level)
+{
+    const unsigned depth = octree_address_depth(address);
+    return level < depth ? (unsigned)(address >> 3 * (depth - 1 - level)) & 7 : 0;
+}
+
+char *octree_address_format(octree_address address, char text[OCTREE_ADDRESS_TEXT])
+{
+    const unsigned depth = octree_address_depth(address);
+    char *at = text;
+    for (unsigned level = 0; level < depth; level++) {
+        if (level > 0)
+            *at++ = '/';
+        *at++ = (char)('0' + octree_address_octant(address, level));
+    }
+    *at = 0;
+    return depth ? text : strcpy(text, "root");
+}
+
+bool octree_address_parse(const char *text, octree_address *address)
+{
+    if (!text || !address)
+        return false;
+    *address = OCTREE_ROOT;
+    if (strcmp(text, "root") == 0 || strcmp(text, "/") == 0)
+        return true;
+    octree_address parsed = OCTREE_ROOT;
+    for (unsigned depth = 0; depth < OCTREE_MAX_DEPTH; depth++, text += 2) {
+        if (text[0] < '0' || text[0] > '7')
+            return false;
+        parsed = parsed << 3 | (octree_address)(text[0] - '0');
+        if (text[1] == 0) {
+            *address = parsed;
+            return true;
+        }
+        if (text[1] != '/')
+            return false;
+    }
+    return false;
+}
+
+octree_box octree_cell_box(const octree_box *world, octree_address address)
+{
+    axis axes[3];
+    for (int i = 0; i < 3; i++)
+        axes[i] = axis_make(world->min[i], world->max[i]);
+    cell c = root_cell();
+    const unsigned depth = is_address(address) ? octree_address_depth(address) : 0;
+    while (c.depth < depth)
+        c = cell_child(c, octree_address_octant(address, c.depth));
+    return cell_bounds(axes, c);
 }

@@ -1,28 +1,27 @@
-/* plane.h - where the cells of a world lie: one closed form for insertion, queries and drawing.
+/* plane.h - planes, cells, Morton codes and addresses: one closed form for insertion, queries and drawing.
  *
- * Each axis of the world is cut by 2^21 + 1 grid planes. A cell of depth d spans 2^(21-d) of their gaps an axis. The
- * key of a coordinate is the gap that it lies in: the largest k with plane(k) <= x. Three keys interleaved are a
- * point's Morton code, whose octants from the top are the point's way down the tree.
+ * Each axis of the world is cut by 2^21 + 1 grid planes. A cell of depth d spans 2^(21-d) of the gaps between them on
+ * each axis. The key of a coordinate is the gap it lies in: the largest k with plane(k) <= x. Three keys interleaved
+ * are a point's Morton code, whose octants from the top are the point's path down the tree.
  */
 #ifndef OCTREE_PLANE_H
 #define OCTREE_PLANE_H
 
-#include "float_rules.h"
 #include "bits.h"
+#include "float_rules.h"
 #include "octree/octree.h"
-#include "subnormal.h"
 
 #define PLANE_GRID (1u << OCTREE_MAX_DEPTH)
 
 typedef struct axis {
     double min, max;
-    double unit;          /* a power of two: the terms below are in its multiples */
+    double unit;          /* a power of two, in which the terms below are given */
     double center[2];     /* (min + max) / 2 as an unevaluated sum */
-    double half[3];       /* (max - min) / 2 as another, whose first term has 31 bits */
-    bool plain;           /* two terms and one rounding are enough */
-    bool subnormal;       /* all coordinates are, and their differences */
+    double half[3];       /* (max - min) / 2 likewise; the first term has 31 bits */
+    bool plain;           /* the first terms and one rounding are enough */
+    bool subnormal;       /* all coordinates and their differences are */
     double keys_per_unit; /* a guess only: may be 0 or infinite in extreme worlds */
-    double doubt;         /* how far that guess can be off, in keys; may be infinite or NaN */
+    double guess_error;   /* bound for that guess, in keys; may be infinite or NaN */
 } axis;
 
 axis axis_make(double min, double max);
@@ -40,8 +39,8 @@ static inline double plane_inside(const axis *a, double t)
 }
 
 /* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with t = k / 2^20 - 1, which is exact. The terms are
- * summed to some 80 bits before the one rounding that shows. So a plane is the paper's (min + max) / 2 of (min + max) /
- * 2 wherever those are doubles; planes are monotone, since neighbours are 2^-21 of the extent apart; nothing overflows.
+ * summed to some 80 bits before the one rounding that shows. So planes are the paper's repeated (min + max) / 2
+ * wherever those are doubles; they are monotone, since neighbours are 2^-21 of the extent apart; and nothing overflows.
  */
 static inline double plane_at(const axis *a, uint32_t k)
 {
@@ -55,19 +54,19 @@ static inline double plane_guess(const axis *a, double x)
     return (a->subnormal ? subnormal_count(above) : above) * a->keys_per_unit;
 }
 
-/* The key of a coordinate that is near a plane, or that no guess can be trusted for. */
+/* The same as plane_key() for a coordinate near a plane, where the guess may be wrong. */
 uint32_t plane_key_near(const axis *a, double x);
 
 /* The key of a coordinate of the world, 0 <= key < PLANE_GRID. The guess has four roundings of a number below 2^21,
- * which is less than 2^-29 in all, and a plane is off from its ideal place by an ulp of the world's coordinates at
- * most: a guess farther than that from a whole number is right. */
+ * less than 2^-29 in all, and a plane is off its ideal place by at most an ulp of the world's coordinates: a guess
+ * farther than that from a whole number is right. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
     const double guess = plane_guess(a, x);
     if (guess >= 0 && guess < (double)PLANE_GRID) {
         const uint32_t key = (uint32_t)guess;
-        const double beyond = guess - (double)key;
-        if (beyond > a->doubt && beyond < 1 - a->doubt)
+        const double fraction = guess - (double)key;
+        if (fraction > a->guess_error && fraction < 1 - a->guess_error)
             return key;
     }
     return plane_key_near(a, x);
@@ -82,6 +81,11 @@ typedef struct cell {
 static inline uint32_t cell_size(unsigned depth)
 {
     return PLANE_GRID >> depth;
+}
+
+static inline cell root_cell(void)
+{
+    return (cell){{0, 0, 0}, 0};
 }
 
 static inline cell cell_child(cell parent, unsigned octant)
@@ -124,7 +128,10 @@ static inline octree_address morton_address(uint64_t code, unsigned depth)
     return (UINT64_C(1) << 3 * depth) | code >> (3 * (OCTREE_MAX_DEPTH - depth));
 }
 
-/* Whether a word is the address of any cell: its highest bit is that of a depth. */
+/* For qsort: addresses in the order in which octree_walk() visits nodes, parents first. */
+int address_compare(const void *a, const void *b);
+
+/* Whether a word is a valid address: its leading 1 stands at a multiple of three bits. */
 bool is_address(octree_address address);
 
 #endif

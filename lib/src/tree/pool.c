@@ -1,4 +1,3 @@
-/* pool.c - see pool.h. */
 #include "pool.h"
 #include "bits.h"
 
@@ -8,12 +7,12 @@
 #define SLAB_MAX_BYTES (1u << 22)
 #define CACHE_LINE 64
 
-/* The header is followed by a bit a unit, which is used while free blocks are joined, and then by the units. */
+/* The header is followed by one bit per unit, used while free blocks are joined, and then by the units. */
 struct slab {
     struct slab *next;
     size_t size; /* bytes in all */
     size_t units;
-    unsigned char *first; /* unit, on a cache line of its own */
+    unsigned char *first; /* unit, at the start of a cache line */
 };
 
 struct free_block {
@@ -74,7 +73,7 @@ static void *pop(pool *p, unsigned units)
 
 void pool_give(pool *p, void *block, unsigned units)
 {
-    p->given_units += units;
+    p->freed_units += units;
     push(p, block, units);
 }
 
@@ -94,7 +93,7 @@ static bool lies_in(const pool *p, const struct slab *slab, const void *block)
     return at >= first && at - first < slab->units * p->unit;
 }
 
-/* The slab that a block lies in: most often the one that the last block lay in. */
+/* The slab that a block lies in: most often that of the block before it. */
 static struct slab *slab_of(const pool *p, const void *block, struct slab *guess)
 {
     struct slab *slab = lies_in(p, guess, block) ? guess : p->slabs;
@@ -122,7 +121,7 @@ static bool is_free(struct slab *slab, size_t unit)
     return unit < slab->units && bits_of(slab)[unit / 64] >> unit % 64 & 1;
 }
 
-/* Put the free runs of a slab into the free lists, in pieces of at most POOL_MAX_UNITS. */
+/* Put the free runs of a slab into the free lists, in blocks of at most POOL_MAX_UNITS. */
 static void push_runs(pool *p, struct slab *slab)
 {
     for (size_t unit = 0; unit < slab->units; unit++) {
@@ -134,7 +133,7 @@ static void push_runs(pool *p, struct slab *slab)
     }
 }
 
-/* Join free blocks that touch. */
+/* Join adjacent free blocks. */
 static void join_free_blocks(pool *p)
 {
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
@@ -142,10 +141,10 @@ static void join_free_blocks(pool *p)
     mark_free(p);
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
         push_runs(p, slab);
-    p->given_units = 0;
+    p->freed_units = 0;
 }
 
-/* An eighth of what is there already, so that no more than an eighth can lie idle. */
+/* An eighth of the pool's size, so that at most an eighth is unused. */
 static size_t next_slab_bytes(const pool *p)
 {
     const size_t eighth = p->total_units * p->unit / 8;
@@ -162,7 +161,7 @@ static bool add_slab(pool *p)
     struct slab *slab = arena_take(p->memory, size);
     if (!slab)
         return false;
-    push(p, p->fresh, (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, or they would have served */
+    push(p, p->fresh, (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, or no slab would be needed */
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
     *slab =
@@ -185,11 +184,11 @@ static void *take_free(pool *p, unsigned units)
     return block;
 }
 
-/* Joining costs as much as what is free. It is worth it when an eighth of the pool is, and when half of that has been
- * given back since the last time: so its cost is shared by as many blocks. */
+/* Joining costs time in proportion to what is free. It is done when an eighth of the pool is free and half of that was
+ * freed since the last time, so that its amortized cost per freed block is constant. */
 static bool worth_joining(const pool *p)
 {
-    return p->free_units > p->total_units / 8 && p->given_units > p->free_units / 2;
+    return p->free_units > p->total_units / 8 && p->freed_units > p->free_units / 2;
 }
 
 void *pool_take(pool *p, unsigned units)
@@ -207,4 +206,26 @@ void *pool_take(pool *p, unsigned units)
     p->fresh += units * p->unit;
     p->fresh_units -= units;
     return block;
+}
+
+void *list_append(arena *memory, list *l, size_t item_size)
+{
+    if (l->count == l->room) {
+        const size_t room = l->room ? 2 * l->room : 16;
+        void *items = room <= SIZE_MAX / item_size ? arena_take(memory, room * item_size) : NULL;
+        if (!items)
+            return NULL;
+        if (l->count)
+            memcpy(items, l->items, l->count * item_size);
+        arena_give(memory, l->items, l->room * item_size);
+        l->items = items;
+        l->room = room;
+    }
+    return (unsigned char *)l->items + l->count++ * item_size;
+}
+
+void list_release(arena *memory, list *l, size_t item_size)
+{
+    arena_give(memory, l->items, l->room * item_size);
+    *l = (list){0};
 }

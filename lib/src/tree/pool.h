@@ -1,9 +1,9 @@
-/* pool.h - blocks of 1 to 64 equal units out of large slabs, with one free list a size.
+/* pool.h - where memory comes from: an arena (the caller's allocator and its byte count), pools, growing arrays.
  *
- * A tree has two pools: one for groups of sibling nodes, one for the points of leaves. A block that is given back is
- * reused whole or in parts. Neighbouring free blocks are joined again before the pool grows, when enough of it is free:
- * so giving back is a few instructions, and churn does not eat memory. The slabs go back to the allocator when the tree
- * is cleared or destroyed.
+ * A pool hands out blocks of 1 to 64 equal units from large slabs, with one free list for each size. A tree has two:
+ * for groups of sibling nodes, and for the points of leaves. A freed block is reused whole or split. Adjacent free
+ * blocks are joined before the pool grows, if enough of it is free: so freeing takes a few instructions, and memory
+ * does not fragment under churn. Slabs go back to the allocator when the tree is cleared or destroyed.
  */
 #ifndef OCTREE_POOL_H
 #define OCTREE_POOL_H
@@ -12,7 +12,7 @@
 
 #define POOL_MAX_UNITS 64
 
-/* The tree's memory: its allocator, and how many bytes are out. */
+/* The allocator of a tree or a game, and how many bytes are allocated from it. */
 typedef struct arena {
     octree_allocator allocator;
     size_t bytes;
@@ -25,11 +25,11 @@ typedef struct pool {
     arena *memory;
     size_t unit; /* bytes, at least a pointer's */
     struct slab *slabs;
-    unsigned char *fresh; /* untouched units of the newest slab */
+    unsigned char *fresh; /* units of the newest slab that were never handed out */
     size_t fresh_units;
     size_t total_units;
     size_t free_units;  /* in the free lists */
-    size_t given_units; /* given back since free blocks were last joined */
+    size_t freed_units; /* since free blocks were last joined */
     uint64_t available; /* bit u - 1 is set when free_blocks[u - 1] is not empty */
     struct free_block *free_blocks[POOL_MAX_UNITS];
 } pool;
@@ -40,7 +40,18 @@ void pool_release(pool *p);
 /* A block of 1..POOL_MAX_UNITS units, or null when there is no memory. */
 void *pool_take(pool *p, unsigned units);
 
-/* Give a block back, or the tail of one: any run of units that was taken. */
+/* Free a block, or the end of one: any run of units within a block that was taken. */
 void pool_give(pool *p, void *block, unsigned units);
+
+/* A growing array. */
+typedef struct list {
+    void *items;
+    size_t count;
+    size_t room;
+} list;
+
+/* Space for one more item of this size, which must be the same at every call; null when there is no memory. */
+void *list_append(arena *memory, list *l, size_t item_size);
+void list_release(arena *memory, list *l, size_t item_size);
 
 #endif

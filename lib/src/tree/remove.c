@@ -1,71 +1,55 @@
-/* remove.c - Algorithm 2: a point is taken out; nodes whose points now fit one leaf merge. */
+/* Algorithm 2: a point is removed; nodes whose points now fit one leaf merge. */
 #include "remove.h"
-#include "leaf.h"
 
 #include <string.h>
 
-bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found)
+/* The depth of the highest node on the path that fits one leaf with one point less; the leaf's own when none does. */
+static unsigned merge_depth(const octree *tree, const path *p)
 {
-    found->way = path_to(tree, morton_code(tree->axes, position));
-    const node *end = path_end(&found->way);
-    if (end->octants)
-        return false;
-    found->index = leaf_find(end, position, id);
-    return found->index != LEAF_NONE;
-}
-
-/* The depth of the highest node on the way that fits one leaf when a point is gone; the leaf's own when none does. */
-static unsigned merge_depth(const octree *tree, const path *way)
-{
-    unsigned depth = way->depth;
-    while (depth > 0 && fits_leaf(tree, way->nodes[depth - 1]->count - 1))
+    unsigned depth = p->depth;
+    while (depth > 0 && fits_leaf(tree, p->nodes[depth - 1]->count - 1))
         depth--;
     return depth;
 }
 
-bool reserve_merge(octree *tree, const found_point *found, node *room)
+bool reserve_merge(octree *tree, const found_point *found, node *spare)
 {
-    const unsigned depth = merge_depth(tree, &found->way);
-    *room = (node){.below = NULL};
-    return depth == found->way.depth || leaf_create(tree, room, found->way.nodes[depth]->count - 1);
+    const unsigned depth = merge_depth(tree, &found->path);
+    *spare = (node){.below = NULL};
+    return depth == found->path.depth || leaf_create(&tree->store, spare, found->path.nodes[depth]->count - 1);
 }
 
-static void merge(octree *tree, node *n, const octree_point *left_out, node *room)
-{
-    leaf_gather(room, n, left_out);
-    node_release(tree, n);
-    *n = *room;
-}
-
-/* Take an empty leaf out of its parent's group of children; the group's block loses its tail. */
+/* Remove an empty leaf from its parent's group of children; the end of the group's block is freed. */
 static void drop_child(octree *tree, node *parent, node *child)
 {
     node *group = children_of(parent);
     const unsigned children = bits_count8(parent->octants), index = (unsigned)(child - group);
-    leaf_release(tree, child);
+    leaf_release(&tree->store, child);
     memmove(child, child + 1, (children - index - 1) * sizeof(node));
-    pool_give(&tree->nodes, group + children - 1, 1);
+    pool_give(&tree->store.nodes, group + children - 1, 1);
     unsigned octant = 0;
     while (!(parent->octants >> octant & 1) || child_index(parent, octant) != index)
         octant++;
     parent->octants &= (uint8_t) ~(1u << octant);
 }
 
-void remove_found(octree *tree, const found_point *found, node *room)
+void remove_found(octree *tree, const found_point *found, node *spare)
 {
-    const path *way = &found->way;
-    node *leaf = path_end(way);
-    const unsigned depth = merge_depth(tree, way);
-    if (depth < way->depth) {
-        merge(tree, way->nodes[depth], &leaf_points(leaf)[found->index], room);
+    const path *p = &found->path;
+    node *leaf = path_end(p);
+    const unsigned depth = merge_depth(tree, p);
+    if (depth < p->depth) {
+        node_gather(spare, p->nodes[depth], &leaf_points(leaf)[found->index]);
+        node_release(&tree->store, p->nodes[depth]);
+        *p->nodes[depth] = *spare;
     } else {
-        leaf_release(tree, room);
-        leaf_take(tree, leaf, found->index);
-        if (leaf->count == 0 && way->depth > 0)
-            drop_child(tree, way->nodes[way->depth - 1], leaf);
+        leaf_release(&tree->store, spare);
+        leaf_remove(&tree->store, leaf, found->index);
+        if (leaf->count == 0 && p->depth > 0)
+            drop_child(tree, p->nodes[p->depth - 1], leaf);
     }
     for (unsigned i = 0; i < depth; i++)
-        way->nodes[i]->count--;
+        p->nodes[i]->count--;
     tree->version++;
 }
 
@@ -77,9 +61,9 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
     found_point found;
     if (!find_point(tree, position, id, &found))
         return OCTREE_NOT_FOUND;
-    node room;
-    if (!reserve_merge(tree, &found, &room))
+    node spare;
+    if (!reserve_merge(tree, &found, &spare))
         return OCTREE_NO_MEMORY;
-    remove_found(tree, &found, &room);
+    remove_found(tree, &found, &spare);
     return OCTREE_OK;
 }

@@ -1,12 +1,15 @@
-/* tree.c - making and freeing a tree, and the way from its root to a leaf. */
 #include "tree.h"
-#include "leaf.h"
-#include "float_mode.h"
+#include "float_rules.h"
 #include "metric.h"
-#include "tune.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+/* With fewer points a chosen capacity gains nothing. */
+#define TUNE_LEAST 1024
+
+/* ---- Making and freeing
+ * ----------------------------------------------------------------------------------------------- */
 
 static void *default_allocate(size_t size, void *context)
 {
@@ -77,12 +80,14 @@ octree_status octree_create(const octree_def *def, octree **tree)
     octree *made = arena_take(&memory, sizeof *made);
     if (!made)
         return OCTREE_NO_MEMORY;
-    *made = (octree){.def = clamp_def(*def), .memory = memory, .scale = metric_scale(&def->world)};
-    made->tuning = (tuning){def->leaf_capacity == OCTREE_AUTO, octree_mix_default(), TUNE_LEAST};
+    *made = (octree){.def = clamp_def(*def), .store.memory = memory, .scale = metric_scale(&def->world)};
+    made->tuning = (tuning){NULL, octree_mix_default(), TUNE_LEAST};
+    if (def->leaf_capacity == OCTREE_AUTO)
+        made->tuning.choose = octree_tune;
     for (int i = 0; i < 3; i++)
         made->axes[i] = axis_make(def->world.min[i], def->world.max[i]);
-    pool_init(&made->nodes, &made->memory, sizeof(node));
-    pool_init(&made->points, &made->memory, sizeof(octree_point));
+    pool_init(&made->store.nodes, &made->store.memory, sizeof(node));
+    pool_init(&made->store.points, &made->store.memory, sizeof(octree_point));
     *tree = made;
     return OCTREE_OK;
 }
@@ -92,7 +97,7 @@ void octree_destroy(octree *tree)
     if (!tree)
         return;
     octree_clear(tree);
-    arena memory = tree->memory;
+    arena memory = tree->store.memory;
     arena_give(&memory, tree, sizeof *tree);
 }
 
@@ -100,9 +105,9 @@ octree_status octree_clear(octree *tree)
 {
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
-    node_release(tree, &tree->root); /* the crowds have blocks of their own */
-    pool_release(&tree->nodes);
-    pool_release(&tree->points);
+    node_release(&tree->store, &tree->root); /* hashed leaves are not in the pools */
+    pool_release(&tree->store.nodes);
+    pool_release(&tree->store.points);
     tree->root = (node){0};
     tree->tuning.due = TUNE_LEAST;
     tree->version++;
@@ -124,6 +129,78 @@ uint64_t octree_version(const octree *tree)
     return tree ? tree->version : 0;
 }
 
+void tune_if_due(octree *tree)
+{
+    const size_t count = tree->root.count;
+    if (!tree->tuning.choose || count < tree->tuning.due)
+        return;
+    tree->tuning.due = 2 * count;
+    tree->tuning.choose(tree, &tree->tuning.mix);
+}
+
+/* ---- Rebuilding
+ * ------------------------------------------------------------------------------------------------------- */
+
+/* Insert all into an empty tree, or say why one of them does not fit. */
+static octree_status fill(octree *tree, const octree_point *points, size_t count)
+{
+    size_t inserted;
+    for (size_t i = 0; i < count; i++)
+        if (check_position(tree, points[i].position) != OCTREE_OK)
+            return OCTREE_OUTSIDE;
+    const octree_status status = octree_insert_many(tree, points, count, NULL, &inserted);
+    return status == OCTREE_OK && inserted < count ? OCTREE_FULL : status;
+}
+
+/* Two trees of one allocator exchange their contents; `tree` keeps its own tuning and counts a change. */
+static void exchange(octree *tree, octree *other)
+{
+    const octree old = *tree;
+    *tree = *other;
+    *other = old;
+    tree->version = old.version + 1;
+    tree->tuning = old.tuning;
+    tree->store.nodes.memory = tree->store.points.memory = &tree->store.memory;
+    other->store.nodes.memory = other->store.points.memory = &other->store.memory;
+}
+
+octree_status rebuild(octree *tree, const octree_def *def)
+{
+    octree *other;
+    octree_status status = octree_create(def, &other);
+    if (status != OCTREE_OK)
+        return status;
+    const size_t count = octree_count(tree), size = (count + 1) * sizeof(octree_point);
+    octree_point *points = arena_take(&other->store.memory, size);
+    status = OCTREE_NO_MEMORY;
+    if (points) {
+        node_copy_points(&tree->root, points, points + count);
+        status = fill(other, points, count);
+    }
+    arena_give(&other->store.memory, points, size);
+    if (status == OCTREE_OK)
+        exchange(tree, other);
+    octree_destroy(other);
+    return status;
+}
+
+octree_status octree_reworld(octree *tree, const octree_box *world)
+{
+    if (!tree || !world)
+        return OCTREE_NULL_ARGUMENT;
+    octree_def def = tree->def;
+    def.world = *world;
+    return rebuild(tree, &def);
+}
+
+octree_status octree_compact(octree *tree)
+{
+    return tree ? rebuild(tree, &tree->def) : OCTREE_NULL_ARGUMENT;
+}
+
+/* ---- Finding
+ * ---------------------------------------------------------------------------------------------------------- */
+
 octree_status check_position(const octree *tree, const double position[3])
 {
     if (!tree || !position)
@@ -141,16 +218,16 @@ octree_status check_position(const octree *tree, const double position[3])
 
 path path_to(const octree *tree, uint64_t code)
 {
-    /* The one place where const is cast away: those who change the tree hold it as theirs to change. */
-    path way;
-    way.nodes[0] = (node *)(uintptr_t)&tree->root;
-    for (way.depth = 0; path_end(&way)->octants; way.depth++) {
-        node *child = child_at(path_end(&way), morton_octant(code, way.depth));
+    /* The only place where const is cast away: callers that change nodes were given a tree that is not const. */
+    path p;
+    p.nodes[0] = (node *)(uintptr_t)&tree->root;
+    for (p.depth = 0; path_end(&p)->octants; p.depth++) {
+        node *child = child_at(path_end(&p), morton_octant(code, p.depth));
         if (!child)
             break;
-        way.nodes[way.depth + 1] = child;
+        p.nodes[p.depth + 1] = child;
     }
-    return way;
+    return p;
 }
 
 cell path_cell(uint64_t code, unsigned depth)
@@ -161,62 +238,73 @@ cell path_cell(uint64_t code, unsigned depth)
     return c;
 }
 
-/* The child's cell, whose planes are its parent's and those in the middle of it. */
-static void push_child(node_stack *stack, const stacked *parent, const node *child, unsigned octant,
-                       const double middle[3])
+bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found)
 {
-    stacked *top = &stack->items[stack->size++];
-    *top = (stacked){child, parent->address << 3 | octant, cell_child(parent->cell, octant), parent->box};
-    for (int i = 0; i < 3; i++)
-        *(octant & (4u >> i) ? &top->box.min[i] : &top->box.max[i]) = middle[i];
+    found->path = path_to(tree, morton_code(tree->axes, position));
+    const node *end = path_end(&found->path);
+    if (end->octants)
+        return false;
+    found->index = leaf_find(end, position, id);
+    return found->index != LEAF_NONE;
 }
 
-/* A large tree does not fit the caches: what is below each child is on its way before the child's turn comes. Who asks
- * for cells asks for points. */
-void stack_push_children(node_stack *stack)
+octree_status octree_find(const octree *tree, const double position[3], uint64_t *id)
 {
-    const stacked parent = stack->items[stack->size];
-    const uint32_t half = cell_size(parent.cell.depth + 1);
-    const node *child = children_of(parent.node) + bits_count8(parent.node->octants);
-    double middle[3];
-    for (int i = 0; i < 3; i++)
-        middle[i] = plane_at(&stack->tree->axes[i], parent.cell.low[i] + half);
-    for (unsigned octant = 8; octant-- > 0;)
-        if (parent.node->octants >> octant & 1) {
-            push_child(stack, &parent, --child, octant, middle);
-            if (child->octants)
-                prefetch(child->below);
-            else
-                leaf_prefetch(child);
+    const octree_status status = check_position(tree, position);
+    if (status != OCTREE_OK)
+        return status;
+    const path p = path_to(tree, morton_code(tree->axes, position));
+    const node *leaf = path_end(&p);
+    bool found = false;
+    uint64_t lowest = UINT64_MAX;
+    for (uint32_t i = 0; leaf->octants == 0 && i < leaf->count; i++) {
+        const octree_point *point = &leaf_points(leaf)[i];
+        if (same_position(point->position, position)) {
+            found = true;
+            lowest = point->id < lowest ? point->id : lowest;
         }
-}
-
-inner inner_stack_next(inner_stack *stack)
-{
-    const inner next = stack->items[--stack->size];
-    const node *child = children_of(next.node) + bits_count8(next.node->octants);
-    for (unsigned octant = 8; octant-- > 0;)
-        if (next.node->octants >> octant & 1 && (--child)->octants) {
-            stack->items[stack->size++] = (inner){child, next.address << 3 | octant};
-            prefetch(child->below);
-        }
-    return next;
-}
-
-void node_release(octree *tree, node *n)
-{
-    node pending[STACK_ROOM]; /* copies, so that a group can be given back before its nodes are looked at */
-    size_t size = 0;
-    pending[size++] = *n;
-    while (size > 0) {
-        node next = pending[--size];
-        if (next.octants == 0) {
-            leaf_release(tree, &next);
-            continue;
-        }
-        const unsigned children = bits_count8(next.octants);
-        for (unsigned i = 0; i < children; i++)
-            pending[size++] = children_of(&next)[i];
-        pool_give(&tree->nodes, next.below, children);
     }
+    if (found && id)
+        *id = lowest;
+    return found ? OCTREE_OK : OCTREE_NOT_FOUND;
+}
+
+bool octree_contains(const octree *tree, const double position[3], uint64_t id)
+{
+    found_point found;
+    return check_position(tree, position) == OCTREE_OK && find_point(tree, position, id, &found);
+}
+
+/* ---- Statuses, and the order of points
+ * -------------------------------------------------------------------------------- */
+
+const char *octree_status_text(octree_status status)
+{
+    static const char *const texts[] = {
+#define STATUS_TEXT(name, word, text) text,
+        OCTREE_STATUS_MAP(STATUS_TEXT)
+#undef STATUS_TEXT
+    };
+    return (unsigned)status < OCTREE_STATUS_COUNT ? texts[status] : "unknown status";
+}
+
+const char *octree_status_name(octree_status status)
+{
+    static const char *const words[] = {
+#define STATUS_WORD(name, word, text) word,
+        OCTREE_STATUS_MAP(STATUS_WORD)
+#undef STATUS_WORD
+    };
+    return (unsigned)status < OCTREE_STATUS_COUNT ? words[status] : "unknown";
+}
+
+int octree_compare_points(const void *a, const void *b)
+{
+    const octree_point *p = a, *q = b;
+    if (p->id != q->id)
+        return p->id < q->id ? -1 : 1;
+    for (int i = 0; i < 3; i++)
+        if (p->position[i] != q->position[i])
+            return p->position[i] < q->position[i] ? -1 : 1;
+    return 0;
 }

@@ -1,13 +1,12 @@
-/* tune.c - the leaf capacity by a cost model: what operations visit, weighed. */
-#include "tune.h"
-#include "rebuild.h"
+/* tune.c - the leaf capacity by a cost model: the weighted counts of what operations visit in trial trees. */
+#include "tree.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 /* ---- The model ---------------------------------------------------------------------------------------------- */
 
-/* What it costs to enter an inner node, to enter a leaf, and to look at a point. Fitted to the times of all operations
+/* The cost of entering an inner node, of entering a leaf, and of reading a point. Fitted to the times of all operations
  * on uniform, gaussian, clustered and surface points, 5e4 and 1e6 of them, at capacities from 1 to 128: 30, 15 and 1 ns
  * in the caches, 32, 23 and less than 1 ns beyond them. Only the ratios matter. */
 static const double inner_weight = 30, leaf_weight = 20, point_weight = 1;
@@ -20,10 +19,10 @@ static double weigh(const octree_cost *cost)
 
 enum { LEAST_CAPACITY = 4, MOST_CAPACITY = 256 };
 
-/* ---- A sample: whole cells, so that it is as dense as the tree ---------------------------------------------- */
+/* ---- A sample of whole cells, which has the density of the tree --------------------------------------------- */
 
 /* Cells have at least 16 points for each that a query asks for: a range about a point of a cell must not reach far
- * beyond it. Of cells that large there are fewer. */
+ * beyond it. The larger the cells, the fewer are taken. */
 enum { LEAST_CELL = 4096, MOST_CELL = 32768, TARGETS = 128 };
 
 static size_t cell_points(const octree_mix *mix)
@@ -38,42 +37,31 @@ typedef struct sample {
     double extents[TARGETS]; /* half the side of each target's range */
 } sample;
 
-static bool add_point(const octree_point *point, void *context)
-{
-    sample *s = context;
-    if (s->count < s->room)
-        s->points[s->count++] = *point;
-    return s->count < s->room;
-}
-
-/* Of a tree with more points than the room, about every `step`-th point lies in a cell that is taken. */
+/* Which cells are copied: of a tree with more points than there is room for, about every `step`-th point's. */
 typedef struct picking {
-    sample *sample;
-    const octree *tree;
     size_t cell; /* points that a cell has at most */
     size_t met, step;
 } picking;
 
-static octree_walk_order pick_cell(const octree_node *seen, void *context)
+static void pick_cells(sample *s, picking *p, const node *n)
 {
-    picking *p = context;
-    if (!seen->leaf && seen->count > p->cell)
-        return OCTREE_WALK_ON;
-    const size_t first = p->met;
-    p->met += seen->count;
-    if (first / p->step != p->met / p->step)
-        octree_range(p->tree, &seen->box, add_point, p->sample);
-    return OCTREE_WALK_SKIP;
+    const unsigned children = n->count > p->cell ? bits_count8(n->octants) : 0;
+    for (unsigned i = 0; i < children; i++)
+        pick_cells(s, p, &children_of(n)[i]);
+    const size_t before = p->met;
+    p->met += children ? 0 : n->count;
+    if (before / p->step != p->met / p->step)
+        s->count = (size_t)(node_copy_points(n, s->points + s->count, s->points + s->room) - s->points);
 }
 
 static bool take_sample(sample *s, octree *tree, const octree_mix *mix)
 {
     const size_t count = octree_count(tree), cell = cell_points(mix);
     *s = (sample){.room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL};
-    s->points = arena_take(&tree->memory, s->room * sizeof *s->points);
+    s->points = arena_take(&tree->store.memory, s->room * sizeof *s->points);
     if (!s->points)
         return false;
-    octree_walk(tree, pick_cell, &(picking){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
+    pick_cells(s, &(picking){cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)}, &tree->root);
     qsort(s->points, s->count, sizeof *s->points, octree_compare_points); /* whatever order the tree holds them in */
     return true;
 }
@@ -83,14 +71,7 @@ static const octree_point *target_of(const sample *s, size_t i)
     return &s->points[i * s->count / TARGETS];
 }
 
-/* ---- The trial ---------------------------------------------------------------------------------------------- */
-
-static bool go_on(const octree_point *point, void *context)
-{
-    (void)point;
-    (void)context;
-    return true;
-}
+/* ---- Trials ------------------------------------------------------------------------------------------------ */
 
 /* The cube about a target that is as large as the ball with so many points. */
 static octree_status measure_ranges(sample *s, const octree *trial, size_t hits, octree_neighbor *room)
@@ -120,6 +101,13 @@ static octree_cost cost_of_nearest(const octree *trial, const octree_point *targ
     return cost;
 }
 
+static bool go_on(const octree_point *point, void *context)
+{
+    (void)point;
+    (void)context;
+    return true;
+}
+
 static octree_cost cost_of_range(const octree *trial, const octree_point *target, double extent)
 {
     octree_cost cost = {0};
@@ -142,7 +130,6 @@ static double weigh_mix(const sample *s, const octree *trial, const octree_mix *
     return sum;
 }
 
-/* Try one capacity. */
 static octree_status try_capacity(sample *s, octree_def def, const octree_mix *mix, octree_neighbor *room, double *cost)
 {
     octree *trial;
@@ -187,7 +174,7 @@ static octree_status check_mix(const octree_mix *mix)
     return none || mix->changes < 0 || mix->nearest < 0 || mix->ranges < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
 }
 
-/* The mix as it is tried: shares of their sum, so that none overflows, and numbers that the sample can hold. */
+/* Shares of their sum, so that none overflows, and numbers of points that the sample can hold. */
 static octree_mix clamp_mix(octree_mix mix, size_t most)
 {
     const double sum = mix.changes / 4 + mix.nearest / 4 + mix.ranges / 4;
@@ -205,11 +192,11 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     octree_status status = OCTREE_NO_MEMORY;
     const octree_mix tried = clamp_mix(*mix, LEAST_CELL);
     const size_t size = ((tried.k > tried.hits ? tried.k : tried.hits) + 1) * sizeof(octree_neighbor);
-    octree_neighbor *room = arena_take(&tree->memory, size);
+    octree_neighbor *room = arena_take(&tree->store.memory, size);
     if (take_sample(&s, tree, &tried) && room)
         status = choose(&s, tree->def, &tried, room, capacity);
-    arena_give(&tree->memory, room, size);
-    arena_give(&tree->memory, s.points, s.room * sizeof *s.points);
+    arena_give(&tree->store.memory, room, size);
+    arena_give(&tree->store.memory, s.points, s.room * sizeof *s.points);
     return status;
 }
 
@@ -229,13 +216,4 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
     if (status == OCTREE_OK)
         tree->tuning.mix = asked;
     return status;
-}
-
-void tune_if_due(octree *tree)
-{
-    const size_t count = octree_count(tree);
-    if (!tree->tuning.automatic || count < tree->tuning.due)
-        return;
-    tree->tuning.due = 2 * count;
-    octree_tune(tree, &tree->tuning.mix);
 }

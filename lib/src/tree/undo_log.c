@@ -1,100 +1,84 @@
-/* journal.c - see journal.h. */
 #include "undo_log.h"
-#include "leaf.h"
 
-/* What is given back: a group of nodes, or a leaf's points. */
-typedef struct entry {
-    node node; /* its block alone; of a group as many octants as there are nodes */
-} entry;
-
-static bool note(journal *j, list *entries, node n)
+static bool note(undo_log *log, list *nodes, node n)
 {
-    entry *e = list_append(&j->tree->memory, entries, sizeof *e);
-    if (e)
-        *e = (entry){n};
-    return e != NULL;
+    node *entry = list_append(&log->store->memory, nodes, sizeof *entry);
+    if (entry)
+        *entry = n;
+    return entry != NULL;
 }
 
-static void give_back(octree *tree, node n)
+/* Free a node's own block; of a group the node has as many octants as there are siblings. */
+static void free_block(store *s, node n)
 {
     if (n.octants)
-        pool_give(&tree->nodes, n.below, bits_count8(n.octants));
+        pool_give(&s->nodes, n.below, bits_count8(n.octants));
     else
-        leaf_release(tree, &n);
+        leaf_release(s, &n);
 }
 
-node *journal_make_group(journal *j, unsigned count)
+/* Note a block that was just made; false when there is no memory, the block is then freed. */
+static bool note_made(undo_log *log, node n)
 {
-    node group = {.octants = (uint8_t)((1u << count) - 1)};
-    group.below = pool_take(&j->tree->nodes, count);
-    if (!group.below)
-        return NULL;
-    if (note(j, &j->made, group))
-        return group.below;
-    give_back(j->tree, group);
-    return NULL;
-}
-
-bool journal_make_leaf(journal *j, node *leaf, uint32_t count)
-{
-    if (!leaf_create(j->tree, leaf, count))
-        return false;
-    if (count == 0 || note(j, &j->made, *leaf))
+    if (note(log, &log->made, n))
         return true;
-    leaf_release(j->tree, leaf);
+    free_block(log->store, n);
     return false;
 }
 
-bool journal_replace(journal *j, const node *n)
+node *undo_log_make_group(undo_log *log, unsigned count)
 {
-    return !n->below || note(j, &j->replaced, *n);
+    void *group = pool_take(&log->store->nodes, count);
+    const node parent = {.below = group, .octants = (uint8_t)((1u << count) - 1)};
+    return group && note_made(log, parent) ? group : NULL;
 }
 
-/* And all that is below it too. */
-static bool replace_all(journal *j, const node *n)
+bool undo_log_make_leaf(undo_log *log, node *leaf, uint32_t count)
 {
-    const node *pending[STACK_ROOM];
-    size_t size = 0;
-    pending[size++] = n;
-    while (size > 0) {
-        const node *next = pending[--size];
-        if (!journal_replace(j, next))
-            return false;
-        for (unsigned i = bits_count8(next->octants); i-- > 0;)
-            pending[size++] = &children_of(next)[i];
-    }
-    return true;
+    return leaf_create(log->store, leaf, count) && (count == 0 || note_made(log, *leaf));
 }
 
-bool journal_collapse(journal *j, node *n)
+bool undo_log_replace(undo_log *log, const node *n)
+{
+    return !n->below || note(log, &log->replaced, *n);
+}
+
+static bool replace_all(undo_log *log, const node *n)
+{
+    const unsigned children = bits_count8(n->octants);
+    bool ok = undo_log_replace(log, n);
+    for (unsigned i = 0; ok && i < children; i++)
+        ok = replace_all(log, &children_of(n)[i]);
+    return ok;
+}
+
+bool undo_log_collapse(undo_log *log, node *n)
 {
     node leaf;
-    if (!journal_make_leaf(j, &leaf, n->count))
+    if (!undo_log_make_leaf(log, &leaf, n->count))
         return false;
-    leaf_gather(&leaf, n, NULL);
-    if (!replace_all(j, n))
+    node_gather(&leaf, n, NULL);
+    if (!replace_all(log, n))
         return false;
     *n = leaf;
     return true;
 }
 
-static void end(journal *j, const list *given_back)
+static void end(undo_log *log, const list *freed)
 {
-    const entry *entries = given_back->items;
-    for (size_t i = 0; i < given_back->count; i++)
-        give_back(j->tree, entries[i].node);
-    list_release(&j->tree->memory, &j->made, sizeof(entry));
-    list_release(&j->tree->memory, &j->replaced, sizeof(entry));
+    const node *nodes = freed->items;
+    for (size_t i = 0; i < freed->count; i++)
+        free_block(log->store, nodes[i]);
+    list_release(&log->store->memory, &log->made, sizeof(node));
+    list_release(&log->store->memory, &log->replaced, sizeof(node));
 }
 
-void journal_commit(journal *j, node root)
+void undo_log_commit(undo_log *log)
 {
-    j->tree->root = root;
-    j->tree->version++;
-    end(j, &j->replaced);
+    end(log, &log->replaced);
 }
 
-void journal_abandon(journal *j)
+void undo_log_abandon(undo_log *log)
 {
-    end(j, &j->made);
+    end(log, &log->made);
 }

@@ -1,31 +1,30 @@
-/* journal.h - blocks that a change has taken from the tree's pools, or will give back. Private.
+/* undo_log.h - the memory that a bulk change has allocated for a tree, or will free.
  *
- * A change to many points makes what is new beside what is old, and then puts it in its place: so it either happens or
- * does not. The journal gives back what was made when it does not, and what was replaced when it does.
+ * A change to many points builds new nodes beside the old ones and then exchanges the root, so that it either happens
+ * or does not. The log frees what was made when it does not, and what was replaced when it does.
  */
-#ifndef OCTREE_JOURNAL_H
-#define OCTREE_JOURNAL_H
+#ifndef OCTREE_UNDO_LOG_H
+#define OCTREE_UNDO_LOG_H
 
-#include "list.h"
-#include "tree.h"
+#include "leaf.h"
 
-typedef struct journal {
-    octree *tree;
-    list made, replaced; /* of journal entries */
-} journal;
+typedef struct undo_log {
+    store *store;
+    list made, replaced; /* node: its own block alone */
+} undo_log;
 
 /* A group of sibling nodes, or a leaf with room for `count` points. Null or false when there is no memory. */
-node *journal_make_group(journal *j, unsigned count);
-bool journal_make_leaf(journal *j, node *leaf, uint32_t count);
+node *undo_log_make_group(undo_log *log, unsigned count);
+bool undo_log_make_leaf(undo_log *log, node *leaf, uint32_t count);
 
 /* The node's own group or points will not be part of the tree. */
-bool journal_replace(journal *j, const node *n);
+bool undo_log_replace(undo_log *log, const node *n);
 
-/* A leaf of all points in and below a node, in its place; what was below it is replaced. */
-bool journal_collapse(journal *j, node *n);
+/* Replace a node and all below it by a leaf of their points. */
+bool undo_log_collapse(undo_log *log, node *n);
 
-/* The root that all of this was for. */
-void journal_commit(journal *j, node root);
-void journal_abandon(journal *j);
+/* The change happens, or not: free what was replaced, or what was made. */
+void undo_log_commit(undo_log *log);
+void undo_log_abandon(undo_log *log);
 
 #endif

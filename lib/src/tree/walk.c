@@ -1,7 +1,35 @@
-/* walk.c - looking at the nodes: one by one, by address, by position, and in numbers. */
-#include "float_mode.h"
-#include "leaf.h"
-#include "node_count.h"
+#include "walk.h"
+#include "float_rules.h"
+
+/* A child's cell has the planes of its parent, and those in the middle of it. */
+static void push_child(node_stack *stack, const stacked *parent, const node *child, unsigned octant,
+                       const double middle[3])
+{
+    stacked *top = &stack->items[stack->size++];
+    *top = (stacked){child, parent->address << 3 | octant, cell_child(parent->cell, octant), parent->box};
+    for (int i = 0; i < 3; i++)
+        *(octant & (4u >> i) ? &top->box.min[i] : &top->box.max[i]) = middle[i];
+}
+
+/* A large tree does not fit the caches: what is below each child is prefetched before it is visited. Callers that ask
+ * for cells read points too. */
+void stack_push_children(node_stack *stack)
+{
+    const stacked parent = stack->items[stack->size];
+    const uint32_t half = cell_size(parent.cell.depth + 1);
+    const node *child = children_of(parent.node) + bits_count8(parent.node->octants);
+    double middle[3];
+    for (int i = 0; i < 3; i++)
+        middle[i] = plane_at(&stack->tree->axes[i], parent.cell.low[i] + half);
+    for (unsigned octant = 8; octant-- > 0;)
+        if (parent.node->octants >> octant & 1) {
+            push_child(stack, &parent, --child, octant, middle);
+            if (child->octants)
+                prefetch(child->below);
+            else
+                leaf_prefetch(child);
+        }
+}
 
 static octree_node describe(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
 {
@@ -64,10 +92,36 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
     if (status != OCTREE_OK)
         return status;
     const uint64_t code = morton_code(tree->axes, position);
-    const path way = path_to(tree, code);
-    const octree_box bounds = cell_bounds(tree->axes, path_cell(code, way.depth));
-    *result = describe(path_end(&way), morton_address(code, way.depth), way.depth, &bounds);
+    const path p = path_to(tree, code);
+    const octree_box bounds = cell_bounds(tree->axes, path_cell(code, p.depth));
+    *result = describe(path_end(&p), morton_address(code, p.depth), p.depth, &bounds);
     return OCTREE_OK;
+}
+
+/* ---- Statistics
+ * ------------------------------------------------------------------------------------------------------- */
+
+void count_node(octree_stats *stats, const node *n, unsigned depth)
+{
+    stats->nodes++;
+    stats->nodes_at_depth[depth]++;
+    stats->depth = depth > stats->depth ? depth : stats->depth;
+    if (n->octants == 0) {
+        stats->leaves++;
+        stats->leaves_at_depth[depth]++;
+        stats->largest_leaf = n->count > stats->largest_leaf ? n->count : stats->largest_leaf;
+    }
+}
+
+static void count_below(octree_stats *stats, const node *n, unsigned depth)
+{
+    const unsigned children = bits_count8(n->octants);
+    const node *child = children_of(n);
+    for (unsigned i = 0; i < children; i++, child++) {
+        count_node(stats, child, depth + 1);
+        if (child->octants)
+            count_below(stats, child, depth + 1);
+    }
 }
 
 octree_status octree_statistics(const octree *tree, octree_stats *stats)
@@ -76,15 +130,57 @@ octree_status octree_statistics(const octree *tree, octree_stats *stats)
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    *stats = (octree_stats){.points = tree->root.count, .memory = tree->memory.bytes};
+    *stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
     count_node(stats, &tree->root, 0);
-    inner_stack stack;
-    inner_stack_begin(&stack, &tree->root, OCTREE_ROOT);
-    while (stack.size > 0) {
-        const inner next = inner_stack_next(&stack);
-        const unsigned depth = octree_address_depth(next.address) + 1, children = bits_count8(next.node->octants);
-        for (unsigned i = 0; i < children; i++)
-            count_node(stats, &children_of(next.node)[i], depth);
-    }
+    count_below(stats, &tree->root, 0);
     return OCTREE_OK;
+}
+
+/* ---- The digest
+ * ------------------------------------------------------------------------------------------------------- */
+
+uint64_t digest_node(const node *n, octree_address address)
+{
+    uint64_t sum = octree_digest_word(octree_digest_word(OCTREE_DIGEST_START, address), n->octants == 0);
+    for (size_t i = 0; n->octants == 0 && i < n->count; i++) {
+        const octree_point *point = &leaf_points(n)[i];
+        uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, point->id);
+        for (int j = 0; j < 3; j++)
+            digest = octree_digest_double(digest, point->position[j]);
+        sum += digest;
+    }
+    return sum;
+}
+
+/* Of an inner node and all below it. */
+static uint64_t digest_below(const node *n, octree_address address)
+{
+    uint64_t sum = digest_node(n, address);
+    const node *child = children_of(n);
+    prefetch_below(n);
+    for (unsigned octant = 0; octant < 8; octant++) {
+        if (!(n->octants >> octant & 1))
+            continue;
+        const octree_address at = address << 3 | octant;
+        sum += child->octants ? digest_below(child, at) : digest_node(child, at);
+        child++;
+    }
+    return sum;
+}
+
+uint64_t digest_of_sum(const octree *tree, uint64_t sum)
+{
+    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, sum);
+    digest = octree_digest_word(digest, tree->def.leaf_capacity);
+    digest = octree_digest_word(digest, tree->def.max_depth);
+    for (int i = 0; i < 3; i++) {
+        digest = octree_digest_double(digest, tree->def.world.min[i]);
+        digest = octree_digest_double(digest, tree->def.world.max[i]);
+    }
+    return digest;
+}
+
+uint64_t octree_digest(const octree *tree)
+{
+    return tree && float_mode_is_default() ? digest_of_sum(tree, digest_below(&tree->root, OCTREE_ROOT)) : 0;
 }
