@@ -2,6 +2,7 @@
 #include "ignored_layers.h"
 #include "draw.h"
 #include "frame_file.h"
+#include "layer.h"
 #include "replay.h"
 
 #include <stdlib.h>
