@@ -1,9 +1,8 @@
 /* cmd_digest.c - octreel digest: the pixels of many frames as a small text file. */
 #include "command.h"
+#include "command_line.h"
 #include "digest_file.h"
-#include "options.h"
 
-#include <getopt.h>
 #include <stdio.h>
 
 static const char help[] =
@@ -18,13 +17,6 @@ static const char help[] =
     "The file: \"octreel-digests 1\", \"background ffffff\", and then, in the order of the names' bytes, lines such "
     "as\n"
     "  0123456789abcdef 1280x720 frame_000000.png\n";
-
-static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"background", required_argument, NULL, 'b'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
-};
 
 static bool write_file(const diff_side *side, const char *path, octreel_error *error)
 {
@@ -55,26 +47,38 @@ static int digest_it(const char *folder, const char *path, image_color backgroun
     return status;
 }
 
+typedef struct arguments {
+    const char *path; /* null: standard output */
+    image_color background;
+} arguments;
+
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'},
+    {"background", required_argument, NULL, 'b'},
+    {NULL, 0, NULL, 0},
+};
+
+static bool read_option(int option, void *context)
+{
+    arguments *a = context;
+    if (option == 'b')
+        return read_color("--background", optarg, &a->background);
+    a->path = optarg;
+    return check_name("-o", optarg);
+}
+
 int cmd_digest(int argc, char **argv)
 {
-    image_color background = IMAGE_WHITE;
-    const char *path = NULL;
-    optind = 1;
-    for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return EXIT_DONE;
-        }
-        if (option == '?')
-            fputs("octreel digest --help tells what it takes\n", stderr);
-        if (option == '?' || (option == 'b' && !read_color("--background", optarg, &background)))
-            return EXIT_TROUBLE;
-        if (option == 'o')
-            path = optarg;
-    }
-    if (argc - optind != 1)
-        return trouble("digest takes one folder of frames; octreel digest --help tells more");
-    if (!check_names("digest", argv + optind, 1) || (path && !check_name("-o", path)))
-        return EXIT_TROUBLE;
-    return digest_it(argv[optind], path, background);
+    arguments a = {.background = IMAGE_WHITE};
+    const command_line line = {.name = "digest",
+                               .help = help,
+                               .short_options = "o:h",
+                               .options = options,
+                               .read = read_option,
+                               .context = &a,
+                               .least = 1,
+                               .most = 1,
+                               .takes = "one folder of frames"};
+    const int status = command_line_read(&line, argc, argv);
+    return status == COMMAND_GO_ON ? digest_it(argv[optind], a.path, a.background) : status;
 }

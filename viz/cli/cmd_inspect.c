@@ -1,14 +1,13 @@
 /* cmd_inspect.c - octreel inspect: the tree of a point cloud: its statistics, a picture, a node, answers to queries. */
 #include "command.h"
+#include "command_line.h"
 #include "film.h"
 #include "inspect.h"
-#include "inspect_query.h"
-#include "options.h"
+#include "inspect_answers.h"
 #include "progress.h"
-#include "query_options.h"
 
-#include <getopt.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -22,10 +21,7 @@ static const char help[] =
     "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
     "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"
     "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points; a picture marks it\n"
-    "      --nodes FILE.csv  write all nodes as CSV\n"
-    "      --nearest X,Y,Z[,K]        print and draw the point nearest to a place, or the K nearest\n"
-    "      --radius X,Y,Z,R           and the points within R of a place\n"
-    "      --range X0,Y0,Z0,X1,Y1,Z1  and the points in a box; these three can be given several times\n";
+    "      --nodes FILE.csv  write all nodes as CSV\n";
 
 static const char more_help[] =
     "      --json            print JSON\n"
@@ -35,50 +31,32 @@ static const char more_help[] =
     "          octreel inspect points.txt --node 0/3 --json\n"
     "          for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n";
 
-#define MOST_QUERIES 100
-
 typedef struct arguments {
     const char *cloud;
     const char *picture, *nodes; /* files to write; null: not asked for */
     const char *node;            /* the address of one node; null: not asked for */
-    octree_query queries[MOST_QUERIES];
-    size_t query_count;
+    query_options queries;
     octree_def def;
     bool has_world, json;
-    const char *who_draws; /* the option that says so; null: none does */
     view_options view_options;
     view view;
     renderer_choice renderer;
 } arguments;
 
-static const struct option own_options[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"capacity", required_argument, NULL, 'C'},
-    {"depth", required_argument, NULL, 'd'},
-    {"full", required_argument, NULL, 'f'},
-    {"world", required_argument, NULL, 'w'},
-    {"node", required_argument, NULL, 'n'},
-    {"nodes", required_argument, NULL, 'N'},
-    {"nearest", required_argument, NULL, 'q'},
-    {"radius", required_argument, NULL, 'r'},
-    {"range", required_argument, NULL, 'b'},
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {"context", required_argument, NULL, OPTION_CONTEXT},
-    {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER},
-    {NULL, 0, NULL, 0},
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'}, {"capacity", required_argument, NULL, 'C'},
+    {"depth", required_argument, NULL, 'd'},  {"full", required_argument, NULL, 'f'},
+    {"world", required_argument, NULL, 'w'},  {"node", required_argument, NULL, 'n'},
+    {"nodes", required_argument, NULL, 'N'},  {NULL, 0, NULL, 0},
 };
 
 static bool read_world(const char *text, octree_box *world)
 {
     if (!read_box("--world", text, world))
         return false;
-    for (int i = 0; i < 3; i++) {
-        if (world->min[i] == world->max[i]) {
-            trouble("--world: min must be below max on every axis, not so in \"%s\"", text);
-            return false;
-        }
-    }
+    for (int i = 0; i < 3; i++)
+        if (world->min[i] == world->max[i])
+            return refuse("--world: min must be below max on every axis, not so in \"%s\"", text);
     return true;
 }
 
@@ -87,8 +65,7 @@ static bool read_full(const char *text, octree_full_leaf *mode)
     *mode = strcmp(text, "grow") == 0 ? OCTREE_GROW : OCTREE_REFUSE;
     if (*mode == OCTREE_GROW || strcmp(text, "refuse") == 0)
         return true;
-    trouble("--full takes refuse or grow, not \"%s\"", text);
-    return false;
+    return refuse("--full takes refuse or grow, not \"%s\"", text);
 }
 
 static bool read_tree_option(arguments *a, int option)
@@ -101,10 +78,8 @@ static bool read_tree_option(arguments *a, int option)
         a->def.leaf_capacity = (size_t)value;
         return ok;
     case 'd':
-        if (strchr(optarg, ':')) {
-            trouble("--depth is that of the tree, one number; --depths %s shows some of its levels", optarg);
-            return false;
-        }
+        if (strchr(optarg, ':'))
+            return refuse("--depth is that of the tree, one number; --depths %s shows some of its levels", optarg);
         ok = read_count("--depth", optarg, 0, OCTREE_MAX_DEPTH, &value);
         a->def.max_depth = (size_t)value;
         return ok;
@@ -116,62 +91,28 @@ static bool read_tree_option(arguments *a, int option)
     }
 }
 
-static bool take_query(arguments *a, int option)
-{
-    octree_query *query = &a->queries[a->query_count];
-    if (a->query_count == MOST_QUERIES) {
-        trouble("inspect takes at most %d queries", MOST_QUERIES);
-        return false;
-    }
-    a->query_count++;
-    return option == 'q'   ? read_nearest(optarg, query)
-           : option == 'r' ? read_radius(optarg, query)
-                           : read_range(optarg, query);
-}
-
-static bool take_node(arguments *a, const char *address)
+static bool read_node(arguments *a, const char *address)
 {
     if (a->node)
-        trouble("--node names one node, not %s and %s", a->node, address);
-    const bool first = !a->node;
+        return refuse("--node names one node, not %s and %s", a->node, address);
     a->node = address;
-    return first;
+    return true;
 }
 
-static bool take_option(arguments *a, int option)
+static bool read_option(int option, void *context)
 {
-    if (take_view_option(&a->view_options, option))
-        return true;
+    arguments *a = context;
     switch (option) {
     case 'o':
         a->picture = optarg;
         return check_name("-o", optarg);
     case 'n':
-        return take_node(a, optarg);
+        return read_node(a, optarg);
     case 'N':
         a->nodes = optarg;
         return check_name("--nodes", optarg);
-    case 'j':
-        a->json = true;
-        return true;
-    case 'C':
-    case 'd':
-    case 'f':
-    case 'w':
-        return read_tree_option(a, option);
-    case 'q':
-    case 'r':
-    case 'b':
-        return take_query(a, option);
-    case OPTION_CONTEXT:
-        a->who_draws = "context";
-        return read_context(optarg, &a->renderer);
-    case OPTION_ANY_RENDERER:
-        a->who_draws = "any-renderer";
-        return a->renderer.any_renderer = true;
     default:
-        fputs("octreel inspect --help tells what it takes\n", stderr);
-        return false;
+        return read_tree_option(a, option);
     }
 }
 
@@ -210,9 +151,9 @@ static void print(const report *r)
     const arguments *a = r->a;
     if (a->node)
         inspect_print_node(&r->node, r->name, a->json, stdout);
-    if (a->query_count)
-        inspect_print_answers(r->made->tree, &r->answers, r->name, a->json, stdout);
-    if (!a->node && !a->query_count)
+    if (a->queries.count)
+        inspect_print_answers(&r->answers, r->name, a->json, stdout);
+    if (!a->node && !a->queries.count)
         inspect_print(r->made, r->name, a->json, stdout);
 }
 
@@ -222,7 +163,7 @@ static bool make_report(report *r, octreel_error *error)
     const arguments *a = r->a;
     if (a->node && !inspect_find_node(r->made, a->node, &r->node, error))
         return false;
-    if (!inspect_ask(r->made->tree, a->queries, a->query_count, &r->answers, error))
+    if (!inspect_ask(r->made->tree, a->queries.items, a->queries.count, &r->answers, error))
         return false;
     const bool ok = (!a->picture || draw(r, error)) && (!a->nodes || inspect_write_nodes(r->made, a->nodes, error));
     if (ok)
@@ -284,11 +225,11 @@ static int inspect_it(const arguments *a)
 static bool check_picture(const arguments *a)
 {
     const char *first = first_view_option(&a->view_options);
-    first = first ? first : a->who_draws;
+    if (!first)
+        first = a->renderer.any_renderer ? "any-renderer" : a->renderer.context != DRAW_AUTO ? "context" : NULL;
     if (a->picture || !first)
         return true;
-    trouble("--%s is about a picture, and none is made without -o", first);
-    return false;
+    return refuse("--%s is about a picture, and none is made without -o", first);
 }
 
 /* No file that is written may be the cloud, nor both be one file. */
@@ -296,40 +237,38 @@ static bool check_outputs(const arguments *a)
 {
     const output_file outputs[] = {{"-o", a->picture}, {"--nodes", a->nodes}};
     octreel_error error;
-    const bool ok = outputs_apart(outputs, 2, &error) && output_spares(&outputs[0], a->cloud, &error) &&
-                    output_spares(&outputs[1], a->cloud, &error);
-    if (!ok)
-        trouble("%s", error.text);
-    return ok;
+    return (outputs_apart(outputs, 2, &error) && output_spares(&outputs[0], a->cloud, &error) &&
+            output_spares(&outputs[1], a->cloud, &error)) ||
+           refuse("%s", error.text);
 }
 
 int cmd_inspect(int argc, char **argv)
 {
     arguments a = {.def = octree_def_default(), .view = view_default()};
-    struct option options[COMMAND_OPTIONS];
-    join_options(own_options, options);
+    const command_line line = {.name = "inspect",
+                               .help = help,
+                               .more_help = more_help,
+                               .short_options = "o:h",
+                               .options = options,
+                               .read = read_option,
+                               .context = &a,
+                               .json = &a.json,
+                               .renderer = &a.renderer,
+                               .view = &a.view_options,
+                               .queries = &a.queries,
+                               .least = 1,
+                               .most = INT_MAX,
+                               .takes = "a point cloud"};
     a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
-    optind = 1;
-    for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            print_view_options(stdout);
-            print_renderer_options(stdout);
-            fputs(more_help, stdout);
-            return EXIT_DONE;
-        }
-        if (!take_option(&a, option))
-            return EXIT_TROUBLE;
-    }
-    if (optind == argc)
-        return trouble("inspect takes a point cloud; octreel inspect --help tells more");
+    const int status = command_line_read(&line, argc, argv);
+    if (status != COMMAND_GO_ON)
+        return status;
     if (argc - optind > 1)
         return trouble("inspect takes one cloud, not also \"%s\"; for several: for f in *.pcd; do octreel inspect "
                        "\"$f\" -o \"$f.png\"; done",
                        argv[optind + 1]);
     a.cloud = argv[optind];
-    const bool ok = check_names("inspect", argv + optind, 1) && check_picture(&a) && check_renderer(&a.renderer) &&
-                    read_view(&a.view_options, &a.view) && check_outputs(&a);
+    const bool ok = check_picture(&a) && read_view(&a.view_options, &a.view) && check_outputs(&a);
     return ok ? inspect_it(&a) : EXIT_TROUBLE;
 }

@@ -1,8 +1,8 @@
 /* cmd_join.c - octreel join: a recording that was filmed in parts becomes whole. */
 #include "command.h"
+#include "command_line.h"
 #include "film_report.h"
 #include "join.h"
-#include "options.h"
 #include "progress.h"
 
 #include <stdio.h>
@@ -17,12 +17,6 @@ static const char help[] =
     "  -h, --help\n\n"
     "Example: octreel record s.json --ticks :500 -o film & octreel record s.json --ticks 500: -o film; wait\n"
     "         octreel join film\n";
-
-static const struct option options[] = {
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
-};
 
 static int join_it(const char *folder, bool json)
 {
@@ -45,19 +39,8 @@ static int join_it(const char *folder, bool json)
 int cmd_join(int argc, char **argv)
 {
     bool json = false;
-    optind = 1;
-    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return EXIT_DONE;
-        }
-        if (option != 'j') {
-            fputs("octreel join --help tells what it takes\n", stderr);
-            return EXIT_TROUBLE;
-        }
-        json = true;
-    }
-    if (argc - optind != 1)
-        return trouble("join takes the folder of one recording; octreel join --help tells more");
-    return check_names("join", argv + optind, 1) ? join_it(argv[optind], json) : EXIT_TROUBLE;
+    const command_line line = {
+        .name = "join", .help = help, .json = &json, .least = 1, .most = 1, .takes = "the folder of one recording"};
+    const int status = command_line_read(&line, argc, argv);
+    return status == COMMAND_GO_ON ? join_it(argv[optind], json) : status;
 }

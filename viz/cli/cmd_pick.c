@@ -1,10 +1,9 @@
 /* cmd_pick.c - octreel pick: what is drawn at a pixel of a frame. */
 #include "command.h"
-#include "options.h"
+#include "command_line.h"
 #include "pick.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #define MOST_PLACE 1000000000 /* beyond any picture, which then says how large it is */
 
@@ -26,21 +25,6 @@ static const char more_help[] =
     "Example: octreel record -o flight\n"
     "         octreel pick flight/frame_000219.png 800 200\n";
 
-typedef struct arguments {
-    const char *frame;
-    pick_options pick;
-    bool json;
-} arguments;
-
-static const struct option options[] = {
-    {"radius", required_argument, NULL, 'r'},
-    {"context", required_argument, NULL, OPTION_CONTEXT},
-    {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER},
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
-};
-
 static bool read_pixels(const char *name, const char *text, uint64_t most, int *value)
 {
     uint64_t number;
@@ -50,58 +34,48 @@ static bool read_pixels(const char *name, const char *text, uint64_t most, int *
     return true;
 }
 
-static bool take_option(arguments *a, int option)
+static const struct option options[] = {{"radius", required_argument, NULL, 'r'}, {NULL, 0, NULL, 0}};
+
+static bool read_option(int option, void *context)
 {
-    switch (option) {
-    case 'r':
-        return read_pixels("--radius", optarg, VIEW_MAX_SIDE, &a->pick.radius);
-    case OPTION_CONTEXT:
-        return read_context(optarg, &a->pick.renderer);
-    case OPTION_ANY_RENDERER:
-        return a->pick.renderer.any_renderer = true;
-    case 'j':
-        return a->json = true;
-    case '0': /* as in -10 */
-        trouble("the coordinates of a pixel are counted from 0 on, from the top left");
-        return false;
-    default:
-        fputs("octreel pick --help tells what it takes\n", stderr);
-        return false;
-    }
+    pick_options *pick = context;
+    if (option == 'r')
+        return read_pixels("--radius", optarg, VIEW_MAX_SIDE, &pick->radius);
+    trouble("the coordinates of a pixel are counted from 0 on, from the top left"); /* a digit, as in -10 */
+    return false;
 }
 
-static int pick_it(const arguments *a)
+static int pick_it(const char *frame, const pick_options *options, bool json)
 {
     pick found;
     octreel_error error;
-    if (!pick_frame(a->frame, &a->pick, &found, &error))
+    if (!pick_frame(frame, options, &found, &error))
         return trouble("%s", error.text);
-    pick_print(stdout, &found, a->json);
+    pick_print(stdout, &found, json);
     pick_release(&found);
     return EXIT_DONE;
 }
 
 int cmd_pick(int argc, char **argv)
 {
-    static const char digits[] = "0123456789"; /* a negative number looks like an option */
-    arguments a = {.pick = {.radius = 8}};
-    optind = 1;
-    for (int option; (option = getopt_long(argc, argv, "h0123456789", options, NULL)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            print_renderer_options(stdout);
-            fputs(more_help, stdout);
-            return EXIT_DONE;
-        }
-        if (!take_option(&a, strchr(digits, option) ? '0' : option))
-            return EXIT_TROUBLE;
-    }
-    if (argc - optind != 3)
-        return trouble("pick takes a frame and two coordinates, as in frames/frame_000041.png 312 200; octreel pick "
-                       "--help tells more");
-    a.frame = argv[optind];
-    if (!check_names("pick", argv + optind, 1) || !read_pixels("X", argv[optind + 1], MOST_PLACE, &a.pick.x) ||
-        !read_pixels("Y", argv[optind + 2], MOST_PLACE, &a.pick.y))
-        return EXIT_TROUBLE;
-    return check_renderer(&a.pick.renderer) ? pick_it(&a) : EXIT_TROUBLE;
+    pick_options pick = {.radius = 8};
+    bool json = false;
+    const command_line line = {.name = "pick",
+                               .help = help,
+                               .more_help = more_help,
+                               .short_options = "h0123456789", /* a negative number looks like an option */
+                               .options = options,
+                               .read = read_option,
+                               .context = &pick,
+                               .json = &json,
+                               .renderer = &pick.renderer,
+                               .least = 3,
+                               .most = 3,
+                               .takes = "a frame and two coordinates, as in frames/frame_000041.png 312 200"};
+    const int status = command_line_read(&line, argc, argv);
+    if (status != COMMAND_GO_ON)
+        return status;
+    const bool ok = read_pixels("X", argv[optind + 1], MOST_PLACE, &pick.x) &&
+                    read_pixels("Y", argv[optind + 2], MOST_PLACE, &pick.y);
+    return ok ? pick_it(argv[optind], &pick, json) : EXIT_TROUBLE;
 }

@@ -1,13 +1,12 @@
 /* cmd_record.c - octreel record: film a session into a folder. */
 #include "command.h"
+#include "command_line.h"
 #include "film.h"
 #include "film_report.h"
 #include "folder_files.h"
-#include "options.h"
 #include "progress.h"
 #include "view_file.h"
 
-#include <getopt.h>
 #include <stdio.h>
 
 static const char help[] =
@@ -42,17 +41,13 @@ typedef struct arguments {
     bool json;
 } arguments;
 
-static const struct option own_options[] = {
+static const struct option options[] = {
     {"output", required_argument, NULL, 'o'},
     {"keys", required_argument, NULL, 'k'},
     {"every", required_argument, NULL, 'e'},
     {"ticks", required_argument, NULL, 't'},
     {"jobs", required_argument, NULL, 'p'},
     {"resume", no_argument, NULL, 'r'},
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {"context", required_argument, NULL, OPTION_CONTEXT},
-    {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER},
     {NULL, 0, NULL, 0},
 };
 
@@ -64,11 +59,9 @@ static bool read_jobs(const char *text, unsigned *jobs)
     return ok;
 }
 
-/* False when a value does not fit; the sentence is printed. */
-static bool take_option(arguments *a, int option)
+static bool read_option(int option, void *context)
 {
-    if (take_view_option(&a->view, option))
-        return true;
+    arguments *a = context;
     switch (option) {
     case 'o':
         a->film.folder = optarg;
@@ -78,23 +71,12 @@ static bool take_option(arguments *a, int option)
         return true;
     case 'e':
         return read_count("--every", optarg, 1, 1000000000, &a->film.every);
-    case OPTION_CONTEXT:
-        return read_context(optarg, &a->film.renderer);
-    case OPTION_ANY_RENDERER:
-        return a->film.renderer.any_renderer = true;
     case 't':
         return read_ticks(optarg, &a->film.first, &a->film.last);
     case 'p':
         return read_jobs(optarg, &a->film.jobs);
-    case 'r':
-        a->film.resume = true;
-        return true;
-    case 'j':
-        a->json = true;
-        return true;
     default:
-        fputs("octreel record --help tells what it takes\n", stderr);
-        return false;
+        return a->film.resume = true;
     }
 }
 
@@ -140,13 +122,11 @@ static bool read_film(arguments *a)
     uint64_t every = 1;
     const char *missing = find_missing(a);
     if (missing) {
-        trouble("%s: holds no recording that could be resumed (%s is missing)", a->film.folder, missing);
-        return false;
+        return refuse("%s: holds no recording that could be resumed (%s is missing)", a->film.folder, missing);
     }
     if (a->film.resume && folder_has(a->film.folder, "recording.json") &&
         !view_read_recording(a->film.folder, &a->film.view, &every, &error)) {
-        trouble("%s", error.text);
-        return false;
+        return refuse("%s", error.text);
     }
     if (a->film.every == 0)
         a->film.every = every;
@@ -182,26 +162,25 @@ static int play(arguments *a)
 int cmd_record(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_default()}};
-    struct option options[COMMAND_OPTIONS];
-    join_options(own_options, options);
-    optind = 1;
-    for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            print_view_options(stdout);
-            print_renderer_options(stdout);
-            fputs(more_help, stdout);
-            return EXIT_DONE;
-        }
-        if (!take_option(&a, option))
-            return EXIT_TROUBLE;
-    }
-    if (argc - optind > 1)
-        return trouble("record takes one session, not also \"%s\"", argv[optind + 1]);
+    const command_line line = {.name = "record",
+                               .help = help,
+                               .more_help = more_help,
+                               .short_options = "o:h",
+                               .options = options,
+                               .read = read_option,
+                               .context = &a,
+                               .json = &a.json,
+                               .renderer = &a.film.renderer,
+                               .view = &a.view,
+                               .most = 1,
+                               .takes = "one session"};
+    const int status = command_line_read(&line, argc, argv);
+    if (status != COMMAND_GO_ON)
+        return status;
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
     if (!*a.film.folder)
         return trouble("the folder's name is empty");
     a.session = argv[optind];
-    return check_renderer(&a.film.renderer) && read_film(&a) ? play(&a) : EXIT_TROUBLE;
+    return read_film(&a) ? play(&a) : EXIT_TROUBLE;
 }

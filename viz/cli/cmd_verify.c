@@ -1,6 +1,6 @@
 /* cmd_verify.c - octreel verify: play a recording again, and say what is not the same. */
 #include "command.h"
-#include "options.h"
+#include "command_line.h"
 #include "progress.h"
 #include "verify.h"
 
@@ -20,71 +20,37 @@ static const char more_help[] = "      --json            print JSON\n"
                                 "Examples: octreel verify frames\n"
                                 "          octreel verify frames --context egl --json\n";
 
-typedef struct arguments {
-    const char *folder;
-    verify_options verify;
-    bool json;
-} arguments;
-
-static const struct option options[] = {
-    {"context", required_argument, NULL, OPTION_CONTEXT},
-    {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER},
-    {"json", no_argument, NULL, 'j'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
-};
-
-static bool take_option(arguments *a, int option)
-{
-    switch (option) {
-    case OPTION_CONTEXT:
-        return read_context(optarg, &a->verify.renderer);
-    case OPTION_ANY_RENDERER:
-        return a->verify.renderer.any_renderer = true;
-    case 'j':
-        return a->json = true;
-    default:
-        fputs("octreel verify --help tells what it takes\n", stderr);
-        return false;
-    }
-}
-
 static void on_progress(uint64_t done, uint64_t total, void *context)
 {
     progress_show(context, done, total);
 }
 
-static int verify_it(arguments *a)
+static int verify_it(const char *folder, const renderer_choice *renderer, bool json)
 {
     progress p = progress_start("ticks");
+    const verify_options options = {.renderer = *renderer, .progress = on_progress, .context = &p};
     verify_report report;
     octreel_error error;
-    a->verify.progress = on_progress;
-    a->verify.context = &p;
-    const bool ok = verify_recording(a->folder, &a->verify, &report, &error);
+    const bool ok = verify_recording(folder, &options, &report, &error);
     progress_end(&p);
     if (!ok)
         return trouble("%s", error.text);
-    verify_print(stdout, a->folder, &report, a->json);
+    verify_print(stdout, folder, &report, json);
     return report.count ? EXIT_FINDING : EXIT_DONE;
 }
 
 int cmd_verify(int argc, char **argv)
 {
-    arguments a = {0};
-    optind = 1;
-    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            print_renderer_options(stdout);
-            fputs(more_help, stdout);
-            return EXIT_DONE;
-        }
-        if (!take_option(&a, option))
-            return EXIT_TROUBLE;
-    }
-    if (argc - optind != 1)
-        return trouble("verify takes the folder of one recording; octreel verify --help tells more");
-    a.folder = argv[optind];
-    return check_names("verify", argv + optind, 1) && check_renderer(&a.verify.renderer) ? verify_it(&a) : EXIT_TROUBLE;
+    renderer_choice renderer = {0};
+    bool json = false;
+    const command_line line = {.name = "verify",
+                               .help = help,
+                               .more_help = more_help,
+                               .json = &json,
+                               .renderer = &renderer,
+                               .least = 1,
+                               .most = 1,
+                               .takes = "the folder of one recording"};
+    const int status = command_line_read(&line, argc, argv);
+    return status == COMMAND_GO_ON ? verify_it(argv[optind], &renderer, json) : status;
 }

@@ -31,8 +31,7 @@ int trouble(const char *format, ...)
     return EXIT_TROUBLE;
 }
 
-/* The same for a reader of values: false. */
-static bool refuse(const char *format, ...)
+bool refuse(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -346,15 +345,12 @@ static const struct {
 #define ROWS (sizeof rows / sizeof rows[0])
 _Static_assert(ROWS <= VIEW_OPTIONS, "there is room for every option of a view");
 
-void join_options(const struct option *own, struct option all[COMMAND_OPTIONS])
+size_t list_view_options(struct option *options)
 {
-    size_t count = 0;
-    for (; own->name && count + ROWS + 1 < COMMAND_OPTIONS; own++)
-        all[count++] = *own;
     for (size_t i = 0; i < ROWS; i++)
-        all[count++] =
+        options[i] =
             (struct option){rows[i].name, rows[i].value ? required_argument : no_argument, NULL, VIEW_OPTION + (int)i};
-    all[count] = (struct option){NULL, 0, NULL, 0};
+    return ROWS;
 }
 
 bool take_view_option(view_options *given, int option)

@@ -16,6 +16,9 @@ enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
 /* Print "octreel: " and a sentence on stderr; returns EXIT_TROUBLE. */
 int trouble(const char *format, ...);
 
+/* The same for readers of values: returns false. */
+bool refuse(const char *format, ...);
+
 /* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
 bool check_name(const char *option, const char *name);
 bool check_names(const char *command, char *const *names, int count);
@@ -36,9 +39,8 @@ typedef struct view_options {
     const char *values[VIEW_OPTIONS]; /* as they were typed; null: not given */
 } view_options;
 
-/* A command's own options, which end with a zeroed one, and behind them those of a view, for getopt_long. */
-#define COMMAND_OPTIONS 48
-void join_options(const struct option *own, struct option all[COMMAND_OPTIONS]);
+/* Write them where getopt_long will read them, VIEW_OPTIONS at most; returns their number. */
+size_t list_view_options(struct option *options);
 
 /* Take an option that getopt_long found; false when it is none of a view's. */
 bool take_view_option(view_options *given, int option);
@@ -53,7 +55,7 @@ bool read_view(const view_options *given, view *v);
 /* The part of a --help text that those options share. */
 void print_view_options(FILE *out);
 
-/* Who draws: --context and --any-renderer, which every command that draws has among its own options. */
+/* What draws: --context and --any-renderer. */
 enum { OPTION_CONTEXT = VIEW_OPTION - 2, OPTION_ANY_RENDERER };
 bool read_context(const char *text, renderer_choice *choice);
 bool check_renderer(const renderer_choice *choice); /* once all options are read */

@@ -1,4 +1,5 @@
-/* query_options.c - queries on a command line, and the sentences for those that do not fit. */
+/* query_options.c - one table of the options that are queries; their numbers are read by what each kind of query takes.
+ */
 #include "query_options.h"
 #include "number.h"
 #include "options.h"
@@ -6,8 +7,49 @@
 #include <math.h>
 #include <string.h>
 
-/* The numbers of an option, with commas between: at most `most`. False, with the sentence said. */
-static bool read_numbers(const char *option, const char *text, double *values, size_t most, size_t *count)
+#define MOST_NUMBERS 6
+
+/* The numbers of an option are the members of its kind of query: a box, a target, a radius, a count. */
+static const struct {
+    octree_query_kind kind;
+    octree_query_kind with_count; /* the kind where a count follows; the same: none may */
+    const char *value, *help;     /* in --help */
+    const char *takes;            /* in the sentence about too many numbers or too few */
+} rows[] = {
+    {OCTREE_QUERY_NEAREST, OCTREE_QUERY_KNEAREST, "X,Y,Z[,K]", "the point nearest to a place, or the K nearest",
+     "a place, and a number of neighbours where it is not one, as in 1,2,3 or 1,2,3,8"},
+    {OCTREE_QUERY_RADIUS, OCTREE_QUERY_RADIUS, "X,Y,Z,R", "the points within R of a place",
+     "a centre and a radius as in 1,2,3,10"},
+    {OCTREE_QUERY_RANGE, OCTREE_QUERY_RANGE, "X0,Y0,Z0,X1,Y1,Z1", "the points in a box",
+     "two corners as in -10,-10,-10,10,10,10"},
+};
+
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+size_t list_query_options(struct option *options)
+{
+    for (int i = 0; i < ROWS; i++)
+        options[i] = (struct option){octree_query_name(rows[i].kind), required_argument, NULL, QUERY_OPTION + i};
+    return ROWS;
+}
+
+bool is_query_option(int option)
+{
+    return option >= QUERY_OPTION && option < QUERY_OPTION + ROWS;
+}
+
+void print_query_options(FILE *out)
+{
+    for (int i = 0; i < ROWS; i++) {
+        char option[40];
+        snprintf(option, sizeof option, "--%s %s", octree_query_name(rows[i].kind), rows[i].value);
+        fprintf(out, "      %-26s print and draw %s%s\n", option, rows[i].help,
+                i == ROWS - 1 ? "; queries can be given several times" : "");
+    }
+}
+
+/* Read numbers with commas between. *count may be above MOST_NUMBERS; those beyond are not stored. */
+static bool read_numbers(const char *name, const char *text, double values[MOST_NUMBERS], size_t *count)
 {
     const char *limit = text + strlen(text), *at = text;
     *count = 0;
@@ -15,11 +57,9 @@ static bool read_numbers(const char *option, const char *text, double *values, s
         const size_t length = strcspn(at, ",");
         const char *end = at;
         double value;
-        if (!number_parse(at, limit, &end, &value) || end != at + length) {
-            trouble("%s: \"%.*s\" in \"%s\" is not a finite number", option, (int)length, at, text);
-            return false;
-        }
-        if (*count < most)
+        if (!number_parse(at, limit, &end, &value) || end != at + length)
+            return refuse("--%s: \"%.*s\" in \"%s\" is not a finite number", name, (int)length, at, text);
+        if (*count < MOST_NUMBERS)
             values[*count] = value;
         ++*count;
         if (*end == 0)
@@ -28,65 +68,56 @@ static bool read_numbers(const char *option, const char *text, double *values, s
     }
 }
 
-bool read_nearest(const char *text, octree_query *query)
+static size_t numbers_of(octree_query_kind kind)
 {
-    double values[4];
-    size_t count;
-    if (!read_numbers("--nearest", text, values, 4, &count))
-        return false;
-    if (count != 3 && count != 4) {
-        trouble("--nearest takes a place, and a number of neighbours where it is not one, as in 1,2,3 or 1,2,3,8, not "
-                "\"%s\"",
-                text);
-        return false;
-    }
-    if (count == 4 && !(values[3] >= 1 && values[3] < 0x1p53 && values[3] == floor(values[3]))) {
-        trouble("--nearest: the number of neighbours is whole, from 1 to %.0f, not so in \"%s\"", 0x1p53 - 1, text);
-        return false;
-    }
-    *query = (octree_query){.kind = count == 4 ? OCTREE_QUERY_KNEAREST : OCTREE_QUERY_NEAREST};
-    memcpy(query->target, values, sizeof query->target);
-    query->k = count == 4 ? (size_t)values[3] : 1;
-    return true;
+    const unsigned members = octree_query_about(kind)->members;
+    return (members & OCTREE_QUERY_HAS_BOX ? 6u : 0u) + (members & OCTREE_QUERY_HAS_TARGET ? 3u : 0u) +
+           (members & OCTREE_QUERY_HAS_RADIUS ? 1u : 0u) + (members & OCTREE_QUERY_HAS_K ? 1u : 0u);
 }
 
-bool read_radius(const char *text, octree_query *query)
+/* Fill the members that the query's kind reads; false for a count that is none. */
+static bool set_members(octree_query *query, const double *at)
 {
-    double values[4];
-    size_t count;
-    if (!read_numbers("--radius", text, values, 4, &count))
-        return false;
-    if (count != 4) {
-        trouble("--radius takes a centre and a radius as in 1,2,3,10, not \"%s\"", text);
-        return false;
+    const unsigned members = octree_query_about(query->kind)->members;
+    if (members & OCTREE_QUERY_HAS_BOX) {
+        memcpy(query->box.min, at, sizeof query->box.min);
+        memcpy(query->box.max, at + 3, sizeof query->box.max);
+        at += 6;
     }
-    if (values[3] < 0) {
-        trouble("--radius: a radius must not be negative, as in \"%s\"", text);
-        return false;
+    if (members & OCTREE_QUERY_HAS_TARGET) {
+        memcpy(query->target, at, sizeof query->target);
+        at += 3;
     }
-    *query = (octree_query){.kind = OCTREE_QUERY_RADIUS, .radius = values[3]};
-    memcpy(query->target, values, sizeof query->target);
-    return true;
+    if (members & OCTREE_QUERY_HAS_RADIUS)
+        query->radius = *at++;
+    if (!(members & OCTREE_QUERY_HAS_K))
+        return true;
+    const bool fits = *at >= 1 && *at < 0x1p53 && *at == floor(*at);
+    query->k = fits ? (size_t)*at : 0;
+    return fits;
 }
 
-bool read_range(const char *text, octree_query *query)
+bool read_query(query_options *queries, int option, const char *text)
 {
-    double values[6];
+    const int row = option - QUERY_OPTION;
+    const char *name = octree_query_name(rows[row].kind);
+    octree_query query = {.kind = rows[row].kind};
+    double values[MOST_NUMBERS];
     size_t count;
-    if (!read_numbers("--range", text, values, 6, &count))
+    if (queries->count == MOST_QUERIES)
+        return refuse("at most %d queries can be given", MOST_QUERIES);
+    if (!read_numbers(name, text, values, &count))
         return false;
-    if (count != 6) {
-        trouble("--range takes two corners as in -10,-10,-10,10,10,10, not \"%s\"", text);
-        return false;
-    }
-    *query = (octree_query){.kind = OCTREE_QUERY_RANGE};
-    for (int i = 0; i < 3; i++) {
-        query->box.min[i] = values[i];
-        query->box.max[i] = values[i + 3];
-        if (values[i] > values[i + 3]) {
-            trouble("--range: min is above max on %c in \"%s\"", "xyz"[i], text);
-            return false;
-        }
-    }
+    if (count != numbers_of(query.kind))
+        query.kind = rows[row].with_count;
+    if (count != numbers_of(query.kind))
+        return refuse("--%s takes %s, not \"%s\"", name, rows[row].takes, text);
+    if (!set_members(&query, values))
+        return refuse("--%s: the number of neighbours is whole, from 1 to %.0f, not so in \"%s\"", name, 0x1p53 - 1,
+                      text);
+    const octree_status status = octree_query_check(&query);
+    if (status != OCTREE_OK)
+        return refuse("--%s: %s in \"%s\"", name, octree_status_text(status), text);
+    queries->items[queries->count++] = query;
     return true;
 }

@@ -233,8 +233,7 @@ static void write_statistics(const inspection *i, const octree_stats *stats, con
     const octree_def def = octree_definition(i->tree);
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
-    json_write_key(w, "cloud");
-    json_write_string(w, name);
+    json_member_text(w, "cloud", name);
     json_member_integer(w, "points", i->points);
     json_member_integer(w, "skipped", i->skipped);
     json_member_integer(w, "refused", i->refused);
@@ -283,8 +282,7 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     char address[OCTREE_ADDRESS_TEXT];
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
-    json_write_key(w, "cloud");
-    json_write_string(w, name);
+    json_member_text(w, "cloud", name);
     json_write_key(w, "node");
     json_write_string(w, octree_address_format(node->address, address));
     json_member_integer(w, "depth", node->depth);

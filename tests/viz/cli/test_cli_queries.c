@@ -226,7 +226,7 @@ static void queries_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--radius 1,2,3,NaN", "\"NaN\""},
         {"--range 1,2,3,4,5", "--range takes two corners"},
         {"--range 1,2,3,4,5,6,7", "--range takes two corners"},
-        {"--range 1,2,3,4,1,6", "min is above max on y"},
+        {"--range 1,2,3,4,1,6", "the box's min is above its max in"},
         {"--range 1,2,3,4,5,nan", "\"nan\""},
     };
     const place file = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");

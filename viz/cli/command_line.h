@@ -1,0 +1,33 @@
+/* command_line.h - reads the command line of a command: its own options, and those that commands share. */
+#ifndef CLI_COMMAND_LINE_H
+#define CLI_COMMAND_LINE_H
+
+#include "options.h"
+#include "query_options.h"
+
+/* What a command takes. Shared options are those whose member is not null. */
+typedef struct command_line {
+    const char *name;
+    const char *help, *more_help; /* around the help of the shared options; more_help may be null */
+    const char *short_options;    /* as getopt takes them; null: "h" */
+    const struct option *options; /* the command's own, ended by a zeroed one; may be null */
+
+    /* Read one of them, its value in optarg. False, with the sentence printed, where it does not fit. */
+    bool (*read)(int option, void *context);
+    void *context;
+
+    bool *json;                /* --json */
+    renderer_choice *renderer; /* --context, --any-renderer */
+    view_options *view;
+    query_options *queries; /* --nearest, --radius, --range */
+
+    int least, most;   /* arguments beside the options */
+    const char *takes; /* what these are: "one session" */
+} command_line;
+
+/* Read all options; optind is then the first argument. Returns COMMAND_GO_ON, or the command's exit status: help was
+ * asked for, or the sentence about what does not fit is printed. */
+enum { COMMAND_GO_ON = -1 };
+int command_line_read(const command_line *line, int argc, char **argv);
+
+#endif

@@ -1,0 +1,253 @@
+/* inspect_answers.c - asks the tree of a cloud, and prints its answers by what each kind of query takes and finds. */
+#include "inspect_answers.h"
+#include "json_write.h"
+#include "number.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+/* ---- Asking ------------------------------------------------------------------------------------------------- */
+
+/* The points found about a target with their distances: the nearest points, as many as were found. */
+static octree_status find_distances(const octree *tree, const octree_query *query, size_t count, octree_answer *nearest)
+{
+    octree_query by_distance = *query;
+    by_distance.kind = OCTREE_QUERY_KNEAREST;
+    by_distance.k = count;
+    return octree_query_answer(tree, &by_distance, NULL, NULL, nearest);
+}
+
+static octree_status ask(const octree *tree, const octree_query *query, inspect_answers *result)
+{
+    octree_answer *answer = &result->answers[result->count], *nearest = &result->nearest[result->count];
+    result->count++; /* released with the result from here on */
+    octree_status status = octree_query_answer(tree, query, NULL, NULL, answer);
+    const octree_query_traits *about = octree_query_about(query->kind);
+    if (status == OCTREE_OK && !about->neighbors && about->members & OCTREE_QUERY_HAS_TARGET)
+        status = find_distances(tree, query, answer->count, nearest);
+    return status;
+}
+
+bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,
+                 octreel_error *error)
+{
+    const size_t room = count ? count : 1;
+    *result = (inspect_answers){.tree = tree,
+                                .answers = calloc(room, sizeof *result->answers),
+                                .nearest = calloc(room, sizeof *result->nearest)};
+    octree_status status = result->answers && result->nearest ? OCTREE_OK : OCTREE_NO_MEMORY;
+    for (size_t i = 0; status == OCTREE_OK && i < count; i++)
+        status = ask(tree, &queries[i], result);
+    if (status == OCTREE_OK)
+        return true;
+    inspect_answers_release(result);
+    return error_set(error, "the tree cannot be asked: %s", octree_status_text(status));
+}
+
+void inspect_answers_release(inspect_answers *answers)
+{
+    for (size_t i = 0; i < answers->count; i++) {
+        octree_answer_release(answers->tree, &answers->answers[i]);
+        octree_answer_release(answers->tree, &answers->nearest[i]);
+    }
+    free(answers->answers);
+    free(answers->nearest);
+    *answers = (inspect_answers){0};
+}
+
+/* ---- Printing ----------------------------------------------------------------------------------------------- */
+
+/* One answer, as it is printed. */
+typedef struct shown_answer {
+    const octree_answer *answer;
+    const octree_query_traits *about;
+    const octree_neighbor *neighbors; /* null where there are no distances */
+    octree_box world;
+} shown_answer;
+
+static shown_answer show_answer(const inspect_answers *answers, size_t i)
+{
+    const octree_answer *answer = &answers->answers[i];
+    return (shown_answer){answer, octree_query_about(answer->kind),
+                          answer->neighbors ? answer->neighbors : answers->nearest[i].neighbors,
+                          octree_definition(answers->tree).world};
+}
+
+/* By distance, or by id where there are no distances. */
+static const octree_point *point_at(const shown_answer *shown, size_t i)
+{
+    return shown->neighbors ? &shown->neighbors[i].point : &shown->answer->points[i];
+}
+
+/* Whether the world and the box about a place have nothing in common. Sums may be infinite. */
+static bool is_outside(const octree_box *world, const double center[3], double radius)
+{
+    for (int i = 0; i < 3; i++)
+        if (center[i] + radius < world->min[i] || center[i] - radius > world->max[i])
+            return true;
+    return false;
+}
+
+static bool is_box_outside(const octree_box *world, const octree_box *box)
+{
+    for (int i = 0; i < 3; i++)
+        if (box->max[i] < world->min[i] || box->min[i] > world->max[i])
+            return true;
+    return false;
+}
+
+/* Why less may be found than was expected; null where there is no reason. */
+static const char *note_of(const shown_answer *shown)
+{
+    const octree_answer *answer = shown->answer;
+    const unsigned members = shown->about->members;
+    if (shown->about->neighbors && answer->count < answer->k)
+        return answer->count == 0 ? "the tree holds no points" : "the tree holds no more points";
+    if (members & OCTREE_QUERY_HAS_BOX && is_box_outside(&shown->world, &answer->box))
+        return "the box lies outside the world";
+    if (members & OCTREE_QUERY_HAS_RADIUS && is_outside(&shown->world, answer->target, answer->radius))
+        return "the ball lies outside the world";
+    if (members & OCTREE_QUERY_HAS_TARGET && is_outside(&shown->world, answer->target, 0))
+        return members & OCTREE_QUERY_HAS_RADIUS ? "the centre lies outside the world"
+                                                 : "the place lies outside the world";
+    return NULL;
+}
+
+/* ---- For people --------------------------------------------------------------------------------------------- */
+
+static void print_numbers(FILE *out, const double *values, size_t count)
+{
+    char text[NUMBER_TEXT];
+    for (size_t i = 0; i < count; i++) {
+        number_print(values[i], text);
+        fprintf(out, " %s", text);
+    }
+}
+
+/* "range MIN to MAX", "radius R about PLACE", "nearest to PLACE", "8 nearest to PLACE". */
+static void print_question(const shown_answer *shown, FILE *out)
+{
+    const octree_answer *answer = shown->answer;
+    const unsigned members = shown->about->members;
+    if (members & OCTREE_QUERY_HAS_K)
+        fprintf(out, "%zu nearest", answer->k);
+    else
+        fputs(shown->about->name, out);
+    if (members & OCTREE_QUERY_HAS_BOX) {
+        print_numbers(out, answer->box.min, 3);
+        fputs("  to ", out);
+        print_numbers(out, answer->box.max, 3);
+    }
+    if (members & OCTREE_QUERY_HAS_RADIUS)
+        print_numbers(out, &answer->radius, 1);
+    if (members & OCTREE_QUERY_HAS_TARGET) {
+        fputs(members & OCTREE_QUERY_HAS_RADIUS ? " about" : " to", out);
+        print_numbers(out, answer->target, 3);
+    }
+}
+
+static void print_answer(const shown_answer *shown, FILE *out)
+{
+    const char *note = note_of(shown);
+    print_question(shown, out);
+    fprintf(out, ": %zu found\n", shown->answer->count);
+    if (note)
+        fprintf(out, "  note: %s\n", note);
+    for (size_t i = 0; i < shown->answer->count; i++) {
+        const octree_point *point = point_at(shown, i);
+        fprintf(out, "  %" PRIu64 ":", point->id);
+        print_numbers(out, point->position, 3);
+        if (shown->neighbors) {
+            fputs("  at", out);
+            print_numbers(out, &shown->neighbors[i].distance, 1);
+        }
+        fputc('\n', out);
+    }
+    fprintf(out,
+            "  cost: %" PRIu64 " nodes visited, %" PRIu64 " of them leaves; %" PRIu64 " points compared; %" PRIu64
+            " nodes pruned\n",
+            shown->answer->cost.nodes, shown->answer->cost.leaves, shown->answer->cost.points,
+            shown->answer->cost.pruned);
+}
+
+/* ---- JSON --------------------------------------------------------------------------------------------------- */
+
+static void write_question(json_writer *w, const shown_answer *shown)
+{
+    const octree_answer *answer = shown->answer;
+    const unsigned members = shown->about->members;
+    json_member_text(w, "query", shown->about->name);
+    if (members & OCTREE_QUERY_HAS_BOX) {
+        json_member_vector(w, "min", answer->box.min);
+        json_member_vector(w, "max", answer->box.max);
+    }
+    if (members & OCTREE_QUERY_HAS_TARGET)
+        json_member_vector(w, members & OCTREE_QUERY_HAS_RADIUS ? "center" : "target", answer->target);
+    if (members & OCTREE_QUERY_HAS_RADIUS) {
+        json_write_key(w, "radius");
+        json_write_number(w, answer->radius);
+    }
+    if (shown->about->neighbors)
+        json_member_integer(w, "k", answer->k);
+}
+
+static void write_points(json_writer *w, const shown_answer *shown)
+{
+    json_member_integer(w, "found", shown->answer->count);
+    json_write_key(w, "points");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < shown->answer->count; i++) {
+        json_write_begin_object(w);
+        json_member_integer(w, "id", point_at(shown, i)->id);
+        json_member_vector(w, "position", point_at(shown, i)->position);
+        if (shown->neighbors) {
+            json_write_key(w, "distance");
+            json_write_number(w, shown->neighbors[i].distance);
+        }
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+static void write_answer(json_writer *w, const shown_answer *shown)
+{
+    const char *note = note_of(shown);
+    json_write_begin_object(w);
+    write_question(w, shown);
+    write_points(w, shown);
+    if (note)
+        json_member_text(w, "note", note);
+    json_write_key(w, "cost");
+    json_write_begin_object(w);
+    json_member_integer(w, "nodes", shown->answer->cost.nodes);
+    json_member_integer(w, "leaves", shown->answer->cost.leaves);
+    json_member_integer(w, "points", shown->answer->cost.points);
+    json_member_integer(w, "pruned", shown->answer->cost.pruned);
+    json_write_end_object(w);
+    json_write_end_object(w);
+}
+
+void inspect_print_answers(const inspect_answers *answers, const char *name, bool json, FILE *out)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    if (json) {
+        json_write_begin_object(w);
+        json_member_text(w, "cloud", name);
+        json_write_key(w, "answers");
+        json_write_begin_array(w);
+    } else {
+        fprintf(out, "%s\n", name);
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const shown_answer shown = show_answer(answers, i);
+        if (json)
+            write_answer(w, &shown);
+        else
+            print_answer(&shown, out);
+    }
+    if (json) {
+        json_write_end_array(w);
+        json_write_end_object(w);
+        json_write_end_line(w);
+    }
+}
