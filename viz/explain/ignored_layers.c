@@ -1,5 +1,6 @@
 /* ignored_layers.c - see ignored_layers.h. */
 #include "ignored_layers.h"
+#include "layer.h"
 #include "draw.h"
 #include "frame_file.h"
 #include "layer.h"
