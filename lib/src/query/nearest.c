@@ -6,12 +6,10 @@
  * parent has too, or that of the plane between the halves. So the children ascend like the sums of the subsets of three
  * increments, and the first that is out of reach ends its node.
  */
-#include "nearest.h"
-#include "neighbor_heap.h"
 #include "leaf.h"
+#include "morton_sort.h"
+#include "neighbor_heap.h"
 #include "search.h"
-
-#define SCAN 64 /* points whose distances are taken at once */
 
 /* An inner node, and which of its children come next. */
 typedef struct frame {
@@ -26,7 +24,7 @@ typedef struct frame {
 
 typedef struct search {
     const octree *tree;
-    best best;
+    neighbor_heap found;
     meter meter;
     double root_squares[3];         /* from the target to the world on each axis */
     unsigned open;                  /* frames: the innermost is at depth open - 1 */
@@ -67,8 +65,8 @@ static void measure(const search *s, frame *f)
 {
     f->near = 0;
     for (int i = 0; i < 3; i++) {
-        const double plane = metric_scaled(&s->best.metric, plane_inside(&s->tree->axes[i], f->center[i]));
-        const double beyond = s->best.metric.scaled[i] - plane;
+        const double plane = metric_scaled(&s->found.metric, plane_inside(&s->tree->axes[i], f->center[i]));
+        const double beyond = s->found.metric.scaled[i] - plane;
         f->squares[i][1] = beyond * beyond;
         f->near |= beyond >= 0 ? 4 >> i : 0;
     }
@@ -93,17 +91,17 @@ static void open_child(search *s, unsigned flip, const node *child)
 
 static void scan_points(search *s, const octree_point *points, unsigned count)
 {
-    double squares[SCAN];
-    const double least = metric_points(&s->best.metric, points, count, squares);
-    if (least > s->best.point_reach)
+    double squares[SCAN_POINTS];
+    const double least = metric_points(&s->found.metric, points, count, squares);
+    if (least > s->found.point_reach)
         return;
-    double reach = best_reach_beside(&s->best, least);
+    double reach = neighbor_heap_reach(&s->found, least);
     for (uint64_t left = metric_within(squares, count, reach); left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         if (squares[i] > reach)
             continue;
-        best_consider(&s->best, &points[i], squares[i]);
-        reach = s->best.point_reach < reach ? s->best.point_reach : reach;
+        neighbor_heap_add(&s->found, &points[i], squares[i]);
+        reach = s->found.point_reach < reach ? s->found.point_reach : reach;
     }
 }
 
@@ -111,8 +109,8 @@ static void scan_leaf(search *s, const node *leaf)
 {
     s->meter.count.leaves++;
     s->meter.count.points += leaf->count;
-    for (uint32_t i = 0; i < leaf->count; i += SCAN)
-        scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN ? leaf->count - i : SCAN);
+    for (uint32_t i = 0; i < leaf->count; i += SCAN_POINTS)
+        scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN_POINTS ? leaf->count - i : SCAN_POINTS);
 }
 
 /* The octants of the children that a frame has not come to. */
@@ -136,7 +134,7 @@ static void step(search *s)
     while (f->next < 8) {
         const unsigned flip = f->flips[f->next], octant = f->near ^ flip;
         const node *child = child_at(f->node, octant);
-        if (child && square_of(f, flip) > s->best.node_reach) {
+        if (child && square_of(f, flip) > s->found.node_reach) {
             meter_prune(&s->meter, f->address, octants_left(f));
             break;
         }
@@ -173,7 +171,7 @@ static frame *measure_way(search *s, const node *n, uint64_t code, const uint32_
 /* The octants of a node that the way to the target's leaf did not take: most often all of them are out of reach. */
 static void search_beside(search *s, frame *f, unsigned depth)
 {
-    const double reach = s->best.node_reach;
+    const double reach = s->found.node_reach;
     if (square_of(f, 1) > reach && square_of(f, 2) > reach && square_of(f, 4) > reach) {
         meter_prune(&s->meter, f->address, f->node->octants & ~(1u << f->near));
         return;
@@ -220,7 +218,8 @@ static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[
     }
 }
 
-void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
+/* The keys of the place of the world that is nearest to a target. */
+static void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
@@ -233,7 +232,7 @@ void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
  * be, none. */
 static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
-    const double reach = sqrt(s->best.node_reach) / s->best.metric.scale;
+    const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;
     uint32_t differ = 0;
     for (int i = 0; i < 3; i++) {
         const axis *a = &s->tree->axes[i];
@@ -254,25 +253,26 @@ static void run_search(search *s)
     double squares = 0;
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
-        const double gap = metric_gap(&s->best.metric, i, a->min, a->max);
+        const double gap = metric_gap(&s->found.metric, i, a->min, a->max);
         s->root_squares[i] = gap * gap;
         squares += s->root_squares[i];
     }
-    if (squares > s->best.node_reach) {
-        s->meter.count.pruned++;
-        meter_trace(&s->meter, OCTREE_ROOT, OCTREE_TOUCH_PRUNED);
+    if (squares > s->found.node_reach) {
+        meter_prune_root(&s->meter);
         return;
     }
-    nearest_keys(tree, s->best.metric.target, keys);
+    nearest_keys(tree, s->found.metric.target, keys);
     const uint64_t code = morton_interleave(keys);
     const path way = path_to(tree, code);
-    meter_way(&s->meter, code, way.depth);
+    s->meter.count.nodes += way.depth + 1;
+    for (unsigned depth = 0; s->meter.how->trace && depth <= way.depth; depth++)
+        meter_trace(&s->meter, morton_address(code, depth), OCTREE_TOUCH_VISITED);
     unsigned depth = way.depth;
     if (way.nodes[depth]->octants) {
         depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
     } else {
         leaf_prefetch(way.nodes[depth]);
-        prefetch_beside(&way, code, keys, s->best.k);
+        prefetch_beside(&way, code, keys, s->found.k);
         scan_leaf(s, way.nodes[depth]);
     }
     const unsigned clear = nodes_out_of_reach(s, keys);
@@ -284,63 +284,121 @@ static void run_search(search *s)
                         way.nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
 }
 
-size_t nearest_search(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
-                      octree_neighbor *neighbors)
+#define NO_RADIUS (-1.0)
+
+/* The arguments have been checked; k >= 1. Returns how many were found. */
+static size_t run_query(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
+                        octree_neighbor *neighbors)
 {
     const metric m = metric_make(tree->scale, is_subnormal_world(tree), target);
     search s;
     s.tree = tree;
-    s.best = best_make(&m, how, radius, neighbors, k);
+    s.found = neighbor_heap_make(&m, how, radius, neighbors, k);
     s.meter = (meter){.how = how};
     s.open = 0;
     run_search(&s);
-    best_finish(&s.best);
+    neighbor_heap_finish(&s.found);
     meter_report(&s.meter);
-    return s.best.count;
+    return s.found.count;
 }
 
-static octree_status check_arguments(const octree *tree, const double target[3], const octree_search *how)
+static octree_status check_and_run(const octree *tree, const double target[3], size_t k, double radius,
+                                   const octree_search *how, octree_neighbor *neighbors, size_t *count)
 {
-    if (!tree || !target)
+    if (!count)
         return OCTREE_NULL_ARGUMENT;
-    const octree_status status = check_finite(target);
-    return status == OCTREE_OK ? check_search(how) : status;
+    *count = 0;
+    if (!tree || !target || (!neighbors && k > 0))
+        return OCTREE_NULL_ARGUMENT;
+    const octree_search search = search_or_default(how);
+    octree_status status = check_finite(target);
+    if (status == OCTREE_OK)
+        status = check_search(&search);
+    if (status == OCTREE_OK && k > 0)
+        *count = run_query(tree, target, k, radius, &search, neighbors);
+    return status;
 }
 
 octree_status octree_nearest_k(const octree *tree, const double target[3], size_t k, const octree_search *how,
                                octree_neighbor *neighbors, size_t *count)
 {
-    const octree_search search = search_or_default(how);
-    if (!count)
-        return OCTREE_NULL_ARGUMENT;
-    *count = 0;
-    const octree_status status = neighbors || k == 0 ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
-    if (status != OCTREE_OK)
-        return status;
-    *count = k > 0 ? nearest_search(tree, target, k, -1, &search, neighbors) : 0;
-    return OCTREE_OK;
+    return check_and_run(tree, target, k, NO_RADIUS, how, neighbors, count);
 }
 
 octree_status octree_nearest_within(const octree *tree, const double target[3], double radius, const octree_search *how,
                                     octree_neighbor *nearest)
 {
-    const octree_search search = search_or_default(how);
-    octree_status status = nearest ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
-    if (status == OCTREE_OK && !isfinite(radius))
-        status = OCTREE_NOT_FINITE;
-    if (status == OCTREE_OK && radius < 0)
-        status = OCTREE_BAD_SIZE;
-    if (status != OCTREE_OK)
-        return status;
-    return nearest_search(tree, target, 1, radius, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
+    size_t count = 0;
+    octree_status status = check_length(radius);
+    if (status == OCTREE_OK)
+        status = check_and_run(tree, target, 1, radius, how, nearest, &count);
+    return status == OCTREE_OK && count == 0 ? OCTREE_NOT_FOUND : status;
 }
 
 octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
                              octree_neighbor *nearest)
 {
-    const octree_search search = {.skip = skip, .skip_id = skip_id};
-    const octree_status status = nearest ? check_arguments(tree, target, &search) : OCTREE_NULL_ARGUMENT;
-    if (status != OCTREE_OK)
+    const octree_search how = {.skip = skip, .skip_id = skip_id};
+    size_t count;
+    const octree_status status = check_and_run(tree, target, 1, NO_RADIUS, &how, nearest, &count);
+    return status == OCTREE_OK && count == 0 ? OCTREE_NOT_FOUND : status;
+}
+
+/* ---- Many targets, in the order of the tree ----------------------------------------------------------------- */
+
+static octree_status check_batch(const octree *tree, const double (*targets)[3], size_t count, const octree_search *how,
+                                 const octree_neighbor *neighbors)
+{
+    if (!tree || ((!targets || !neighbors) && count))
+        return OCTREE_NULL_ARGUMENT;
+    if (count > UINT32_MAX)
+        return OCTREE_TOO_MANY;
+    octree_status status = check_search(how);
+    for (size_t i = 0; status == OCTREE_OK && i < count; i++)
+        status = check_finite(targets[i]);
+    return status;
+}
+
+#define AHEAD 4 /* the caller's arrays are read and written in the order of the tree: so many turns ahead */
+
+static void ask_in_turn(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count,
+                        const octree_search *how, octree_neighbor *neighbors, bool *found)
+{
+    for (size_t i = 0; i < count; i++) {
+        octree_neighbor nearest;
+        const uint32_t place = turns[i].place;
+        if (i + AHEAD < count) {
+            prefetch(&targets[turns[i + AHEAD].place]);
+            prefetch(&neighbors[turns[i + AHEAD].place]);
+        }
+        const bool one = run_query(tree, targets[place], 1, NO_RADIUS, how, &nearest) == 1;
+        if (one)
+            neighbors[place] = nearest;
+        if (found)
+            found[place] = one;
+    }
+}
+
+octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
+                                   const octree_search *how, octree_neighbor *neighbors, bool *found)
+{
+    const octree_search search = search_or_default(how);
+    const octree_status status = check_batch(tree, targets, count, &search, neighbors);
+    if (status != OCTREE_OK || count == 0)
         return status;
-    return nearest_search(tree, target, 1, -1, &search, nearest) ? OCTREE_OK : OCTREE_NOT_FOUND;
+    /* The tree's own allocator, but not its books: queries change nothing of the tree. */
+    const octree_allocator *allocator = &tree->def.allocator;
+    const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
+    morton_item *turns = size < SIZE_MAX ? allocator->allocate(size, allocator->context) : NULL;
+    if (!turns)
+        return OCTREE_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t keys[3];
+        nearest_keys(tree, targets[i], keys);
+        turns[i] = (morton_item){morton_interleave(keys), (uint32_t)i, false};
+    }
+    morton_sort(turns, turns + count, count, 0, 0);
+    ask_in_turn(tree, targets, turns, count, &search, neighbors, found);
+    allocator->release(turns, size, allocator->context);
+    return OCTREE_OK;
 }

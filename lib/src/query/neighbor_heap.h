@@ -1,41 +1,41 @@
-/* best.h - the k best neighbours found so far, decided by the real numbers. Private.
+/* neighbor_heap.h - the k nearest neighbours found so far, decided by the real numbers. Private.
  *
- * A heap in the caller's array, the worst on top; of few, in descending order. Squared distances in doubles decide
- * whenever their proven error allows (metric.h), exact arithmetic decides the rest: so rounding never picks a
- * neighbour.
+ * A heap in the caller's array, the farthest on top. Squared distances in doubles decide whenever their proven error
+ * allows (metric.h), exact arithmetic decides the rest: so rounding never picks a neighbour.
  */
-#ifndef OCTREE_BEST_H
-#define OCTREE_BEST_H
+#ifndef OCTREE_NEIGHBOR_HEAP_H
+#define OCTREE_NEIGHBOR_HEAP_H
 
 #include "metric.h"
 
 #include <stddef.h>
 
-typedef struct best {
+typedef struct neighbor_heap {
     metric metric;
     octree_search how;
     double radius; /* negative: there is none */
     double radius_square;
-    double shrink;         /* 1 / (1 + epsilon)^2, rounded up: a node farther than this part of the worst is left out */
-    double point_reach;    /* a point whose square is beyond this is not among the best */
-    double node_reach;     /* and so is no point of a node whose square is beyond this */
-    octree_neighbor *heap; /* `distance` holds scaled squares until the end */
+    double shrink;          /* 1 / (1 + epsilon)^2, rounded up: a node farther than the farthest by this is left out */
+    double point_reach;     /* a point whose square is beyond this is not among the k nearest */
+    double node_reach;      /* and so is no point of a node whose square is beyond this */
+    octree_neighbor *items; /* `distance` holds scaled squares until the end */
     size_t count, k;
-} best;
+} neighbor_heap;
 
-best best_make(const metric *m, const octree_search *how, double radius, octree_neighbor *room, size_t k);
+neighbor_heap neighbor_heap_make(const metric *m, const octree_search *how, double radius, octree_neighbor *room,
+                                 size_t k);
 
-/* Of points among which one has this square, none beyond this is among the best, whether or not that one is taken. */
-static inline double best_reach_beside(const best *b, double square)
+/* The reach of points among which one has this square, whether or not that one is taken. */
+static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
 {
     const double reach = metric_above(square);
-    return b->k == 1 && b->how.skip == OCTREE_SKIP_NONE && reach < b->point_reach ? reach : b->point_reach;
+    return h->k == 1 && h->how.skip == OCTREE_SKIP_NONE && reach < h->point_reach ? reach : h->point_reach;
 }
 
-/* Take in a point whose square is not beyond point_reach, if it counts and is better than the worst. */
-void best_consider(best *b, const octree_point *point, double square);
+/* Add a point whose square is not beyond point_reach, if it counts and is among the k nearest so far. */
+void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square);
 
 /* Sort by distance, then by id, then by position; squares become distances. */
-void best_finish(const best *b);
+void neighbor_heap_finish(const neighbor_heap *h);
 
 #endif

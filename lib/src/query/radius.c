@@ -1,6 +1,5 @@
 /* radius.c - the points in a closed ball. */
 #include "region.h"
-#include "search.h"
 
 /* The squares of the distances from the centre to a cell, axis by axis. */
 typedef struct ball_cell {
@@ -21,11 +20,6 @@ typedef struct ball {
     double whole;  /* what has a square below this is inside the ball of radius + epsilon */
     ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 /* Of the two halves of a cell on an axis, the squares to the nearest place and to the farthest. */
 static double near_square(const ball_cell *c, int axis, bool upper)
@@ -88,7 +82,7 @@ static unsigned scan(const void *shape, const octree_point *points, unsigned cou
 {
     const ball *b = shape;
     const double reach = b->reach;
-    double squares[REGION_SCAN];
+    double squares[SCAN_POINTS];
     unsigned found = 0, left = 0;
     if (metric_points(&b->metric, points, count, squares) > reach)
         return 0;
@@ -148,8 +142,7 @@ static void run_query(const octree *tree, const double center[3], double radius,
         .context = context,
         .meter = {.how = how},
     };
-    region_descend(&r, measure_root(&b, tree));
-    meter_report(&r.meter);
+    region_search(&r, measure_root(&b, tree));
 }
 
 octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,
@@ -160,9 +153,9 @@ octree_status octree_radius(const octree *tree, const double center[3], double r
     const octree_search search = search_or_default(how);
     octree_status status = check_search(&search);
     if (status == OCTREE_OK)
-        status = isfinite(radius) ? check_finite(center) : OCTREE_NOT_FINITE;
-    if (status == OCTREE_OK && radius < 0)
-        status = OCTREE_BAD_SIZE;
+        status = check_finite(center);
+    if (status == OCTREE_OK)
+        status = check_length(radius);
     if (status == OCTREE_OK)
         run_query(tree, center, radius, &search, visit, context);
     return status;

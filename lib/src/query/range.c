@@ -1,9 +1,9 @@
-/* range.c - Algorithm 4: the points in a closed box. */
-#include "box_shape.h"
+/* range.c - the points in a closed box: Algorithm 4, and Algorithm 5, which asks for the box about a place. */
+#include "range.h"
 #include "exact.h"
-#include "search.h"
+#include "region.h"
 
-#include <math.h>
+#include <stdlib.h>
 
 /* The box moved out by epsilon, rounded so that nothing beyond it counts as inside. */
 static octree_box widen(const octree_box *box, double epsilon)
@@ -31,8 +31,7 @@ static size_t run_query(const octree *tree, const octree_box *box, const octree_
         .context = context,
         .meter = {.how = how},
     };
-    region_descend(&r, box_shape_root(&shape, tree));
-    meter_report(&r.meter);
+    region_search(&r, box_shape_root(&shape, tree));
     return r.count;
 }
 
@@ -64,4 +63,127 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
     if (status == OCTREE_OK)
         *count = run_query(tree, box, &(octree_search){0}, NULL, NULL);
     return status;
+}
+
+/* ---- Into an array ------------------------------------------------------------------------------------------ */
+
+typedef struct collection {
+    octree_point *points;
+    size_t room, count;
+} collection;
+
+static bool collect(const octree_point *point, void *context)
+{
+    collection *c = context;
+    if (c->count < c->room)
+        c->points[c->count] = *point;
+    c->count++;
+    return true;
+}
+
+/* Let the largest, on top of a heap of points, sink to its place. */
+static void sink(octree_point *heap, size_t count)
+{
+    for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
+        if (child + 1 < count && octree_compare_points(&heap[child], &heap[child + 1]) < 0)
+            child++;
+        if (octree_compare_points(&heap[at], &heap[child]) >= 0)
+            return;
+        const octree_point kept = heap[at];
+        heap[at] = heap[child];
+        heap[child] = kept;
+    }
+}
+
+static int compare_reversed(const void *a, const void *b)
+{
+    return octree_compare_points(b, a);
+}
+
+/* Keep the smallest. When the array is full it becomes a heap, largest on top (descending order is one), and a smaller
+ * point replaces the top. */
+static bool collect_smallest(const octree_point *point, void *context)
+{
+    collection *c = context;
+    c->count++;
+    if (c->count <= c->room) {
+        c->points[c->count - 1] = *point;
+        if (c->count == c->room)
+            qsort(c->points, c->room, sizeof *c->points, compare_reversed);
+    } else if (c->room > 0 && octree_compare_points(point, &c->points[0]) < 0) {
+        c->points[0] = *point;
+        sink(c->points, c->room);
+    }
+    return true;
+}
+
+static octree_status run(const octree *tree, const octree_box *box, const octree_search *how,
+                         octree_point_visitor visit, octree_point *points, size_t room, size_t *count)
+{
+    if (!count)
+        return OCTREE_NULL_ARGUMENT;
+    *count = 0;
+    if (!points && room)
+        return OCTREE_NULL_ARGUMENT;
+    collection c = {points, room, 0};
+    const octree_status status = octree_range_search(tree, box, how, visit, &c);
+    *count = c.count;
+    return status;
+}
+
+octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
+                                   octree_point *points, size_t room, size_t *count)
+{
+    return run(tree, box, how, collect, points, room, count);
+}
+
+octree_status octree_range_collect_sorted(const octree *tree, const octree_box *box, const octree_search *how,
+                                          octree_point *points, size_t room, size_t *count)
+{
+    const octree_status status = run(tree, box, how, collect_smallest, points, room, count);
+    const size_t stored = !count ? 0 : *count < room ? *count : room;
+    if (stored > 1)
+        qsort(points, stored, sizeof *points, octree_compare_points);
+    return status;
+}
+
+/* ---- Algorithm 5 -------------------------------------------------------------------------------------------- */
+
+octree_status octree_collision_box(const double center[3], double box_size, octree_box *box)
+{
+    if (!center || !box)
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = check_finite(center);
+    if (status == OCTREE_OK)
+        status = check_length(box_size);
+    for (int i = 0; status == OCTREE_OK && i < 3; i++) {
+        box->min[i] = exact_add_up(center[i], -box_size);
+        box->max[i] = exact_add_down(center[i], box_size);
+    }
+    return status;
+}
+
+bool collision_visit(const octree_point *point, void *context)
+{
+    const collision *c = context;
+    return is_self(c->self, point) || c->visit(point, c->context);
+}
+
+octree_status octree_collide_search(const octree *tree, const double center[3], double box_size,
+                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
+                                    void *context)
+{
+    if (!tree || !visit)
+        return OCTREE_NULL_ARGUMENT;
+    octree_box box;
+    const octree_status status = octree_collision_box(center, box_size, &box);
+    if (status != OCTREE_OK)
+        return status;
+    return octree_range_search(tree, &box, how, collision_visit, &(collision){self, visit, context});
+}
+
+octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
+                             octree_point_visitor visit, void *context)
+{
+    return octree_collide_search(tree, center, box_size, self, NULL, visit, context);
 }

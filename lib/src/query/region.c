@@ -1,7 +1,5 @@
-/* region.c - see region.h. */
 #include "region.h"
 #include "leaf.h"
-#include "search.h"
 
 /* A node on the way, and the octants of its children that are still to come. */
 typedef struct frame {
@@ -21,11 +19,34 @@ typedef struct descent {
     const node *waiting[WAITING];
 } descent;
 
+/* Every point in and below a node whose cell is inside the region. False when the visitor stopped. */
+static bool visit_all_below(region *r, const node *n)
+{
+    const node *pending[STACK_ROOM];
+    size_t size = 0;
+    pending[size++] = n;
+    while (size > 0) {
+        const node *next = pending[--size];
+        r->meter.count.nodes++;
+        for (unsigned i = bits_count8(next->octants); i-- > 0;) {
+            pending[size++] = &children_of(next)[i];
+            prefetch(children_of(next)[i].below);
+        }
+        if (next->octants)
+            continue;
+        r->meter.count.leaves++;
+        for (uint32_t i = 0; i < next->count; i++)
+            if (!r->visit(&leaf_points(next)[i], r->context))
+                return false;
+    }
+    return true;
+}
+
 static bool take_whole(region *r, const node *n, octree_address address)
 {
     meter_trace(&r->meter, address, OCTREE_TOUCH_TAKEN);
     if (r->visit)
-        return visit_all_below(n, &r->meter, r->visit, r->context);
+        return visit_all_below(r, n);
     r->meter.count.nodes++;
     r->count += n->count;
     return true;
@@ -33,13 +54,13 @@ static bool take_whole(region *r, const node *n, octree_address address)
 
 static bool scan_leaf(region *r, const node *leaf)
 {
-    uint8_t hits[REGION_SCAN];
+    uint8_t hits[SCAN_POINTS];
     r->meter.count.leaves++;
     r->meter.count.points += leaf->count;
-    for (uint32_t start = 0; start < leaf->count; start += REGION_SCAN) {
+    for (uint32_t start = 0; start < leaf->count; start += SCAN_POINTS) {
         const octree_point *points = leaf_points(leaf) + start;
         const uint32_t left = leaf->count - start;
-        const unsigned found = r->scan(r->shape, points, left < REGION_SCAN ? left : REGION_SCAN, hits);
+        const unsigned found = r->scan(r->shape, points, left < SCAN_POINTS ? left : SCAN_POINTS, hits);
         r->count += found;
         for (unsigned i = 0; r->visit && i < found; i++)
             if (!r->visit(&points[hits[i]], r->context))
@@ -90,16 +111,11 @@ static bool look_at(descent *d, const node *n, octree_address address, unsigned 
     return true;
 }
 
-void region_descend(region *r, octant_masks root)
+static void descend(region *r, octant_masks root)
 {
     descent d;
     d.region = r;
     d.depth = d.came = d.went = 0;
-    if (!(root.meets & 1)) {
-        r->meter.count.pruned++;
-        meter_trace(&r->meter, OCTREE_ROOT, OCTREE_TOUCH_PRUNED);
-        return;
-    }
     bool go_on = look_at(&d, &r->tree->root, OCTREE_ROOT, 0, root.inside & 1);
     while (go_on && d.depth > 0) {
         frame *f = &d.frames[d.depth];
@@ -113,4 +129,84 @@ void region_descend(region *r, octant_masks root)
     }
     while (go_on && d.went < d.came)
         go_on = scan_next(&d);
+}
+
+void region_search(region *r, octant_masks root)
+{
+    if (root.meets & 1)
+        descend(r, root);
+    else
+        meter_prune_root(&r->meter);
+    meter_report(&r->meter);
+}
+
+/* ---- A closed box ------------------------------------------------------------------------------------------- */
+
+static key_box box_keys(const octree *tree, const octree_box *box)
+{
+    key_box keys;
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &tree->axes[i];
+        keys.min[i] = box->min[i] > a->min ? (int32_t)plane_key(a, fmin(box->min[i], a->max)) : -1;
+        keys.max[i] = box->max[i] < a->max ? (int32_t)plane_key(a, fmax(box->max[i], a->min)) : (int32_t)PLANE_GRID;
+    }
+    return keys;
+}
+
+box_shape box_shape_make(const octree *tree, const octree_box *box, const octree_box *whole)
+{
+    box_shape s;
+    s.box = box;
+    s.near = box_keys(tree, box);
+    s.whole = whole == box ? s.near : box_keys(tree, whole);
+    return s;
+}
+
+static bool misses_world(const octree *tree, const octree_box *box)
+{
+    for (int i = 0; i < 3; i++)
+        if (box->max[i] < tree->axes[i].min || box->min[i] > tree->axes[i].max)
+            return true;
+    return false;
+}
+
+octant_masks box_shape_root(const box_shape *s, const octree *tree)
+{
+    octant_masks root = {1, 1};
+    if (misses_world(tree, s->box))
+        return (octant_masks){0, 0};
+    for (int i = 0; i < 3; i++)
+        if (s->whole.min[i] >= 0 || s->whole.max[i] < (int32_t)PLANE_GRID)
+            root.inside = 0;
+    return root;
+}
+
+octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, unsigned octant)
+{
+    (void)tree;
+    box_shape *s = shape;
+    const int32_t size = (int32_t)cell_size(depth), half = size / 2;
+    unsigned meets = 0xff, inside = 0xff;
+    for (int i = 0; i < 3; i++) {
+        const int32_t low = depth == 0 ? 0 : s->low[depth - 1][i] + (octant & (4u >> i) ? size : 0);
+        const int32_t middle = low + half, high = low + size;
+        const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
+        s->low[depth][i] = low;
+        meets &= bits_if(s->near.min[i] < middle && low <= s->near.max[i], below) |
+                 bits_if(s->near.min[i] < high && middle <= s->near.max[i], above);
+        inside &= bits_if(s->whole.min[i] < low && middle <= s->whole.max[i], below) |
+                  bits_if(s->whole.min[i] < middle && high <= s->whole.max[i], above);
+    }
+    return (octant_masks){(uint8_t)meets, (uint8_t)inside};
+}
+
+unsigned box_shape_scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
+{
+    const octree_box box = *((const box_shape *)shape)->box;
+    unsigned found = 0;
+    for (unsigned i = 0; i < count; i++) {
+        hits[found] = (uint8_t)i;
+        found += box_contains(&box, points[i].position);
+    }
+    return found;
 }

@@ -1,13 +1,12 @@
-/* region.h - the way through the nodes that a region of space meets: a box or a ball. Private.
+/* region.h - visiting the points in a region of space: a box, a ball, or the way of a box. Private.
  *
- * What a region is, is told by three functions of its `shape`. The way is depth first; a shape keeps what it knows of
- * the cell at each depth, so that a child's cell is made from its parent's and nothing is worked out twice.
+ * A region is described by three functions of its `shape`. The traversal is depth first; a shape keeps what it knows of
+ * the cell at each depth, so that a child's cell follows from its parent's.
  */
 #ifndef OCTREE_REGION_H
 #define OCTREE_REGION_H
 
-#include "meter.h"
-#include "tree.h"
+#include "search.h"
 
 /* How a region lies to the octants of a cell: a bit an octant. */
 typedef struct octant_masks {
@@ -18,24 +17,44 @@ typedef struct octant_masks {
 /* Of the two halves of a cell on an axis: the octants in the lower one, and in the upper. */
 static const uint8_t octants_beside[3][2] = {{0x0f, 0xf0}, {0x33, 0xcc}, {0x55, 0xaa}};
 
-typedef struct region region;
-
-struct region {
+typedef struct region {
     const octree *tree;
     void *shape;
     /* The masks of a cell at a depth; it is the octant of the cell that was entered last at the depth above. */
     octant_masks (*enter)(void *shape, const octree *tree, unsigned depth, unsigned octant);
-    /* Fill `hits` with the indices of those of the points that are in the region; 1 <= count <= REGION_SCAN. */
+    /* Fill `hits` with the indices of the points that are in the region; 1 <= count <= SCAN_POINTS. */
     unsigned (*scan)(const void *shape, const octree_point *points, unsigned count, uint8_t hits[]);
     octree_point_visitor visit; /* null: points are counted */
     void *context;
     size_t count;
     meter meter;
-};
+} region;
 
-#define REGION_SCAN 64
+/* Visit or count the points in a region, and report the cost. The masks are those of the root, in the lowest bit. */
+void region_search(region *r, octant_masks root);
 
-/* Visit or count the points in a region. The masks tell of the root: its bit is the lowest. */
-void region_descend(region *r, octant_masks root);
+/* ---- A closed box ------------------------------------------------------------------------------------------- */
+
+/* A box in keys, so that cells are compared by integers. Keys are monotone: a point whose key lies strictly between the
+ * ends' keys lies in the box, and one whose key lies outside them does not. Where the box reaches the world's face, the
+ * end is one key beyond all. */
+typedef struct key_box {
+    int32_t min[3], max[3];
+} key_box;
+
+typedef struct box_shape {
+    const octree_box *box;
+    key_box near;                     /* of the box: what does not meet it is left out */
+    key_box whole;                    /* of the box widened by epsilon: what is inside is taken whole */
+    int32_t low[OCTREE_MAX_DEPTH][3]; /* of the cell at each depth */
+} box_shape;
+
+/* The shape of a box; `whole` is that box, or one around it. */
+box_shape box_shape_make(const octree *tree, const octree_box *box, const octree_box *whole);
+
+/* For region_search. */
+octant_masks box_shape_root(const box_shape *s, const octree *tree);
+octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, unsigned octant);
+unsigned box_shape_scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[]);
 
 #endif

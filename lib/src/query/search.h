@@ -1,12 +1,14 @@
-/* search.h - what the queries with a choice of accuracy share. Private. */
+/* search.h - what all queries share: checked arguments, counts and traces of what they met. Private. */
 #ifndef OCTREE_SEARCH_H
 #define OCTREE_SEARCH_H
 
-#include "meter.h"
+#include "bits.h"
 #include "metric.h"
 #include "tree.h"
 
 #include <math.h>
+
+#define SCAN_POINTS 64 /* of a leaf, that are compared at once */
 
 /* The search that a null pointer stands for. */
 octree_search search_or_default(const octree_search *how);
@@ -14,11 +16,20 @@ octree_search search_or_default(const octree_search *how);
 /* OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
 octree_status check_search(const octree_search *how);
 
-/* NOT_FINITE when one of three coordinates is. */
+/* FLOAT_MODE, or NOT_FINITE when one of three coordinates is. */
 octree_status check_finite(const double position[3]);
+
+/* NOT_FINITE, or BAD_SIZE when it is negative. */
+octree_status check_length(double length);
 
 /* NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE (a NaN) or BAD_RANGE. */
 octree_status check_box(const octree_box *box);
+
+/* Not fmax(), which is a call: no argument is NaN. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
 
 /* True when a square is decided by as it is: in fast mode, but for squares that overflow, which say nothing. */
 static inline bool is_trusted(octree_mode mode, double square)
@@ -37,7 +48,53 @@ static inline bool is_within(const metric *m, octree_mode mode, const octree_poi
     return !(square > metric_above(radius_square)) && metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
-/* Visit every point in and below a node whose cell is inside a range. False when the visitor stopped. */
-bool visit_all_below(const node *n, meter *m, octree_point_visitor visit, void *context);
+/* ---- What a query met --------------------------------------------------------------------------------------- */
+
+typedef struct meter {
+    octree_cost count;
+    const octree_search *how;
+} meter;
+
+static inline void meter_trace(const meter *m, octree_address address, octree_touch touch)
+{
+    if (m->how->trace)
+        m->how->trace(address, touch, m->how->trace_context);
+}
+
+/* A node whose children or points are looked at one by one. */
+static inline void meter_visit(meter *m, octree_address address)
+{
+    m->count.nodes++;
+    meter_trace(m, address, OCTREE_TOUCH_VISITED);
+}
+
+/* The children in these octants of a node are left out, with all below them. */
+static inline void meter_prune(meter *m, octree_address parent, unsigned octants)
+{
+    m->count.pruned += bits_count8(octants);
+    if (m->how->trace)
+        for (unsigned octant = 0; octant < 8; octant++)
+            if (octants >> octant & 1)
+                meter_trace(m, parent << 3 | octant, OCTREE_TOUCH_PRUNED);
+}
+
+/* The whole tree is left out. */
+static inline void meter_prune_root(meter *m)
+{
+    m->count.pruned++;
+    meter_trace(m, OCTREE_ROOT, OCTREE_TOUCH_PRUNED);
+}
+
+/* Add the counts to the caller's report. */
+static inline void meter_report(const meter *m)
+{
+    octree_cost *cost = m->how->cost;
+    if (!cost)
+        return;
+    cost->nodes += m->count.nodes;
+    cost->leaves += m->count.leaves;
+    cost->points += m->count.points;
+    cost->pruned += m->count.pruned;
+}
 
 #endif

@@ -1,10 +1,145 @@
-/* collide_swept.c - what a box touches on its way from one place to another: the box around the whole step by keys, its
- * hull by doubles where they can tell, and the points that are left exactly.
+/* swept.c - what a box touches on its way from one place to another: the box around the whole step by keys, its hull by
+ * doubles where their error allows, and the points that are left exactly.
+ *
+ * The box position +- r goes from a by d. What it touches is a convex body whose faces are those of the box around the
+ * whole step, and six more: a face's normal is across two of its edges, and these are the axes and d (a zonotope). On
+ * the axes i and j the normal across d is (-d_j, d_i), and p lies between its two faces where
+ *
+ *     |side(p)| <= r (|d_i| + |d_j|) = R,    side(p) = d_i (p_j - a_j) - d_j (p_i - a_i).
+ *
+ * Where d_i or d_j is 0 the box around the step says that already.
+ *
+ * All is first multiplied by a power of two that brings steps, places and the world below 8, without rounding but for
+ * less than 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where `far` is from a to the farther end of
+ * the world. For a point, side is off by at most 5u S (a rounding in d, in p - a, in the product, in the sum, and what
+ * they make of each other), and R by at most 4u S. For a cell the planes are taken as evenly spaced: at its lowest
+ * corner's keys, side is that of the world's lowest corner (5u S) and two products of a key (each 4u of at most 2S),
+ * and four sums of terms of at most 3S in all make 12u S more: 33u S. The planes themselves are off from their ideal
+ * places by two ulps of the world's coordinates at most (test_exact_planes), of which four are taken. So a band of
+ * 128u S, of those ulps times d, and of 2^-1000 for underflow, on either side of R, has room for all: beyond it is
+ * surely outside, and below it surely inside.
  */
-#include "box_shape.h"
-#include "collision.h"
-#include "hull.h"
-#include "search.h"
+#include "range.h"
+#include "region.h"
+#include "sweep.h"
+
+/* Two faces, across the step on two axes. */
+typedef struct hull_faces {
+    int i, j;
+    double step_i, step_j;       /* d */
+    double lowest;               /* side of the world's lowest corner */
+    double per_key_i, per_key_j; /* what one key more on an axis takes from it, and adds to it */
+    double reach, whole;         /* R and the band; R without it, maybe negative */
+} hull_faces;
+
+typedef struct hull {
+    metric metric; /* from a */
+    hull_faces faces[3];
+    unsigned face_count; /* 1 for a step in a plane of two axes, else 3 */
+} hull;
+
+/* The largest coordinate on an axis. */
+static double largest_on(const axis *a)
+{
+    return larger(fabs(a->min), fabs(a->max));
+}
+
+static double scale_for(const octree *tree, const sweep *box)
+{
+    double largest = box->size;
+    for (int i = 0; i < 3; i++)
+        largest = larger(larger(largest, largest_on(&tree->axes[i])), larger(fabs(box->from[i]), fabs(box->to[i])));
+    int exponent;
+    frexp(largest, &exponent);
+    return ldexp(1.0, -(exponent < -1000 ? -1000 : exponent > 1021 ? 1021 : exponent));
+}
+
+/* The world as seen from where the step begins, on one axis; scaled. */
+typedef struct outlook {
+    double step, low, high;
+    double far;   /* the way to the farther end */
+    double doubt; /* how far a plane may be off, at most */
+} outlook;
+
+static outlook look_along(const metric *m, const axis *a, double start, double end)
+{
+    outlook o = {
+        .step = end - start, .low = metric_scaled(m, a->min) - start, .high = metric_scaled(m, a->max) - start};
+    o.far = larger(fabs(o.low), fabs(o.high));
+    o.doubt = metric_scaled(m, largest_on(a)) * 0x1p-50 + m->scale * 0x1p-1000 * 0x1p-72;
+    return o;
+}
+
+static hull_faces make_faces(const outlook view[3], double size, int i, int j)
+{
+    const outlook *x = &view[i], *y = &view[j];
+    const double level = size * (fabs(x->step) + fabs(y->step));
+    const double sum = fabs(x->step) * y->far + fabs(y->step) * x->far + level;
+    const double band = sum * 0x1p-46 + (fabs(x->step) * y->doubt + fabs(y->step) * x->doubt) + 0x1p-1000;
+    return (hull_faces){
+        .i = i,
+        .j = j,
+        .step_i = x->step,
+        .step_j = y->step,
+        .lowest = x->step * y->low - y->step * x->low,
+        .per_key_i = y->step * (x->high - x->low) / PLANE_GRID,
+        .per_key_j = x->step * (y->high - y->low) / PLANE_GRID,
+        .reach = level + band,
+        .whole = level - band,
+    };
+}
+
+/* False for a step along an axis, which has no such faces; the hull is then left as it is. */
+static bool hull_make(hull *h, const octree *tree, const sweep *box)
+{
+    bool moves[3];
+    for (int i = 0; i < 3; i++)
+        moves[i] = box->from[i] != box->to[i];
+    if (moves[0] + moves[1] + moves[2] < 2)
+        return false;
+    outlook view[3];
+    const double scale = scale_for(tree, box);
+    const metric end = metric_make(scale, is_subnormal_world(tree), box->to);
+    h->metric = metric_make(scale, is_subnormal_world(tree), box->from);
+    for (int i = 0; i < 3; i++)
+        view[i] = look_along(&h->metric, &tree->axes[i], h->metric.scaled[i], end.scaled[i]);
+    h->face_count = 0;
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        if (moves[i] && moves[j])
+            h->faces[h->face_count++] = make_faces(view, box->size * scale, i, j);
+    }
+    return true;
+}
+
+/* Which octants of a cell may lie between all the faces, and which surely do; `low` are its lowest keys. */
+static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned depth)
+{
+    const double half = (double)cell_size(depth) / 2, quarter = half / 2;
+    unsigned misses = 0, leaves = 0;
+    for (unsigned k = 0; k < h->face_count; k++) {
+        const hull_faces *f = &h->faces[k];
+        const double middle = f->lowest + (low[f->j] + half) * f->per_key_j - (low[f->i] + half) * f->per_key_i;
+        const double x = f->per_key_i * quarter, y = f->per_key_j * quarter, grown = fabs(x) + fabs(y);
+        for (int column = 0; column < 4; column++) { /* of two octants */
+            const int upper_i = column >> 1, upper_j = column & 1;
+            const unsigned octants = octants_beside[f->i][upper_i] & octants_beside[f->j][upper_j];
+            const double side = fabs((middle + (upper_j ? y : -y)) - (upper_i ? x : -x));
+            misses |= bits_if(side > f->reach + grown, octants);
+            leaves |= bits_if(!(side + grown < f->whole), octants);
+        }
+    }
+    return (octant_masks){(uint8_t)~misses, (uint8_t)~leaves};
+}
+
+static double hull_side(const hull *h, const hull_faces *f, const double p[3])
+{
+    const double x = metric_scaled(&h->metric, p[f->i]) - h->metric.scaled[f->i];
+    const double y = metric_scaled(&h->metric, p[f->j]) - h->metric.scaled[f->j];
+    return f->step_i * y - f->step_j * x;
+}
+
+/* ---- The search --------------------------------------------------------------------------------------------- */
 
 typedef struct swept_shape {
     box_shape around; /* first: of the whole step */
@@ -66,8 +201,7 @@ static void run_query(const octree *tree, const sweep *box, const octree_box *ar
     octant_masks root = box_shape_root(&shape.around, tree);
     if (slanting)
         root.inside = 0;
-    region_descend(&r, root);
-    meter_report(&r.meter);
+    region_search(&r, root);
 }
 
 octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,
