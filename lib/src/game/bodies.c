@@ -1,6 +1,6 @@
-/* bodies.c - see bodies.h. */
 #include "bodies.h"
 #include "float_rules.h"
+#include "game_state.h"
 #include "octree/digest.h"
 
 #include <math.h>
@@ -19,11 +19,10 @@ static size_t slot_of(const bodies *b, uint64_t id)
     return slot;
 }
 
-void bodies_release(bodies *b)
+void bodies_release(bodies *b, arena *memory)
 {
-    list_release(b->memory, &b->items, sizeof(moving_body));
-    arena_give(b->memory, b->slots, b->slot_count * sizeof *b->slots);
-    *b = (bodies){.memory = b->memory};
+    list_release(memory, &b->items, sizeof(moving_body));
+    arena_give(memory, b->slots, b->slot_count * sizeof *b->slots);
 }
 
 moving_body *bodies_find(const bodies *b, uint64_t id)
@@ -35,15 +34,15 @@ moving_body *bodies_find(const bodies *b, uint64_t id)
 }
 
 /* Keep at least half of the slots empty. */
-static bool make_slots(bodies *b, size_t count)
+static bool make_slots(bodies *b, arena *memory, size_t count)
 {
     if (2 * count <= b->slot_count)
         return true;
     const size_t slot_count = b->slot_count ? 2 * b->slot_count : 64;
-    uint32_t *slots = arena_take(b->memory, slot_count * sizeof *slots);
+    uint32_t *slots = arena_take(memory, slot_count * sizeof *slots);
     if (!slots)
         return false;
-    arena_give(b->memory, b->slots, b->slot_count * sizeof *slots);
+    arena_give(memory, b->slots, b->slot_count * sizeof *slots);
     memset(slots, 0, slot_count * sizeof *slots);
     b->slots = slots;
     b->slot_count = slot_count;
@@ -52,7 +51,7 @@ static bool make_slots(bodies *b, size_t count)
     return true;
 }
 
-bool is_moving(const double velocity[3])
+static bool is_moving(const double velocity[3])
 {
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
@@ -62,12 +61,13 @@ bool is_finite_velocity(const double velocity[3])
     return isfinite(velocity[0]) && isfinite(velocity[1]) && isfinite(velocity[2]);
 }
 
-bool bodies_add(bodies *b, const octree_body *body, uint64_t tick)
+/* Add a body that is not there yet, at rest at its position at this tick. False when there is no memory. */
+static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
 {
-    if (!make_slots(b, b->items.count + 1))
+    if (!make_slots(b, memory, b->items.count + 1))
         return false;
     const size_t slot = slot_of(b, body->id);
-    moving_body *added = list_append(b->memory, &b->items, sizeof *added);
+    moving_body *added = list_append(memory, &b->items, sizeof *added);
     if (!added)
         return false;
     *added = (moving_body){.id = body->id, .since = tick, .moved = UINT64_MAX};
@@ -93,7 +93,8 @@ static void clear_slot(bodies *b, size_t gap)
     b->slots[gap] = 0;
 }
 
-void bodies_remove(bodies *b, moving_body *body)
+/* Take a body out; the last one takes its place. */
+static void bodies_remove(bodies *b, moving_body *body)
 {
     b->movers -= is_moving(body->velocity);
     clear_slot(b, slot_of(b, body->id));
@@ -105,7 +106,10 @@ void bodies_remove(bodies *b, moving_body *body)
     b->items.count--;
 }
 
-void body_store(moving_body *body, const double to[3], uint64_t tick)
+/* ---- Motion ------------------------------------------------------------------------------------------------- */
+
+/* Note that a body is stored elsewhere from this tick on. */
+static void body_store(moving_body *body, const double to[3], uint64_t tick)
 {
     if (body->moved != tick)
         memcpy(body->before, body->position, sizeof body->before);
@@ -135,27 +139,190 @@ static double reflect(double origin, double velocity, double ticks, double min, 
     return position < min ? min : position > max ? max : position;
 }
 
-static double ticks_since(const moving_body *body, uint64_t tick)
+/* Where a body is at a tick and how it goes on: reflected at the world's faces as often as it must be, and turned on an
+ * axis where it bounced and where it is about to. */
+static octree_body body_at(const moving_body *body, const octree_box *world, uint64_t tick)
 {
-    return (double)(tick - body->since);
-}
-
-void body_position(const moving_body *body, const octree_box *world, uint64_t tick, double position[3])
-{
-    int direction;
-    for (int i = 0; i < 3; i++)
-        position[i] = reflect(body->origin[i], body->velocity[i], ticks_since(body, tick), world->min[i], world->max[i],
-                              &direction);
-}
-
-void body_velocity(const moving_body *body, const octree_box *world, uint64_t tick, double velocity[3])
-{
-    int direction;
+    octree_body now = {.id = body->id};
     for (int i = 0; i < 3; i++) {
-        const double at = reflect(body->origin[i], body->velocity[i], ticks_since(body, tick), world->min[i],
+        int direction;
+        const double at = reflect(body->origin[i], body->velocity[i], (double)(tick - body->since), world->min[i],
                                   world->max[i], &direction);
-        const double now = body->velocity[i] * direction;
-        const bool leaves = (at == world->max[i] && now > 0) || (at == world->min[i] && now < 0);
-        velocity[i] = (leaves ? -now : now) + 0.0; /* no minus zero */
+        const double velocity = body->velocity[i] * direction;
+        const bool leaves = (at == world->max[i] && velocity > 0) || (at == world->min[i] && velocity < 0);
+        now.position[i] = at;
+        now.velocity[i] = (leaves ? -velocity : velocity) + 0.0; /* no minus zero */
     }
+    return now;
+}
+
+/* ---- Changes of the tree ------------------------------------------------------------------------------------ */
+
+static void touch(octree_game *game, const double place[3])
+{
+    tree_summary_touch(&game->summary, &game->memory, game->tree, place);
+}
+
+octree_status game_insert(octree_game *game, const double position[3], uint64_t id)
+{
+    const octree_status status = octree_insert(game->tree, position, id);
+    if (status == OCTREE_OK)
+        touch(game, position);
+    return status;
+}
+
+static octree_status game_remove(octree_game *game, const double position[3], uint64_t id)
+{
+    const octree_status status = octree_remove(game->tree, position, id);
+    if (status == OCTREE_OK)
+        touch(game, position);
+    return status;
+}
+
+octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3])
+{
+    const octree_status status = octree_move(game->tree, from, id, to);
+    if (status != OCTREE_OK)
+        return status;
+    touch(game, from);
+    touch(game, to);
+    return OCTREE_OK;
+}
+
+octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
+{
+    octree_refusal *refusal = list_append(&game->memory, &game->refusals, sizeof *refusal);
+    if (!refusal)
+        return OCTREE_NO_MEMORY;
+    *refusal = (octree_refusal){id, why, {position[0], position[1], position[2]}};
+    if (why == OCTREE_FULL)
+        game->tick.events |= OCTREE_EVENT_FULL;
+    if (why == OCTREE_OUTSIDE)
+        game->tick.events |= OCTREE_EVENT_REFUSED;
+    return OCTREE_OK;
+}
+
+/* A refusal by the tree is part of the game; no memory is the end of it. */
+static octree_status note_unless_done(octree_game *game, uint64_t id, octree_status status, const double position[3])
+{
+    if (status == OCTREE_OK || status == OCTREE_NO_MEMORY)
+        return status;
+    const octree_status noted = game_note_refusal(game, id, status, position);
+    return noted == OCTREE_OK ? status : noted;
+}
+
+/* An edit comes before the motion of its own tick: what it places moves on from there at once. */
+static uint64_t origin_tick(const octree_game *game)
+{
+    return game->tick.number ? game->tick.number - 1 : 0;
+}
+
+static bool is_players_id(const octree_game *game, uint64_t id)
+{
+    return game->session->player.kind == OCTREE_PLAYER_KEYS && id == game->session->player.id;
+}
+
+octree_status game_check_body(const octree_game *game, const octree_body *body)
+{
+    if (is_players_id(game, body->id) || bodies_find(&game->bodies, body->id))
+        return OCTREE_DUPLICATE;
+    return is_finite_velocity(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
+}
+
+octree_status game_add_body(octree_game *game, const octree_body *body, octree_status status)
+{
+    if (status == OCTREE_OK && !bodies_add(&game->bodies, &game->memory, body, origin_tick(game)))
+        return OCTREE_NO_MEMORY;
+    return note_unless_done(game, body->id, status, body->position);
+}
+
+static octree_status insert_body(octree_game *game, const octree_body *body)
+{
+    octree_status status = game_check_body(game, body);
+    if (status == OCTREE_OK)
+        status = game_insert(game, body->position, body->id);
+    return game_add_body(game, body, status);
+}
+
+static octree_status remove_body(octree_game *game, const octree_edit *edit)
+{
+    static const double nowhere[3] = {0, 0, 0}; /* a removal says no place: only its id is read */
+    moving_body *body = bodies_find(&game->bodies, edit->body.id);
+    octree_status status = OCTREE_NOT_FOUND;
+    if (body)
+        status = game_remove(game, body->position, body->id);
+    if (status == OCTREE_OK)
+        bodies_remove(&game->bodies, body);
+    return note_unless_done(game, edit->body.id, status, nowhere);
+}
+
+static octree_status move_body(octree_game *game, const octree_edit *edit)
+{
+    moving_body *body = bodies_find(&game->bodies, edit->body.id);
+    octree_status status = OCTREE_NOT_FOUND;
+    if (body)
+        status = game_move(game, body->position, body->id, edit->body.position);
+    if (status == OCTREE_OK) {
+        body_store(body, edit->body.position, game->tick.number);
+        memcpy(body->origin, edit->body.position, sizeof body->origin);
+        body->since = origin_tick(game);
+    }
+    return note_unless_done(game, edit->body.id, status, edit->body.position);
+}
+
+static octree_status apply_edit(octree_game *game, const octree_edit *edit)
+{
+    switch (edit->kind) {
+    case OCTREE_EDIT_INSERT:
+        return insert_body(game, &edit->body);
+    case OCTREE_EDIT_REMOVE:
+        return remove_body(game, edit);
+    default:
+        return move_body(game, edit);
+    }
+}
+
+octree_status game_apply_edits(octree_game *game, const octree_input *input)
+{
+    for (size_t i = 0; i < input->edit_count; i++)
+        if (apply_edit(game, &input->edits[i]) == OCTREE_NO_MEMORY)
+            return OCTREE_NO_MEMORY;
+    return OCTREE_OK;
+}
+
+octree_status game_move_bodies(octree_game *game)
+{
+    if (game->bodies.movers == 0)
+        return OCTREE_OK;
+    for (size_t i = 0; i < game->bodies.items.count; i++) {
+        moving_body *body = &bodies_items(&game->bodies)[i];
+        if (!is_moving(body->velocity))
+            continue; /* its bits stay too: -0.0 plus nothing would be +0.0 */
+        const octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
+        if (memcmp(now.position, body->position, sizeof now.position) == 0)
+            continue;
+        const octree_status status = game_move(game, body->position, body->id, now.position);
+        if (status == OCTREE_OK)
+            body_store(body, now.position, game->tick.number);
+        if (note_unless_done(game, body->id, status, now.position) == OCTREE_NO_MEMORY)
+            return OCTREE_NO_MEMORY;
+    }
+    return OCTREE_OK;
+}
+
+octree_status game_list_movers(octree_game *game)
+{
+    const bodies *all = &game->bodies;
+    for (size_t i = 0; all->movers && i < all->items.count; i++) {
+        const moving_body *body = &bodies_items(all)[i];
+        octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
+        if (!is_moving(now.velocity))
+            continue; /* at rest, or so fast that it stays where it is */
+        octree_body *mover = list_append(&game->memory, &game->movers, sizeof *mover);
+        if (!mover)
+            return OCTREE_NO_MEMORY;
+        memcpy(now.position, body->position, sizeof now.position); /* a full leaf may have refused the move */
+        *mover = now;
+    }
+    return OCTREE_OK;
 }

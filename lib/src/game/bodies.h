@@ -1,4 +1,4 @@
-/* bodies.h - the points of a game by id, and where their velocities take them. Private. */
+/* bodies.h - the points of a game by id: edits, and where their velocities take them. Private. */
 #ifndef OCTREE_BODIES_H
 #define OCTREE_BODIES_H
 
@@ -17,40 +17,41 @@ typedef struct moving_body {
 } moving_body;
 
 typedef struct bodies {
-    arena *memory;
     list items;        /* moving_body */
     uint32_t *slots;   /* index + 1 by hash of id, or 0; open addressing with linear probing */
     size_t slot_count; /* a power of two, or 0 */
     size_t movers;     /* bodies whose velocity is not zero */
 } bodies;
 
-void bodies_release(bodies *b);
+void bodies_release(bodies *b, arena *memory);
 
 static inline moving_body *bodies_items(const bodies *b)
 {
     return b->items.items;
 }
 
-/* Whether a velocity is one, and whether it can be told at all. */
-bool is_moving(const double velocity[3]);
-bool is_finite_velocity(const double velocity[3]);
-
 /* The body with this id, or null. */
 moving_body *bodies_find(const bodies *b, uint64_t id);
 
-/* Add a body that is not there yet, at rest at its position at this tick. False when there is no memory. */
-bool bodies_add(bodies *b, const octree_body *body, uint64_t tick);
+bool is_finite_velocity(const double velocity[3]);
 
-/* Take a body out; the last one takes its place. */
-void bodies_remove(bodies *b, moving_body *body);
+/* Change the tree: as octree_insert() and octree_move(). */
+octree_status game_insert(octree_game *game, const double position[3], uint64_t id);
+octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);
 
-/* Note that a body is stored elsewhere from this tick on. */
-void body_store(moving_body *body, const double to[3], uint64_t tick);
+/* Note that the tree did not take a body. NO_MEMORY, or OK. */
+octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
-/* Where the body is at a tick: reflected at the world's faces as often as it must be. */
-void body_position(const moving_body *body, const octree_box *world, uint64_t tick, double position[3]);
+/* Whether a body may be inserted at all: DUPLICATE for an id that is taken, NOT_FINITE for its velocity, OK. */
+octree_status game_check_body(const octree_game *game, const octree_body *body);
 
-/* The velocity with which it goes on from there: turned on an axis where it has bounced, and where it is about to. */
-void body_velocity(const moving_body *body, const octree_box *world, uint64_t tick, double velocity[3]);
+/* Add a body that is in the tree, or note its refusal with this status, which is returned; or NO_MEMORY. */
+octree_status game_add_body(octree_game *game, const octree_body *body, octree_status status);
+
+octree_status game_apply_edits(octree_game *game, const octree_input *input);
+
+/* Move the bodies by their velocities, and list those that have one as they are after the tick. */
+octree_status game_move_bodies(octree_game *game);
+octree_status game_list_movers(octree_game *game);
 
 #endif

@@ -1,50 +1,104 @@
 /* game.c - the game loop: one tick after another, in the order that game.h states. */
 #include "float_rules.h"
 #include "game_state.h"
+#include "player.h"
+#include "queries.h"
+#include "session.h"
 
 #include <string.h>
 
-/* Edits, queries and shapes begin with their tick. */
-static uint64_t tick_of(const void *items, size_t size, size_t i)
+const char *octree_event_name(octree_event event)
 {
-    uint64_t tick;
-    memcpy(&tick, (const char *)items + i * size, sizeof tick);
-    return tick;
+    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full", "split", "merged"};
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        if (event == 1u << i)
+            return names[i];
+    return NULL;
 }
 
-/* The items of a tick, which are then behind *next; their number into *count. */
-static const void *take_items(const void *items, size_t size, size_t end, uint64_t tick, size_t *next, size_t *count)
+const char *octree_shape_name(octree_shape_kind kind)
 {
-    while (*next < end && tick_of(items, size, *next) < tick)
-        ++*next;
-    const size_t first = *next;
-    while (*next < end && tick_of(items, size, *next) == tick)
-        ++*next;
-    *count = *next - first;
-    return *count ? (const char *)items + first * size : NULL;
+    static const char *const names[OCTREE_SHAPE_KINDS] = {"box", "segment", "point", "label"};
+    return (unsigned)kind < OCTREE_SHAPE_KINDS ? names[kind] : NULL;
 }
 
-/* What the session has for its next tick; 0 is the key of the first. */
-static octree_input own_input(octree_game *game, char key)
+/* ---- The end of a tick -------------------------------------------------------------------------------------- */
+
+static octree_status list_shapes(octree_game *game, const octree_shape *shapes, size_t count)
 {
-    const octree_session *s = game->session;
-    const uint64_t tick = key ? game->tick.number + 1 : 0;
-    octree_input input = {.key = key};
-    input.edits = take_items(s->edits, sizeof *s->edits, s->edit_count, tick, &game->next_edit, &input.edit_count);
-    input.queries =
-        take_items(s->queries, sizeof *s->queries, game->standing, tick, &game->next_query, &input.query_count);
-    input.shapes =
-        take_items(s->shapes, sizeof *s->shapes, game->standing_shapes, tick, &game->next_shape, &input.shape_count);
-    return input;
+    for (size_t i = 0; i < count; i++) {
+        octree_shape *shape = list_append(&game->memory, &game->shapes, sizeof *shape);
+        if (!shape)
+            return OCTREE_NO_MEMORY;
+        *shape = shapes[i];
+        shape->tick = game->tick.number;
+    }
+    return OCTREE_OK;
 }
 
-/* The first of those of every tick, which come last. */
-static size_t first_standing(const void *items, size_t size, size_t count)
+/* Ask the queries and show the shapes of a tick, and then those of every tick. */
+static octree_status ask_and_show(octree_game *game, const octree_input *input)
 {
-    while (count > 0 && tick_of(items, size, count - 1) == OCTREE_EVERY_TICK)
-        count--;
-    return count;
+    const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
+    octree_status status = game_ask_by_key(game);
+    if (status == OCTREE_OK)
+        status = game_ask(game, input->queries, input->query_count);
+    if (status == OCTREE_OK)
+        status = game_ask(game, always.queries, always.query_count);
+    if (status == OCTREE_OK)
+        status = game_finish_asking(game);
+    if (status == OCTREE_OK)
+        status = list_shapes(game, input->shapes, input->shape_count);
+    if (status == OCTREE_OK)
+        status = list_shapes(game, always.shapes, always.shape_count);
+    return status;
 }
+
+/* The tick's splits and merges, and the digest and statistics of its tree. */
+static octree_status summarize_tree(octree_game *game)
+{
+    tree_summary *summary = &game->summary;
+    const bool first = game->tick.number == 0;
+    if (!first && summary->version == octree_version(game->tree))
+        return OCTREE_OK;
+    octree_status status = tree_summary_update(summary, &game->memory, game->tree);
+    if (status == OCTREE_OK && !first && !tree_summary_compare(summary, &game->memory, &game->splits, &game->merges))
+        status = OCTREE_NO_MEMORY;
+    game->tick.events |= game->splits.count ? OCTREE_EVENT_SPLIT : 0;
+    game->tick.events |= game->merges.count ? OCTREE_EVENT_MERGED : 0;
+    game->tick.stats = summary->stats;
+    game->tick.tree_digest = summary->digest;
+    return status;
+}
+
+/* The lists do not grow any more: let the tick point to them. */
+static void publish(octree_game *game)
+{
+#define PUBLISH(name, shown_count, type)                                                                               \
+    game->tick.name = game->name.items;                                                                                \
+    game->tick.shown_count = game->name.count;
+    GAME_SHOWN_LISTS(PUBLISH)
+#undef PUBLISH
+    game->tick.hit_from = game->tick.swept ? game->hit_from.items : NULL;
+}
+
+static octree_status finish_tick(octree_game *game, const octree_input *input)
+{
+    octree_status status = OCTREE_OK;
+    if (game->tick.number == 0 && game->tick.has_player)
+        status = game_collide(game, game->tick.player);
+    if (status == OCTREE_OK)
+        status = ask_and_show(game, input);
+    if (status == OCTREE_OK)
+        status = summarize_tree(game);
+    if (status == OCTREE_OK)
+        status = game_list_movers(game);
+    if (status == OCTREE_OK)
+        publish(game);
+    return status;
+}
+
+/* ---- The beginning and the end of a game -------------------------------------------------------------------- */
 
 /* Halves first: no world overflows. */
 static octree_status place_player(octree_game *game)
@@ -67,11 +121,11 @@ static octree_status start(octree_game *game)
         status = place_player(game);
     if (status == OCTREE_OK)
         status = game_load_bodies(game);
+    if (status != OCTREE_OK)
+        return status;
     game_find_player(game);
-    const octree_input input = own_input(game, 0);
-    if (status == OCTREE_OK)
-        status = game_finish_tick(game, &input);
-    return status;
+    const octree_input input = session_input(session, 0);
+    return finish_tick(game, &input);
 }
 
 octree_status octree_game_create(const octree_session *session, octree_game **game)
@@ -79,8 +133,7 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
     if (!game)
         return OCTREE_NULL_ARGUMENT;
     *game = NULL;
-    if (!session || (!session->bodies && session->body_count) || (!session->edits && session->edit_count) ||
-        (!session->queries && session->query_count) || (!session->shapes && session->shape_count))
+    if (!session || (!session->bodies && session->body_count))
         return OCTREE_NULL_ARGUMENT;
     octree *tree;
     octree_status status = octree_create(&session->tree, &tree);
@@ -93,9 +146,6 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
         return OCTREE_NO_MEMORY;
     }
     *made = (octree_game){.session = session, .tree = tree, .memory = memory};
-    made->bodies.memory = &made->memory;
-    made->standing = first_standing(session->queries, sizeof *session->queries, session->query_count);
-    made->standing_shapes = first_standing(session->shapes, sizeof *session->shapes, session->shape_count);
     status = start(made);
     if (status == OCTREE_OK)
         *game = made;
@@ -109,30 +159,22 @@ void octree_game_destroy(octree_game *game)
     if (!game)
         return;
     octree_destroy(game->tree);
-    bodies_release(&game->bodies);
     arena memory = game->memory;
-    list_release(&memory, &game->hits, sizeof(octree_point));
-    list_release(&memory, &game->hit_from, sizeof(double[3]));
-    list_release(&memory, &game->found, sizeof(octree_point));
-    list_release(&memory, &game->near, sizeof(octree_neighbor));
-    list_release(&memory, &game->refusals, sizeof(octree_refusal));
-    list_release(&memory, &game->answers, sizeof(octree_answer));
-    survey_release(&game->survey, &memory);
-    list_release(&memory, &game->splits, sizeof(octree_address));
-    list_release(&memory, &game->merges, sizeof(octree_address));
-    list_release(&memory, &game->visits, sizeof(octree_visit));
-    list_release(&memory, &game->hit_leaves, sizeof(octree_address));
-    list_release(&memory, &game->shapes, sizeof(octree_shape));
-    list_release(&memory, &game->movers, sizeof(octree_body));
+    bodies_release(&game->bodies, &memory);
+    tree_summary_release(&game->summary, &memory);
+#define RELEASE(name, shown_count, type) list_release(&memory, &game->name, sizeof(type));
+    GAME_LISTS(RELEASE)
+#undef RELEASE
     arena_give(&memory, game, sizeof *game);
 }
 
+/* ---- A tick ------------------------------------------------------------------------------------------------- */
+
 static void begin_tick(octree_game *game, char key)
 {
-    game->hits.count = game->found.count = game->near.count = 0;
-    game->refusals.count = game->answers.count = 0;
-    game->splits.count = game->merges.count = 0;
-    game->visits.count = game->hit_leaves.count = game->movers.count = 0;
+#define CLEAR(name, shown_count, type) game->name.count = 0;
+    GAME_LISTS(CLEAR)
+#undef CLEAR
     game->tick.number++;
     game->tick.key = key;
     game->tick.events = 0;
@@ -149,7 +191,7 @@ static octree_status step(octree_game *game, char key, const octree_input *given
     }
     if (!game_is_key(key))
         return OCTREE_BAD_KEY;
-    const octree_input own = own_input(game, key), *input = given ? given : &own;
+    const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
     begin_tick(game, key);
     octree_status status = game_apply_edits(game, input);
     if (status == OCTREE_OK)
@@ -157,7 +199,7 @@ static octree_status step(octree_game *game, char key, const octree_input *given
     if (status == OCTREE_OK)
         status = game_step_player(game);
     if (status == OCTREE_OK)
-        status = game_finish_tick(game, input);
+        status = finish_tick(game, input);
     return status;
 }
 
@@ -172,15 +214,6 @@ octree_status octree_game_play(octree_game *game, const octree_input *input)
         return OCTREE_NULL_ARGUMENT;
     const octree_status status = octree_input_check(input);
     return status == OCTREE_OK ? step(game, input->key ? input->key : '.', input) : status;
-}
-
-uint64_t octree_session_length(const octree_session *session)
-{
-    if (!session)
-        return 0;
-    const size_t keys = session->keys ? strcspn(session->keys, "q") : 0;
-    const bool quits = session->keys && session->keys[keys] == 'q';
-    return quits || keys > session->ticks ? keys : session->ticks;
 }
 
 bool octree_game_over(const octree_game *game)
@@ -217,13 +250,4 @@ const octree_session *octree_game_session(const octree_game *game)
 double octree_game_fastest(const octree_game *game)
 {
     return game ? game->fastest : 0;
-}
-
-const char *octree_event_name(octree_event event)
-{
-    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full", "split", "merged"};
-    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        if (event == 1u << i)
-            return names[i];
-    return NULL;
 }

@@ -1,9 +1,10 @@
 /* queries.c - what can be asked of a tree: the table of kinds, checking, asking, and the queries of a tick.
  */
+#include "queries.h"
 #include "game_state.h"
 #include "search.h"
 
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 const octree_query_traits *octree_query_about(octree_query_kind kind)
@@ -29,7 +30,7 @@ octree_status octree_query_check(const octree_query *query)
         return OCTREE_BAD_OPTION;
     octree_status status = OCTREE_OK;
     if (about->members & OCTREE_QUERY_HAS_RADIUS)
-        status = !isfinite(query->radius) ? OCTREE_NOT_FINITE : query->radius < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
+        status = check_length(query->radius);
     if (status == OCTREE_OK && about->members & OCTREE_QUERY_HAS_BOX)
         status = check_box(&query->box);
     if (status == OCTREE_OK && about->members & OCTREE_QUERY_HAS_TARGET && !query->at_player)
@@ -38,6 +39,23 @@ octree_status octree_query_check(const octree_query *query)
 }
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
+
+bool collect_point(const octree_point *point, void *context)
+{
+    point_collector *c = context;
+    octree_point *item = list_append(c->memory, c->points, sizeof *item);
+    if (item)
+        *item = *point;
+    c->failed = !item;
+    return item != NULL;
+}
+
+void sort_points(list *points, size_t first)
+{
+    if (points->count > first)
+        qsort((octree_point *)points->items + first, points->count - first, sizeof(octree_point),
+              octree_compare_points);
+}
 
 /* A tree that is asked, and the lists that what it finds is appended to. */
 typedef struct asking {
@@ -104,8 +122,8 @@ static octree_status ask(asking *a, const octree_query *query, const double play
     if (a->points.failed)
         status = OCTREE_NO_MEMORY;
     answer->count = found->count - first;
-    if (status == OCTREE_OK && !neighbors && answer->count)
-        game_sort_points((octree_point *)found->items + first, answer->count);
+    if (status == OCTREE_OK && !neighbors)
+        sort_points(a->points.points, first);
     return status;
 }
 
@@ -176,35 +194,127 @@ static octree_status ask_in_game(octree_game *game, const octree_query *query, b
     return status;
 }
 
-octree_status game_ask(octree_game *game, const octree_input *input)
+octree_status game_ask(octree_game *game, const octree_query *queries, size_t count)
 {
-    const octree_session *session = game->session;
     octree_status status = OCTREE_OK;
-    if (game->tick.key == 'n')
-        status = ask_in_game(game, &(octree_query){.kind = OCTREE_QUERY_NEAREST, .at_player = true}, true);
-    for (size_t i = 0; status == OCTREE_OK && i < input->query_count; i++)
-        status = ask_in_game(game, &input->queries[i], false);
-    for (size_t i = game->standing; status == OCTREE_OK && i < session->query_count; i++)
-        status = ask_in_game(game, &session->queries[i], false);
+    for (size_t i = 0; status == OCTREE_OK && i < count; i++)
+        status = ask_in_game(game, &queries[i], false);
     return status;
 }
 
-void game_publish_answers(octree_game *game)
+octree_status game_ask_by_key(octree_game *game)
 {
+    const octree_query nearest = {.kind = OCTREE_QUERY_NEAREST, .at_player = true};
+    return game->tick.key == 'n' ? ask_in_game(game, &nearest, true) : OCTREE_OK;
+}
+
+/* Point each answer to its part of the lists, which do not grow any more. */
+static void assign_results(octree_game *game)
+{
+    const octree_point *points = game->found.items;
+    const octree_neighbor *neighbors = game->near.items;
     octree_answer *answers = game->answers.items;
-    size_t points = 0, neighbors = 0;
     for (size_t i = 0; i < game->answers.count; i++) {
         octree_answer *answer = &answers[i];
         if (answer->count == 0)
             continue;
         if (octree_query_about(answer->kind)->neighbors) {
-            answer->neighbors = (const octree_neighbor *)game->near.items + neighbors;
+            answer->neighbors = neighbors;
             neighbors += answer->count;
         } else {
-            answer->points = (const octree_point *)game->found.items + points;
+            answer->points = points;
             points += answer->count;
         }
     }
-    game->tick.answers = answers;
-    game->tick.answer_count = game->answers.count;
+}
+
+/* ---- What a tick's searches met ----------------------------------------------------------------------------- */
+
+static void note_visit(octree_address node, octree_touch touch, void *context)
+{
+    octree_game *game = context;
+    octree_visit *visit = list_append(&game->memory, &game->visits, sizeof *visit);
+    if (visit)
+        *visit = (octree_visit){node, touch, touch == OCTREE_TOUCH_TAKEN};
+    else
+        game->lost_visits = true;
+}
+
+octree_search game_search(octree_game *game, octree_cost *cost)
+{
+    return (octree_search){.cost = cost, .trace = note_visit, .trace_context = game};
+}
+
+/* By node, and of one node the strongest touch first. */
+static int compare_visits(const void *a, const void *b)
+{
+    static const int weakness[OCTREE_TOUCH_KINDS] = {
+        [OCTREE_TOUCH_VISITED] = 0, [OCTREE_TOUCH_TAKEN] = 1, [OCTREE_TOUCH_PRUNED] = 2};
+    const octree_visit *p = a, *q = b;
+    return p->node == q->node ? weakness[p->touch] - weakness[q->touch] : address_compare(&p->node, &q->node);
+}
+
+static void sort_visits(octree_game *game)
+{
+    octree_tick *tick = &game->tick;
+    octree_visit *visits = game->visits.items;
+    size_t kept = 0;
+    if (game->visits.count > 1)
+        qsort(visits, game->visits.count, sizeof *visits, compare_visits);
+    for (int touch = 0; touch < OCTREE_TOUCH_KINDS; touch++)
+        tick->touched[touch] = 0;
+    for (size_t i = 0; i < game->visits.count; i++) {
+        if (kept && visits[i].node == visits[kept - 1].node) {
+            visits[kept - 1].taken |= visits[i].taken;
+            continue;
+        }
+        tick->touched[visits[i].touch]++;
+        visits[kept++] = visits[i];
+    }
+    game->visits.count = kept;
+}
+
+static bool add_leaf_of(octree_game *game, const octree_point *point)
+{
+    const uint64_t code = morton_code(game->tree->axes, point->position);
+    octree_address *leaf = list_append(&game->memory, &game->hit_leaves, sizeof *leaf);
+    if (leaf)
+        *leaf = morton_address(code, path_to(game->tree, code).depth);
+    return leaf != NULL;
+}
+
+static bool add_leaves(octree_game *game)
+{
+    const octree_point *hits = game->hits.items, *found = game->found.items;
+    const octree_neighbor *near = game->near.items;
+    bool ok = true;
+    for (size_t i = 0; ok && i < game->hits.count; i++)
+        ok = add_leaf_of(game, &hits[i]);
+    for (size_t i = 0; ok && i < game->found.count; i++)
+        ok = add_leaf_of(game, &found[i]);
+    for (size_t i = 0; ok && i < game->near.count; i++)
+        ok = add_leaf_of(game, &near[i].point);
+    return ok;
+}
+
+static void sort_leaves(octree_game *game)
+{
+    octree_address *leaves = game->hit_leaves.items;
+    size_t kept = 0;
+    if (game->hit_leaves.count > 1)
+        qsort(leaves, game->hit_leaves.count, sizeof *leaves, address_compare);
+    for (size_t i = 0; i < game->hit_leaves.count; i++)
+        if (kept == 0 || leaves[i] != leaves[kept - 1])
+            leaves[kept++] = leaves[i];
+    game->hit_leaves.count = kept;
+}
+
+octree_status game_finish_asking(octree_game *game)
+{
+    if (game->lost_visits || !add_leaves(game))
+        return OCTREE_NO_MEMORY;
+    assign_results(game);
+    sort_visits(game);
+    sort_leaves(game);
+    return OCTREE_OK;
 }

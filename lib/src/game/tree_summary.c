@@ -1,13 +1,11 @@
-/* survey.c - see survey.h. */
 #include "tree_summary.h"
 #include "walk.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-#define SURVEY_PART 512
+#define SUBTREE_POINTS 512
 
-/* More places than these are not worth being told apart: most parts would be looked at anyway. */
+/* Places that are worth telling apart: with more, most subtrees would be looked at anyway. */
 static size_t most_touched(const octree *tree)
 {
     enum { ALWAYS = 4096, POINTS = 64 };
@@ -15,25 +13,23 @@ static size_t most_touched(const octree *tree)
     return some > ALWAYS ? some : ALWAYS;
 }
 
-/* A subtree of SURVEY_PART points or fewer whose parent has more, or a leaf. */
-typedef struct part {
+/* A subtree of SUBTREE_POINTS points or fewer whose parent has more, or a leaf. */
+typedef struct subtree {
     octree_address address;
     size_t first_inner, inner_count; /* in the list of inner nodes */
     octree_stats stats;
     uint64_t sum; /* of digest_node() */
-} part;
+} subtree;
 
-/* What one survey carries with it, from left to right: all of these lists are in the order of the parts. */
-typedef struct surveying {
-    survey *to;
+/* An update on its way through the tree from left to right, which is the order of all of the lists. */
+typedef struct update {
+    tree_summary *to;
     arena *memory;
-    const octree *tree;
     size_t next_before, next_touched;
-    uint64_t sum;
     bool out_of_memory;
-} surveying;
+} update;
 
-void survey_touch(survey *s, arena *memory, const octree *tree, const double place[3])
+void tree_summary_touch(tree_summary *s, arena *memory, const octree *tree, const double place[3])
 {
     if (!s->known)
         return;
@@ -44,96 +40,113 @@ void survey_touch(survey *s, arena *memory, const octree *tree, const double pla
         s->known = false;
 }
 
-void survey_release(survey *s, arena *memory)
+void tree_summary_release(tree_summary *s, arena *memory)
 {
     list_release(memory, &s->touched, sizeof(uint64_t));
-    list_release(memory, &s->parts, sizeof(part));
-    list_release(memory, &s->parts_before, sizeof(part));
+    list_release(memory, &s->subtrees, sizeof(subtree));
+    list_release(memory, &s->subtrees_before, sizeof(subtree));
     list_release(memory, &s->inner, sizeof(octree_address));
     list_release(memory, &s->inner_before, sizeof(octree_address));
 }
 
-/* ---- A part ------------------------------------------------------------------------------------------------- */
+/* ---- A subtree ---------------------------------------------------------------------------------------------- */
 
-static void add_inner(surveying *w, octree_address address)
+static void add_inner(update *u, octree_address address)
 {
-    octree_address *item = list_append(w->memory, &w->to->inner, sizeof *item);
+    octree_address *item = list_append(u->memory, &u->to->inner, sizeof *item);
     if (item)
         *item = address;
     else
-        w->out_of_memory = true;
+        u->out_of_memory = true;
 }
 
-static void look_at(octree_stats *stats, uint64_t *sum, const node *n, octree_address address)
+static void add_node(octree_stats *stats, uint64_t *sum, const node *n, octree_address address)
 {
     count_node(stats, n, octree_address_depth(address));
     *sum += digest_node(n, address);
 }
 
-/* The nodes of a part, in pre-order. */
-static void look_below(surveying *w, part *p, const node *n, octree_address address)
+/* A node and all below it. */
+static void add_nodes(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address)
 {
-    look_at(&p->stats, &p->sum, n, address);
-    if (n->octants == 0)
+    add_node(stats, sum, n, address);
+    if (n->octants == 0 || u->out_of_memory)
         return;
-    add_inner(w, address);
+    add_inner(u, address);
     prefetch_below(n);
     const node *child = children_of(n);
     for (unsigned octant = 0; octant < 8; octant++)
         if (n->octants >> octant & 1)
-            look_below(w, p, child++, address << 3 | octant);
+            add_nodes(u, stats, sum, child++, address << 3 | octant);
 }
 
-/* The part that was at this address at the last survey, or null. */
-static const part *part_before(surveying *w, octree_address address)
+/* The subtree that was at this address at the last update, or null. */
+static const subtree *subtree_before(update *u, octree_address address)
 {
-    const part *before = w->to->parts_before.items;
-    const size_t count = w->to->parts_before.count;
-    while (w->next_before < count && address_compare(&before[w->next_before].address, &address) < 0)
-        w->next_before++;
-    return w->next_before < count && before[w->next_before].address == address ? &before[w->next_before] : NULL;
+    const subtree *before = u->to->subtrees_before.items;
+    const size_t count = u->to->subtrees_before.count;
+    while (u->next_before < count && address_compare(&before[u->next_before].address, &address) < 0)
+        u->next_before++;
+    return u->next_before < count && before[u->next_before].address == address ? &before[u->next_before] : NULL;
 }
 
 /* Whether a place in the cell at an address was touched. */
-static bool is_touched(surveying *w, octree_address address)
+static bool is_touched(update *u, octree_address address)
 {
-    const uint64_t *codes = w->to->touched.items;
-    const size_t count = w->to->touched.count;
+    const uint64_t *codes = u->to->touched.items;
+    const size_t count = u->to->touched.count;
     const unsigned below = 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
     const uint64_t first = (address ^ UINT64_C(1) << 3 * octree_address_depth(address)) << below;
-    while (w->next_touched < count && codes[w->next_touched] < first)
-        w->next_touched++;
-    return w->next_touched < count && codes[w->next_touched] - first < UINT64_C(1) << below;
+    while (u->next_touched < count && codes[u->next_touched] < first)
+        u->next_touched++;
+    return u->next_touched < count && codes[u->next_touched] - first < UINT64_C(1) << below;
 }
 
-static void keep_inner(surveying *w, const part *before)
+static void keep_inner(update *u, const subtree *before)
 {
-    const octree_address *addresses = w->to->inner_before.items;
-    for (size_t i = 0; i < before->inner_count && !w->out_of_memory; i++)
-        add_inner(w, addresses[before->first_inner + i]);
+    const octree_address *addresses = u->to->inner_before.items;
+    for (size_t i = 0; i < before->inner_count && !u->out_of_memory; i++)
+        add_inner(u, addresses[before->first_inner + i]);
 }
 
-static void add_part(surveying *w, const node *n, octree_address address)
+static void add_subtree(update *u, const node *n, octree_address address)
 {
-    const part *before = part_before(w, address);
-    part *p = list_append(w->memory, &w->to->parts, sizeof *p);
-    if (!p) {
-        w->out_of_memory = true;
+    const subtree *before = subtree_before(u, address);
+    subtree *made = list_append(u->memory, &u->to->subtrees, sizeof *made);
+    if (!made) {
+        u->out_of_memory = true;
         return;
     }
-    const bool kept = before && !is_touched(w, address);
-    const size_t first_inner = w->to->inner.count;
-    *p = kept ? *before : (part){.address = address};
-    if (kept) {
-        keep_inner(w, before);
+    const size_t first_inner = u->to->inner.count;
+    if (before && !is_touched(u, address)) {
+        *made = *before;
+        keep_inner(u, before);
     } else {
-        look_below(w, p, n, address);
+        *made = (subtree){.address = address};
+        add_nodes(u, &made->stats, &made->sum, n, address);
     }
-    p->first_inner = first_inner;
-    p->inner_count = w->to->inner.count - first_inner;
+    made->first_inner = first_inner;
+    made->inner_count = u->to->inner.count - first_inner;
 }
 
 /* ---- The whole ---------------------------------------------------------------------------------------------- */
+
+/* Add the nodes above the subtrees, in pre-order, and between them the subtrees. */
+static void add_tree(update *u, uint64_t *sum, const node *n, octree_address address)
+{
+    if (u->out_of_memory)
+        return;
+    if (n->octants == 0 || n->count <= SUBTREE_POINTS) {
+        add_subtree(u, n, address);
+        return;
+    }
+    add_node(&u->to->stats, sum, n, address);
+    add_inner(u, address);
+    const node *child = children_of(n);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (n->octants >> octant & 1)
+            add_tree(u, sum, child++, address << 3 | octant);
+}
 
 static void add_stats(octree_stats *to, const octree_stats *of)
 {
@@ -144,37 +157,6 @@ static void add_stats(octree_stats *to, const octree_stats *of)
     for (unsigned depth = 0; depth <= of->depth; depth++) {
         to->nodes_at_depth[depth] += of->nodes_at_depth[depth];
         to->leaves_at_depth[depth] += of->leaves_at_depth[depth];
-    }
-}
-
-static bool is_part(const node *n)
-{
-    return n->octants == 0 || n->count <= SURVEY_PART;
-}
-
-/* The nodes above the parts, in pre-order, and between them the parts. */
-static void look_at_all(surveying *w, const node *n, octree_address address)
-{
-    if (w->out_of_memory)
-        return;
-    if (is_part(n)) {
-        add_part(w, n, address);
-        return;
-    }
-    look_at(&w->to->stats, &w->sum, n, address);
-    add_inner(w, address);
-    const node *child = children_of(n);
-    for (unsigned octant = 0; octant < 8; octant++)
-        if (n->octants >> octant & 1)
-            look_at_all(w, child++, address << 3 | octant);
-}
-
-static void add_up_parts(surveying *w)
-{
-    const part *parts = w->to->parts.items;
-    for (size_t i = 0; i < w->to->parts.count; i++) {
-        w->sum += parts[i].sum;
-        add_stats(&w->to->stats, &parts[i].stats);
     }
 }
 
@@ -192,22 +174,50 @@ static int compare_codes(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-octree_status survey_update(survey *s, arena *memory, const octree *tree)
+octree_status tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
 {
-    surveying w = {.to = s, .memory = memory, .tree = tree};
-    swap_with_before(&s->parts, &s->parts_before);
+    update u = {.to = s, .memory = memory};
+    uint64_t sum = 0;
+    swap_with_before(&s->subtrees, &s->subtrees_before);
     swap_with_before(&s->inner, &s->inner_before);
     if (!s->known || s->capacity != tree->def.leaf_capacity)
-        s->parts_before.count = 0;
+        s->subtrees_before.count = 0;
     if (s->touched.count > 1)
         qsort(s->touched.items, s->touched.count, sizeof(uint64_t), compare_codes);
     s->stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
-    look_at_all(&w, &tree->root, OCTREE_ROOT);
-    add_up_parts(&w);
-    s->digest = digest_of_sum(tree, w.sum);
-    s->known = !w.out_of_memory;
+    add_tree(&u, &sum, &tree->root, OCTREE_ROOT);
+    const subtree *subtrees = s->subtrees.items;
+    for (size_t i = 0; i < s->subtrees.count; i++) {
+        sum += subtrees[i].sum;
+        add_stats(&s->stats, &subtrees[i].stats);
+    }
+    s->digest = digest_of_sum(tree, sum);
+    s->known = !u.out_of_memory;
     s->version = tree->version;
     s->capacity = tree->def.leaf_capacity;
     s->touched.count = 0;
     return s->known ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+/* Append the addresses of `a` that are not in `b`. */
+static bool subtract(arena *memory, const list *a, const list *b, list *out)
+{
+    const octree_address *in_a = a->items, *in_b = b->items;
+    for (size_t i = 0, j = 0; i < a->count; i++) {
+        while (j < b->count && address_compare(&in_b[j], &in_a[i]) < 0)
+            j++;
+        if (j < b->count && in_b[j] == in_a[i])
+            continue;
+        octree_address *item = list_append(memory, out, sizeof *item);
+        if (!item)
+            return false;
+        *item = in_a[i];
+    }
+    return true;
+}
+
+bool tree_summary_compare(const tree_summary *s, arena *memory, list *splits, list *merges)
+{
+    return subtract(memory, &s->inner, &s->inner_before, splits) &&
+           subtract(memory, &s->inner_before, &s->inner, merges);
 }

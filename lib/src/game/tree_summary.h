@@ -1,33 +1,37 @@
-/* survey.h - what a game tells of its tree after each tick: its digest, its numbers, and its inner nodes. Private.
+/* tree_summary.h - what a game tells of its tree after each tick: digest, statistics, inner nodes. Private.
  *
- * A tick touches few places, and all that it changes lies on the way from the root to them. So the tree is seen as
- * parts, subtrees of a few hundred points, and the nodes above them; what is known of a part stays, unless a place in
- * its cell was touched.
+ * A tick touches few places, and all that it changes lies between them and the root. So the tree is seen as subtrees of
+ * a few hundred points and the nodes above those; what is known of a subtree is kept until a place in its cell is
+ * touched.
  */
-#ifndef OCTREE_SURVEY_H
-#define OCTREE_SURVEY_H
+#ifndef OCTREE_TREE_SUMMARY_H
+#define OCTREE_TREE_SUMMARY_H
 
 #include "pool.h"
 #include "tree.h"
 
-typedef struct survey {
+typedef struct tree_summary {
     bool known; /* of the tree at this version, with this capacity */
     uint64_t version;
     size_t capacity;
-    list touched;             /* uint64_t: Morton codes of the places since then */
-    list parts, parts_before; /* private to survey.c; in pre-order */
-    list inner, inner_before; /* octree_address: the inner nodes, in pre-order */
+    list touched;                   /* uint64_t: Morton codes of the places since then */
+    list subtrees, subtrees_before; /* private to tree_summary.c; in pre-order */
+    list inner, inner_before;       /* octree_address: the inner nodes, in pre-order */
     octree_stats stats;
     uint64_t digest;
-} survey;
+} tree_summary;
 
-/* A point came to a place, or went from it. What cannot be noted makes the next survey a whole one. */
-void survey_touch(survey *s, arena *memory, const octree *tree, const double place[3]);
+/* Note that a point came to a place or left it. Where that fails, the next update looks at the whole tree. */
+void tree_summary_touch(tree_summary *s, arena *memory, const octree *tree, const double place[3]);
 
-/* Look at what has changed. The lists of before are then those of the last call. NO_MEMORY, after which nothing is
- * known, or OK. Cost: O(parts + nodes and points of those that were touched). */
-octree_status survey_update(survey *s, arena *memory, const octree *tree);
+/* Look at what has changed. NO_MEMORY, after which nothing is known, or OK.
+ * Cost: O(subtrees + nodes and points of those that were touched). */
+octree_status tree_summary_update(tree_summary *s, arena *memory, const octree *tree);
 
-void survey_release(survey *s, arena *memory);
+/* Splits and merges: append the nodes that are inner only since the last update, and those that no longer are. False
+ * when there is no memory. */
+bool tree_summary_compare(const tree_summary *s, arena *memory, list *splits, list *merges);
+
+void tree_summary_release(tree_summary *s, arena *memory);
 
 #endif

@@ -1,0 +1,257 @@
+/* session.c - what a game is played from: a session is checked, its bodies are loaded, and the paper's own session. */
+#include "session.h"
+#include "game_state.h"
+#include "player.h"
+#include "search.h"
+
+#include <math.h>
+#include <string.h>
+
+uint64_t octree_session_length(const octree_session *session)
+{
+    if (!session)
+        return 0;
+    const size_t keys = session->keys ? strcspn(session->keys, "q") : 0;
+    const bool quits = session->keys && session->keys[keys] == 'q';
+    return quits || keys > session->ticks ? keys : session->ticks;
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
+
+static octree_status check_player(const octree_player *player, const octree *tree)
+{
+    if ((unsigned)player->kind > OCTREE_PLAYER_NONE)
+        return OCTREE_BAD_OPTION;
+    if (player->kind == OCTREE_PLAYER_NONE)
+        return OCTREE_OK;
+    octree_status status = check_length(player->box_size);
+    if (status == OCTREE_OK && player->kind == OCTREE_PLAYER_KEYS)
+        status = check_length(player->step);
+    if (status == OCTREE_OK && player->kind == OCTREE_PLAYER_KEYS)
+        status = check_position(tree, player->position);
+    return status;
+}
+
+static octree_status check_keys(const char *keys)
+{
+    for (const char *key = keys; key && *key && *key != 'q'; key++)
+        if (!game_is_key(*key))
+            return OCTREE_BAD_KEY;
+    return OCTREE_OK;
+}
+
+static bool is_text(const char text[OCTREE_SHAPE_TEXT])
+{
+    size_t length = 0;
+    while (length < OCTREE_SHAPE_TEXT && text[length] >= ' ' && text[length] <= '~')
+        length++;
+    return length < OCTREE_SHAPE_TEXT && text[length] == 0;
+}
+
+static octree_status check_shape(const octree_shape *shape)
+{
+    if ((unsigned)shape->kind >= OCTREE_SHAPE_KINDS)
+        return OCTREE_BAD_OPTION;
+    const bool extends = shape->kind == OCTREE_SHAPE_BOX || shape->kind == OCTREE_SHAPE_SEGMENT;
+    octree_status status = check_finite(shape->at);
+    if (status == OCTREE_OK && extends)
+        status = check_finite(shape->to);
+    for (int i = 0; status == OCTREE_OK && shape->kind == OCTREE_SHAPE_BOX && i < 3; i++)
+        if (shape->at[i] > shape->to[i])
+            status = OCTREE_BAD_RANGE;
+    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !is_text(shape->text))
+        status = OCTREE_BAD_TEXT;
+    return status;
+}
+
+octree_status octree_input_check(const octree_input *input)
+{
+    if (!input || (!input->edits && input->edit_count) || (!input->queries && input->query_count) ||
+        (!input->shapes && input->shape_count))
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = OCTREE_OK;
+    for (size_t i = 0; i < input->edit_count; i++)
+        if ((unsigned)input->edits[i].kind > OCTREE_EDIT_MOVE)
+            return OCTREE_BAD_OPTION;
+    for (size_t i = 0; status == OCTREE_OK && i < input->query_count; i++)
+        status = octree_query_check(&input->queries[i]);
+    for (size_t i = 0; status == OCTREE_OK && i < input->shape_count; i++)
+        status = check_shape(&input->shapes[i]);
+    return status;
+}
+
+/* Edits, queries and shapes begin with their tick. */
+static uint64_t tick_of(const void *items, size_t size, size_t i)
+{
+    uint64_t tick;
+    memcpy(&tick, (const char *)items + i * size, sizeof tick);
+    return tick;
+}
+
+static octree_status check_order(const void *items, size_t size, size_t count)
+{
+    for (size_t i = 1; i < count; i++)
+        if (tick_of(items, size, i) < tick_of(items, size, i - 1))
+            return OCTREE_BAD_ORDER;
+    return OCTREE_OK;
+}
+
+octree_status game_check_session(const octree_session *s, const octree *tree)
+{
+    octree_status status = check_player(&s->player, tree);
+    if (status == OCTREE_OK)
+        status = check_keys(s->keys);
+    if (status == OCTREE_OK)
+        status = octree_input_check(
+            &(octree_input){0, s->edits, s->edit_count, s->queries, s->query_count, s->shapes, s->shape_count});
+    if (status == OCTREE_OK)
+        status = s->edit_count && s->edits[0].tick == 0 ? OCTREE_BAD_ORDER
+                                                        : check_order(s->edits, sizeof *s->edits, s->edit_count);
+    if (status == OCTREE_OK)
+        status = check_order(s->queries, sizeof *s->queries, s->query_count);
+    if (status == OCTREE_OK)
+        status = check_order(s->shapes, sizeof *s->shapes, s->shape_count);
+    return status;
+}
+
+/* ---- What a session has for a tick -------------------------------------------------------------------------- */
+
+/* The first of the items, which ascend, that is of this tick or a later one. */
+static size_t first_from(const void *items, size_t size, size_t count, uint64_t tick)
+{
+    size_t first = 0;
+    while (first < count) {
+        const size_t middle = first + (count - first) / 2;
+        if (tick_of(items, size, middle) < tick)
+            first = middle + 1;
+        else
+            count = middle;
+    }
+    return first;
+}
+
+/* The items of a tick, and their number into *found. */
+static const void *items_of(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
+{
+    const size_t first = first_from(items, size, count, tick);
+    *found = (tick < OCTREE_EVERY_TICK ? first_from(items, size, count, tick + 1) : count) - first;
+    return *found ? (const char *)items + first * size : NULL;
+}
+
+octree_input session_input(const octree_session *s, uint64_t tick)
+{
+    octree_input input = {0};
+    input.edits = items_of(s->edits, sizeof *s->edits, s->edit_count, tick, &input.edit_count);
+    input.queries = items_of(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
+    input.shapes = items_of(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
+    return input;
+}
+
+/* ---- Loading ------------------------------------------------------------------------------------------------ */
+
+static void note_speed(octree_game *game, const double velocity[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (fabs(velocity[i]) > game->fastest)
+            game->fastest = fabs(velocity[i]);
+}
+
+/* The points of the bodies; one whose velocity is not finite is refused without asking the tree. Their number. */
+static size_t collect_points(octree_game *game, octree_point *points)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < game->session->body_count; i++) {
+        const octree_body *body = &game->session->bodies[i];
+        if (!is_finite_velocity(body->velocity))
+            continue;
+        note_speed(game, body->velocity);
+        points[count].id = body->id;
+        memcpy(points[count++].position, body->position, sizeof points->position);
+    }
+    return count;
+}
+
+/* `statuses` are those of the points collected. A second body with an id ends the game before there is one: that its
+ * point is in the tree then does not matter. */
+static octree_status add_bodies(octree_game *game, const octree_status *statuses)
+{
+    for (size_t i = 0; i < game->session->body_count; i++) {
+        const octree_body *body = &game->session->bodies[i];
+        octree_status status = game_check_body(game, body);
+        if (status == OCTREE_OK)
+            status = *statuses;
+        statuses += is_finite_velocity(body->velocity);
+        status = game_add_body(game, body, status);
+        if (status == OCTREE_DUPLICATE || status == OCTREE_NO_MEMORY)
+            return status;
+    }
+    return OCTREE_OK;
+}
+
+octree_status game_load_bodies(octree_game *game)
+{
+    const size_t room = game->session->body_count;
+    if (room == 0 || room > SIZE_MAX / sizeof(octree_point))
+        return room ? OCTREE_NO_MEMORY : OCTREE_OK;
+    octree_point *points = arena_take(&game->memory, room * sizeof *points);
+    octree_status *statuses = arena_take(&game->memory, room * sizeof *statuses);
+    octree_status status = OCTREE_NO_MEMORY;
+    if (points && statuses)
+        status = octree_insert_many(game->tree, points, collect_points(game, points), statuses, NULL);
+    if (status == OCTREE_OK)
+        status = add_bodies(game, statuses);
+    arena_give(&game->memory, points, room * sizeof *points);
+    arena_give(&game->memory, statuses, room * sizeof *statuses);
+    return status;
+}
+
+/* ---- The paper's session ------------------------------------------------------------------------------------ */
+
+/* Ids are the places in the paper's list; the sixth, (0, 0, 0), is the player. Three points share one cell of depth 5,
+ * so one of them is refused at tick 0. */
+static const octree_body paper_bodies[] = {
+    {.id = 1, .position = {-50, -50, 100}},    {.id = 2, .position = {900, -900, -900}},
+    {.id = 3, .position = {900, 900, 900}},    {.id = 4, .position = {-100, -100, 100}},
+    {.id = 5, .position = {-1, 2, 3}},         {.id = 7, .position = {750, 750, 750}},
+    {.id = 8, .position = {800, 800, 800}},    {.id = 9, .position = {500, 500, 500}},
+    {.id = 10, .position = {750, 750, 800}},   {.id = 11, .position = {975, 975, 1000}},
+    {.id = 12, .position = {1000, 1000, 975}},
+};
+
+static const char paper_keys[] =
+    "n.eeasnassdn."                                          /* three collisions near the origin */
+    "asfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasfasf" /* down to the lowest corner ... */
+    "sffffnasf."                                             /* ... and against its three faces */
+    "ddweddwedddddddddddddddddddddddddddddddddnddwddddn"     /* point 2, and the face x = 1000 */
+    "ewaewaewaewaewaewaewaewaewaewa"                         /* up to point 9 */
+    "ewewewewewewewewewewewewewewewwwneee.n"
+    "dwedwedwedweddewn.en"   /* into the cell that is full */
+    "dwendweenaweeeen"       /* the face z = 1000 */
+    "wddnwaawwdnwfaffssn.."; /* point 11, the face y = 1000 */
+
+#define CORNER(at)                                                                                                     \
+    {                                                                                                                  \
+        .tick = at, .kind = OCTREE_QUERY_RANGE, .box = { {700, 700, 700}, {1000, 1000, 1000} }                         \
+    }
+
+/* The crowded corner is asked for while the player is there. */
+static const octree_query paper_queries[] = {
+    CORNER(212), CORNER(213), CORNER(214), CORNER(215), CORNER(216), CORNER(217),
+    CORNER(218), CORNER(219), CORNER(220), CORNER(221), CORNER(222), CORNER(223),
+};
+
+octree_session octree_session_default(void)
+{
+    octree_session session = {
+        .tree = octree_def_default(),
+        .player = {.id = 6, .position = {0, 0, 0}, .step = 50, .box_size = 30},
+        .bodies = paper_bodies,
+        .body_count = sizeof paper_bodies / sizeof paper_bodies[0],
+        .keys = paper_keys,
+        .queries = paper_queries,
+        .query_count = sizeof paper_queries / sizeof paper_queries[0],
+    };
+    session.tree.leaf_capacity = 2;
+    session.tree.max_depth = 5;
+    return session;
+}
