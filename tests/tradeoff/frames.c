@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "draw.h"
+#include "renderer.h"
 #include "fixture.h"
 #include "tick_scene.h"
 #include "must.h"

@@ -2,7 +2,7 @@
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
-#include "draw.h"
+#include "renderer.h"
 #include "image.h"
 
 #include <getopt.h>

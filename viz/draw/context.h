@@ -3,7 +3,7 @@
 #ifndef DRAW_CONTEXT_H
 #define DRAW_CONTEXT_H
 
-#include "draw.h"
+#include "renderer.h"
 
 typedef void (*context_function)(void);
 

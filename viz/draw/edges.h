@@ -2,7 +2,7 @@
 #ifndef DRAW_EDGES_H
 #define DRAW_EDGES_H
 
-#include "merged_boxes.h"
+#include "box_lines.h"
 #include "scene.h"
 
 /* A stretch of a line of the world that has one colour. */

@@ -2,7 +2,7 @@
 #ifndef DRAW_LETTERS_H
 #define DRAW_LETTERS_H
 
-#include "draw.h"
+#include "renderer.h"
 #include "quads.h"
 
 /* A label at its pixel, or beside the place where its position is drawn. */

@@ -6,7 +6,7 @@
 #ifndef DRAW_QUADS_H
 #define DRAW_QUADS_H
 
-#include "draw.h"
+#include "renderer.h"
 
 #define QUAD_SUBPIXELS 256
 

@@ -4,7 +4,7 @@
  * The viewport is a square whose side is a power of two, so that every step from a snapped pixel to clip space and
  * back is exact in single precision: no CPU can round it differently, with FMA or without.
  */
-#include "draw.h"
+#include "renderer.h"
 #include "canvas.h"
 #include "gl.h"
 #include "paint.h"

@@ -1,7 +1,7 @@
 /* ignored_layers.c - see ignored_layers.h. */
 #include "ignored_layers.h"
 #include "layer.h"
-#include "draw.h"
+#include "renderer.h"
 #include "frame_file.h"
 #include "layer.h"
 #include "replay.h"

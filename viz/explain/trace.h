@@ -3,7 +3,7 @@
 #define DIFF_TRACE_H
 
 #include "diff.h"
-#include "draw.h"
+#include "renderer.h"
 #include "heat.h"
 #include "layer.h"
 #include "octree/game.h"

@@ -1,5 +1,5 @@
 /* decoder.c - see decoder.h. */
-#include "decoder.h"
+#include "png_read.h"
 
 #include <errno.h>
 #include <string.h>

@@ -1,112 +1,319 @@
-/* png_read.c - a PNG file to an image that is at hand whole, to its size or to one of its texts. */
-#include "decoder.h"
+/* source.c - the rows of a PNG file, whoever wrote it: as they are decoded, or from a picture that is at hand whole. */
+#include "png_read.h"
 
+#include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* ---- Pixels ------------------------------------------------------------------------------------------------- */
+/* Deflate spends at least two bits on 258 bytes. */
+#define MOST_BYTES_A_BYTE 1032
 
-/* Take the image out of a source that has read it whole. */
-static bool take_image(image_source *source, image *image)
+/* Compressed bytes are handed to zlib in pieces of this size. */
+#define COMPRESSED_BUFFER_SIZE ((size_t)1 << 14)
+
+struct image_source {
+    decoder decoder;
+    FILE *file; /* null: not ours to close */
+    uint64_t file_size;
+    image_color background;
+    bool whole;                 /* all rows at once: it was asked for, or the picture cannot be told otherwise */
+    png_byte color_type, depth; /* as stored */
+    size_t samples;             /* of a pixel as libpng delivers it: 1, an index or a grey; 3; or 4, with alpha */
+    int passes;
+    image about; /* its pixels where all rows are at hand, else null */
+    int next_y;
+    bool beyond; /* an index beyond the palette was met: told when all else is right */
+    bool failed;
+};
+
+/* ---- What comes before the pixels ---------------------------------------------------------------------------- */
+
+static bool is_indexed(const image_source *s)
 {
-    memset(image, 0, sizeof *image);
-    if (!source)
-        return false;
-    image_source_take(source, image);
-    return true;
+    return s->color_type == PNG_COLOR_TYPE_PALETTE || (s->color_type == PNG_COLOR_TYPE_GRAY && s->depth <= 8);
 }
 
-bool image_read_png_stream(FILE *stream, uint64_t size, const char *name, image_color background, image *image,
-                           octreel_error *error)
+/* Have libpng deliver whole samples, as exact as they are. Laying over a background is not left to it: 1.6.39 turns the
+ * white of 16-bit files into 254. */
+static void set_conversion(png_structp png, png_infop info, image_source *s)
 {
-    return take_image(image_source_open_stream(stream, size, name, background, true, error), image);
+    s->color_type = png_get_color_type(png, info);
+    s->depth = png_get_bit_depth(png, info);
+    const bool keyed = png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+    s->about.wide = s->depth == 16;
+    s->about.transparent = keyed || (s->color_type & PNG_COLOR_MASK_ALPHA) != 0;
+    s->samples = s->about.transparent ? 4 : 3;
+    if (is_indexed(s)) {
+        s->samples = 1;
+        png_set_packing(png);
+        return;
+    }
+    png_set_expand(png);
+    png_set_gray_to_rgb(png);
+    const uint16_t one = 1;
+    if (s->depth == 16 && *(const uint8_t *)&one == 1)
+        png_set_swap(png);
 }
 
-bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error)
+/* Refuse before memory is spent on it. */
+static void check_size(png_structp png, png_infop info, const image_source *s)
 {
-    return take_image(image_source_open(path, background, true, error), image);
+    const png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+    if (width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
+        png_error(png, "a side is longer than this program's largest picture");
+    const uint64_t stored = (uint64_t)png_get_rowbytes(png, info) * height;
+    if (stored > MOST_BYTES_A_BYTE * s->file_size)
+        png_error(png, "the file is cut short, or claims more pixels than it can hold");
 }
 
-bool image_read_png(const char *path, image *image, octreel_error *error)
+static unsigned mix(unsigned value, unsigned ground, unsigned alpha, unsigned most)
 {
-    return image_read_png_over(path, IMAGE_WHITE, image, error);
+    return (value * alpha + ground * (most - alpha) + most / 2) / most;
 }
 
-/* ---- What can be told without the pixels --------------------------------------------------------------------- */
-
-static void read_size(png_structp png, png_infop info, void *context)
+static image_color mix_color(image_color color, image_color ground, unsigned alpha)
 {
-    int *sides = (int *)context;
-    png_read_info(png, info);
-    sides[0] = (int)png_get_image_width(png, info);
-    sides[1] = (int)png_get_image_height(png, info);
+    return (image_color){(uint8_t)mix(color.r, ground.r, alpha, 255), (uint8_t)mix(color.g, ground.g, alpha, 255),
+                         (uint8_t)mix(color.b, ground.b, alpha, 255)};
 }
 
-/* Take one step of reading a file. */
-static bool read_file(FILE *file, const char *path, decoder_task *task, void *context, octreel_error *error)
+/* The colours that the indices, or the greys, of a file stand for. */
+static void set_colors(png_structp png, png_infop info, image_source *s)
 {
-    decoder d;
-    const bool done = decoder_open(&d, file, path, error) && decoder_run(&d, task, context);
-    decoder_close(&d);
-    return done;
-}
-
-static bool ends_as_png(FILE *file)
-{
-    static const uint8_t end[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
-    uint8_t last[sizeof end];
-    return fseek(file, -(long)sizeof last, SEEK_END) == 0 && fread(last, sizeof last, 1, file) == 1 &&
-           memcmp(last, end, sizeof end) == 0;
-}
-
-bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, octreel_error *error)
-{
-    const image_fault fault = {path, error};
-    uint64_t size;
-    int sides[2] = {0, 0};
-    FILE *file = decoder_open_file(&fault, &size);
-    if (file == NULL)
-        return false;
-    const bool begins = read_file(file, path, read_size, sides, error);
-    *width = sides[0];
-    *height = sides[1];
-    *ends = begins && ends_as_png(file);
-    fclose(file);
-    return begins;
-}
-
-typedef struct text_request {
-    const char *keyword;
-    char *text;
-    size_t size;
-    bool found;
-} text_request;
-
-static void find_text(png_structp png, png_infop info, void *context)
-{
-    text_request *request = (text_request *)context;
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, (png_const_bytep) "tEXt", 1);
-    png_read_info(png, info);
-    png_textp texts = NULL;
-    int count = 0;
-    png_get_text(png, info, &texts, &count);
-    for (int i = 0; i < count && !request->found; i++) {
-        if (strcmp(texts[i].key, request->keyword) != 0)
-            continue;
-        snprintf(request->text, request->size, "%s", texts[i].text);
-        request->found = true;
+    image_palette *palette = &s->about.palette;
+    png_colorp colors = NULL;
+    png_bytep alphas = NULL;
+    png_color_16p key = NULL;
+    int alpha_count = 0;
+    png_get_tRNS(png, info, &alphas, &alpha_count, &key);
+    const bool grey = s->color_type == PNG_COLOR_TYPE_GRAY;
+    if (grey)
+        palette->count = 1 << s->depth;
+    else
+        png_get_PLTE(png, info, &colors, &palette->count);
+    for (int i = 0; i < palette->count; i++) {
+        const uint8_t level = (uint8_t)(grey ? i * 255 / (palette->count - 1) : 0);
+        const image_color color =
+            grey ? (image_color){level, level, level} : (image_color){colors[i].red, colors[i].green, colors[i].blue};
+        unsigned alpha = 255;
+        if (grey)
+            alpha = s->about.transparent && key->gray == i ? 0 : 255;
+        else if (i < alpha_count)
+            alpha = alphas[i];
+        palette->colors[i] = mix_color(color, s->background, alpha);
     }
 }
 
-bool image_read_text(const char *path, const char *keyword, char *text, size_t size)
+/* Bytes of a row as libpng delivers it: no fewer than an image keeps of it. */
+static size_t row_size(const image_source *s)
 {
-    text_request request = {.keyword = keyword, .text = text, .size = size};
-    octreel_error unread;
-    const image_fault fault = {path, &unread};
-    uint64_t file_size;
-    FILE *file = decoder_open_file(&fault, &file_size);
-    if (file == NULL)
+    return (size_t)s->about.width * s->samples * (s->depth == 16 ? 2 : 1);
+}
+
+static void begin(png_structp png, png_infop info, void *context)
+{
+    image_source *s = (image_source *)context;
+    png_set_compression_buffer_size(png, COMPRESSED_BUFFER_SIZE);
+    png_read_info(png, info);
+    check_size(png, info, s);
+    set_conversion(png, info, s);
+    s->passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    s->about.width = (int)png_get_image_width(png, info);
+    s->about.height = (int)png_get_image_height(png, info);
+    s->about.channels = s->samples == 1 ? 1 : 3;
+    if (png_get_rowbytes(png, info) != row_size(s))
+        png_error(png, "libpng cannot turn it into whole samples");
+    if (s->samples == 1)
+        set_colors(png, info, s);
+    /* Interlaced rows come in passes; whether 16 bits a sample are needed is known at the end. */
+    s->whole = s->whole || s->passes > 1 || s->about.wide;
+}
+
+/* ---- Pixels -------------------------------------------------------------------------------------------------- */
+
+/* From four samples a pixel to three, in place. */
+static void lay_over(uint8_t *pixels, size_t count, image_color ground)
+{
+    for (size_t n = 0; n < count; n++) {
+        const uint8_t *from = pixels + 4 * n;
+        const image_color color = mix_color((image_color){from[0], from[1], from[2]}, ground, from[3]);
+        memcpy(pixels + 3 * n, &color, 3);
+    }
+}
+
+static void lay_over_wide(uint8_t *pixels, size_t count, image_color ground)
+{
+    const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
+    for (size_t n = 0; n < count; n++) {
+        uint16_t from[4], to[3];
+        memcpy(from, pixels + n * sizeof from, sizeof from);
+        for (size_t i = 0; i < 3; i++)
+            to[i] = (uint16_t)mix(from[i], grounds[i], from[3], 65535);
+        memcpy(pixels + n * sizeof to, to, sizeof to);
+    }
+}
+
+static bool fits_bytes(const uint8_t *samples, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (samples[2 * i] != samples[2 * i + 1]) /* a multiple of 257 */
+            return false;
+    return true;
+}
+
+/* An image has 16 bits a sample only where it needs them, so that equal pictures are stored alike. */
+static void narrow_where_exact(image *out)
+{
+    const size_t count = 3 * (size_t)out->width * (size_t)out->height;
+    if (!fits_bytes(out->pixels, count))
+        return;
+    for (size_t i = 0; i < count; i++)
+        out->pixels[i] = out->pixels[2 * i];
+    out->wide = false;
+}
+
+/* From what libpng delivered to what an image holds. */
+static void convert(image_source *s, const image *band)
+{
+    const size_t count = (size_t)band->width * (size_t)band->height;
+    if (s->samples == 1)
+        s->beyond = s->beyond || !image_has_colors(band); /* libpng lets indices beyond the palette pass */
+    if (s->samples == 4 && !band->wide)
+        lay_over(band->pixels, count, s->background);
+    if (s->samples == 4 && band->wide)
+        lay_over_wide(band->pixels, count, s->background);
+}
+
+/* Rows that are wanted, and where their pixels go. */
+typedef struct band_request {
+    image_source *source;
+    const image *band;
+} band_request;
+
+/* With the last rows all that follows them is read. */
+static void decode(png_structp png, png_infop info, void *context)
+{
+    (void)info;
+    const band_request *r = (const band_request *)context;
+    image_source *s = r->source;
+    const size_t size = row_size(s);
+    for (int pass = 0; pass < s->passes; pass++)
+        for (int y = 0; y < r->band->height; y++)
+            png_read_row(png, r->band->pixels + (size_t)y * size, NULL);
+    convert(s, r->band);
+    s->next_y += r->band->height;
+    if (s->next_y < s->about.height)
+        return;
+    png_read_end(png, NULL);
+    if (s->beyond)
+        png_error(png, "a pixel's index lies beyond the palette");
+}
+
+static bool run(image_source *s, decoder_task *task, void *context)
+{
+    s->failed = s->failed || !decoder_run(&s->decoder, task, context);
+    return !s->failed;
+}
+
+static bool fail(image_source *s, const char *reason)
+{
+    s->failed = true;
+    return image_fault_report(&s->decoder.fault, "", reason);
+}
+
+static bool read_whole(image_source *s)
+{
+    s->about.pixels = malloc(row_size(s) * (size_t)s->about.height);
+    if (!s->about.pixels)
+        return fail(s, strerror(ENOMEM));
+    if (!run(s, decode, &(band_request){s, &s->about}))
         return false;
-    const bool read = read_file(file, path, find_text, &request, &unread);
-    fclose(file);
-    return read && request.found;
+    if (s->about.wide)
+        narrow_where_exact(&s->about);
+    s->next_y = 0;
+    return true;
+}
+
+size_t image_source_room(const image_source *s, int rows)
+{
+    return s->whole ? 0 : row_size(s) * (size_t)rows;
+}
+
+bool image_source_next(image_source *s, int rows, uint8_t *room, image *band)
+{
+    const int left = s->about.height - s->next_y;
+    if (s->failed || left == 0)
+        return false;
+    *band = s->about;
+    band->height = left < rows ? left : rows;
+    if (!s->whole) {
+        band->pixels = room;
+        return run(s, decode, &(band_request){s, band});
+    }
+    band->pixels += (size_t)s->next_y * (size_t)s->about.width * image_pixel_size(&s->about);
+    s->next_y += band->height;
+    return true;
+}
+
+/* ---- Opening and closing ------------------------------------------------------------------------------------- */
+
+const image *image_source_about(const image_source *s)
+{
+    return &s->about;
+}
+
+bool image_source_failed(const image_source *s)
+{
+    return s->failed;
+}
+
+image_source *image_source_open_stream(FILE *stream, uint64_t size, const char *name, image_color background,
+                                       bool whole, octreel_error *error)
+{
+    image_source *s = calloc(1, sizeof *s);
+    if (!s) {
+        image_fault_report(&(image_fault){name, error}, "", strerror(ENOMEM));
+        return NULL;
+    }
+    s->file_size = size;
+    s->background = background;
+    s->whole = whole;
+    if (decoder_open(&s->decoder, stream, name, error) && run(s, begin, s) && (!s->whole || read_whole(s)))
+        return s;
+    image_source_close(s);
+    return NULL;
+}
+
+image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error)
+{
+    const image_fault fault = {path, error};
+    uint64_t size;
+    FILE *file = decoder_open_file(&fault, &size);
+    if (!file)
+        return NULL;
+    image_source *s = image_source_open_stream(file, size, path, background, whole, error);
+    if (s)
+        s->file = file;
+    else
+        fclose(file); /* only read from: nothing is left to fail */
+    return s;
+}
+
+void image_source_take(image_source *s, image *whole)
+{
+    *whole = s->about;
+    s->about.pixels = NULL;
+    image_source_close(s);
+}
+
+void image_source_close(image_source *s)
+{
+    if (!s)
+        return;
+    decoder_close(&s->decoder);
+    image_release(&s->about);
+    if (s->file)
+        fclose(s->file);
+    free(s);
 }

@@ -1,5 +1,5 @@
 /* samples.c - see samples.h. */
-#include "samples.h"
+#include "image_compare.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef RECORD_FILM_H
 #define RECORD_FILM_H
 
-#include "draw.h"
+#include "renderer.h"
 #include "folder.h"
 #include "octree/game.h"
 #include "tick_scene.h"

@@ -2,7 +2,7 @@
 #ifndef RECORD_FOLDER_FILES_H
 #define RECORD_FOLDER_FILES_H
 
-#include "draw.h"
+#include "renderer.h"
 #include "folder.h"
 #include "octree/game.h"
 #include "session_file.h"

@@ -2,7 +2,7 @@
 #ifndef RECORD_PICTURE_H
 #define RECORD_PICTURE_H
 
-#include "draw.h"
+#include "renderer.h"
 #include "folder.h"
 #include "image.h"
 

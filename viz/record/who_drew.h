@@ -2,7 +2,7 @@
 #ifndef RECORD_WHO_DREW_H
 #define RECORD_WHO_DREW_H
 
-#include "draw.h"
+#include "renderer.h"
 
 #include <stddef.h>
 

@@ -3,7 +3,7 @@
 #ifndef RECORD_ELEMENT_WORDS_H
 #define RECORD_ELEMENT_WORDS_H
 
-#include "draw.h"
+#include "renderer.h"
 #include "heat.h"
 #include "octree/game.h"
 

@@ -6,7 +6,7 @@
 #ifndef RECORD_VERIFY_H
 #define RECORD_VERIFY_H
 
-#include "draw.h"
+#include "renderer.h"
 #include "folder.h"
 
 #include <stdint.h>

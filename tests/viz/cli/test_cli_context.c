@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "draw.h"
+#include "renderer.h"
 #include "files.h"
 #include "fixture.h"
 #include "tick_lines.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "draw.h"
+#include "renderer.h"
 #include "edits.h"
 #include "tick_lines.h"
 #include "verified.h"

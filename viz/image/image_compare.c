@@ -1,6 +1,6 @@
 /* compare.c - the difference of two images: counting and judging. */
 #include "antialias.h"
-#include "samples.h"
+#include "image_compare.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* merged_boxes.c - see merged_boxes.h. Boxes of a tree come in one order, so that from frame to frame a few come
  * between others and a few are missing. */
-#include "merged_boxes.h"
+#include "box_lines.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  * of it is for what an eye would hardly see.
  */
 #include "antialias.h"
-#include "samples.h"
+#include "image_compare.h"
 
 #include <math.h>
 #include <string.h>
