@@ -1,5 +1,6 @@
 /* diff_bench.c - octreel-diff-bench: octreel diff beside cmp, odiff and ImageMagick on the same pictures, in turn. */
-#include "image.h"
+#include "png_read.h"
+#include "png_write.h"
 #include "measuring.h"
 #include "program.h"
 #include "run_program.h"

@@ -2,6 +2,7 @@
 #include "command.h"
 #include "command_line.h"
 #include "digest_file.h"
+#include "png_read.h"
 
 #include <stdio.h>
 

@@ -3,7 +3,7 @@
 #define CLI_OPTIONS_H
 
 #include "renderer.h"
-#include "image.h"
+#include "image_compare.h"
 
 #include <getopt.h>
 #include <stdbool.h>

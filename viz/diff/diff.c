@@ -2,6 +2,7 @@
 #include "diff.h"
 #include "compare.h"
 #include "parallel.h"
+#include "png_read.h"
 
 #include <stdlib.h>
 #include <string.h>

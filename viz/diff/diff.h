@@ -4,6 +4,7 @@
 
 #include "mask.h"
 #include "side.h"
+#include "image_compare.h"
 
 /* Each finding, its name in reports, and what it means for the whole. */
 #define DIFF_FINDING_MAP(X)                                                                                            \

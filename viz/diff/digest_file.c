@@ -3,6 +3,7 @@
 #include "parallel.h"
 #include "text.h"
 #include "file.h"
+#include "image_digest.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

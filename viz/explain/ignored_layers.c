@@ -3,7 +3,6 @@
 #include "layer.h"
 #include "renderer.h"
 #include "frame_file.h"
-#include "layer.h"
 #include "replay.h"
 
 #include <stdlib.h>

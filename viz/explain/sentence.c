@@ -4,6 +4,8 @@
 #include "frame_file.h"
 #include "text.h"
 #include "trace_words.h"
+#include "image_digest.h"
+#include "png_read.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 #include "frame_file.h"
 #include "layer.h"
 #include "tick_scene.h"
+#include "png_read.h"
 
 #include <stdlib.h>
 #include <string.h>

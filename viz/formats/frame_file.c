@@ -1,6 +1,10 @@
 /* frame_file.c - see frame_file.h. */
 #include "frame_file.h"
 #include "ticks_write.h"
+#include "image_digest.h"
+#include "png_chunks.h"
+#include "png_read.h"
+#include "png_write.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

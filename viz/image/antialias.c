@@ -1,10 +1,3 @@
-/* antialias.c - pixels that differ because an edge was anti-aliased.
- *
- * After V. Vysniauskas, "Anti-aliased Pixel and Intensity Slope Detector", 2009, as pixelmatch and odiff do it: such a
- * pixel has both a darker and a brighter neighbour, at most two as bright as itself, and its darkest or its brightest
- * neighbour lies, in both images, in a patch of one colour: three of that one's neighbours are its equals. What lies
- * beyond the picture's border counts as one equal neighbour.
- */
 #include "antialias.h"
 
 #include <string.h>

@@ -1,6 +1,12 @@
-/* antialias.h - pixels that differ because an edge was anti-aliased. Private to this folder. */
-#ifndef OCTREEL_IMAGE_ANTIALIAS_H
-#define OCTREEL_IMAGE_ANTIALIAS_H
+/* antialias.h - pixels that differ because an edge was anti-aliased. For this folder.
+ *
+ * After V. Vysniauskas, "Anti-aliased Pixel and Intensity Slope Detector", 2009, as pixelmatch and odiff do it: such a
+ * pixel has both a darker and a brighter neighbour, at most two as bright as itself, and its darkest or its brightest
+ * neighbour lies, in both images, in a patch of one colour: three of that one's neighbours are its equals. What lies
+ * beyond the picture's border counts as one equal neighbour.
+ */
+#ifndef IMAGE_ANTIALIAS_H
+#define IMAGE_ANTIALIAS_H
 
 #include "image.h"
 

@@ -1,16 +1,11 @@
-/* compare.c - the difference of two images: counting and judging. */
-#include "antialias.h"
 #include "image_compare.h"
+#include "antialias.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The next rows of both images. */
-typedef struct rows {
-    const image *a, *b;
-    int first; /* their place in the whole */
-} rows;
+static const image_tolerance exact = {.max_pixels = 0};
 
 static int larger(int a, int b)
 {
@@ -22,6 +17,68 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
+/* ---- Pixels as samples, however an image stores them --------------------------------------------------------- */
+
+/* The measure's value for its two farthest colours of 8 bits a sample. */
+#define LARGEST 35215.0
+
+/* Colours are compared in spans of this many pixels, small enough for the stack and the first cache. */
+#define SPAN 128
+
+/* Red, green and blue of a pixel, 8 bits each or 16. */
+typedef struct pixel_samples {
+    uint16_t of[3];
+} pixel_samples;
+
+/* What samples of both images are out of. */
+static int samples_range(const image *a, const image *b)
+{
+    return a->wide || b->wide ? 65535 : 255;
+}
+
+/* `count` pixels from the n-th on, as wide as the range. */
+static void samples_read(const image *image, size_t n, int count, int range, pixel_samples *span)
+{
+    const size_t step = image_pixel_size(image);
+    const unsigned scale = range == 65535 ? 257 : 1;
+    const uint8_t *at = image->pixels + n * step;
+    if (image->wide) {
+        memcpy(span, at, (size_t)count * sizeof *span);
+        return;
+    }
+    for (int i = 0; i < count; i++, at += step) {
+        const image_color color =
+            image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]};
+        span[i] =
+            (pixel_samples){{(uint16_t)(color.r * scale), (uint16_t)(color.g * scale), (uint16_t)(color.b * scale)}};
+    }
+}
+
+static bool samples_equal(const pixel_samples *a, const pixel_samples *b)
+{
+    return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
+}
+
+/* The square of the distance in IMAGE_DELTA_UNIT, in sums and products of doubles: the same on every machine. The
+ * conversion to YIQ is linear, so that of the difference is taken: exact zeros for equal samples, no cancellation. */
+static double delta_square(const pixel_samples *a, const pixel_samples *b, int range)
+{
+    const double r = a->of[0] - b->of[0], g = a->of[1] - b->of[1], u = a->of[2] - b->of[2];
+    const double y = 0.29889531 * r + 0.58662247 * g + 0.11448223 * u;
+    const double i = 0.59597799 * r - 0.27417610 * g - 0.32180189 * u;
+    const double q = 0.21147017 * r - 0.52261711 * g + 0.31114694 * u;
+    const double scale = range / 255.0;
+    return (0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q) / (LARGEST * scale * scale);
+}
+
+/* ---- Counting ------------------------------------------------------------------------------------------------ */
+
+/* The next rows of both images. */
+typedef struct rows {
+    const image *a, *b;
+    int first; /* their place in the whole */
+} rows;
+
 /* Do equal bytes mean equal colours? The whole tables count: they are always there. */
 static bool stored_alike(const image *a, const image *b)
 {
@@ -29,8 +86,6 @@ static bool stored_alike(const image *a, const image *b)
         return false;
     return a->channels == 3 || memcmp(a->palette.colors, b->palette.colors, sizeof a->palette.colors) == 0;
 }
-
-/* ---- Counting ------------------------------------------------------------------------------------------------ */
 
 static void measure(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
@@ -61,62 +116,45 @@ static void add_pixel(image_tally *tally, int x, int y, const image_comparison *
     tally->max_y = y; /* rows come in order */
 }
 
+typedef enum forgiven { COUNTED, IGNORED, CLOSE, ANTIALIASED } forgiven;
+
+/* Why an unlike pixel is forgiven, or not; y is its row among these, `square` its delta's. */
+static forgiven forgive(const image_tolerance *t, const rows *r, int x, int y, double square)
+{
+    if (image_is_ignored(t, r->a->width, x, r->first + y))
+        return IGNORED;
+    if (square <= t->max_delta * t->max_delta)
+        return CLOSE;
+    return t->antialias && antialias_explains(r->a, r->b, x, y) ? ANTIALIASED : COUNTED;
+}
+
 static void count_pixel(image_comparison *c, const rows *r, int x, int y, const pixel_samples *a,
                         const pixel_samples *b)
 {
-    const image_tolerance *tolerance = c->tolerance;
     image_difference *difference = &c->difference;
-    if (image_is_ignored(tolerance, r->a->width, x, r->first + y)) {
-        difference->ignored++;
-        return;
-    }
     measure(c, a, b);
-    add_pixel(&difference->unlike, x, r->first + y, c);
-    if (c->last_square <= tolerance->max_delta * tolerance->max_delta)
-        difference->close++;
-    else if (tolerance->antialias && antialias_explains(r->a, r->b, x, y))
-        difference->antialiased++;
-    else
+    const forgiven why = forgive(c->tolerance, r, x, y, c->last_square);
+    difference->ignored += why == IGNORED;
+    difference->close += why == CLOSE;
+    difference->antialiased += why == ANTIALIASED;
+    if (why != IGNORED)
+        add_pixel(&difference->unlike, x, r->first + y, c);
+    if (why == COUNTED)
         add_pixel(&difference->counted, x, r->first + y, c);
 }
 
-/* How many pixels are stored alike before the first that is not. */
-static int run_alike(const uint8_t *a, const uint8_t *b, int count, size_t step)
+/* Of `count` pixels from (x, y) on. */
+static void count_span(image_comparison *c, const rows *r, int x, int y, int count)
 {
-    const size_t size = (size_t)count * step;
-    size_t at = 0;
-    while (at + 8 <= size && memcmp(a + at, b + at, 8) == 0)
-        at += 8;
-    while (at < size && a[at] == b[at])
-        at++;
-    return (int)(at / step);
-}
-
-/* Of `count` pixels from (x, y) on, stored so that equal bytes mean equal colours. */
-static void count_alike(image_comparison *c, const rows *r, int x, int y, int count)
-{
-    const size_t step = image_pixel_size(r->a), n = (size_t)y * (size_t)r->a->width + (size_t)x;
-    const uint8_t *a = r->a->pixels + n * step, *b = r->b->pixels + n * step;
-    if (memcmp(a, b, (size_t)count * step) == 0)
+    const size_t n = (size_t)y * (size_t)r->a->width + (size_t)x, size = image_pixel_size(r->a);
+    if (c->stored_alike && memcmp(r->a->pixels + n * size, r->b->pixels + n * size, (size_t)count * size) == 0)
         return;
-    for (int i = 0; (i += run_alike(a + (size_t)i * step, b + (size_t)i * step, count - i, step)) < count; i++) {
-        pixel_samples of_a, of_b;
-        samples_read(r->a, n + (size_t)i, 1, c->difference.channel_range, &of_a);
-        samples_read(r->b, n + (size_t)i, 1, c->difference.channel_range, &of_b);
-        if (!samples_equal(&of_a, &of_b)) /* a palette may have a colour twice */
-            count_pixel(c, r, x + i, y, &of_a, &of_b);
-    }
-}
-
-static void count_colors(image_comparison *c, const rows *r, int x, int y, int count)
-{
-    const size_t n = (size_t)y * (size_t)r->a->width + (size_t)x;
-    pixel_samples span_a[SPAN], span_b[SPAN];
-    samples_read(r->a, n, count, c->difference.channel_range, span_a);
-    samples_read(r->b, n, count, c->difference.channel_range, span_b);
+    pixel_samples a[SPAN], b[SPAN];
+    samples_read(r->a, n, count, c->difference.channel_range, a);
+    samples_read(r->b, n, count, c->difference.channel_range, b);
     for (int i = 0; i < count; i++)
-        if (!samples_equal(&span_a[i], &span_b[i]))
-            count_pixel(c, r, x + i, y, &span_a[i], &span_b[i]);
+        if (!samples_equal(&a[i], &b[i]))
+            count_pixel(c, r, x + i, y, &a[i], &b[i]);
 }
 
 image_comparison image_comparison_begin(const image *a, const image *b, const image_tolerance *tolerance)
@@ -137,7 +175,7 @@ void image_comparison_add(image_comparison *c, const image *a, const image *b)
     const rows r = {a, b, c->y};
     for (int y = 0; y < a->height; y++)
         for (int x = 0; x < a->width; x += SPAN)
-            (c->stored_alike ? count_alike : count_colors)(c, &r, x, y, smaller(SPAN, a->width - x));
+            count_span(c, &r, x, y, smaller(SPAN, a->width - x));
     c->y += a->height;
 }
 
@@ -159,7 +197,6 @@ image_difference image_compare_within(const image *a, const image *b, const imag
 
 image_difference image_compare(const image *a, const image *b)
 {
-    static const image_tolerance exact = {.max_pixels = 0};
     return image_compare_within(a, b, &exact);
 }
 
@@ -173,4 +210,73 @@ bool image_same(const image_difference *difference)
 bool image_forgiven(const image_difference *difference, const image_tolerance *tolerance)
 {
     return difference->same_size && difference->counted.pixels <= tolerance->max_pixels;
+}
+
+/* ---- A picture ----------------------------------------------------------------------------------------------- */
+
+/* The smallest difference is as bright as a warning, and the scale above it follows the square root of the delta: half
+ * of it is for what an eye would hardly see. */
+/* Indices of the palette: greys, what is forgiven, what only one of both has, and the heat of a difference. */
+enum { GREYS = 64, FORGIVEN = GREYS, OUTSIDE, HEAT, HEATS = 256 - HEAT };
+
+static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 46, 104};
+
+/* Apart from the greys for colour-blind eyes too, each brighter than the one before. */
+static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
+
+static uint8_t between(int from, int to, int part, int whole)
+{
+    return (uint8_t)(from + (to - from) * part / whole);
+}
+
+static image_color heat_color(int i)
+{
+    const int half = HEATS / 2, which = i < half ? 0 : 1, part = i - which * half;
+    const image_color *from = &HEAT_COLORS[which], *to = from + 1;
+    return (image_color){between(from->r, to->r, part, half), between(from->g, to->g, part, half),
+                         between(from->b, to->b, part, half)};
+}
+
+image_palette image_difference_palette(void)
+{
+    image_palette palette = {.count = 256};
+    for (int i = 0; i < GREYS; i++) {
+        const uint8_t grey = between(4, 92, i, GREYS - 1);
+        palette.colors[i] = (image_color){grey, grey, grey};
+    }
+    palette.colors[FORGIVEN] = FORGIVEN_COLOR;
+    palette.colors[OUTSIDE] = OUTSIDE_COLOR;
+    for (int i = 0; i < HEATS; i++)
+        palette.colors[HEAT + i] = heat_color(i);
+    return palette;
+}
+
+static uint8_t grey_index(const pixel_samples *p, int range)
+{
+    const double luma = (77.0 * p->of[0] + 150.0 * p->of[1] + 29.0 * p->of[2]) / (256.0 * range);
+    return (uint8_t)((GREYS - 1) * sqrt(luma)); /* so that dark pictures stay legible */
+}
+
+static uint8_t unlike_index(const rows *r, const image_tolerance *tolerance, int x, int y, double square)
+{
+    if (forgive(tolerance, r, x, y, square) != COUNTED)
+        return FORGIVEN;
+    return (uint8_t)(HEAT + (int)((HEATS - 1) * sqrt(sqrt(square))));
+}
+
+void image_difference_row(const image *a, const image *b, const image_tolerance *tolerance, int y, uint8_t *row)
+{
+    const int range = samples_range(a, b), longest = larger(a->width, b->width);
+    const int common = y >= a->height || y >= b->height ? 0 : smaller(a->width, b->width);
+    const rows r = {a, b, 0};
+    if (a->width != b->width || a->height != b->height)
+        tolerance = &exact;
+    for (int x = 0; x < common; x++) {
+        pixel_samples p, q;
+        samples_read(a, (size_t)y * (size_t)a->width + (size_t)x, 1, range, &p);
+        samples_read(b, (size_t)y * (size_t)b->width + (size_t)x, 1, range, &q);
+        row[x] = samples_equal(&p, &q) ? grey_index(&p, range)
+                                       : unlike_index(&r, tolerance, x, y, delta_square(&p, &q, range));
+    }
+    memset(row + common, OUTSIDE, (size_t)(longest - common));
 }

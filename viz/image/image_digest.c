@@ -1,9 +1,9 @@
-/* digest.c - one number for size and colours of a picture, which is at hand whole or read row by row. */
-#include "image.h"
+#include "image_digest.h"
+#include "octree/digest.h"
+#include "png_read.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include "octree/digest.h"
 
 /* The colour of the n-th pixel in reading order as one word: 8 bits a sample, or 16. */
 static uint64_t color_word(const image *image, size_t n)
@@ -83,16 +83,6 @@ uint64_t image_digest(const image *image)
     return finish(&d);
 }
 
-static bool digest_rows(image_source *source, uint8_t *room, uint64_t *digest)
-{
-    const image *about = image_source_about(source);
-    digesting d = begin(about);
-    for (image rows; image_source_next(source, image_band_rows(about), room, &rows);)
-        add_rows(&d, &rows);
-    *digest = finish(&d);
-    return !image_source_failed(source);
-}
-
 bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error)
 {
     image_source *source = image_source_open(path, background, false, error);
@@ -100,10 +90,13 @@ bool image_digest_png(const char *path, image_color background, image *about, ui
         return false;
     *about = *image_source_about(source);
     about->pixels = NULL;
-    uint8_t *room = malloc(image_source_room(source, image_band_rows(about)) + 1);
-    const bool done = room && digest_rows(source, room, digest);
-    if (!room)
-        snprintf(error->text, sizeof error->text, "%.400s: there is no memory", path);
+    const int rows = image_band_rows(about);
+    uint8_t *room = malloc(image_source_room(source, rows) + 1);
+    digesting d = begin(about);
+    for (image band; room && image_source_next(source, rows, room, &band);)
+        add_rows(&d, &band);
+    *digest = finish(&d);
+    const bool done = room ? !image_source_failed(source) : error_set(error, "%s: there is no memory", path);
     free(room);
     image_source_close(source);
     return done;

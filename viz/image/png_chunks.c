@@ -1,112 +1,140 @@
-/* png_read.c - a PNG file to an image that is at hand whole, to its size or to one of its texts. */
-#include "png_read.h"
+#include "png_chunks.h"
 
+#include <stdint.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <zlib.h>
 
-/* ---- Pixels ------------------------------------------------------------------------------------------------- */
+/* A chunk: four bytes of its data's size, four of its name, the data, and a check sum over name and data. */
+enum { NAME = 4, DATA = 8, CRC_SIZE = 4 };
 
-/* Take the image out of a source that has read it whole. */
-static bool take_image(image_source *source, image *image)
+/* The first page of a file, where the chunks before the pixels are. */
+typedef struct page {
+    uint8_t bytes[4096];
+    size_t size;
+} page;
+
+typedef struct chunk {
+    uint8_t *at;
+    uint32_t size; /* of its data */
+} chunk;
+
+static const uint8_t signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+
+static uint32_t get_number(const uint8_t *from)
 {
-    memset(image, 0, sizeof *image);
-    if (!source)
+    return (uint32_t)from[0] << 24 | (uint32_t)from[1] << 16 | (uint32_t)from[2] << 8 | from[3];
+}
+
+static void put_number(uint8_t *to, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        to[i] = (uint8_t)(value >> (24 - 8 * i));
+}
+
+static uint32_t crc_of(const chunk *c)
+{
+    return (uint32_t)crc32(0, c->at + NAME, (uInt)(DATA - NAME + c->size));
+}
+
+static bool is_named(const chunk *c, const char *name)
+{
+    return memcmp(c->at + NAME, name, DATA - NAME) == 0;
+}
+
+/* Whether a whole chunk with the right check sum begins at an offset of the page. */
+static bool find_chunk(page *p, size_t offset, chunk *c)
+{
+    if (offset + DATA + CRC_SIZE > p->size)
         return false;
-    image_source_take(source, image);
-    return true;
+    *c = (chunk){p->bytes + offset, get_number(p->bytes + offset)};
+    return c->size <= p->size - offset - DATA - CRC_SIZE && get_number(c->at + DATA + c->size) == crc_of(c);
 }
 
-bool image_read_png_stream(FILE *stream, uint64_t size, const char *name, image_color background, image *image,
-                           octreel_error *error)
+/* Null for what is no regular file, too: opening a pipe would wait for its other end. */
+static FILE *open_png(const char *path, const char *mode, page *p)
 {
-    return take_image(image_source_open_stream(stream, size, name, background, true, error), image);
+    struct stat status;
+    FILE *file = stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, mode) : NULL;
+    p->size = file ? fread(p->bytes, 1, sizeof p->bytes, file) : 0;
+    if (p->size >= sizeof signature && memcmp(p->bytes, signature, sizeof signature) == 0)
+        return file;
+    if (file)
+        fclose(file);
+    return NULL;
 }
 
-bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error)
-{
-    return take_image(image_source_open(path, background, true, error), image);
-}
-
-bool image_read_png(const char *path, image *image, octreel_error *error)
-{
-    return image_read_png_over(path, IMAGE_WHITE, image, error);
-}
-
-/* ---- What can be told without the pixels --------------------------------------------------------------------- */
-
-static void read_size(png_structp png, png_infop info, void *context)
-{
-    int *sides = (int *)context;
-    png_read_info(png, info);
-    sides[0] = (int)png_get_image_width(png, info);
-    sides[1] = (int)png_get_image_height(png, info);
-}
-
-/* Take one step of reading a file. */
-static bool read_file(FILE *file, const char *path, decoder_task *task, void *context, octreel_error *error)
-{
-    decoder d;
-    const bool done = decoder_open(&d, file, path, error) && decoder_run(&d, task, context);
-    decoder_close(&d);
-    return done;
-}
+/* ---- Size ---------------------------------------------------------------------------------------------------- */
 
 static bool ends_as_png(FILE *file)
 {
-    static const uint8_t end[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    static const uint8_t end[DATA + CRC_SIZE] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     uint8_t last[sizeof end];
     return fseek(file, -(long)sizeof last, SEEK_END) == 0 && fread(last, sizeof last, 1, file) == 1 &&
            memcmp(last, end, sizeof end) == 0;
 }
 
-bool image_read_png_ends(const char *path, int *width, int *height, bool *ends, octreel_error *error)
+bool image_png_size(const char *path, int *width, int *height)
 {
-    const image_fault fault = {path, error};
-    uint64_t size;
-    int sides[2] = {0, 0};
-    FILE *file = decoder_open_file(&fault, &size);
-    if (file == NULL)
+    page p;
+    chunk c;
+    FILE *file = open_png(path, "rb", &p);
+    if (!file)
         return false;
-    const bool begins = read_file(file, path, read_size, sides, error);
-    *width = sides[0];
-    *height = sides[1];
-    *ends = begins && ends_as_png(file);
+    const bool found = find_chunk(&p, sizeof signature, &c) && is_named(&c, "IHDR") && c.size == 13;
+    if (found) {
+        *width = (int)get_number(c.at + DATA);
+        *height = (int)get_number(c.at + DATA + 4);
+    }
+    const bool whole = found && ends_as_png(file);
     fclose(file);
-    return begins;
+    return whole;
 }
 
-typedef struct text_request {
-    const char *keyword;
-    char *text;
-    size_t size;
-    bool found;
-} text_request;
+/* ---- Texts --------------------------------------------------------------------------------------------------- */
 
-static void find_text(png_structp png, png_infop info, void *context)
+/* The text of a keyword, and its chunk; null when there is none. */
+static uint8_t *find_text(page *p, const char *keyword, chunk *c)
 {
-    text_request *request = (text_request *)context;
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, (png_const_bytep) "tEXt", 1);
-    png_read_info(png, info);
-    png_textp texts = NULL;
-    int count = 0;
-    png_get_text(png, info, &texts, &count);
-    for (int i = 0; i < count && !request->found; i++) {
-        if (strcmp(texts[i].key, request->keyword) != 0)
-            continue;
-        snprintf(request->text, request->size, "%s", texts[i].text);
-        request->found = true;
-    }
+    const size_t key = strlen(keyword) + 1; /* its zero ends it in the file, too */
+    for (size_t at = sizeof signature; find_chunk(p, at, c) && !is_named(c, "IDAT"); at += DATA + c->size + CRC_SIZE)
+        if (is_named(c, "tEXt") && key <= c->size && memcmp(c->at + DATA, keyword, key) == 0)
+            return c->at + DATA + key;
+    return NULL;
 }
 
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size)
 {
-    text_request request = {.keyword = keyword, .text = text, .size = size};
-    octreel_error unread;
-    const image_fault fault = {path, &unread};
-    uint64_t file_size;
-    FILE *file = decoder_open_file(&fault, &file_size);
-    if (file == NULL)
+    page p;
+    chunk c;
+    FILE *file = open_png(path, "rb", &p);
+    const uint8_t *found = file ? find_text(&p, keyword, &c) : NULL;
+    if (found)
+        snprintf(text, size, "%.*s", (int)(c.at + DATA + c.size - found), (const char *)found);
+    if (file)
+        fclose(file);
+    return found;
+}
+
+/* Text and check sum stand side by side, in one page: one write, which nothing tears. */
+static bool replace(FILE *file, page *p, const char *keyword, const char *text)
+{
+    chunk c;
+    const size_t length = strlen(text);
+    uint8_t *found = find_text(p, keyword, &c);
+    if (!found || found + length != c.at + DATA + c.size)
         return false;
-    const bool read = read_file(file, path, find_text, &request, &unread);
-    fclose(file);
-    return read && request.found;
+    memcpy(found, text, length);
+    put_number(found + length, crc_of(&c));
+    return fseek(file, (long)(found - p->bytes), SEEK_SET) == 0 &&
+           fwrite(found, 1, length + CRC_SIZE, file) == length + CRC_SIZE;
+}
+
+bool image_replace_text(const char *path, const char *keyword, const char *text)
+{
+    page p;
+    FILE *file = open_png(path, "r+b", &p);
+    const bool replaced = file && replace(file, &p, keyword, text);
+    return file && fclose(file) == 0 && replaced;
 }

@@ -1,28 +1,48 @@
-/* decoder.h - libpng while it reads a file: the strict rules, and errors as sentences. Private to this folder. */
-#ifndef OCTREEL_IMAGE_DECODER_H
-#define OCTREEL_IMAGE_DECODER_H
+/* png_read.h - PNG files of every kind to images: whole, or row by row. */
+#ifndef IMAGE_PNG_READ_H
+#define IMAGE_PNG_READ_H
 
-#include "fault.h"
+#include "image.h"
 
-/* Its address is libpng's error pointer: it stays where it was opened. */
-typedef struct decoder {
-    image_fault fault;
-    png_structp png;
-    png_infop info;
-} decoder;
+/* What shines through where a picture is transparent, unless another colour is asked for. */
+#define IMAGE_WHITE ((image_color){255, 255, 255})
 
-/* A step of the reading, between setjmp and the clean-up: png_error() ends it. */
-typedef void decoder_task(png_structp png, png_infop info, void *context);
+/* Read any PNG without loss: palettes, and greys of up to 8 bits, become indexed images, the others RGB ones, with 16
+ * bits a sample only where 8 cannot hold them. What is transparent is laid over white; gamma and colour profiles are
+ * ignored. Refused are files that are no regular files, whatever is cut short or fails a checksum, sides beyond
+ * IMAGE_MAX_SIDE, and more pixels than so many compressed bytes can hold: memory stays within 8 bytes a pixel, and
+ * within 8300 times the file's size. The image is created; when it fails, it is zeroed. */
+bool image_read_png(const char *path, image *image, octreel_error *error);
 
-/* Open a regular file. Null, with a sentence, where there is none. */
-FILE *decoder_open_file(const image_fault *fault, uint64_t *size);
+/* The same over a background of one's own. */
+bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error);
 
-/* Begin with a stream at its start; name, the path in sentences, and error must outlive the decoder. False, with a
- * sentence, without memory; closed is it in any case. */
-bool decoder_open(decoder *d, FILE *file, const char *name, octreel_error *error);
-void decoder_close(decoder *d);
+/* The rows of a PNG, decoded as they are asked for, so that it never is in memory whole. Where rows cannot come one
+ * after the other - they are interlaced, or have 16 bits a sample and may not need them - all are read when it is
+ * opened, as they are when `whole` asks for it. One thread at a time may use it. */
+typedef struct image_source image_source;
 
-/* Do a step. False, with a sentence, when it fails: nothing but closing is allowed then. */
-bool decoder_run(decoder *d, decoder_task *task, void *context);
+/* Begin, under the rules of image_read_png(). Null, with a sentence, where that cannot be; path and error must outlive
+ * the source. */
+image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error);
+void image_source_close(image_source *source); /* null is allowed */
+
+/* The image but for its pixels, which are null unless all of them are at hand. */
+const image *image_source_about(const image_source *source);
+
+/* The next rows, at most `rows`, as an image of their own that is not to be released: its pixels are in `room`, of
+ * image_source_room() bytes, or in the source. False when there are no more, or, with a sentence, when it fails; that
+ * the file is right to its end is known when its last rows were given. */
+bool image_source_next(image_source *source, int rows, uint8_t *room, image *band);
+size_t image_source_room(const image_source *source, int rows);
+bool image_source_failed(const image_source *source);
+
+/* How many rows of a picture are best asked for at a time: so few that some such bands fit the second cache, and so
+ * many that what is done for each band does not count. */
+static inline int image_band_rows(const image *about)
+{
+    enum { BAND_PIXELS = 1 << 14 };
+    return about->width < BAND_PIXELS ? BAND_PIXELS / about->width : 1;
+}
 
 #endif

@@ -1,40 +1,34 @@
-/* png_write.c - an image to a PNG file: whole, or not at all. */
-#include "fault.h"
+#include "png_write.h"
+#include "file.h"
+#include "text.h"
 
 #include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <png.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 /* Large enough for the whole of a usual frame: one IDAT chunk, which stdio passes on without copying. */
 #define COMPRESSED_BUFFER_SIZE ((size_t)1 << 16)
 
-/* What goes into the file. */
-typedef struct content {
+/* A file under way: libpng hands it back as its error pointer. */
+typedef struct output {
     const image_rows *rows;
     const image_text *texts;
     size_t text_count;
-} content;
+    file_writer file;
+    octreel_error *error;
+} output;
 
-/* Why this image cannot be written, or NULL. */
+/* Why this image cannot be written, or null. */
 static const char *refusal(const image *image)
 {
-    if (image->pixels == NULL || image->width < 1 || image->height < 1)
-        return "the image has no pixels";
     if (image->wide)
         return "the image has more than 8 bits a sample";
     if (image->channels == 3)
         return NULL;
-    if (image->channels != 1)
-        return "the image has neither one channel nor three";
     if (image->palette.count < 1 || image->palette.count > 256)
         return "the palette has not 1 to 256 colours";
-    if (!image_has_colors(image))
-        return "a pixel's index lies beyond the palette";
-    return NULL;
+    return image_has_colors(image) ? NULL : "a pixel's index lies beyond the palette";
 }
 
 static void write_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -77,72 +71,55 @@ static void set_texts(png_structp png, png_infop info, const image_text *texts, 
     }
 }
 
-static void write_rows(png_structp png, const image_rows *rows)
+/* libpng's error handler: keep the reason and jump back to the setjmp. */
+static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
-    for (int y = 0; y < rows->height; y++)
-        png_write_row(png, rows->row(y, rows->context));
+    const output *out = png_get_error_ptr(png);
+    char reason[200]; /* it may quote a keyword */
+    snprintf(reason, sizeof reason, "%s", message);
+    error_set(out->error, "%s: %s", out->file.path, make_printable(reason));
+    png_longjmp(png, 1);
 }
 
 /* The function that libpng's errors jump back to; nothing in it changes between setjmp and jump. */
-static bool write_chunks(png_structp png, png_infop info, const content *content, FILE *file)
+static bool write_chunks(png_structp png, png_infop info, const output *out)
 {
     if (setjmp(png_jmpbuf(png)) != 0)
         return false;
-    png_set_write_fn(png, file, write_bytes, NULL);
-    set_header(png, info, content->rows);
-    set_texts(png, info, content->texts, content->text_count);
+    png_set_write_fn(png, out->file.stream, write_bytes, NULL);
+    set_header(png, info, out->rows);
+    set_texts(png, info, out->texts, out->text_count);
     png_write_info(png, info);
-    write_rows(png, content->rows);
+    for (int y = 0; y < out->rows->height; y++)
+        png_write_row(png, out->rows->row(y, out->rows->context));
     png_write_end(png, NULL);
     return true;
 }
 
 /* Warnings are errors here: libpng warns where it would write something else than it was given, a keyword say. */
-static bool encode(const content *content, FILE *file, image_fault *fault)
+static bool encode(output *out)
 {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, fault, image_fault_raise, image_fault_raise);
-    png_infop info = png == NULL ? NULL : png_create_info_struct(png);
-    bool whole = info == NULL ? image_fault_report(fault, "libpng does not start: ", strerror(ENOMEM))
-                              : write_chunks(png, info, content, file);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, out, raise_error, raise_error);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    const bool whole = info ? write_chunks(png, info, out) : error_no_memory(out->error);
     png_destroy_write_struct(&png, &info);
     return whole;
 }
 
-/* A rename would put a file in the place of a device or a pipe. */
+/* A pipe would wait for its other end. */
 static bool is_replaceable(const char *path)
 {
     struct stat status;
-    return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode); /* a folder stays */
+    return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode); /* opening a folder fails */
 }
 
-/* A full disk may show as late as in fclose, when stdio hands over its last bytes. */
-static bool write_by_rename(const content *content, const char *part, image_fault *fault)
+static bool write_file(output *out, const char *path)
 {
-    FILE *file = fopen(part, "wb");
-    if (file == NULL)
-        return image_fault_report(fault, "cannot create its .part file: ", strerror(errno));
-    bool whole = encode(content, file, fault);
-    if (fclose(file) != 0 && whole)
-        whole = image_fault_report(fault, "", strerror(errno));
-    if (whole && rename(part, fault->path) != 0)
-        whole = image_fault_report(fault, "cannot rename its .part file: ", strerror(errno));
-    if (!whole)
-        unlink(part);
-    return whole;
-}
-
-static bool write_content(const content *content, image_fault *fault)
-{
-    if (!is_replaceable(fault->path))
-        return image_fault_report(fault, "cannot be replaced: ", "it is there, and is not a regular file");
-    size_t part_size = strlen(fault->path) + sizeof ".part";
-    char *part = malloc(part_size);
-    if (part == NULL)
-        return image_fault_report(fault, "", strerror(ENOMEM));
-    snprintf(part, part_size, "%s.part", fault->path);
-    bool written = write_by_rename(content, part, fault);
-    free(part);
-    return written;
+    if (!is_replaceable(path))
+        return error_set(out->error, "%s: cannot be replaced: it is there, and is not a regular file", path);
+    if (!file_writer_open(&out->file, path, out->error))
+        return false;
+    return encode(out) ? file_writer_close(&out->file, out->error) : file_writer_abandon(&out->file);
 }
 
 static const uint8_t *row_of_image(int y, void *context)
@@ -154,22 +131,20 @@ static const uint8_t *row_of_image(int y, void *context)
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
                      octreel_error *error)
 {
-    image_fault fault = {path, error};
     const char *reason = refusal(image);
-    if (reason != NULL)
-        return image_fault_report(&fault, "", reason);
+    if (reason)
+        return error_set(error, "%s: %s", path, reason);
     const image_rows rows = {.width = image->width,
                              .height = image->height,
                              .palette = image->channels == 1 ? &image->palette : NULL,
                              .row = row_of_image,
                              .context = (void *)image}; /* which is only read */
-    return write_content(&(content){&rows, texts, text_count}, &fault);
+    return write_file(&(output){.rows = &rows, .texts = texts, .text_count = text_count, .error = error}, path);
 }
 
 bool image_write_png_rows(const image_rows *rows, const char *path, octreel_error *error)
 {
-    image_fault fault = {path, error};
-    return write_content(&(content){.rows = rows}, &fault);
+    return write_file(&(output){.rows = rows, .error = error}, path);
 }
 
 char *image_library(char text[IMAGE_LIBRARY_TEXT])

@@ -4,6 +4,7 @@
 #include "picture.h"
 #include "tick_scene.h"
 #include "ticks_write.h"
+#include "image_digest.h"
 
 static bool write_picture(const picture *p, const scene *s, const char *path, octreel_error *error)
 {

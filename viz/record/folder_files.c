@@ -1,6 +1,6 @@
 /* folder_files.c - see folder_files.h. */
 #include "folder_files.h"
-#include "image.h"
+#include "png_write.h"
 #include "json_write.h"
 #include "octree/digest.h"
 #include "view_file.h"

@@ -4,7 +4,7 @@
 
 #include "renderer.h"
 #include "folder.h"
-#include "image.h"
+#include "png_write.h"
 
 typedef struct picture {
     renderer *renderer;

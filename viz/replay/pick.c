@@ -3,6 +3,7 @@
 #include "frame_file.h"
 #include "json_write.h"
 #include "replay.h"
+#include "png_read.h"
 
 #include <inttypes.h>
 #include <math.h>

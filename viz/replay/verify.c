@@ -6,6 +6,9 @@
 #include "replay.h"
 #include "verify_line.h"
 #include "who_drew.h"
+#include "image_compare.h"
+#include "image_digest.h"
+#include "png_read.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -3,6 +3,8 @@
 #include "file.h"
 #include "folder.h"
 #include "octree/digest.h"
+#include "png_read.h"
+#include "png_write.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,6 +1,7 @@
 /* galleries.c - see galleries.h. */
 #include "galleries.h"
 #include "fixture.h"
+#include "png_write.h"
 
 #include <stdio.h>
 #include <stdlib.h>

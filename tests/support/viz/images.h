@@ -9,7 +9,9 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "image.h"
+#include "image_compare.h"
+#include "png_read.h"
+#include "png_write.h"
 
 /* An indexed picture and its RGB twin. */
 typedef struct image_twins {

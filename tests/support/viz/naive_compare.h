@@ -2,7 +2,7 @@
 #ifndef NAIVE_COMPARE_H
 #define NAIVE_COMPARE_H
 
-#include "image.h"
+#include "image_compare.h"
 
 /* A pixel's red, green and blue as numbers from 0 to 1. */
 void naive_color(const image *image, int x, int y, double rgb[3]);

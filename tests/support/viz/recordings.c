@@ -1,5 +1,6 @@
 /* recordings.c - see recordings.h. */
 #include "recordings.h"
+#include "png_read.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -14,6 +14,8 @@
 #include "tick_lines.h"
 #include "ticks_write.h"
 #include "view.h"
+#include "png_chunks.h"
+#include "image_digest.h"
 
 enum { POINTS = 500 };
 

@@ -6,6 +6,8 @@
 #include "scenes.h"
 #include "tick_lines.h"
 #include "verified.h"
+#include "png_chunks.h"
+#include "png_read.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,6 +10,7 @@
 #include "fixture.h"
 #include "images.h"
 #include "tick_lines.h"
+#include "image_compare.h"
 
 enum { POINTS = 600, REACH = 50 };
 

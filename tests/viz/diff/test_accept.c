@@ -3,6 +3,7 @@
 #include "fixture.h"
 #include "galleries.h"
 #include "recordings.h"
+#include "png_write.h"
 
 #include <stdlib.h>
 #include <string.h>

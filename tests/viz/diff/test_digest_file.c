@@ -3,6 +3,7 @@
 #include "fixture.h"
 #include "galleries.h"
 #include "ignored_layers.h"
+#include "image_digest.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

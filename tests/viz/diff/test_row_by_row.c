@@ -4,6 +4,7 @@
 #include "naive_compare.h"
 #include "stored_png.h"
 #include "temp_folder.h"
+#include "image_digest.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,6 +11,8 @@
 #include "recordings.h"
 #include "tick_lines.h"
 #include "ticks_write.h"
+#include "image_digest.h"
+#include "png_chunks.h"
 
 /* ---- The box filter ----------------------------------------------------------------------------------------- */
 

@@ -18,6 +18,7 @@
 #include "evidence.h"
 #include "golden_frames.h"
 #include "diff_words.h"
+#include "png_write.h"
 
 #define NAME_SIZE 512
 #define TEXT_SIZE 256

@@ -10,6 +10,10 @@
 #include "layer.h"
 #include "recordings.h"
 #include "theme.h"
+#include "png_chunks.h"
+#include "image_digest.h"
+#include "png_read.h"
+#include "png_write.h"
 
 #define KEYS "wdn."
 #define TICKS 5

@@ -1,6 +1,7 @@
 /* test_compare.c - counting and judging the difference of two images, against an oracle that goes pixel by pixel. */
 #include "images.h"
 #include "naive_compare.h"
+#include "image_digest.h"
 
 #include <math.h>
 #include <stdlib.h>

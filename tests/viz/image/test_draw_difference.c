@@ -2,6 +2,7 @@
 #include "fixture.h"
 #include "images.h"
 #include "temp_folder.h"
+#include "image_compare.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* test_image.c - images in memory: creation, digests, palettes and drawn differences. */
 #include "images.h"
+#include "image_digest.h"
 
 static void create_refuses_sides_and_channels_out_of_range(void **state)
 {

@@ -13,6 +13,8 @@
 #include "session_file.h"
 #include "tick_lines.h"
 #include "ticks_write.h"
+#include "png_chunks.h"
+#include "image_digest.h"
 
 enum { DEFAULT_TICKS = 253, DEFAULT_FRAMES = 253 };
 

@@ -13,6 +13,7 @@
 #include "fixture.h"
 #include "images.h"
 #include "recordings.h"
+#include "image_compare.h"
 
 static const char KEYS[] = "ddddeeeewwwwaaaassssffff.n.dewaf"; /* 33 ticks */
 

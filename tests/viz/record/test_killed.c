@@ -18,6 +18,9 @@
 #include "tick_lines.h"
 #include "ticks_write.h"
 #include "traced.h"
+#include "png_chunks.h"
+#include "png_read.h"
+#include "image_digest.h"
 
 enum { MOST = 512 };
 

@@ -4,6 +4,7 @@
 #include "replay.h"
 #include "frame_file.h"
 #include "verified.h"
+#include "image_digest.h"
 
 #include <string.h>
 

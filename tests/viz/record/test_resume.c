@@ -14,6 +14,8 @@
 #include "images.h"
 #include "layer.h"
 #include "recordings.h"
+#include "png_chunks.h"
+#include "png_read.h"
 
 enum { TICKS = 12 };
 

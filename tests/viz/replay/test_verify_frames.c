@@ -11,6 +11,8 @@
 #include "recordings.h"
 #include "ticks_write.h"
 #include "verified.h"
+#include "png_chunks.h"
+#include "image_digest.h"
 
 /* The texts of a frame, as they are; `pixels` in the place of the digest of its pixels, unless it is null. */
 static void write_with_texts(const char *path, const image *frame, const char *pixels)

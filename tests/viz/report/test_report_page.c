@@ -9,6 +9,7 @@
 #include "fixture.h"
 #include "galleries.h"
 #include "report.h"
+#include "png_write.h"
 
 enum { FRAMES = 57 }; /* of which the fifth is the same: six more differ than are in the page */
 
