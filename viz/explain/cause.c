@@ -1,5 +1,6 @@
 /* cause.c - see cause.h. */
 #include "cause.h"
+#include "array.h"
 #include "layer.h"
 
 #include <inttypes.h>
@@ -36,7 +37,7 @@ static bool compare_trees(const playing *p)
     if (p->same_rules)
         return octree_game_tick(p->games[0])->tree_digest != octree_game_tick(p->games[1])->tree_digest;
     cause_compare_trees(p->games[0], p->games[1], &facts);
-    const bool unlike = cause_any(&facts) || facts.out_of_memory;
+    const bool unlike = facts.count > 0 || facts.out_of_memory;
     cause_facts_release(&facts);
     return unlike;
 }
@@ -64,14 +65,10 @@ static bool is_wanted(playing *p, uint64_t tick, bool differs)
 
 static bool keep(cause *c, uint64_t tick, cause_facts *facts)
 {
-    if (c->count == c->room) {
-        const size_t room = c->room ? 2 * c->room : 16;
-        cause_tick *grown = realloc(c->ticks, room * sizeof *grown);
-        if (!grown)
-            return false;
-        c->ticks = grown;
-        c->room = room;
-    }
+    cause_tick *grown = array_reserve(c->ticks, c->count + 1, &c->room, sizeof *grown);
+    if (!grown)
+        return false;
+    c->ticks = grown;
     c->ticks[c->count++] = (cause_tick){tick, *facts};
     *facts = (cause_facts){0};
     return true;
@@ -92,7 +89,7 @@ static bool look_at(playing *p, octreel_error *error)
     cause_facts facts = {0};
     const bool trees = trees_differ(p);
     cause_compare_ticks(p->games[0], p->games[1], &facts);
-    const bool differs = trees || cause_any(&facts);
+    const bool differs = trees || facts.count > 0;
     if (differs)
         note(p->found, tick);
     bool ok = true;
@@ -102,7 +99,7 @@ static bool look_at(playing *p, octreel_error *error)
             cause_compare_trees(p->games[0], p->games[1], &facts);
         cause_compare_ticks(p->games[0], p->games[1], &facts);
         if (p->warm)
-            cause_add(&facts, (cause_fact){.kind = CAUSE_HEAT, .tick = CAUSE_NO_TICK});
+            cause_add(&facts, "heat", "", CAUSE_OTHER, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, NULL, NULL});
         ok = !facts.out_of_memory && keep(p->found, tick, &facts);
     }
     p->warm |= p->shows_heat && differs;
@@ -134,16 +131,16 @@ static bool same_rules(const octree *a, const octree *b)
            x.max_depth == y.max_depth && x.full_leaf == y.full_leaf;
 }
 
-bool cause_find(const octree_session *a, const octree_session *b, const cause_look look[2], const cause_wanted *wanted,
+bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2], const cause_wanted *wanted,
                 cause_watch *watch, void *context, cause *c, octreel_error *error)
 {
     playing p = {.wanted = wanted, .watch = watch, .context = context, .found = c};
     *c = (cause){0};
     cause_compare_sessions(a, b, &c->session);
-    if (look)
-        cause_compare_looks(&look[0], &look[1], &c->look);
-    p.shows_heat = look && ((look[0].view.layers | look[1].view.layers) & VIEW_HEAT_LAYERS);
-    bool ok = (!c->session.out_of_memory && !c->look.out_of_memory) ||
+    if (views)
+        cause_compare_views(&views[0], &views[1], &c->view);
+    p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
+    bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) ||
               error_set(error, "there is no memory for what differs");
     ok = ok && open_game(&p, 0, a, error) && open_game(&p, 1, b, error);
     p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
@@ -163,7 +160,7 @@ void cause_release(cause *c)
         cause_facts_release(&c->ticks[i].facts);
     free(c->ticks);
     cause_facts_release(&c->session);
-    cause_facts_release(&c->look);
+    cause_facts_release(&c->view);
     *c = (cause){0};
 }
 

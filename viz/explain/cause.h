@@ -1,6 +1,6 @@
 /* cause.h - two sessions played side by side: in what they differ, at which ticks, and how. */
-#ifndef DIFF_CAUSE_H
-#define DIFF_CAUSE_H
+#ifndef CAUSE_H
+#define CAUSE_H
 
 #include "cause_compare.h"
 #include "folder.h"
@@ -21,7 +21,7 @@ typedef struct cause_wanted {
 /* A zeroed one is empty. */
 typedef struct cause {
     cause_facts session; /* in what the sessions differ */
-    cause_facts look;    /* and how they are looked at; of two sessions alone there is none */
+    cause_facts view;    /* and how they are looked at; of two sessions alone there is none */
     cause_tick *ticks;   /* told in detail, in ascending order */
     size_t count, room;
     uint64_t compared;    /* ticks that both have */
@@ -33,10 +33,10 @@ typedef struct cause {
  * ends the playing. */
 typedef bool cause_watch(void *context, const octree_game *const games[2], bool differs, octreel_error *error);
 
-/* Compare two sessions and play them side by side. `look` is what both are looked at with, or null: it adds what shows
- * in pictures alone. `watch` may be null. False with a sentence when one cannot be played; *c is to be released in any
+/* Compare two sessions and play them side by side. `views`, which may be null, add what shows in pictures
+ * alone. `watch` may be null. False with a sentence when one cannot be played; *c is to be released in any
  * case. */
-bool cause_find(const octree_session *a, const octree_session *b, const cause_look look[2], const cause_wanted *wanted,
+bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2], const cause_wanted *wanted,
                 cause_watch *watch, void *context, cause *c, octreel_error *error);
 void cause_release(cause *c);
 

@@ -1,23 +1,47 @@
-/* cause_compare.h - two sessions, two views, two trees, two ticks: in what they differ. Each adds facts; nothing is
- * read or drawn. Where there is no memory for it facts->out_of_memory is set.
+/* cause_compare.h - two objects of JSON are compared member by member; two sessions, two views and two ticks are
+ * compared as the objects that are written of them. Each adds facts; where there is no memory for it
+ * facts->out_of_memory is set.
  */
-#ifndef DIFF_CAUSE_COMPARE_H
-#define DIFF_CAUSE_COMPARE_H
+#ifndef CAUSE_COMPARE_H
+#define CAUSE_COMPARE_H
 
 #include "cause_facts.h"
+#include "octree/game.h"
 #include "view.h"
 
-/* All that a session holds and its kind of player reads: the options first, then points at the start, keys, edits,
- * queries and shapes. Cost: a sort of points and of edits. */
+/* How two values are compared, and where they are. */
+typedef struct cause_place {
+    cause_facts *facts;
+    const char *where; /* the path of the object that holds them; "": it is the outermost */
+    const char *query; /* of an answer; else "" */
+    uint64_t tick;     /* or CAUSE_NO_TICK */
+    bool exact;        /* the sign of zero counts */
+} cause_place;
+
+/* Compare objects, null for empty ones. Objects are descended into, but for boxes, which are values. Of lists whose
+ * elements have a key - an id, a word, or what is done to which id - those of the same key are compared; of other lists
+ * those that are in the same place between what is the same at both ends. */
+void cause_compare_members(const cause_place *place, json_t *a, json_t *b);
+
+/* All that a session holds and its kind of player reads. Cost: that of writing both, and a sort of the points. */
 void cause_compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts);
 
+/* Points in ascending order of their ids, which are unique. */
+typedef struct cause_points {
+    octree_point *points;
+    size_t count;
+} cause_points;
+
+void cause_compare_points(cause_facts *facts, const char *where, const cause_points *a, const cause_points *b,
+                          bool exact);
+
 /* What belongs to a recording and not to its session: the view, and each how many ticks there is a frame. */
-typedef struct cause_look {
+typedef struct cause_view {
     view view;
     uint64_t every;
-} cause_look;
+} cause_view;
 
-void cause_compare_looks(const cause_look *a, const cause_look *b, cause_facts *facts);
+void cause_compare_views(const cause_view *a, const cause_view *b, cause_facts *facts);
 
 /* Nodes and points of the trees of two games, but the player, which the tick tells; of trees in unlike worlds the
  * worlds, and points. Nodes that are there because one above them split are not told one by one. Cost: a sort of the

@@ -1,54 +1,65 @@
 /* cause_facts.c - see cause_facts.h. */
 #include "cause_facts.h"
+#include "array.h"
 
-#include <stdlib.h>
+#include <stdio.h>
+#include <string.h>
 
-const char *cause_kind_name(cause_kind kind)
+const char *cause_change_name(cause_change change)
 {
-    static const char *const names[CAUSE_KINDS] = {
-#define CAUSE_KIND_NAME(name, text) [CAUSE_##name] = text,
-        CAUSE_KIND_MAP(CAUSE_KIND_NAME)
-#undef CAUSE_KIND_NAME
-    };
-    return names[kind];
+    static const char *const names[] = {
+        [CAUSE_OTHER] = "other", [CAUSE_MORE] = "more", [CAUSE_LESS] = "less", [CAUSE_ORDER] = "order"};
+    return names[change];
 }
 
-void cause_add(cause_facts *facts, cause_fact fact)
+static cause_group *find_group(const cause_facts *facts, const char *where, const char *query, cause_change change)
 {
-    if (facts->found[fact.kind]++ >= CAUSE_LISTED || facts->out_of_memory)
-        return;
-    if (facts->count == facts->room) {
-        const size_t room = facts->room ? 2 * facts->room : 8;
-        cause_fact *grown = realloc(facts->facts, room * sizeof *grown);
-        if (!grown) {
-            facts->out_of_memory = true;
-            return;
-        }
-        facts->facts = grown;
-        facts->room = room;
+    for (size_t i = 0; i < facts->count; i++) {
+        cause_group *group = &facts->groups[i];
+        if (group->change == change && strcmp(group->where, where) == 0 && strcmp(group->query, query) == 0)
+            return group;
     }
-    facts->facts[facts->count++] = fact;
+    return NULL;
 }
 
-void cause_add_options(cause_facts *facts, cause_kind kind, const cause_option *a, const cause_option *b, size_t count)
+static cause_group *add_group(cause_facts *facts, const char *where, const char *query, cause_change change)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!cause_same_value(&a[i].value, &b[i].value))
-            cause_add(
-                facts,
-                (cause_fact){.kind = kind, .tick = CAUSE_NO_TICK, .name = a[i].name, .a = a[i].value, .b = b[i].value});
+    cause_group *grown = array_reserve(facts->groups, facts->count + 1, &facts->room, sizeof *grown);
+    if (!grown)
+        return NULL;
+    facts->groups = grown;
+    cause_group *group = &grown[facts->count++];
+    *group = (cause_group){.change = change};
+    snprintf(group->where, sizeof group->where, "%s", where);
+    snprintf(group->query, sizeof group->query, "%s", query);
+    return group;
+}
+
+void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact)
+{
+    cause_group *group = find_group(facts, where, query, change);
+    if (!group)
+        group = add_group(facts, where, query, change);
+    facts->out_of_memory |= !group;
+    if (group && group->found++ < CAUSE_LISTED) {
+        json_incref(fact.a);
+        json_incref(fact.b);
+        group->listed[group->found - 1] = fact;
+    }
+}
+
+const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change)
+{
+    return find_group(facts, where, "", change);
 }
 
 void cause_facts_release(cause_facts *facts)
 {
-    free(facts->facts);
+    for (size_t i = 0; i < facts->count; i++)
+        for (size_t j = 0; j < cause_listed(&facts->groups[i]); j++) {
+            json_decref(facts->groups[i].listed[j].a);
+            json_decref(facts->groups[i].listed[j].b);
+        }
+    free(facts->groups);
     *facts = (cause_facts){0};
-}
-
-bool cause_any(const cause_facts *facts)
-{
-    for (int i = 0; i < CAUSE_KINDS; i++)
-        if (facts->found[i])
-            return true;
-    return false;
 }

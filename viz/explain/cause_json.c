@@ -4,103 +4,83 @@
 #include "trace_words.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-/* What a fact of a kind names beside its values. */
-enum { NAMES_POINT = 1, NAMES_QUERY = 2, NAMES_COUNTS = 4 };
+/* ---- Facts --------------------------------------------------------------------------------------------------- */
 
-static const unsigned char named[CAUSE_KINDS] = {
-    [CAUSE_START_MORE] = NAMES_POINT,   [CAUSE_START_LESS] = NAMES_POINT,
-    [CAUSE_START_MOVED] = NAMES_POINT,  [CAUSE_VELOCITY] = NAMES_POINT,
-    [CAUSE_EDIT_MORE] = NAMES_POINT,    [CAUSE_EDIT_LESS] = NAMES_POINT,
-    [CAUSE_EDIT_OTHER] = NAMES_POINT,   [CAUSE_EDIT_SPEED] = NAMES_POINT,
-    [CAUSE_POINT_MORE] = NAMES_POINT,   [CAUSE_POINT_LESS] = NAMES_POINT,
-    [CAUSE_POINT_MOVED] = NAMES_POINT,  [CAUSE_HIT_MORE] = NAMES_POINT,
-    [CAUSE_HIT_LESS] = NAMES_POINT,     [CAUSE_REFUSAL_MORE] = NAMES_POINT,
-    [CAUSE_REFUSAL_LESS] = NAMES_POINT, [CAUSE_ANSWER] = NAMES_QUERY | NAMES_COUNTS,
-    [CAUSE_NEAREST] = NAMES_QUERY,      [CAUSE_ANSWER_MORE] = NAMES_QUERY,
-    [CAUSE_ANSWER_LESS] = NAMES_QUERY,  [CAUSE_ANSWER_PLACE] = NAMES_QUERY,
-};
-
-static void write_value(json_writer *w, const char *key, const cause_value *value)
+static void write_value(json_writer *w, const json_t *value)
 {
-    octree_box box;
-    switch (value->type) {
-    case VALUE_NONE:
-        break;
-    case VALUE_WHOLE:
-        json_member_integer(w, key, value->whole);
-        break;
-    case VALUE_NUMBER:
-        json_write_key(w, key);
-        json_write_number(w, value->numbers[0]);
-        break;
-    case VALUE_WORD:
-        json_member_text(w, key, value->word);
-        break;
-    case VALUE_PLACE:
-        json_member_vector(w, key, value->numbers);
-        break;
-    case VALUE_SEGMENT:
-        json_write_key(w, key);
+    const char *key;
+    json_t *member;
+    size_t i;
+    if (json_is_number(value)) {
+        json_write_number(w, json_number_value(value));
+    } else if (json_is_string(value)) {
+        json_write_string(w, json_string_value(value));
+    } else if (json_is_boolean(value)) {
+        json_write_bool(w, json_is_true(value));
+    } else if (json_is_array(value)) {
         json_write_begin_array(w);
-        json_write_numbers(w, value->numbers, 3);
-        json_write_numbers(w, value->numbers + 3, 3);
+        json_array_foreach(value, i, member) write_value(w, member);
         json_write_end_array(w);
-        break;
-    case VALUE_BOX:
-        memcpy(box.min, value->numbers, sizeof box.min);
-        memcpy(box.max, value->numbers + 3, sizeof box.max);
-        json_member_box(w, key, &box);
-        break;
+    } else if (json_is_object(value)) {
+        json_write_begin_object(w);
+        json_object_foreach((json_t *)(uintptr_t)value, key, member)
+        {
+            json_write_key(w, key);
+            write_value(w, member);
+        }
+        json_write_end_object(w);
+    } else {
+        json_write_null(w);
     }
+}
+
+static void write_member(json_writer *w, const char *key, const json_t *value)
+{
+    if (!value)
+        return;
+    json_write_key(w, key);
+    write_value(w, value);
 }
 
 static void write_fact(json_writer *w, const cause_fact *fact)
 {
-    char text[OCTREE_ADDRESS_TEXT];
-    const unsigned names = named[fact->kind];
     json_write_begin_object(w);
-    json_member_text(w, "kind", cause_kind_name(fact->kind));
     if (fact->tick != CAUSE_NO_TICK)
         json_member_integer(w, "tick", fact->tick);
-    if (fact->name)
-        json_member_text(w, "name", fact->name);
-    if (names & NAMES_POINT)
+    if (fact->id != CAUSE_NO_ID)
         json_member_integer(w, "id", fact->id);
-    if (fact->node)
-        json_member_text(w, "node", octree_address_format(fact->node, text));
-    if (names & NAMES_QUERY)
-        json_member_integer(w, "query", fact->query);
-    if (names & NAMES_COUNTS) {
-        json_member_integer(w, "gained", fact->gained);
-        json_member_integer(w, "lost", fact->lost);
-    }
-    write_value(w, "reference", &fact->a);
-    write_value(w, "frames", &fact->b);
+    write_member(w, "reference", fact->a);
+    write_member(w, "frames", fact->b);
     json_write_end_object(w);
 }
 
-/* "facts" or another key, and "more" where not all are listed. */
-static void write_facts(json_writer *w, const char *key, const char *more, const cause_facts *facts)
+static void write_group(json_writer *w, const cause_group *group)
 {
-    bool all = true;
+    json_write_begin_object(w);
+    json_member_text(w, "where", group->where);
+    json_member_text(w, "change", cause_change_name(group->change));
+    if (*group->query)
+        json_member_text(w, "query", group->query);
+    json_member_integer(w, "count", group->found);
+    json_write_key(w, "facts");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < cause_listed(group); i++)
+        write_fact(w, &group->listed[i]);
+    json_write_end_array(w);
+    json_write_end_object(w);
+}
+
+static void write_facts(json_writer *w, const char *key, const cause_facts *facts)
+{
     json_write_key(w, key);
     json_write_begin_array(w);
     for (size_t i = 0; i < facts->count; i++)
-        write_fact(w, &facts->facts[i]);
+        write_group(w, &facts->groups[i]);
     json_write_end_array(w);
-    for (int i = 0; i < CAUSE_KINDS; i++)
-        all = all && facts->found[i] <= CAUSE_LISTED;
-    if (all)
-        return;
-    json_write_key(w, more);
-    json_write_begin_object(w);
-    for (int i = 0; i < CAUSE_KINDS; i++)
-        if (facts->found[i] > CAUSE_LISTED)
-            json_member_integer(w, cause_kind_name((cause_kind)i), facts->found[i] - CAUSE_LISTED);
-    json_write_end_object(w);
 }
+
+/* ---- The whole ----------------------------------------------------------------------------------------------- */
 
 static void write_element(json_writer *w, const trace_part *part)
 {
@@ -135,7 +115,7 @@ static void write_ticks(json_writer *w, const explanation *e)
     for (size_t i = 0; i < c->count; i++) {
         json_write_begin_object(w);
         json_member_integer(w, "tick", c->ticks[i].tick);
-        write_facts(w, "facts", "more", &c->ticks[i].facts);
+        write_facts(w, "causes", &c->ticks[i].facts);
         if (tracer_at(&e->tracer, c->ticks[i].tick))
             write_trace(w, tracer_at(&e->tracer, c->ticks[i].tick));
         json_write_end_object(w);
@@ -145,11 +125,11 @@ static void write_ticks(json_writer *w, const explanation *e)
 
 static void write_sides(json_writer *w, const explanation *e)
 {
-    json_write_key(w, "doubts");
+    json_write_key(w, "warnings");
     json_write_begin_array(w);
     for (int side = 0; side < 2; side++)
-        for (size_t i = 0; i < e->sides[side].doubt_count; i++)
-            json_write_string(w, e->sides[side].doubts[i]);
+        for (size_t i = 0; i < e->sides[side].warning_count; i++)
+            json_write_string(w, e->sides[side].warnings[i]);
     json_write_end_array(w);
     json_write_key(w, "drawn_by");
     json_write_begin_array(w);
@@ -162,8 +142,8 @@ void cause_write_json(json_writer *w, const explanation *e)
 {
     const cause *c = &e->cause;
     json_write_begin_object(w);
-    write_facts(w, "session", "session_more", &c->session);
-    write_facts(w, "look", "look_more", &c->look);
+    write_facts(w, "session", &c->session);
+    write_facts(w, "view", &c->view);
     json_member_integer(w, "compared", c->compared);
     json_member_integer(w, "differing", c->differing);
     if (c->differing) {

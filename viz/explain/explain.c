@@ -110,11 +110,11 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
 
 static bool play_both(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
-    const cause_look looks[2] = {e->sides[0].look, e->sides[1].look};
+    const cause_view views[2] = {e->sides[0].view, e->sides[1].view};
     watching w = {.e = e, .options = &result->options};
     bool ok = list_pairs(&w, result, most) || error_set(error, "there is no memory for %zu ticks", result->count);
     const cause_wanted wanted = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, w.ticks, w.count};
-    ok = ok && cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, looks, &wanted,
+    ok = ok && cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, views, &wanted,
                           watch, &w, &e->cause, error);
     free(w.pairs);
     free(w.ticks);
@@ -144,28 +144,28 @@ static size_t first_explained(const explanation *e)
     return i;
 }
 
-static void print_doubts(FILE *out, const explanation *e)
+static void print_warnings(FILE *out, const explanation *e)
 {
     bool any = false;
     for (int side = 0; side < 2; side++)
-        for (size_t i = 0; i < e->sides[side].doubt_count; i++) {
-            fprintf(out, "%s%s", any ? "; " : "", e->sides[side].doubts[i]);
+        for (size_t i = 0; i < e->sides[side].warning_count; i++) {
+            fprintf(out, "%s%s", any ? "; " : "", e->sides[side].warnings[i]);
             any = true;
         }
 }
 
-static bool any_doubt(const explanation *e)
+static bool any_warning(const explanation *e)
 {
-    return e->sides[0].doubt_count + e->sides[1].doubt_count > 0;
+    return e->sides[0].warning_count + e->sides[1].warning_count > 0;
 }
 
-/* What nobody changed comes from who drew it, and what files say is doubted before it is believed. */
+/* What nobody changed comes from who drew it, and what files say is warned of before it is believed. */
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
-    const bool known = cause_any(&e->cause.session) || cause_any(&e->cause.look);
+    const bool known = (e->cause.session.count > 0) || (e->cause.view.count > 0);
     const size_t first = first_explained(e);
-    print_doubts(out, e);
-    if (any_doubt(e) && (known || first < e->count))
+    print_warnings(out, e);
+    if (any_warning(e) && (known || first < e->count))
         fputs("; ", out);
     if (known)
         cause_print_headline(out, &e->cause);

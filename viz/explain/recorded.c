@@ -12,7 +12,7 @@
 /* A longer line is not read to its end. */
 #define LONGEST_LINE ((size_t)1 << 26)
 
-static bool doubt(recorded *r, octreel_error *error, const char *format, ...)
+static bool warn(recorded *r, octreel_error *error, const char *format, ...)
 {
     char text[1024];
     va_list arguments;
@@ -22,8 +22,8 @@ static bool doubt(recorded *r, octreel_error *error, const char *format, ...)
     char *copy = strdup(text);
     if (!copy)
         return error_no_memory(error);
-    if (r->doubt_count < RECORDED_DOUBTS)
-        r->doubts[r->doubt_count++] = copy;
+    if (r->warning_count < RECORDED_WARNINGS)
+        r->warnings[r->warning_count++] = copy;
     else
         free(copy);
     return true;
@@ -37,7 +37,7 @@ static bool check_session(recorded *r, octreel_error *error)
     if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
         !frame_session(r->side->path, tick, &filmed) || filmed == r->replay.session_digest)
         return true;
-    return doubt(r, error, "%s/session.json is not the session that was filmed", r->side->path);
+    return warn(r, error, "%s/session.json is not the session that was filmed", r->side->path);
 }
 
 static bool open_lines(recorded *r, octreel_error *error)
@@ -54,14 +54,14 @@ bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
     who_drew(side->path, r->drawn_by, sizeof r->drawn_by);
     if (!replay_read(&r->replay, side->path, error))
         return false;
-    r->look = (cause_look){r->replay.film.view, r->replay.film.every};
+    r->view = (cause_view){r->replay.film.view, r->replay.film.every};
     return check_session(r, error) && open_lines(r, error);
 }
 
 void recorded_close(recorded *r)
 {
-    for (size_t i = 0; i < r->doubt_count; i++)
-        free(r->doubts[i]);
+    for (size_t i = 0; i < r->warning_count; i++)
+        free(r->warnings[i]);
     lines_close(&r->lines);
     replay_close(&r->replay);
     *r = (recorded){0};
@@ -79,7 +79,7 @@ bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error)
         return true;
     const line_state state = lines_next(&r->lines, LONGEST_LINE);
     r->reading = state == LINE_WHOLE;
-    return r->reading || doubt(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
+    return r->reading || warn(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
 }
 
 /* The digest of the scene, which is what the frame says or else what the line says itself: scenes are not made here. */
@@ -105,7 +105,7 @@ static char *expected_line(const recorded *r, const octree_game *game, size_t *s
     FILE *stream = open_memstream(&text, size);
     if (!stream)
         return NULL;
-    if (tick->number % r->look.every == 0) {
+    if (tick->number % r->view.every == 0) {
         extras.frame = frame_name(tick->number, name);
         extras.scene_digest = scene_of(r, tick->number);
     }
@@ -129,6 +129,6 @@ bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *er
         return error_no_memory(error);
     r->reading = line_same(&r->lines, expected, size, tick, &finding);
     free(expected);
-    return r->reading || doubt(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
-                               r->side->path, tick, finding.text);
+    return r->reading || warn(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
+                              r->side->path, tick, finding.text);
 }

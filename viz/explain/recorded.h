@@ -7,18 +7,18 @@
 #include "side.h"
 #include "verify_line.h"
 
-#define RECORDED_DOUBTS 2
+#define RECORDED_WARNINGS 2
 #define RECORDED_WHO 384
 
 typedef struct recorded {
     const diff_side *side;
     replay replay; /* read, and not played */
-    cause_look look;
+    cause_view view;
     line_reader lines;
-    bool reading;                  /* nothing is wrong with the lines so far */
-    char drawn_by[RECORDED_WHO];   /* as renderer.json tells */
-    char *doubts[RECORDED_DOUBTS]; /* sentences: what its session does not give; owned */
-    size_t doubt_count;
+    bool reading;                      /* nothing is wrong with the lines so far */
+    char drawn_by[RECORDED_WHO];       /* as renderer.json tells */
+    char *warnings[RECORDED_WARNINGS]; /* sentences: what its session does not give; owned */
+    size_t warning_count;
 } recorded;
 
 /* Read it, all but its frames. False with a sentence when something is not there or cannot be read. *r is to be closed
@@ -26,10 +26,10 @@ typedef struct recorded {
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error);
 void recorded_close(recorded *r);
 
-/* Read the line of the next tick, whether it is right or not. False when there is none, and then there is a doubt. */
+/* Read the line of the next tick, whether it is right or not. False when there is none, and then there is a warning. */
 bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error);
 
-/* Hold the line that was read last against the tick at which a game of its session is: a doubt where they differ. */
+/* Hold the line that was read last against the tick at which a game of its session is: a warning where they differ. */
 bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *error);
 
 #endif

@@ -62,8 +62,8 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
     const uint64_t last = octree_session_length(&r->replay.session.session);
     if (tick > last)
         fprintf(out, "the session of %s ends at tick %" PRIu64, r->side->path, last);
-    else if (tick % r->look.every)
-        fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->look.every);
+    else if (tick % r->view.every)
+        fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
     else
         fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);
 }
@@ -71,17 +71,17 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
 static void print_tick(FILE *out, const explanation *e, uint64_t tick)
 {
     const cause_tick *told = cause_at(&e->cause, tick);
-    const bool facts = told && cause_any(&told->facts), look = cause_any(&e->cause.look);
+    const bool facts = told && told->facts.count > 0, view = e->cause.view.count > 0;
     fprintf(out, "tick %" PRIu64 ": ", tick);
     if (facts)
         cause_print_facts(out, &told->facts, false);
-    if (look) {
+    if (view) {
         fputs(facts ? "; " : "", out);
-        cause_print_facts(out, &e->cause.look, false);
+        cause_print_facts(out, &e->cause.view, false);
     }
-    if (facts || look)
+    if (facts || view)
         return;
-    if (cause_any(&e->cause.session)) {
+    if ((e->cause.session.count > 0)) {
         fputs("the same happened in it; ", out);
         cause_print_facts(out, &e->cause.session, true);
     } else {

@@ -30,7 +30,7 @@ void tracer_close(tracer *t)
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error)
 {
     for (int i = 0; i < 2; i++)
-        if ((sides[i].look.view.layers & VIEW_HEAT_LAYERS) && !heat_add_tick(&t->heats[i], games[i]))
+        if ((sides[i].view.view.layers & VIEW_HEAT_LAYERS) && !heat_add_tick(&t->heats[i], games[i]))
             return error_set(error, "there is no memory for the heat of the nodes");
     return true;
 }
@@ -288,12 +288,12 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
 bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
                      const diff_options *options, octreel_error *error)
 {
-    const view *a = &sides[0].look.view, *b = &sides[1].look.view;
+    const view *a = &sides[0].view.view, *b = &sides[1].view.view;
     image frames[2] = {{0}, {0}};
     if (a->width != b->width || a->height != b->height || view_samples(a) != view_samples(b) || *t->untraced)
         return true;
     for (int i = 0; i < 2; i++)
-        if (!tick_scene_build(&t->scenes[i], &sides[i].look.view, games[i], &t->heats[i]))
+        if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->heats[i]))
             return error_set(error, "there is no memory for a scene");
     const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, error);
     image_release(&frames[0]);

@@ -18,8 +18,16 @@ static const char *place_text(const double place[3], char text[3 * NUMBER_TEXT +
     return text;
 }
 
+static void expect(changed_session *t, const char *where, cause_change change, uint64_t tick, uint64_t id)
+{
+    t->where = where;
+    t->change = change;
+    t->tick = tick;
+    t->id = id;
+}
+
 /* Behind all other edits of its tick. */
-static void add_edit(changed_session *t, const octree_edit *edit, const char *name, const char *verb)
+static void add_edit(changed_session *t, const octree_edit *edit, const char *name)
 {
     const octree_session *session = &t->made.session;
     char place[3 * NUMBER_TEXT + 8];
@@ -31,10 +39,9 @@ static void add_edit(changed_session *t, const octree_edit *edit, const char *na
     memcpy(t->edits + at + 1, session->edits + at, (session->edit_count - at) * sizeof *edit);
     t->changed.edits = t->edits;
     t->changed.edit_count++;
-    t->expected = (cause_fact){.kind = CAUSE_EDIT_MORE, .tick = edit->tick, .name = name, .id = edit->body.id};
-    t->expected.b = cause_place(edit->body.position);
-    sprintf(t->text, "one more edit at tick %" PRIu64 " (point %" PRIu64 " %s %s); ", edit->tick, edit->body.id, verb,
-            place_text(edit->body.position, place));
+    expect(t, "edits", CAUSE_MORE, edit->tick, edit->body.id);
+    sprintf(t->text, "one more edit at tick %" PRIu64 " (%s id %" PRIu64 ", position %s); ", edit->tick, name,
+            edit->body.id, place_text(edit->body.position, place));
 }
 
 /* Some point as it is before a tick, the player left out; false where there is no other. */
@@ -69,7 +76,7 @@ bool move_by_one_step(changed_session *t, uint64_t tick, uint64_t *state)
     memcpy(edit.body.position, point.position, sizeof point.position);
     const double step = session->player.step, to = point.position[axis] + step;
     edit.body.position[axis] += to <= session->tree.world.max[axis] ? step : -step;
-    add_edit(t, &edit, "move", "moved to");
+    add_edit(t, &edit, "move");
     return true;
 }
 
@@ -80,7 +87,7 @@ bool add_one_point(changed_session *t, uint64_t tick, uint64_t *state)
     for (int axis = 0; axis < 3; axis++)
         edit.body.position[axis] =
             world->min[axis] + (double)random_below(state, (uint64_t)(world->max[axis] - world->min[axis]));
-    add_edit(t, &edit, "insert", "inserted at");
+    add_edit(t, &edit, "insert");
     return true;
 }
 
@@ -90,9 +97,7 @@ bool change_capacity(changed_session *t, uint64_t tick, uint64_t *state)
     const size_t new = old > 1 && random_below(state, 2) ? old - 1 : old + 1 + random_below(state, 3);
     (void)tick;
     t->changed.tree.leaf_capacity = new;
-    t->expected = (cause_fact){.kind = CAUSE_OPTION, .tick = CAUSE_NO_TICK, .name = "leaf capacity"};
-    t->expected.a = cause_whole(old);
-    t->expected.b = cause_whole(new);
+    expect(t, "tree.capacity", CAUSE_OTHER, CAUSE_NO_TICK, CAUSE_NO_ID);
     sprintf(t->text, "another leaf capacity (%zu, was %zu): ", new, old);
     return true;
 }
@@ -103,9 +108,7 @@ bool change_step(changed_session *t, uint64_t tick, uint64_t *state)
     char texts[2][NUMBER_TEXT];
     (void)tick;
     t->changed.player.step = new;
-    t->expected = (cause_fact){.kind = CAUSE_OPTION, .tick = CAUSE_NO_TICK, .name = "step of the player"};
-    t->expected.a = cause_number(old);
-    t->expected.b = cause_number(new);
+    expect(t, "player.step", CAUSE_OTHER, CAUSE_NO_TICK, CAUSE_NO_ID);
     number_print(old, texts[0]);
     number_print(new, texts[1]);
     sprintf(t->text, "another step of the player (%s, was %s): ", texts[1], texts[0]);
@@ -128,9 +131,7 @@ bool change_kind(changed_session *t, uint64_t tick, uint64_t *state)
     b->kind = new;
     b->step += 1;
     b->position[0] = b->position[0] < 0 ? b->position[0] + 1 : b->position[0] - 1;
-    t->expected = (cause_fact){.kind = CAUSE_OPTION, .tick = CAUSE_NO_TICK, .name = "kind of player"};
-    t->expected.a = cause_word(kinds[old]);
-    t->expected.b = cause_word(kinds[new]);
+    expect(t, "player.kind", CAUSE_OTHER, CAUSE_NO_TICK, CAUSE_NO_ID);
     sprintf(t->text, "another kind of player (%s, was %s): ", kinds[new], kinds[old]);
     return true;
 }
@@ -147,12 +148,11 @@ bool change_velocity(changed_session *t, uint64_t tick, uint64_t *state)
     memcpy(t->bodies, session->bodies, session->body_count * sizeof *t->bodies);
     t->changed.bodies = t->bodies;
     octree_body *body = &t->bodies[i];
-    t->expected = (cause_fact){.kind = CAUSE_VELOCITY, .tick = CAUSE_NO_TICK, .id = body->id};
-    t->expected.a = cause_place(body->velocity);
+    expect(t, "points.velocity", CAUSE_OTHER, CAUSE_NO_TICK, body->id);
+    place_text(body->velocity, texts[0]);
     body->velocity[random_below(state, 3)] += 0.25 * (double)(1 + random_below(state, 8));
-    t->expected.b = cause_place(body->velocity);
     sprintf(t->text, "another velocity of a point (point %" PRIu64 ": %s, was %s); ", body->id,
-            place_text(body->velocity, texts[1]), place_text(t->expected.a.numbers, texts[0]));
+            place_text(body->velocity, texts[1]), texts[0]);
     return true;
 }
 
@@ -182,22 +182,17 @@ static void give_shapes(changed_session *t, uint64_t *state)
 }
 
 /* As a sentence has it. */
-static cause_value value_of(const octree_shape *shape, char text[256])
+static void shape_text(const octree_shape *shape, char text[256])
 {
     char ends[2][3 * NUMBER_TEXT + 8];
-    const cause_type type = shape->kind == OCTREE_SHAPE_BOX ? VALUE_BOX : VALUE_SEGMENT;
     place_text(shape->at, ends[0]);
     place_text(shape->to, ends[1]);
-    if (shape->kind == OCTREE_SHAPE_LABEL) {
-        sprintf(text, "\"%s\"", shape->text);
-        return cause_word(shape->text);
-    }
-    if (shape->kind == OCTREE_SHAPE_POINT) {
-        strcpy(text, ends[0]);
-        return cause_place(shape->at);
-    }
-    sprintf(text, "%s to %s", ends[0], ends[1]);
-    return cause_ends(type, shape->at, shape->to);
+    if (shape->kind == OCTREE_SHAPE_LABEL)
+        sprintf(text, "label \"%s\", at %s", shape->text, ends[0]);
+    else if (shape->kind == OCTREE_SHAPE_POINT)
+        sprintf(text, "point %s", ends[0]);
+    else
+        sprintf(text, "%s %s to %s", octree_shape_name(shape->kind), ends[0], ends[1]);
 }
 
 /* One of the reference, or of the changed session, or of both. */
@@ -205,21 +200,22 @@ static void expect_shape(changed_session *t, const octree_shape *a, const octree
 {
     const octree_shape *some = b ? b : a;
     char texts[2][256], when[32] = "every tick";
-    t->expected = (cause_fact){.kind = !a   ? CAUSE_SHAPE_MORE
-                                       : !b ? CAUSE_SHAPE_LESS
-                                            : CAUSE_SHAPE_OTHER,
-                               .tick = some->tick,
-                               .name = octree_shape_name(some->kind)};
+    const bool always = some->tick == OCTREE_EVERY_TICK;
+    expect(t, "shapes",
+           !a   ? CAUSE_MORE
+           : !b ? CAUSE_LESS
+                : CAUSE_OTHER,
+           always ? CAUSE_NO_TICK : some->tick, CAUSE_NO_ID);
     if (a)
-        t->expected.a = value_of(a, texts[0]);
+        shape_text(a, texts[0]);
     if (b)
-        t->expected.b = value_of(b, texts[1]);
-    if (some->tick != OCTREE_EVERY_TICK)
+        shape_text(b, texts[1]);
+    if (!always)
         sprintf(when, "tick %" PRIu64, some->tick);
     if (a && b)
-        sprintf(t->text, "another %s shown at %s (%s, was %s); ", t->expected.name, when, texts[1], texts[0]);
+        sprintf(t->text, "another shape shown at %s (%s, was %s); ", when, texts[1], texts[0]);
     else
-        sprintf(t->text, "one %s%s%s shown at %s (%s); ", b ? "more " : "", t->expected.name, b ? "" : " fewer", when,
+        sprintf(t->text, "one %sshape shown%s at %s (%s); ", b ? "more " : "", b ? "" : " fewer", when,
                 texts[b ? 1 : 0]);
 }
 

@@ -14,8 +14,10 @@ typedef struct changed_session {
     octree_shape shapes[2][CHANGED_SHAPES]; /* of both */
     octree_body bodies[RANDOM_SESSION_BODIES];
     octree_edit edits[RANDOM_SESSION_EDITS + 1];
-    cause_fact expected;
-    char text[640]; /* what the headline begins with */
+    const char *where; /* the one fact of the change: in which place, and how, */
+    cause_change change;
+    uint64_t tick, id; /* or CAUSE_NO_TICK, CAUSE_NO_ID */
+    char text[640];    /* what the headline begins with */
 } changed_session;
 
 /* Make one, and change it at a tick where the change has one. False where the session has nothing to change so. */

@@ -71,19 +71,20 @@ static void json_has_the_facts(void **state)
     assert_string_equal(json_string_value(json_member(all, "headline")),
                         "another leaf capacity (4, was 2): every tick from 0 differs");
     const json_t *option = json_array_get(json_member(cause, "session"), 0);
-    assert_members(option, "kind name reference frames");
-    assert_string_equal(json_string_value(json_member(option, "name")), "leaf capacity");
-    assert_whole_number(json_member(option, "reference"), 2);
-    assert_whole_number(json_member(option, "frames"), 4);
+    const json_t *change = json_array_get(json_member(option, "facts"), 0);
+    assert_members(option, "where change count facts");
+    assert_string_equal(json_string_value(json_member(option, "where")), "tree.capacity");
+    assert_whole_number(json_member(change, "reference"), 2);
+    assert_whole_number(json_member(change, "frames"), 4);
     assert_whole_number(json_member(cause, "compared"), 5);
     assert_whole_number(json_member(cause, "differing"), 5);
     assert_int_equal(json_array_size(json_member(cause, "ticks")), 3);
-    assert_int_equal(json_array_size(json_member(cause, "look")), 0);
-    assert_int_equal(json_array_size(json_member(cause, "doubts")), 0);
-    const json_t *facts = json_member(json_array_get(json_member(cause, "ticks"), 0), "facts");
-    const json_t *fact = json_array_get(facts, 0);
-    assert_string_equal(json_string_value(json_member(fact, "kind")), "node_merged");
-    assert_non_null(json_member(fact, "node"));
+    assert_int_equal(json_array_size(json_member(cause, "view")), 0);
+    assert_int_equal(json_array_size(json_member(cause, "warnings")), 0);
+    const json_t *causes = json_member(json_array_get(json_member(cause, "ticks"), 0), "causes");
+    const json_t *merged = json_array_get(causes, 0);
+    assert_string_equal(json_string_value(json_member(merged, "where")), "nodes.merged");
+    assert_true(json_is_string(json_member(json_array_get(json_member(merged, "facts"), 0), "frames")));
     const json_t *finding = json_array_get(json_member(all, "findings"), 2);
     assert_non_null(json_member(finding, "cause"));
     json_decref(all);
@@ -112,17 +113,19 @@ static void shapes_are_told_in_words_and_json(void **state)
     assert_filmed(&session, &options);
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 1);
-    assert_says(&result, "\nanother segment shown at every tick ((1, 2, 3) to (500, 8, 9), was (1, 2, 3) to (700, 8, "
-                         "9)); the same happens in all ticks that both have\n");
-    assert_says(&result, "\n    tick 0: the same happened in it; another segment shown at every tick (");
+    assert_says(&result, "\nanother shape shown at every tick (segment (1, 2, 3) to (500, 8, 9), was segment (1, 2, 3) "
+                         "to (700, 8, 9)); the same happens in all ticks that both have\n");
+    assert_says(&result, "\n    tick 0: the same happened in it; another shape shown at every tick (");
     assert_says(&result, " of shapes");
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
     json_t *all = json_read(result.out), *cause = json_member(all, "cause");
-    const json_t *fact = json_array_get(json_member(cause, "session"), 0), *ends = json_member(fact, "frames");
-    assert_members(fact, "kind name reference frames");
-    assert_string_equal(json_string_value(json_member(fact, "kind")), "shape_other");
-    assert_string_equal(json_string_value(json_member(fact, "name")), "segment");
+    const json_t *group = json_array_get(json_member(cause, "session"), 0);
+    const json_t *fact = json_array_get(json_member(group, "facts"), 0);
+    const json_t *ends = json_member(json_member(fact, "frames"), "segment");
+    assert_string_equal(json_string_value(json_member(group, "where")), "shapes");
+    assert_string_equal(json_string_value(json_member(group, "change")), "other");
+    assert_members(fact, "reference frames");
     assert_place(json_array_get(ends, 0), 1, 2, 3);
     assert_place(json_array_get(ends, 1), 500, 8, 9);
     assert_whole_number(json_member(cause, "differing"), 0);

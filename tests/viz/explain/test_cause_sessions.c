@@ -73,7 +73,7 @@ static void each_option_is_named_with_both_values(void **state)
     assert_says(set_minus_zero, "another start of the player ((-0, 0, 0), was (0, 0, 0)): " SAME_TICKS);
     assert_says(set_step, "another step of the player (0.25, was 1): every tick from 1 differs");
     assert_says(set_box, "another collision box (4, was 0.5): every tick from 0 differs");
-    assert_says(set_sweep, "another collision test (swept, was at the end of a step): every tick from 0 differs");
+    assert_says(set_sweep, "another swept collision test (on, was off): every tick from 0 differs");
 }
 
 static void options_come_before_what_follows_from_them(void **state)
@@ -127,7 +127,7 @@ static void another_kind_of_player_is_named(void **state)
 {
     (void)state;
     assert_says(set_nobody, "another kind of player (none, was keys): every tick from 0 differs");
-    assert_says(set_body, "another kind of player (body, was keys), another player's id (1, was 100): every tick from "
+    assert_says(set_body, "another player's id (1, was 100), another kind of player (body, was keys): every tick from "
                           "0 differs");
     assert_says_of(set_nobody, set_keys, "another kind of player (keys, was none): every tick from 0 differs");
     assert_says_of(set_nobody, set_body, "another kind of player (body, was none): every tick from 0 differs");
@@ -185,22 +185,22 @@ static void move_all(variant *v)
 static void points_are_named_where_nobody_plays(void **state)
 {
     (void)state;
-    assert_says_of(move_body_of_no_player, move_body,
-                   "another start of a point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 7 merged, node 5 born, "
-                   "point 3 moved");
+    assert_says_of(
+        move_body_of_no_player, move_body,
+        "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 born, node 7 merged, "
+        "point 3 moved");
 }
 
 static void points_at_the_start_are_named(void **state)
 {
     (void)state;
-    assert_says(add_body, "one more point at the start (point 5 at (9, -9, 9)); tick 0: node 5 born, point 5 added");
-    assert_says(drop_body,
-                "one point fewer at the start (point 2 at (-4, 5, -6)); tick 0: node 2 gone, point 2 removed");
+    assert_says(add_body, "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 born, point 5 added");
+    assert_says(drop_body, "one point at the start fewer (point 2: (-4, 5, -6)); tick 0: node 2 gone, point 2 removed");
     assert_says(move_body,
-                "another start of a point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 born, point 3 moved");
+                "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 born, point 3 moved");
     assert_says(push_body, "another velocity of a point (point 3: (0, -0.5, 0), was (0, 0, 0)); tick 1: point 3 moved");
     assert_says(swap_bodies, "another order of the points at the start; " SAME_TICKS);
-    assert_says(move_all, "4 points start elsewhere (1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
+    assert_says(move_all, "4 other points at the start (points 1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
 }
 
 /* ---- Keys ---------------------------------------------------------------------------------------------------- */
@@ -234,8 +234,10 @@ static void quits(variant *v)
 static void keys_are_named_by_their_ticks(void **state)
 {
     (void)state;
-    assert_says(other_key, "another key at tick 3 (s, was w); tick 3: the player at (1, 0, 0) instead of (1, 2, 0)");
-    assert_says(other_keys, "3 other keys (ticks 1, 3 and 4); tick 1: the player at (1, 0, 0) instead of (0, 1, 0)");
+    assert_says(other_key,
+                "another key at tick 3 (s, was w); tick 3: another place of the player ((1, 0, 0), was (1, 2, 0))");
+    assert_says(other_keys,
+                "3 other keys (ticks 1, 3 and 4); tick 1: another place of the player ((1, 0, 0), was (0, 1, 0))");
     assert_says(waits, "");
     assert_says(shorter, "another last tick (5, was 6); " SAME_TICKS);
     assert_says(quits, "another last tick (2, was 6); " SAME_TICKS);
@@ -287,17 +289,18 @@ static void many_edits(variant *v)
 static void edits_are_named_by_tick_and_point(void **state)
 {
     (void)state;
-    assert_says(one_more_edit, "one more edit at tick 5 (point 3 removed); tick 5: node 7/7 merged, point 3 removed");
-    assert_says(one_edit_fewer, "one edit fewer at tick 4 (point 2 removed); tick 4: node 2 born, point 2 added");
-    assert_says(other_edit, "another edit at tick 2 (point 1 moved to (1, 2, -4), was (1, 2, 4)); tick 2: node 6 born, "
-                            "point 1 moved");
-    assert_says(faster_edit,
-                "another edit at tick 2 (point 9 inserted with velocity (-1, 0, 0), was (0, 0, 0)); tick 2: "
-                "point 9 moved");
-    assert_says(swap_edits, "another order of the edits of tick 2; " SAME_TICKS);
+    assert_says(one_more_edit, "one more edit at tick 5 (remove 3); tick 5: node 7/7 merged, point 3 removed");
+    assert_says(one_edit_fewer, "one edit fewer at tick 4 (remove 2); tick 4: node 2 born, point 2 added");
+    assert_says(other_edit,
+                "another edit at tick 2 (move id 1, position (1, 2, -4), was move id 1, position (1, 2, 4)); tick "
+                "2: node 6 born, point 1 moved");
+    assert_says(faster_edit, "another edit at tick 2 (insert id 9, position (9, 9, 9), velocity (-1, 0, 0), was insert "
+                             "id 9, position (9, 9, 9)); tick 2: "
+                             "point 9 moved");
+    assert_says(swap_edits, "another order of the edits at tick 2; " SAME_TICKS);
     assert_says(idle_edit, "");
     assert_says(many_edits,
-                "4 more edits (of points 20, 21, 22 and 23); tick 5: node 0 born, points 20, 21, 22 and 23 added");
+                "4 more edits (points 20, 21, 22 and 23); tick 5: node 0 born, points 20, 21, 22 and 23 added");
 }
 
 /* ---- Queries ------------------------------------------------------------------------------------------------- */
@@ -331,9 +334,12 @@ static void idle_query(variant *v)
 static void queries_are_named_by_kind_and_tick(void **state)
 {
     (void)state;
-    assert_says(one_more_query, "one more nearest query at tick 4; tick 4: the nearest query asked besides");
-    assert_says(one_query_fewer, "one range query fewer at every tick; tick 0: the range query not asked");
-    assert_says(wider_query, "another range query at every tick; tick 0: 2 more hits in the range query");
+    assert_says(one_more_query,
+                "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked besides");
+    assert_says(one_query_fewer,
+                "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range query not asked");
+    assert_says(wider_query, "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was range (-5, -5, -5) to "
+                             "(5, 5, 5)); tick 0: 2 more hits in the range query (points 3 and 4)");
     assert_says(idle_query, "");
 }
 

@@ -116,11 +116,13 @@ static void what_a_split_draws_belongs_to_the_node_that_split(void **state)
     comparison_of made = assert_traced(&a, &b, NULL);
     assert_adds_up(&made);
     const cause_tick *told = cause_at(&made.why.cause, 1);
-    const cause_fact *fact = &told->facts.facts[0];
-    assert_int_equal(fact->kind, CAUSE_NODE_SPLIT);
-    assert_int_equal(told->facts.found[CAUSE_NODE_SPLIT], 1);
+    const cause_group *split = cause_group_of(&told->facts, "nodes.split", CAUSE_MORE);
+    octree_address node;
+    assert_non_null(split);
+    assert_int_equal(split->found, 1);
+    assert_true(octree_address_parse(json_string_value(split->listed[0].b), &node));
     assert_int_equal(trace_of(&made, 1)->count, 1);
-    assert_part(&trace_of(&made, 1)->parts[0], LAYER_NODES, fact->node);
+    assert_part(&trace_of(&made, 1)->parts[0], LAYER_NODES, node);
     comparison_release(&made);
 }
 

@@ -101,7 +101,7 @@ static void an_edit_is_the_headline_and_its_point_the_cause(void **state)
     session.edit_count = 1;
     const place b = film_in(*state, "b", &session, NULL);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.why.headline, "one more edit at tick 2 (point 3 moved to (300, 300, 300)); tick 2: node");
+    assert_holds(made.why.headline, "one more edit at tick 2 (move id 3, position (300, 300, 300)); tick 2: node");
     assert_null(cause_of(&made, "frame_000001.png"));
     assert_holds(cause_of(&made, "frame_000002.png"), "point 3 moved from (900, 900, 900) to (300, 300, 300)");
     comparison_release(&made);
@@ -135,8 +135,8 @@ static void heat_of_earlier_ticks_is_a_cause(void **state)
     session.query_count = 1;
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.why.headline, "one more range query at tick 2");
-    assert_holds(cause_of(&made, "frame_000004.png"), "tick 4: other heat of the ticks before; ");
+    assert_holds(made.why.headline, "one more query at tick 2 (range (-900, -900, -900) to (900, 900, 900))");
+    assert_holds(cause_of(&made, "frame_000004.png"), "tick 4: another heat of the ticks before; ");
     assert_holds(cause_of(&made, "frame_000004.png"), " of heat");
     comparison_release(&made);
 }

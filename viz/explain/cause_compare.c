@@ -1,0 +1,270 @@
+/* cause_compare.c - two objects of JSON, member by member; see cause_compare.h. */
+#include "cause_compare.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void compare_values(const cause_place *place, const char *where, json_t *a, json_t *b);
+
+static void add(const cause_place *place, const char *where, cause_change change, uint64_t id, json_t *a, json_t *b)
+{
+    cause_add(place->facts, where, place->query, change, (cause_fact){place->tick, id, a, b});
+}
+
+/* Numbers are doubles in both; as text a zero has its sign. */
+static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
+{
+    if (!a || !b || !place->exact)
+        return a && b ? json_equal(a, b) : a == b;
+    char *const texts[2] = {json_dumps(a, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17)),
+                            json_dumps(b, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17))};
+    const bool same = texts[0] && texts[1] && strcmp(texts[0], texts[1]) == 0;
+    free(texts[0]);
+    free(texts[1]);
+    return same;
+}
+
+/* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
+
+typedef struct keyed {
+    const char *word; /* an element that is one, or what is done: "insert"; else "" */
+    uint64_t id;      /* or CAUSE_NO_ID */
+    size_t place;     /* in the list */
+    json_t *element;
+} keyed;
+
+static uint64_t id_of(json_t *element)
+{
+    const json_t *id = json_is_object(element) ? json_object_get(element, "id") : element;
+    return json_is_real(id) ? (uint64_t)json_real_value(id) : CAUSE_NO_ID;
+}
+
+static keyed key_of(json_t *list, size_t i)
+{
+    json_t *element = json_array_get(list, i);
+    keyed key = {.word = "", .id = id_of(element), .place = i, .element = element};
+    if (json_is_string(element)) {
+        key.word = json_string_value(element);
+    } else if (key.id == CAUSE_NO_ID && json_object_size(element) == 1) {
+        void *member = json_object_iter(element);
+        key.word = json_object_iter_key(member);
+        key.id = id_of(json_object_iter_value(member));
+    }
+    return key;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const keyed *x = a, *y = b;
+    if (x->id != y->id)
+        return x->id < y->id ? -1 : 1;
+    return strcmp(x->word, y->word);
+}
+
+static int by_key_and_place(const void *a, const void *b)
+{
+    const int order = by_key(a, b);
+    return order ? order : (((const keyed *)a)->place > ((const keyed *)b)->place ? 1 : -1);
+}
+
+static keyed *sort_list(json_t *list, size_t count)
+{
+    keyed *sorted = malloc((count + 1) * sizeof *sorted);
+    for (size_t i = 0; sorted && i < count; i++)
+        sorted[i] = key_of(list, i);
+    if (sorted)
+        qsort(sorted, count, sizeof *sorted, by_key_and_place);
+    return sorted;
+}
+
+/* The n-th of a key with the n-th of the same key. */
+static void compare_keyed(const cause_place *place, const char *where, json_t *a, json_t *b)
+{
+    const size_t a_count = json_array_size(a), b_count = json_array_size(b);
+    keyed *as = sort_list(a, a_count), *bs = sort_list(b, b_count);
+    bool same = true, same_order = true;
+    place->facts->out_of_memory |= !as || !bs;
+    for (size_t i = 0, j = 0; as && bs && (i < a_count || j < b_count);) {
+        const int order = i == a_count ? 1 : j == b_count ? -1 : by_key(&as[i], &bs[j]);
+        json_t *x = order <= 0 ? as[i].element : NULL, *y = order >= 0 ? bs[j].element : NULL;
+        if (!is_same(place, x, y)) {
+            add(place, where, !x ? CAUSE_MORE : !y ? CAUSE_LESS : CAUSE_OTHER, order <= 0 ? as[i].id : bs[j].id, x, y);
+            same = false;
+        }
+        same_order = same_order && order == 0 && as[i].place == bs[j].place;
+        i += order <= 0;
+        j += order >= 0;
+    }
+    if (same && !same_order)
+        add(place, where, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
+    free(as);
+    free(bs);
+}
+
+/* ---- Lists whose elements have a place ----------------------------------------------------------------------- */
+
+/* What is left of a list. */
+typedef struct span {
+    json_t *list;
+    size_t first, end;
+} span;
+
+static json_t *first_of(const span *s)
+{
+    return json_array_get(s->list, s->first);
+}
+
+static json_t *last_of(const span *s)
+{
+    return json_array_get(s->list, s->end - 1);
+}
+
+/* The name of the first member: a query's, a shape's or an answer's kind. */
+static const char *kind_of(json_t *element)
+{
+    const char *key = json_is_object(element) ? json_object_iter_key(json_object_iter(element)) : NULL;
+    return key ? key : "";
+}
+
+static bool same_kind(json_t *a, json_t *b)
+{
+    return strcmp(kind_of(a), kind_of(b)) == 0;
+}
+
+static bool any_left(const span *a, const span *b)
+{
+    return a->first < a->end && b->first < b->end;
+}
+
+static void compare_pair(const cause_place *place, const char *where, json_t *a, json_t *b)
+{
+    if (strcmp(where, "answers") == 0)
+        compare_values(place, where, a, b);
+    else if (!is_same(place, a, b))
+        add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+}
+
+/* "the range query", or where the list has several of that kind "query 3 (range)", counted from 1. */
+static void name_query(json_t *list, size_t i, char text[32])
+{
+    const char *kind = kind_of(json_array_get(list, i));
+    size_t of_kind = 0;
+    for (size_t j = 0; j < json_array_size(list); j++)
+        of_kind += strcmp(kind_of(json_array_get(list, j)), kind) == 0;
+    if (of_kind == 1)
+        snprintf(text, 32, "the %s query", kind);
+    else
+        snprintf(text, 32, "query %zu (%s)", i + 1, kind);
+}
+
+/* Answers are about a query; others speak for themselves. */
+static cause_place place_of(const cause_place *place, const char *where, const span *in, size_t i, char text[32])
+{
+    cause_place named = *place;
+    if (strcmp(where, "answers") == 0) {
+        name_query(in->list, i, text);
+        named.query = text;
+    }
+    return named;
+}
+
+static void add_rest(const cause_place *place, const char *where, const span *rest, cause_change change)
+{
+    char text[32];
+    for (size_t i = rest->first; i < rest->end; i++) {
+        const cause_place named = place_of(place, where, rest, i, text);
+        json_t *element = json_array_get(rest->list, i);
+        add(&named, where, change, CAUSE_NO_ID, change == CAUSE_LESS ? element : NULL,
+            change == CAUSE_MORE ? element : NULL);
+    }
+}
+
+/* Of what is not the same at both ends those of one kind are compared from the end on, for what a key asks comes first,
+ * and then from the beginning. */
+static void compare_sequence(const cause_place *place, const char *where, json_t *a, json_t *b)
+{
+    span x = {a, 0, json_array_size(a)}, y = {b, 0, json_array_size(b)};
+    char text[32];
+    for (; any_left(&x, &y) && is_same(place, first_of(&x), first_of(&y)); x.first++)
+        y.first++;
+    for (; any_left(&x, &y) && is_same(place, last_of(&x), last_of(&y)); x.end--)
+        y.end--;
+    for (; any_left(&x, &y) && same_kind(last_of(&x), last_of(&y)); x.end--, y.end--) {
+        const cause_place named = place_of(place, where, &y, y.end - 1, text);
+        compare_pair(&named, where, last_of(&x), last_of(&y));
+    }
+    for (; any_left(&x, &y) && same_kind(first_of(&x), first_of(&y)); x.first++, y.first++) {
+        const cause_place named = place_of(place, where, &y, y.first, text);
+        compare_pair(&named, where, first_of(&x), first_of(&y));
+    }
+    add_rest(place, where, &x, CAUSE_LESS);
+    add_rest(place, where, &y, CAUSE_MORE);
+}
+
+/* ---- Values -------------------------------------------------------------------------------------------------- */
+
+/* What is compared as one: a box, and what a question cost. */
+static bool is_value(const char *where, const json_t *value)
+{
+    const size_t length = strlen(where);
+    return json_object_get(value, "min") || json_object_get(value, "visited") ||
+           (length >= 4 && strcmp(where + length - 4, "cost") == 0);
+}
+
+/* Lists of numbers that are ids, where others are places and ranges. */
+static bool lists_ids(const char *where)
+{
+    return strcmp(where, "hits") == 0 || strcmp(where, "answers.ids") == 0;
+}
+
+static bool has_keys(const char *where, const json_t *list)
+{
+    const json_t *first = json_array_get(list, 0);
+    return lists_ids(where) || json_is_string(first) || json_object_get(first, "id") || strcmp(where, "edits") == 0;
+}
+
+static void compare_lists(const cause_place *place, const char *where, json_t *a, json_t *b)
+{
+    json_t *some = json_array_size(a) ? a : b;
+    if (!lists_ids(where) && json_is_number(json_array_get(some, 0)))
+        add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+    else if (has_keys(where, some))
+        compare_keyed(place, where, a, b);
+    else
+        compare_sequence(place, where, a, b);
+}
+
+/* The kind of an answer is in its query's name already. */
+static void compare_values(const cause_place *place, const char *where, json_t *a, json_t *b)
+{
+    cause_place within = *place;
+    if (is_same(place, a, b))
+        return;
+    if (json_is_array(a ? a : b) && (!a || !b || json_is_array(b))) {
+        compare_lists(place, where, a, b);
+    } else if (json_is_object(a) && json_is_object(b) && !is_value(where, a)) {
+        within.where = where;
+        if (strcmp(where, "answers") == 0) {
+            a = json_object_get(a, kind_of(a));
+            b = json_object_get(b, kind_of(b));
+        }
+        cause_compare_members(&within, a, b);
+    } else {
+        add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+    }
+}
+
+static void compare_member(const cause_place *place, const char *key, json_t *a, json_t *b)
+{
+    char where[sizeof((cause_group *)0)->where];
+    snprintf(where, sizeof where, "%s%s%s", place->where, *place->where ? "." : "", key);
+    compare_values(place, where, a, b);
+}
+
+void cause_compare_members(const cause_place *place, json_t *a, json_t *b)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(b, key, value) compare_member(place, key, json_object_get(a, key), value);
+    json_object_foreach(a, key, value) if (!json_object_get(b, key)) compare_member(place, key, value, NULL);
+}
