@@ -1,5 +1,6 @@
 /* inspect.c - builds the tree of a point cloud; prints its statistics and nodes. */
 #include "inspect.h"
+#include "file.h"
 #include "json_write.h"
 #include "number.h"
 #include "text.h"
@@ -169,20 +170,44 @@ static void print_histograms(FILE *out, const octree *tree, const octree_stats *
     print_histogram(out, "leaves by points", occupancy, count_occupancy(tree, occupancy));
 }
 
-static void print_position(FILE *out, const char *name, const double position[3])
+void inspect_print_numbers(const double *values, size_t count, FILE *out)
 {
     char text[NUMBER_TEXT];
-    fprintf(out, "%s", name);
-    for (int i = 0; i < 3; i++) {
-        number_print(position[i], text);
+    for (size_t i = 0; i < count; i++) {
+        number_print(values[i], text);
         fprintf(out, " %s", text);
     }
 }
 
+void inspect_print_point(const octree_point *point, const double *distance, FILE *out)
+{
+    fprintf(out, "  %" PRIu64 ":", point->id);
+    inspect_print_numbers(point->position, 3, out);
+    if (distance) {
+        fputs("  at", out);
+        inspect_print_numbers(distance, 1, out);
+    }
+    fputc('\n', out);
+}
+
+void inspect_write_point(json_writer *w, const octree_point *point, const double *distance)
+{
+    json_write_begin_object(w);
+    json_member_integer(w, "id", point->id);
+    json_member_vector(w, "position", point->position);
+    if (distance) {
+        json_write_key(w, "distance");
+        json_write_number(w, *distance);
+    }
+    json_write_end_object(w);
+}
+
 static void print_box(FILE *out, const char *name, const octree_box *box)
 {
-    print_position(out, name, box->min);
-    print_position(out, "  to ", box->max);
+    fputs(name, out);
+    inspect_print_numbers(box->min, 3, out);
+    fputs("  to ", out);
+    inspect_print_numbers(box->max, 3, out);
     fputc('\n', out);
 }
 
@@ -270,11 +295,8 @@ static void print_node(const octree_node *node, const char *name, FILE *out)
     fprintf(out, "%s: %s of %zu points at depth %u\n", octree_address_format(node->address, address),
             node->leaf ? "leaf" : "inner node", node->count, node->depth);
     print_box(out, "  box", &node->box);
-    for (size_t i = 0; node->leaf && i < node->count; i++) {
-        fprintf(out, "  %" PRIu64, node->points[i].id);
-        print_position(out, ":", node->points[i].position);
-        fputc('\n', out);
-    }
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        inspect_print_point(&node->points[i], NULL, out);
 }
 
 static void write_node(const octree_node *node, const char *name, FILE *out)
@@ -283,8 +305,7 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
     json_member_text(w, "cloud", name);
-    json_write_key(w, "node");
-    json_write_string(w, octree_address_format(node->address, address));
+    json_member_text(w, "node", octree_address_format(node->address, address));
     json_member_integer(w, "depth", node->depth);
     json_write_key(w, "leaf");
     json_write_bool(w, node->leaf);
@@ -292,14 +313,8 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     json_member_box(w, "box", &node->box);
     json_write_key(w, "points");
     json_write_begin_array(w);
-    for (size_t i = 0; node->leaf && i < node->count; i++) {
-        json_write_begin_object(w);
-        json_write_key(w, "id");
-        json_write_integer(w, node->points[i].id);
-        json_write_key(w, "position");
-        json_write_numbers(w, node->points[i].position, 3);
-        json_write_end_object(w);
-    }
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        inspect_write_point(w, &node->points[i], NULL);
     json_write_end_array(w);
     json_write_end_object(w);
     json_write_end_line(w);

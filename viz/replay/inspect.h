@@ -3,7 +3,7 @@
 #define REPLAY_INSPECT_H
 
 #include "cloud.h"
-#include "folder.h"
+#include "json_write.h"
 #include "octree/octree.h"
 
 #include <stdio.h>
@@ -32,6 +32,11 @@ bool inspect_find_node(const inspection *i, const char *address, octree_node *no
 
 /* Print one node: its box and, of a leaf, its points. */
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out);
+
+/* Print numbers, each after a space; a point on a line; and a point as an object. The distance may be null. */
+void inspect_print_numbers(const double *values, size_t count, FILE *out);
+void inspect_print_point(const octree_point *point, const double *distance, FILE *out);
+void inspect_write_point(json_writer *w, const octree_point *point, const double *distance);
 
 /* Write all nodes as CSV: address, depth, leaf, count, min_x ... max_z. */
 bool inspect_write_nodes(const inspection *i, const char *path, octreel_error *error);

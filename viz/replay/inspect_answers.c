@@ -1,7 +1,7 @@
 /* inspect_answers.c - asks the tree of a cloud, and prints its answers by what each kind of query takes and finds. */
 #include "inspect_answers.h"
+#include "inspect.h"
 #include "json_write.h"
-#include "number.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -79,6 +79,11 @@ static const octree_point *point_at(const shown_answer *shown, size_t i)
     return shown->neighbors ? &shown->neighbors[i].point : &shown->answer->points[i];
 }
 
+static const double *distance_at(const shown_answer *shown, size_t i)
+{
+    return shown->neighbors ? &shown->neighbors[i].distance : NULL;
+}
+
 /* Whether the world and the box about a place have nothing in common. Sums may be infinite. */
 static bool is_outside(const octree_box *world, const double center[3], double radius)
 {
@@ -115,15 +120,6 @@ static const char *note_of(const shown_answer *shown)
 
 /* ---- For people --------------------------------------------------------------------------------------------- */
 
-static void print_numbers(FILE *out, const double *values, size_t count)
-{
-    char text[NUMBER_TEXT];
-    for (size_t i = 0; i < count; i++) {
-        number_print(values[i], text);
-        fprintf(out, " %s", text);
-    }
-}
-
 /* "range MIN to MAX", "radius R about PLACE", "nearest to PLACE", "8 nearest to PLACE". */
 static void print_question(const shown_answer *shown, FILE *out)
 {
@@ -134,15 +130,15 @@ static void print_question(const shown_answer *shown, FILE *out)
     else
         fputs(shown->about->name, out);
     if (members & OCTREE_QUERY_HAS_BOX) {
-        print_numbers(out, answer->box.min, 3);
+        inspect_print_numbers(answer->box.min, 3, out);
         fputs("  to ", out);
-        print_numbers(out, answer->box.max, 3);
+        inspect_print_numbers(answer->box.max, 3, out);
     }
     if (members & OCTREE_QUERY_HAS_RADIUS)
-        print_numbers(out, &answer->radius, 1);
+        inspect_print_numbers(&answer->radius, 1, out);
     if (members & OCTREE_QUERY_HAS_TARGET) {
         fputs(members & OCTREE_QUERY_HAS_RADIUS ? " about" : " to", out);
-        print_numbers(out, answer->target, 3);
+        inspect_print_numbers(answer->target, 3, out);
     }
 }
 
@@ -153,16 +149,8 @@ static void print_answer(const shown_answer *shown, FILE *out)
     fprintf(out, ": %zu found\n", shown->answer->count);
     if (note)
         fprintf(out, "  note: %s\n", note);
-    for (size_t i = 0; i < shown->answer->count; i++) {
-        const octree_point *point = point_at(shown, i);
-        fprintf(out, "  %" PRIu64 ":", point->id);
-        print_numbers(out, point->position, 3);
-        if (shown->neighbors) {
-            fputs("  at", out);
-            print_numbers(out, &shown->neighbors[i].distance, 1);
-        }
-        fputc('\n', out);
-    }
+    for (size_t i = 0; i < shown->answer->count; i++)
+        inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
     fprintf(out,
             "  cost: %" PRIu64 " nodes visited, %" PRIu64 " of them leaves; %" PRIu64 " points compared; %" PRIu64
             " nodes pruned\n",
@@ -196,16 +184,8 @@ static void write_points(json_writer *w, const shown_answer *shown)
     json_member_integer(w, "found", shown->answer->count);
     json_write_key(w, "points");
     json_write_begin_array(w);
-    for (size_t i = 0; i < shown->answer->count; i++) {
-        json_write_begin_object(w);
-        json_member_integer(w, "id", point_at(shown, i)->id);
-        json_member_vector(w, "position", point_at(shown, i)->position);
-        if (shown->neighbors) {
-            json_write_key(w, "distance");
-            json_write_number(w, shown->neighbors[i].distance);
-        }
-        json_write_end_object(w);
-    }
+    for (size_t i = 0; i < shown->answer->count; i++)
+        inspect_write_point(w, point_at(shown, i), distance_at(shown, i));
     json_write_end_array(w);
 }
 

@@ -20,9 +20,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A line that is longer than this many times the one that belongs there is not read to its end. */
-#define LONGER 16
-#define LONG_ENOUGH 65536
+/* A line of ticks.jsonl is read up to so many times the size of the one that is expected, and so many bytes more. */
+#define LINE_FACTOR 16
+#define LINE_SLACK 65536
 
 /* A recording that is being verified. */
 typedef struct verifying {
@@ -35,7 +35,7 @@ typedef struct verifying {
     verify_report *report;
 } verifying;
 
-/* The next finding, about a tick. */
+/* Add a finding about a tick. */
 static verify_finding *find(verifying *v, verify_kind kind, uint64_t tick)
 {
     verify_finding *finding = &v->report->findings[v->report->count++];
@@ -51,7 +51,7 @@ static void say(verify_finding *finding, const char *format, ...)
     va_end(arguments);
 }
 
-/* ---- What is there before any tick -------------------------------------------------------------------------- */
+/* ---- Before the first tick ---------------------------------------------------------------------------------- */
 
 static bool open_lines(verifying *v, octreel_error *error)
 {
@@ -94,8 +94,8 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/* What the first frame tells, before a renderer of the size that recording.json says is opened. Where it cannot be
- * read, its tick will tell. */
+/* Check the first frame before a renderer of the size in recording.json is opened. What else is wrong with it is found
+ * at its tick. */
 static bool check_first_frame(verifying *v, octreel_error *error)
 {
     char name[FRAME_NAME], *path = path_join(v->folder, frame_name(0, name));
@@ -114,7 +114,7 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
 {
-    const line_state state = lines_next(&v->lines, LONGER * step->size + LONG_ENOUGH);
+    const line_state state = lines_next(&v->lines, LINE_FACTOR * step->size + LINE_SLACK);
     verify_finding finding = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
     if (state == LINE_TROUBLE)
         return error_set(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
@@ -132,7 +132,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
     return true;
 }
 
-static void tell_pixels(verifying *v, const char *path, verify_finding *finding)
+static void find_pixels(verifying *v, const char *path, verify_finding *finding)
 {
     image_tally unlike = {0};
     octreel_error ignored;
@@ -149,14 +149,14 @@ static void tell_pixels(verifying *v, const char *path, verify_finding *finding)
         same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
-static void tell_frame(verifying *v, const char *sentence, uint64_t tick)
+static void find_frame(verifying *v, const char *sentence, uint64_t tick)
 {
     const size_t length = strlen(v->folder);
     const bool inside = strncmp(sentence, v->folder, length) == 0 && sentence[length] == '/';
     say(find(v, VERIFY_FRAME, tick), "%s", inside ? sentence + length + 1 : sentence);
 }
 
-/* What the disk or the rights do not let be read says nothing of what is in it. */
+/* A file that cannot be read for its permissions or the disk is trouble, not a difference. */
 static bool check_readable(const char *path, octreel_error *error)
 {
     FILE *file = fopen(path, "rb");
@@ -183,9 +183,9 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     else if (!check_readable(path, error))
         v->stopped = ok = false;
     else if (!frame_check(v->folder, &origin, &unlike))
-        tell_frame(v, unlike.text, step->tick);
+        find_frame(v, unlike.text, step->tick);
     else if (origin.pixels != image_digest(&v->replay.take.picture.frame))
-        tell_pixels(v, path, find(v, VERIFY_PIXELS, step->tick));
+        find_pixels(v, path, find(v, VERIFY_PIXELS, step->tick));
     else
         v->stopped = false;
     free(path);
@@ -207,7 +207,7 @@ static bool check_tick(void *context, const film_step *step, octreel_error *erro
     return true;
 }
 
-/* ---- What is there behind the last tick --------------------------------------------------------------------- */
+/* ---- After the last tick ------------------------------------------------------------------------------------ */
 
 static void check_end_of_lines(verifying *v)
 {
@@ -217,14 +217,14 @@ static void check_end_of_lines(verifying *v)
         v->replay.ticks);
 }
 
-/* What begins as a frame does, and is none of this recording. */
-static bool is_too_many(const verifying *v, const char *name)
+/* Whether a file is named as a frame and is none of this recording. */
+static bool is_extra_frame(const verifying *v, const char *name)
 {
     return strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, v->replay.ticks, v->replay.film.every);
 }
 
-/* The first of them by name, whatever the order of the folder. */
-static bool check_names(verifying *v, octreel_error *error)
+/* Report the first extra frame by name. */
+static bool check_extra_frames(verifying *v, octreel_error *error)
 {
     DIR *entries = opendir(v->folder);
     char first[NAME_MAX + 1] = "";
@@ -232,7 +232,7 @@ static bool check_names(verifying *v, octreel_error *error)
     if (!entries)
         return error_set(error, "%s: the folder cannot be read: %s", v->folder, strerror(errno));
     for (struct dirent *entry; (entry = readdir(entries));) {
-        if (!is_too_many(v, entry->d_name))
+        if (!is_extra_frame(v, entry->d_name))
             continue;
         if (count++ == 0 || strcmp(entry->d_name, first) < 0)
             snprintf(first, sizeof first, "%s", entry->d_name);
@@ -249,7 +249,7 @@ static bool check_names(verifying *v, octreel_error *error)
     return true;
 }
 
-/* ---- All of it ---------------------------------------------------------------------------------------------- */
+/* ---- The recording ------------------------------------------------------------------------------------------ */
 
 static bool play_again(verifying *v, octreel_error *error)
 {
@@ -270,7 +270,7 @@ static bool verify_all(verifying *v, octreel_error *error)
         return false;
     v->replay.film.renderer = v->options->renderer;
     who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
-    return check_first_frame(v, error) && (v->stopped || play_again(v, error)) && check_names(v, error);
+    return check_first_frame(v, error) && (v->stopped || play_again(v, error)) && check_extra_frames(v, error);
 }
 
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error)
@@ -283,19 +283,15 @@ bool verify_recording(const char *folder, const verify_options *options, verify_
     return ok;
 }
 
-#define VERIFY_WORD(name, word) [VERIFY_##name] = word,
-static const char *const words[VERIFY_KINDS] = {VERIFY_KIND_MAP(VERIFY_WORD)};
-#undef VERIFY_WORD
+/* ---- Printing ----------------------------------------------------------------------------------------------- */
 
-/* What a sentence about a tick begins with. */
-static const char *const beginnings[VERIFY_KINDS] = {
-    [VERIFY_SESSION] = "",
-    [VERIFY_VIEW] = " in its size",
-    [VERIFY_LINES] = "",
-    [VERIFY_FACTS] = " in what happened",
-    [VERIFY_SCENE] = " in what is drawn",
-    [VERIFY_FRAME] = " in its frame",
-    [VERIFY_PIXELS] = ", only in its pixels",
+static const struct {
+    const char *name; /* in JSON */
+    const char *words;
+} kinds[VERIFY_KINDS] = {
+#define VERIFY_ROW(name, word, words) [VERIFY_##name] = {word, words},
+    VERIFY_KIND_MAP(VERIFY_ROW)
+#undef VERIFY_ROW
 };
 
 static void print_people(FILE *out, const char *folder, const verify_report *report)
@@ -307,7 +303,7 @@ static void print_people(FILE *out, const char *folder, const verify_report *rep
         const verify_finding *finding = &report->findings[i];
         fprintf(out, "%s: ", folder);
         if (finding->has_tick)
-            fprintf(out, "tick %" PRIu64 " differs%s: ", finding->tick, beginnings[finding->kind]);
+            fprintf(out, "tick %" PRIu64 " differs%s: ", finding->tick, kinds[finding->kind].words);
         fprintf(out, "%s\n", finding->text);
     }
 }
@@ -324,7 +320,7 @@ static void write_string(json_writer *w, const char *key, const char *text)
 static void write_finding(json_writer *w, const verify_report *report, const verify_finding *finding)
 {
     json_write_begin_object(w);
-    write_string(w, "in", words[finding->kind]);
+    write_string(w, "in", kinds[finding->kind].name);
     if (finding->has_tick)
         json_member_integer(w, "tick", finding->tick);
     if (*finding->fact)

@@ -1,10 +1,10 @@
-/* verify.h - a recording is played again: is it what its session makes?
+/* verify.h - plays a recording again and compares it with what its session makes.
  *
- * What happened, the draw lists and the pixels are compared tick by tick, up to the first tick that differs. How a
- * frame is compressed is not compared: the same pixels are the same frame.
+ * The facts, the draw lists and the pixels are compared tick by tick, up to the first tick that differs. How a frame is
+ * compressed is not compared.
  */
-#ifndef RECORD_VERIFY_H
-#define RECORD_VERIFY_H
+#ifndef REPLAY_VERIFY_H
+#define REPLAY_VERIFY_H
 
 #include "renderer.h"
 #include "folder.h"
@@ -12,18 +12,18 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* In what a recording differs from what its session makes, and the word for it. */
+/* What differs from what the session makes: the word for it in JSON, and what "tick 3 differs" is followed by. */
 #define VERIFY_KIND_MAP(X)                                                                                             \
-    X(SESSION, "session") /* session.json is not the file that was filmed */                                           \
-    X(VIEW, "view")       /* recording.json is not about these frames */                                               \
-    X(LINES, "lines")     /* ticks.jsonl lacks a line, has a torn one, or one too many */                              \
-    X(FACTS, "facts")     /* what happened */                                                                          \
-    X(SCENE, "scene")     /* what is drawn */                                                                          \
-    X(FRAME, "frame")     /* a frame is missing, torn, of something else, changed, or one too many */                  \
-    X(PIXELS, "pixels")   /* only how it was drawn */
+    X(SESSION, "session", "")                   /* session.json is not the file that was filmed */                     \
+    X(VIEW, "view", " in its size")             /* recording.json is not about these frames */                         \
+    X(LINES, "lines", "")                       /* ticks.jsonl lacks a line, has a torn one, or one too many */        \
+    X(FACTS, "facts", " in what happened")      /* a member of the tick's line */                                      \
+    X(SCENE, "scene", " in what is drawn")      /* the digest of its scene */                                          \
+    X(FRAME, "frame", " in its frame")          /* a frame is missing, torn, of something else, or one too many */     \
+    X(PIXELS, "pixels", ", only in its pixels") /* the scene is the same, and its picture is not */
 
 typedef enum verify_kind {
-#define VERIFY_ENUM(name, word) VERIFY_##name,
+#define VERIFY_ENUM(name, word, words) VERIFY_##name,
     VERIFY_KIND_MAP(VERIFY_ENUM)
 #undef VERIFY_ENUM
         VERIFY_KINDS
@@ -33,20 +33,20 @@ typedef struct verify_finding {
     verify_kind kind;
     bool has_tick;
     uint64_t tick;  /* the first that differs */
-    char fact[32];  /* of FACTS and SCENE: the member of the tick's line; else "" */
+    char fact[32];  /* of FACTS and SCENE: the member of the tick's line */
     char text[768]; /* one sentence */
 } verify_finding;
 
-/* The session, the first tick that differs, and frames that are too many: at most one finding of each. */
+/* At most one finding each about the session, the first tick that differs, and files that are too many. */
 #define VERIFY_MOST 3
 
 typedef struct verify_report {
-    size_t count; /* of findings; none: identical */
+    size_t count; /* of findings; 0: identical */
     verify_finding findings[VERIFY_MOST];
-    uint64_t ticks, frames; /* that are the same, up to the first that differs */
+    uint64_t ticks, frames; /* that are the same, before the first that differs */
     uint64_t pixels;        /* of PIXELS: how many differ */
-    char drawn_by[384];     /* who drew the recording, as renderer.json tells */
-    char drawn_now[384];    /* "" where nothing was drawn */
+    char drawn_by[384];     /* the renderer of the recording, as renderer.json has it */
+    char drawn_now[384];    /* the renderer of this process; "" where nothing was drawn */
 } verify_report;
 
 typedef struct verify_options {
@@ -55,11 +55,10 @@ typedef struct verify_options {
     void *context;
 } verify_options;
 
-/* Verify the recording in a folder. False, and a sentence, when it cannot be: there is none, it cannot be read or
- * played, or nothing draws it. */
+/* Verify the recording in a folder. False, with a sentence, where it cannot be read, played or drawn. */
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error);
 
-/* A line for each finding, or that it is identical, for people; or one JSON object on one line. */
+/* Print a line for each finding, or that the recording is identical; or one JSON object on one line. */
 void verify_print(FILE *out, const char *folder, const verify_report *report, bool json);
 
 #endif

@@ -1,4 +1,3 @@
-/* verify_line.c - see verify_line.h. */
 #include "verify_line.h"
 #include "json_place.h"
 
@@ -64,7 +63,7 @@ line_state lines_next(line_reader *reader, size_t limit)
 
 #define VALUE_TEXT 96
 
-/* A value as JSON, cut where it is long; nothing in it that a terminal would obey. */
+/* A value as JSON in ASCII, cut where it is long. */
 static const char *value_text(const json_t *value, char text[VALUE_TEXT])
 {
     char *whole = value ? json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
@@ -76,8 +75,8 @@ static const char *value_text(const json_t *value, char text[VALUE_TEXT])
     return text;
 }
 
-/* Two values that differ at a place, and nowhere before it. */
-static void tell_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+/* Say that these two values are the first that differ. */
+static void say_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     char place[128], texts[2][VALUE_TEXT];
     json_place_format(at, place, sizeof place);
@@ -87,30 +86,30 @@ static void tell_values(const json_place *at, const json_t *found, const json_t 
              scene ? " (or it is by another version of octreel)" : "");
 }
 
-static bool tell_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding);
+static bool find_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding);
 
-static bool tell_in_array(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+static bool compare_arrays(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     const size_t a = json_array_size(found), b = json_array_size(expected);
     for (size_t i = 0; i < a || i < b; i++) {
         const json_place inside = {at, NULL, i};
-        if (tell_difference(&inside, json_array_get(found, i), json_array_get(expected, i), finding))
+        if (find_difference(&inside, json_array_get(found, i), json_array_get(expected, i), finding))
             return true;
     }
     return false;
 }
 
-/* In the order in which members are written; then what only the line that was found has. */
-static bool tell_in_object(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+/* Compare members in the order in which they are written; then those that only the line that was read has. */
+static bool compare_objects(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     const json_t *const both[] = {expected, found};
     for (int i = 0; i < 2; i++) {
-        /* jansson has no iterator over what is const; it changes nothing. */
+        /* jansson iterates over no const object; it changes nothing */
         for (void *member = json_object_iter((json_t *)both[i]); member;
              member = json_object_iter_next((json_t *)both[i], member)) {
             const char *key = json_object_iter_key(member);
             const json_place inside = {at, key, 0};
-            if (tell_difference(&inside, json_object_get(found, key), json_object_get(expected, key), finding)) {
+            if (find_difference(&inside, json_object_get(found, key), json_object_get(expected, key), finding)) {
                 if (!at)
                     snprintf(finding->fact, sizeof finding->fact, "%s", key);
                 return true;
@@ -120,28 +119,28 @@ static bool tell_in_object(const json_place *at, const json_t *found, const json
     return false;
 }
 
-/* False when there is none. */
-static bool tell_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+/* False where there is no difference. */
+static bool find_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     if (json_equal(found, expected))
         return false;
     if (json_is_object(found) && json_is_object(expected))
-        return tell_in_object(at, found, expected, finding);
+        return compare_objects(at, found, expected, finding);
     if (json_is_array(found) && json_is_array(expected))
-        return tell_in_array(at, found, expected, finding);
-    tell_values(at, found, expected, finding);
+        return compare_arrays(at, found, expected, finding);
+    say_values(at, found, expected, finding);
     return true;
 }
 
 /* ---- A line against a line ---------------------------------------------------------------------------------- */
 
-static void tell_line(verify_finding *finding, const char *what)
+static void say_line(verify_finding *finding, const char *what)
 {
     finding->kind = VERIFY_LINES;
     snprintf(finding->text, sizeof finding->text, "%s", what);
 }
 
-/* The number of another tick: lines were lost, doubled or exchanged. */
+/* Whether the line is that of another tick: lines were lost, doubled or exchanged. */
 static bool is_of_another(const json_t *found, uint64_t tick, verify_finding *finding)
 {
     const json_t *number = json_object_get(found, "tick");
@@ -154,14 +153,14 @@ static bool is_of_another(const json_t *found, uint64_t tick, verify_finding *fi
     return true;
 }
 
-static void tell_objects(const json_t *found, const json_t *expected, uint64_t tick, verify_finding *finding)
+static void compare_lines(const json_t *found, const json_t *expected, uint64_t tick, verify_finding *finding)
 {
     if (!json_is_object(found)) {
-        tell_line(finding, "its line in ticks.jsonl is no JSON object");
+        say_line(finding, "its line in ticks.jsonl is no JSON object");
     } else if (!is_of_another(found, tick, finding)) {
         finding->kind = VERIFY_FACTS;
-        if (!tell_in_object(NULL, found, expected, finding))
-            tell_line(finding, "its line in ticks.jsonl says the same, but is not written as octreel writes it");
+        if (!compare_objects(NULL, found, expected, finding))
+            say_line(finding, "its line in ticks.jsonl says the same, but is not written as octreel writes it");
         else if (strcmp(finding->fact, "scene") == 0)
             finding->kind = VERIFY_SCENE;
     }
@@ -175,9 +174,9 @@ bool line_same(const line_reader *found, const char *expected, size_t size, uint
     json_error_t why;
     json_t *a = json_loadb(found->line, found->size, flags, &why), *b = json_loadb(expected, size, flags, NULL);
     if (a)
-        tell_objects(a, b, tick, finding);
+        compare_lines(a, b, tick, finding);
     else
-        tell_line(finding, "its line in ticks.jsonl is no JSON");
+        say_line(finding, "its line in ticks.jsonl is no JSON");
     json_decref(a);
     json_decref(b);
     return false;

@@ -1,32 +1,32 @@
-/* verify_line.h - the lines of a ticks.jsonl one by one, whatever they hold, and in what one differs from another. */
-#ifndef RECORD_VERIFY_LINE_H
-#define RECORD_VERIFY_LINE_H
+/* verify_line.h - reads ticks.jsonl line by line, whatever it holds, and finds in what a line differs. */
+#ifndef REPLAY_VERIFY_LINE_H
+#define REPLAY_VERIFY_LINE_H
 
 #include "verify.h"
 
-/* A regular file that is read line by line. */
 typedef struct line_reader {
     FILE *stream;
-    char *line; /* the last one, its newline included */
+    char *line; /* the last line that was read, its newline included */
     size_t size, room;
 } line_reader;
 
 typedef enum line_state {
     LINE_WHOLE,
-    LINE_TORN, /* the last one, without its newline */
-    LINE_LONG, /* longer than was asked for; its rest is left out */
-    LINE_NONE, /* the file is at its end */
-    LINE_TROUBLE,
+    LINE_TORN,    /* the file ends before the line's newline */
+    LINE_LONG,    /* longer than the limit; the rest is not read */
+    LINE_NONE,    /* the end of the file */
+    LINE_TROUBLE, /* it cannot be read, or there is no memory */
 } line_state;
 
+/* Open a regular file. */
 bool lines_open(line_reader *reader, const char *path, octreel_error *error);
 void lines_close(line_reader *reader);
 
-/* Read the next line, of `limit` bytes at most. Errors of the file are LINE_TROUBLE; so is lack of memory. */
+/* Read the next line, of `limit` bytes at most. */
 line_state lines_next(line_reader *reader, size_t limit);
 
-/* Say in what a line that was found differs from the one of this tick that was expected, if it does: kind, fact and
- * text of the finding. True when they are equal. */
+/* Compare a line that was read with the expected one of this tick. True where they are equal; else the finding's kind,
+ * fact and text say in what they differ. */
 bool line_same(const line_reader *found, const char *expected, size_t size, uint64_t tick, verify_finding *finding);
 
 #endif
