@@ -135,25 +135,20 @@ static bool read_film(arguments *a)
 
 static bool read_session(const arguments *a, session_file *file, octreel_error *error)
 {
-    octreel_error unread;
     uint64_t digest;
     const octree_session paper = octree_session_default();
     if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json"))
         return read_session_file(a->film.folder, file, &digest, error);
     if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json.live"))
         return read_live_session(a->film.folder, file, error);
-    const bool ok = a->session ? session_read(a->session, file, &unread) : session_copy(&paper, file, &unread);
-    return ok || error_set(error, "%s", unread.text);
+    return a->session ? session_read(a->session, file, error) : session_copy(&paper, file, error);
 }
 
 static int play(arguments *a)
 {
     session_file file = {0};
-    octreel_error unknown;
     octreel_error error;
-    bool ok = read_session(a, &file, &error);
-    if (ok && a->keys && !session_set_keys(&file, a->keys, &unknown))
-        ok = error_set(&error, "%s", unknown.text);
+    const bool ok = read_session(a, &file, &error) && (!a->keys || session_set_keys(&file, a->keys, &error));
     const int status = ok ? film_it(a, &file.session) : trouble("%s", error.text);
     session_release(&file);
     return status;

@@ -9,11 +9,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- The frame and its recording ---------------------------------------------------------------------------- */
 
-/* The folder that a file is in; owned by the caller, null when there is no memory. */
+/* The folder that a file is in; owned by the caller, null where there is no memory. */
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -26,12 +25,11 @@ static char *folder_of(const char *path)
     return folder;
 }
 
-/* Read the picture, and look whether it has the pixel that is asked for. */
+/* Read the picture, and check that it has the pixel. */
 static bool read_picture(pick *p, image *frame, octreel_error *error)
 {
-    octreel_error unread;
-    if (!image_read_png(p->path, frame, &unread))
-        return error_set(error, "%s", unread.text);
+    if (!image_read_png(p->path, frame, error))
+        return false;
     p->width = frame->width;
     p->height = frame->height;
     return (p->asked[0] >= 0 && p->asked[1] >= 0 && p->asked[0] < p->width && p->asked[1] < p->height) ||
@@ -42,17 +40,13 @@ static bool read_picture(pick *p, image *frame, octreel_error *error)
 static bool check_beside(const pick *p, const char *folder, octreel_error *error)
 {
     static const char *const needed[] = {"recording.json", "session.json"};
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
-        char *path = path_join(folder, needed[i]);
-        const bool there = path && access(path, F_OK) == 0;
-        free(path);
-        if (!there)
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
+        if (!folder_has(folder, needed[i]))
             return error_set(error, "%s: there is no recording beside it: its folder has no %s", p->path, needed[i]);
-    }
     return true;
 }
 
-/* Play to the frame's tick and make its scene, which must be the one that the frame is of. */
+/* Play to the frame's tick and make its scene, which must be that of the frame. */
 static bool remake(pick *p, replay *r, const char *folder, octreel_error *error)
 {
     if (!replay_open(r, folder, error))
@@ -83,7 +77,7 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* The nearest pixel with something on it: of several as near, the first one in the order of rows. */
+/* Find the nearest pixel on which anything is drawn; of several, the first in the order of rows. */
 static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
 {
     const int left = clamp(p->asked[0] - p->radius, 0, p->width), top = clamp(p->asked[1] - p->radius, 0, p->height);
@@ -105,10 +99,9 @@ static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
 static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *error)
 {
     const size_t samples = (size_t)view_samples(&s->view);
-    octreel_error why;
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
     bool ok = numbers || error_set(error, "there is no memory for a frame");
-    ok = ok && (renderer_pick(r, s, numbers, &why) || error_set(error, "%s", why.text));
+    ok = ok && renderer_pick(r, s, numbers, error);
     if (ok)
         find_nearest(p, numbers, samples);
     free(numbers);
@@ -119,8 +112,7 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
 {
     const scene *s = &from->take.scene;
     draw_touches touches = {0};
-    octreel_error why;
-    bool ok = renderer_pixel(r, s, p->pixel[0], p->pixel[1], &touches, &why) || error_set(error, "%s", why.text);
+    bool ok = renderer_pixel(r, s, p->pixel[0], p->pixel[1], &touches, error);
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
     ok = ok && (p->elements || touches.count == 0 || error_set(error, "there is no memory for what is there"));
     for (size_t i = 0; ok && i < touches.count; i++) {
@@ -136,7 +128,7 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
     return ok;
 }
 
-static bool look(pick *p, replay *from, const pick_options *options, octreel_error *error)
+static bool pick_pixel(pick *p, replay *from, const pick_options *options, octreel_error *error)
 {
     const int samples = view_samples(&from->take.view);
     renderer *r = replay_renderer(from, &options->renderer, error);
@@ -150,18 +142,14 @@ static bool look(pick *p, replay *from, const pick_options *options, octreel_err
 
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error)
 {
-    *found = (pick){.path = malloc(strlen(path) + 1),
-                    .asked = {options->x, options->y},
-                    .pixel = {options->x, options->y},
-                    .radius = options->radius};
+    *found = (pick){
+        .path = path, .asked = {options->x, options->y}, .pixel = {options->x, options->y}, .radius = options->radius};
     replay r = {.ticks = 0};
     image frame = {0};
     char *folder = folder_of(path);
-    bool ok = (found->path && folder) || error_no_memory(error);
-    if (found->path)
-        strcpy(found->path, path);
-    ok = ok && read_picture(found, &frame, error) && frame_read_tick(path, &found->tick, error) &&
-         check_beside(found, folder, error) && remake(found, &r, folder, error) && look(found, &r, options, error);
+    const bool ok = (folder || error_no_memory(error)) && read_picture(found, &frame, error) &&
+                    frame_read_tick(path, &found->tick, error) && check_beside(found, folder, error) &&
+                    remake(found, &r, folder, error) && pick_pixel(found, &r, options, error);
     if (ok)
         found->color = image_color_at(&frame, found->pixel[0], found->pixel[1]);
     replay_close(&r);
@@ -174,7 +162,6 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
 
 void pick_release(pick *p)
 {
-    free(p->path);
     free(p->elements);
     *p = (pick){0};
 }
@@ -193,7 +180,7 @@ static double distance(const pick *p)
     return sqrt(dx * dx + dy * dy);
 }
 
-/* It is in the gaps between dashes, which are painted too. */
+/* Whether the pixel is in a gap between dashes, which is painted too. */
 static bool is_gap(const pick_element *e)
 {
     return e->touch.painted > 0 && e->touch.color == 0 && e->kind != SCENE_PANEL;
@@ -237,12 +224,12 @@ static void print_people(FILE *out, const pick *p)
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
 
-static void write_pair(json_writer *w, const char *key, int first, int second)
+static void write_pair(json_writer *w, const char *key, const int pair[2])
 {
     json_write_key(w, key);
     json_write_begin_array(w);
-    json_write_integer(w, (uint64_t)first);
-    json_write_integer(w, (uint64_t)second);
+    json_write_integer(w, (uint64_t)pair[0]);
+    json_write_integer(w, (uint64_t)pair[1]);
     json_write_end_array(w);
 }
 
@@ -298,16 +285,13 @@ static void print_json(FILE *out, const pick *p)
     json_write_begin_object(w);
     json_member_text(w, "frame", p->path);
     json_member_integer(w, "tick", p->tick);
-    write_pair(w, "size", p->width, p->height);
-    write_pair(w, "asked", p->asked[0], p->asked[1]);
+    write_pair(w, "size", (const int[]){p->width, p->height});
+    write_pair(w, "asked", p->asked);
     json_member_integer(w, "radius", (uint64_t)p->radius);
-    json_write_key(w, "pixel");
     if (p->count) {
-        json_write_begin_array(w);
-        json_write_integer(w, (uint64_t)p->pixel[0]);
-        json_write_integer(w, (uint64_t)p->pixel[1]);
-        json_write_end_array(w);
+        write_pair(w, "pixel", p->pixel);
     } else {
+        json_write_key(w, "pixel");
         json_write_null(w);
     }
     json_member_text(w, "color", print_color(p, color));

@@ -1,7 +1,7 @@
-/* pick.h - what is drawn at a pixel of a recording's frame: the session is played to its tick, the scene is made anew,
- * and the elements of that pixel are named. */
-#ifndef RECORD_PICK_H
-#define RECORD_PICK_H
+/* pick.h - what is drawn at a pixel of a recording's frame: plays the session to its tick, makes the scene again, and
+ * names the elements at that pixel. */
+#ifndef REPLAY_PICK_H
+#define REPLAY_PICK_H
 
 #include "element_words.h"
 #include "folder.h"
@@ -11,11 +11,11 @@
 
 typedef struct pick_options {
     int x, y;
-    int radius; /* pixels: where nothing is drawn, the nearest that is something within this distance */
+    int radius; /* where nothing is drawn at (x, y), the nearest drawn pixel within this distance is taken */
     renderer_choice renderer;
 } pick_options;
 
-/* An element of a pixel, from the top one on; see draw_touch. */
+/* An element at a pixel; see draw_touch. */
 typedef struct pick_element {
     draw_touch touch;
     scene_kind kind;
@@ -24,24 +24,24 @@ typedef struct pick_element {
 } pick_element;
 
 typedef struct pick {
-    char *path; /* of the frame */
+    const char *path; /* of the frame; the caller's */
     uint64_t tick;
     int width, height;
     int samples; /* of a pixel */
     int asked[2];
-    int pixel[2]; /* the one that was looked at: the same, or the nearest on which anything is drawn */
+    int pixel[2]; /* the pixel that is described: the same, or the nearest on which anything is drawn */
     int radius;
-    image_color color; /* of the frame at `pixel` */
-    pick_element *elements;
-    size_t count; /* 0: nothing is drawn within the radius */
+    image_color color;      /* of the frame at `pixel` */
+    pick_element *elements; /* from the top down */
+    size_t count;           /* 0: nothing is drawn within the radius */
 } pick;
 
-/* False, with a sentence, when `path` is no frame of a recording, the recording beside it is not the one that it is of,
- * or the pixel is outside. */
+/* False, with a sentence, where `path` is no frame of a recording, the recording beside it is not the one that it is
+ * of, or the pixel is outside. */
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error);
 void pick_release(pick *p);
 
-/* For people; or one JSON object on one line. */
+/* Print for people, or one JSON object on one line. */
 void pick_print(FILE *out, const pick *p, bool json);
 
 #endif

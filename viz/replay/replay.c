@@ -1,4 +1,4 @@
-/* replay.c - see replay.h. */
+/* replay.c - opens a recording and plays it to a tick. */
 #include "replay.h"
 #include "octree/digest.h"
 #include "view_file.h"
@@ -11,13 +11,12 @@ static bool read_session(replay *r, const char *folder, octreel_error *error)
 {
     char reason[FILE_REASON], *text, *path = path_join(folder, "session.json");
     char *inside = path_join(folder, ""); /* where files of points would be */
-    octreel_error unread;
     size_t size;
     bool ok = (path && inside) || error_no_memory(error);
     ok = ok && (file_read_whole(path, &text, &size, reason) || error_set(error, "%s: %s", path, reason));
     if (ok) {
         r->session_digest = octree_digest_bytes(OCTREE_DIGEST_START, text, size);
-        ok = session_parse(path, inside, text, size, &r->session, &unread) || error_set(error, "%s", unread.text);
+        ok = session_parse(path, inside, text, size, &r->session, error);
         free(text);
     }
     free(path);
@@ -34,7 +33,7 @@ bool replay_read(replay *r, const char *folder, octreel_error *error)
     return true;
 }
 
-/* Without a renderer: where no pixel is asked for none is needed. */
+/* No renderer is opened: many callers need no pixels. */
 static bool start(replay *r, octreel_error *error)
 {
     return take_open(&r->take, &r->session.session, &r->film, FRAMES_CHECK, error);
@@ -58,7 +57,7 @@ static uint64_t tick_of(const replay *r)
 
 static bool start_again(replay *r, octreel_error *error)
 {
-    picture drawing = r->take.picture; /* the view is the same, and so is what draws it */
+    picture drawing = r->take.picture; /* the view stays the same, so the renderer does */
     r->take.picture = (picture){0};
     take_close(&r->take);
     const bool ok = start(r, error);
