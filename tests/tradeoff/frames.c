@@ -48,9 +48,9 @@ const octree *subject_tree(const subject *s)
 
 void subject_show(const subject *s, const view *v, scene *picture)
 {
-    const tree_look bare = {.title = ""};
+    const tree_subject bare = {.title = ""};
     const bool shown =
-        s->game ? tick_scene_build(picture, v, s->game, NULL) : look_scene_build(picture, v, s->tree, &bare);
+        s->game ? tick_scene_build(picture, v, s->game, NULL) : tree_scene_build(picture, v, s->tree, &bare);
     if (!shown)
         stop("there is no memory for a scene");
 }

@@ -131,7 +131,7 @@ static bool draw(const report *r, octreel_error *error)
 {
     film_summary drawn = {0};
     const arguments *a = r->a;
-    const tree_look about = {.title = r->name,
+    const tree_subject about = {.title = r->name,
                              .node = a->node ? r->node.address : 0,
                              .answers = r->answers.answers,
                              .answer_count = r->answers.count};

@@ -1,46 +1,126 @@
-/* answer_layers.c - see answer_layers.h. */
-#include "answer_layers.h"
-#include "element_ids.h"
-#include "layer.h"
+/* answer_layers.c - the layers of a tick's queries: what was asked, and what was found. */
+#include "layer_type.h"
+#include "number.h"
+#include "text.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #define FEW_MARKS 50
 #define MANY_MARKS 500
+#define BALL_CIRCLES 3   /* the great circles of a ball, */
+#define BALL_CHORDS 96   /* and the chords that each is drawn by */
+#define NUMBERED_RANKS 9 /* neighbours are numbered up to this rank */
 
-static void add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style)
+/* ---- What all have ------------------------------------------------------------------------------------------ */
+
+/* Ids of an answer's parts: its place among the tick's, and a neighbour's rank or a chord of a ball. Markers have their
+ * point's. */
+static uint64_t part_id(size_t place, size_t part)
 {
-    scene_segment line = {.id = id, .style = style};
-    memcpy(line.ends[0], from, sizeof line.ends[0]);
-    memcpy(line.ends[1], to, sizeof line.ends[1]);
-    scene_add_segment(s, line);
+    return (uint64_t)place << 32 | (uint64_t)part;
 }
 
-/* A marker on a point; `half` is half its size. */
-static void mark(scene *s, const octree_point *point, scene_style style, scene_shape shape, uint8_t half)
+/* Where keys play it is known what will be asked: the session's queries, and the nearest point by a key. What else a
+ * session will ask is not: then it is what has been asked so far. */
+static bool applies(const layer_source *in, view_layer own)
 {
-    scene_marker marker = {.id = point->id, .style = style, .shape = (uint8_t)shape};
-    marker.style.width = half;
-    memcpy(marker.at, point->position, sizeof marker.at);
-    scene_add_marker(s, marker);
+    for (size_t i = 0; i < in->answer_count; i++)
+        if (layer_of_query(in->answers[i].kind) == own)
+            return true;
+    if (!in->game)
+        return false;
+    const bool known = in->session->player.kind == OCTREE_PLAYER_KEYS;
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
+        if ((in->tick->asked >> kind & 1) && layer_of_query((octree_query_kind)kind) == own)
+            return true;
+    for (size_t i = 0; known && i < in->session->query_count; i++)
+        if (layer_of_query(in->session->queries[i].kind) == own)
+            return true;
+    return known && own == LAYER_NEAREST;
 }
 
-/* Smaller where there are many: they would hide each other, and what they lie on. */
-static void mark_points(scene *s, const octree_answer *answer, scene_style style, scene_shape shape, uint8_t half)
+/* Smaller where there are many: they would hide each other, and what they lie on. `half` is half their size. */
+static void mark_points(scene *s, const octree_answer *answer, view_layer own, scene_shape shape, unsigned half)
 {
-    const uint8_t size = answer->count <= FEW_MARKS ? half : answer->count <= MANY_MARKS ? half / 2 : 1;
+    const unsigned size = answer->count <= FEW_MARKS ? half : answer->count <= MANY_MARKS ? half / 2 : 1;
+    const scene_style style = layer_style(own, STROKE_SOLID, size);
     for (size_t i = 0; i < answer->count; i++)
-        mark(s, &answer->points[i], style, shape, size);
+        scene_add_mark(s, answer->points[i].id, answer->points[i].position, shape, style);
 }
 
-static void add_range(scene *s, const octree_answer *answer, size_t place)
+/* The answer that an element is of; null where there is none. "query (answer 2 of 3)" is said of it. */
+static const octree_answer *say_query(description *d, const char *what, uint64_t place)
 {
-    const scene_style style = layer_style(LAYER_RANGE, STROKE_DASHED, 1);
-    scene_add_box(s, (scene_box){.id = place, .box = answer->box, .style = style});
-    mark_points(s, answer, style, SHAPE_FRAME, 5);
+    const octree_answer *answer = place < d->tick->answer_count ? &d->tick->answers[place] : NULL;
+    say(d, "the %s of the %s query", what, answer ? octree_query_name(answer->kind) : "a");
+    if (d->tick->answer_count > 1)
+        say(d, " (answer %" PRIu64 " of %zu)", place + 1, d->tick->answer_count);
+    return answer;
 }
+
+static void say_found(description *d, const octree_answer *answer)
+{
+    say(d, ", %zu point%s found", answer->count, plural(answer->count));
+}
+
+static void describe_mark(description *d, const described *element)
+{
+    say_point(d, element->id, element->at);
+    say(d, ", found by a %s query", view_layer_name((view_layer)element->style.layer));
+}
+
+static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
+{
+    const octree_answer *answer = say_query(d, "line", place);
+    if (!answer || rank >= answer->count)
+        return;
+    const octree_neighbor *neighbor = &answer->neighbors[rank];
+    say(d, " to neighbour %" PRIu64 ": ", rank + 1);
+    say_point(d, neighbor->point.id, neighbor->point.position);
+    say(d, ", distance ");
+    say_number(d, neighbor->distance);
+}
+
+/* ---- Range -------------------------------------------------------------------------------------------------- */
+
+static void add_range(scene *s, const octree_answer *answer, size_t place, view_layer own)
+{
+    const scene_style style = layer_style(own, STROKE_DASHED, 1);
+    scene_add_box(s, (scene_box){.id = place, .box = answer->box, .style = style});
+    mark_points(s, answer, own, SHAPE_FRAME, 5);
+}
+
+static void write_range(pen *p, const octree_answer *answer)
+{
+    write_ids(p, "range", answer->points, answer->count);
+}
+
+static void describe_range(description *d, const described *element)
+{
+    if (element->kind == SCENE_MARKER) {
+        describe_mark(d, element);
+        return;
+    }
+    const octree_answer *answer = say_query(d, "box", element->id);
+    say(d, ": ");
+    say_box(d, &element->box);
+    if (answer)
+        say_found(d, answer);
+}
+
+const layer_type layer_RANGE = {.applies = applies,
+                                .add_answer = add_range,
+                                .write_answer = write_range,
+                                .legend_place = 150,
+                                .sign = SIGN_DASHES,
+                                .text = "range query, dashed",
+                                .worth = WORTH_ANSWER,
+                                .describe = describe_range};
+
+/* ---- Radius ------------------------------------------------------------------------------------------------- */
 
 /* The point at a part of the way round the circle about a centre that does not leave the plane of two axes. */
 static void point_on_circle(const octree_answer *ball, int plane, int part, double position[3])
@@ -58,27 +138,51 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
     point_on_circle(ball, plane, 0, from);
     for (int i = 0; i < BALL_CHORDS; i++) {
         point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
-        add_line(s, answer_part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
+        scene_add_line(s, part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
         memcpy(from, to, sizeof from);
     }
 }
 
-static void add_ball(scene *s, const octree_answer *answer, size_t place)
+static void add_ball(scene *s, const octree_answer *answer, size_t place, view_layer own)
 {
-    const scene_style style = layer_style(LAYER_RADIUS, STROKE_SOLID, 1);
+    const scene_style style = layer_style(own, STROKE_SOLID, 1);
     for (int plane = 0; plane < BALL_CIRCLES; plane++)
         add_circle(s, answer, place, plane, style);
-    mark_points(s, answer, style, SHAPE_LOZENGE, 8);
+    mark_points(s, answer, own, SHAPE_LOZENGE, 8);
 }
 
-static void add_nearest(scene *s, const octree_answer *answer, size_t place)
+static void write_radius(pen *p, const octree_answer *answer)
 {
-    const scene_style style = layer_style(LAYER_NEAREST, STROKE_DASHED, 1);
-    for (size_t i = 0; i < answer->count; i++) {
-        add_line(s, place, answer->target, answer->neighbors[i].point.position, style);
-        mark(s, &answer->neighbors[i].point, style, SHAPE_FRAME, 7);
-    }
+    char radius[NUMBER_TEXT];
+    write_row(p, "radius", "%zu within %s", answer->count, number_text(answer->radius, 6, radius));
 }
+
+static void describe_radius(description *d, const described *element)
+{
+    if (element->kind == SCENE_MARKER) {
+        describe_mark(d, element);
+        return;
+    }
+    const octree_answer *answer = say_query(d, "ball", element->id >> 32);
+    if (!answer)
+        return;
+    say(d, ": radius ");
+    say_number(d, answer->radius);
+    say(d, " about ");
+    say_place(d, answer->target);
+    say_found(d, answer);
+}
+
+const layer_type layer_RADIUS = {.applies = applies,
+                                 .add_answer = add_ball,
+                                 .write_answer = write_radius,
+                                 .legend_place = 160,
+                                 .sign = SIGN_LINE,
+                                 .text = "radius query, round",
+                                 .worth = WORTH_ANSWER,
+                                 .describe = describe_radius};
+
+/* ---- K nearest ---------------------------------------------------------------------------------------------- */
 
 /* Units that a digit takes, and its distance from the next. */
 #define DIGIT_WIDTH 8
@@ -100,7 +204,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
     double pixels[NUMBERED_RANKS][2], seen[3];
     size_t numbered = 0;
     for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
-        scene_label rank = {.id = answer_part_id(place, i), .in_world = true, .style = style};
+        scene_label rank = {.id = part_id(place, i), .in_world = true, .style = style};
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
         camera_transform(&s->camera, rank.at, seen);
         if (s->camera.perspective && seen[2] < s->camera.near)
@@ -114,33 +218,78 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
     }
 }
 
-static void add_knearest(scene *s, const octree_answer *answer, size_t place)
+static void add_knearest(scene *s, const octree_answer *answer, size_t place, view_layer own)
 {
-    const scene_style style = layer_style(LAYER_KNEAREST, STROKE_SOLID, 1);
+    const scene_style style = layer_style(own, STROKE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
-        add_line(s, answer_part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
+        scene_add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
     add_ranks(s, answer, place, style);
 }
 
-view_layer answer_layer(octree_query_kind kind)
+static void write_knearest(pen *p, const octree_answer *answer)
 {
-    static const view_layer layers[OCTREE_QUERY_KINDS] = {
-        [OCTREE_QUERY_RANGE] = LAYER_RANGE,
-        [OCTREE_QUERY_NEAREST] = LAYER_NEAREST,
-        [OCTREE_QUERY_KNEAREST] = LAYER_KNEAREST,
-        [OCTREE_QUERY_RADIUS] = LAYER_RADIUS,
-    };
-    return layers[kind];
+    octree_point first[PEN_MOST_IDS];
+    for (size_t i = 0; i < answer->count && i < PEN_MOST_IDS; i++)
+        first[i] = answer->neighbors[i].point;
+    write_ids(p, "k near", first, answer->count);
 }
 
-void add_answers(scene *s, const octree_answer *answers, size_t count)
+static void describe_knearest(description *d, const described *element)
 {
-    static void (*const adders[OCTREE_QUERY_KINDS])(scene *, const octree_answer *, size_t) = {
-        [OCTREE_QUERY_RANGE] = add_range,
-        [OCTREE_QUERY_NEAREST] = add_nearest,
-        [OCTREE_QUERY_KNEAREST] = add_knearest,
-        [OCTREE_QUERY_RADIUS] = add_ball,
-    };
-    for (size_t i = 0; i < count; i++)
-        adders[answers[i].kind](s, &answers[i], i);
+    if (element->kind == SCENE_LABEL)
+        say(d, ", the rank of a neighbour");
+    else
+        describe_neighbor(d, element->id >> 32, element->id & UINT32_MAX);
 }
+
+const layer_type layer_KNEAREST = {.applies = applies,
+                                   .add_answer = add_knearest,
+                                   .write_answer = write_knearest,
+                                   .legend_place = 170,
+                                   .sign = SIGN_LINE,
+                                   .text = "k nearest, numbered",
+                                   .worth = WORTH_ANSWER,
+                                   .describe = describe_knearest};
+
+/* ---- Nearest ------------------------------------------------------------------------------------------------ */
+
+static void add_nearest(scene *s, const octree_answer *answer, size_t place, view_layer own)
+{
+    for (size_t i = 0; i < answer->count; i++) {
+        const octree_point *point = &answer->neighbors[i].point;
+        scene_add_line(s, place, answer->target, point->position, layer_style(own, STROKE_DASHED, 1));
+        scene_add_mark(s, point->id, point->position, SHAPE_FRAME, layer_style(own, STROKE_SOLID, 7));
+    }
+}
+
+static void write_nearest(pen *p, const octree_answer *answer)
+{
+    char id[SCENE_TEXT], distance[NUMBER_TEXT];
+    if (answer->count == 0) {
+        write_row(p, "nearest", "none");
+        return;
+    }
+    number_text(answer->neighbors[0].distance, 6, distance);
+    snprintf(id, sizeof id, "%" PRIu64, answer->neighbors[0].point.id);
+    const bool fits = strlen(id) + strlen(" at ") + strlen(distance) <= text_room(VALUE, 1);
+    write_row(p, "nearest", "%s%s%s", id, fits ? " at " : "", fits ? distance : "");
+    if (!fits)
+        write_row(p, "", "at %s", distance);
+}
+
+static void describe_nearest(description *d, const described *element)
+{
+    if (element->kind == SCENE_MARKER)
+        describe_mark(d, element);
+    else
+        describe_neighbor(d, element->id, 0);
+}
+
+const layer_type layer_NEAREST = {.applies = applies,
+                                  .add_answer = add_nearest,
+                                  .write_answer = write_nearest,
+                                  .legend_place = 180,
+                                  .sign = SIGN_DASHES,
+                                  .text = "nearest point, dashed",
+                                  .worth = WORTH_ANSWER,
+                                  .describe = describe_nearest};

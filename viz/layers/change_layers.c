@@ -1,60 +1,111 @@
-/* change_layers.c - see change_layers.h. */
-#include "change_layers.h"
-#include "crossed_box.h"
-#include "element_ids.h"
-#include "layer.h"
-#include "tick_nodes.h"
+/* change_layers.c - the layers of what happened to the tree's nodes: merges, splits, and what must never happen. */
+#include "layer_type.h"
+#include "node_boxes.h"
 
+#include <stdio.h>
 #include <string.h>
 
-finding find_broken(const view *v, const octree *tree)
+/* Lines through a node: its address and the line's axis. An address may need all of 64 bits at the greatest depth, but
+ * nodes that split lie above it. */
+static uint64_t line_id(octree_address node, unsigned axis)
 {
-    finding found = {.where = OCTREE_ROOT};
-    if (view_shows(v, LAYER_BROKEN))
-        found.broken = octree_check(tree, &found.where);
-    return found;
+    return node << 2 | axis;
 }
 
 /* Where a cell's three planes cross: the lowest corner of its last octant. */
-static void add_planes(scene *s, const octree *tree, octree_address address, scene_style style)
+static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;
-    if (!tick_node_shown(s, tree, address, &node))
+    if (!tick_node_shown(s, in->tree, address, &node))
         return;
-    const octree_box world = octree_definition(tree).world;
-    const octree_box last = octree_cell_box(&world, address << 3 | 7);
+    const octree_box last = octree_cell_box(&in->world, address << 3 | 7);
     for (unsigned axis = 0; axis < 3; axis++) {
-        scene_segment line = {.id = change_line_id(address, axis), .style = style};
-        memcpy(line.ends[0], last.min, sizeof line.ends[0]);
-        memcpy(line.ends[1], last.min, sizeof line.ends[1]);
-        line.ends[0][axis] = node.box.min[axis];
-        line.ends[1][axis] = node.box.max[axis];
-        scene_add_segment(s, line);
+        double ends[2][3];
+        memcpy(ends[0], last.min, sizeof ends[0]);
+        memcpy(ends[1], last.min, sizeof ends[1]);
+        ends[0][axis] = node.box.min[axis];
+        ends[1][axis] = node.box.max[axis];
+        scene_add_line(s, line_id(address, axis), ends[0], ends[1], style);
     }
 }
 
-void add_changes(scene *s, const octree_game *game)
+/* The nodes of a layer. */
+static const octree_address *nodes_of(const octree_tick *tick, view_layer layer, size_t *count)
 {
-    const scene_style split = layer_style(LAYER_SPLITS, STROKE_SOLID, 2);
-    const scene_style merged = layer_style(LAYER_MERGES, STROKE_DASHED, 2);
-    const octree_tick *tick = octree_game_tick(game);
-    const octree *tree = octree_game_tree(game);
-    for (size_t i = 0; view_shows(&s->view, LAYER_SPLITS) && i < tick->split_count; i++)
-        add_planes(s, tree, tick->splits[i], split);
-    for (size_t i = 0; view_shows(&s->view, LAYER_MERGES) && i < tick->merge_count; i++)
-        add_planes(s, tree, tick->merges[i], merged);
+    *count = layer == LAYER_SPLITS ? tick->split_count : tick->merge_count;
+    return layer == LAYER_SPLITS ? tick->splits : tick->merges;
 }
 
-void add_broken(scene *s, const octree_box *world, const finding *found)
+static void add_changes(scene *s, const layer_source *in, view_layer own)
 {
-    if (!found->broken)
-        return;
-    const scene_style style = layer_style(LAYER_BROKEN, STROKE_DASHED, 2);
-    const octree_box box = octree_cell_box(world, found->where);
-    scene_label word = {.id = found->where, .in_world = true, .style = style, .text = " broken"};
-    scene_add_box(s, (scene_box){.id = found->where, .box = box, .style = style});
-    add_crossed_faces(s, &box, style);
-    memcpy(word.at, box.max, sizeof word.at);
-    word.style.width = 1;
-    scene_add_label(s, word);
+    const scene_style style = layer_style(own, own == LAYER_SPLITS ? STROKE_SOLID : STROKE_DASHED, 2);
+    size_t count;
+    const octree_address *nodes = nodes_of(in->tick, own, &count);
+    for (size_t i = 0; view_shows(&s->view, own) && i < count; i++)
+        add_planes(s, in, nodes[i], style);
 }
+
+/* "2 split .. 7/7/0", with the address of the last where there is room for all of it. */
+static void add_change_legend(legend *l, const layer_source *in, view_layer own)
+{
+    char last[OCTREE_ADDRESS_TEXT];
+    size_t count;
+    const bool split = own == LAYER_SPLITS;
+    const octree_address *nodes = nodes_of(in->tick, own, &count);
+    legend_line *line =
+        legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu %s", count, split ? "split" : "merged");
+    if (count == 0)
+        return;
+    octree_address_format(nodes[count - 1], last);
+    const char *between = count > 1 ? " .. " : " ";
+    if (strlen(line->text) + strlen(between) + strlen(last) <= LEGEND_LETTERS)
+        strcat(strcat(line->text, between), last);
+}
+
+static void describe_change(description *d, const described *element)
+{
+    say(d, "a plane of a node that %s at this tick, ", element->style.layer == LAYER_SPLITS ? "split" : "merged");
+    say_node(d, element->id >> 2);
+}
+
+const layer_type layer_MERGES = {.applies = layer_in_games,
+                                 .add = add_changes,
+                                 .legend_place = 70,
+                                 .legend = add_change_legend,
+                                 .describe = describe_change};
+
+const layer_type layer_SPLITS = {.applies = layer_in_games,
+                                 .add = add_changes,
+                                 .legend_place = 60,
+                                 .legend = add_change_legend,
+                                 .describe = describe_change};
+
+/* ---- An invariant that does not hold ------------------------------------------------------------------------ */
+
+/* The node, crossed out, with the word beside it. */
+static void add_broken(scene *s, const layer_source *in, view_layer own)
+{
+    if (!in->broken)
+        return;
+    const scene_style style = layer_style(own, STROKE_DASHED, 2);
+    const octree_box box = octree_cell_box(&in->world, in->broken_at);
+    scene_add_box(s, (scene_box){.id = in->broken_at, .box = box, .style = style});
+    add_crossed_faces(s, &box, style);
+    scene_add_label(s, (scene_label){.id = in->broken_at,
+                                     .in_world = true,
+                                     .at = {box.max[0], box.max[1], box.max[2]},
+                                     .text = " broken",
+                                     .style = layer_style(own, STROKE_DASHED, 1)});
+}
+
+static void describe_broken(description *d, const described *element)
+{
+    if (element->kind == SCENE_SEGMENT)
+        say(d, "a line that crosses out where an invariant is broken");
+    if (element->kind != SCENE_BOX)
+        return;
+    say_node(d, element->id);
+    say(d, "; an invariant is broken there");
+}
+
+const layer_type layer_BROKEN = {.add = add_broken, .describe = describe_broken};

@@ -1,15 +1,125 @@
-/* diagram.c - see diagram.h. */
-#include "diagram.h"
-#include "diagram_place.h"
-#include "element_ids.h"
-#include "filter.h"
-#include "layer.h"
+/* diagram.c - the layer of the diagram: the tree drawn as a tree, the paper's Figure 2.
+ *
+ * A row a level, the root at the top. Nodes that have room are drawn one by one, with a line from each to its parent:
+ * inner nodes as squares, leaves as squares of half the side; in the colours of the space view, and those that the
+ * view's filter leaves out in grey. Levels that have no room are folded: bars that tell how many nodes stand in a
+ * column of the picture, each doubling a sixteenth of the row higher. See diagram_slots.h for what stands where.
+ */
+#include "diagram_slots.h"
+#include "layer_type.h"
 #include "layout.h"
-#include "tree_nodes.h"
+#include "node_boxes.h"
+#include "number.h"
+#include "text.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#define RING 2 /* units that the ring around a node on the way is larger than what is in it, both sides together */
+/* In units. */
+#define NODE 6      /* the side of an inner node; a leaf's is half as long */
+#define RING 2      /* that the ring around a node on the path is larger than what is in it, both sides together */
+#define EDGE 8      /* around the diagram, where it has no words */
+#define NARROWEST 2 /* of a slot */
+#define BAR 2       /* the width of a bar */
+
+/* The room that words take, in units; a diagram smaller than the last two has none. */
+enum { WORDS_LEFT = 26, WORDS_RIGHT = 54, WORDS_ABOVE = 24, WORDS_BELOW = 24, WORDS_WIDTH = 150, WORDS_HEIGHT = 120 };
+
+#define BAR_STEPS 16       /* of a bar's height; as high as a row */
+#define ROWS_AT_ONCE 4     /* so that rows seldom move when the tree grows deeper */
+#define MOST_DIGITS 999999 /* a longer number is rounded */
+
+/* Ids of panels: a node's address; and what is no node, whose highest bit is that of no address. */
+#define GROUND_ID UINT64_C(0)
+#define BAR_ID (UINT64_C(1) << 61)  /* and the depth above 32 bits of the column */
+#define PATH_ID (UINT64_C(1) << 62) /* and the depth; with a bit of 32 the ring that keeps mark and node apart */
+
+/* Where a line meets a node: at its head from above, and at its foot from below. */
+typedef struct stop {
+    double x, head, foot;
+} stop;
+
+typedef struct diagram {
+    scene *scene;
+    const layer_source *in;
+    diagram_slots slots;
+    camera_window window;
+    double left, width; /* of the slots */
+    double top, pitch;  /* of the rows */
+    unsigned rows;
+    bool words;                       /* there is room for them */
+    octree_address path;              /* the node to which the path from the root is shown; 0 for none */
+    octree_node end;                  /* that node */
+    stop stops[OCTREE_MAX_DEPTH + 1]; /* the nodes on it */
+} diagram;
+
+static unsigned rows_of(const octree *tree, unsigned depth)
+{
+    const unsigned most = (unsigned)octree_definition(tree).max_depth + 1;
+    const unsigned rows = (depth + ROWS_AT_ONCE) / ROWS_AT_ONCE * ROWS_AT_ONCE;
+    return rows < most ? rows : most;
+}
+
+/* Measure the area of the picture, and arrange the tree in it. False where there is no room, or no memory; the scene
+ * says which. */
+static bool arrange(diagram *d)
+{
+    scene *s = d->scene;
+    const int unit = s->unit;
+    const camera_window w = d->window;
+    d->words = view_shows(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * unit && w.height >= WORDS_HEIGHT * unit;
+    const double left = d->words ? WORDS_LEFT : EDGE, right = d->words ? WORDS_RIGHT : EDGE;
+    const double above = d->words ? WORDS_ABOVE : EDGE, below = d->words ? WORDS_BELOW : EDGE;
+    d->left = w.x + left * unit;
+    d->width = w.width - (left + right) * unit;
+    d->top = w.y + above * unit;
+    if (d->width < NARROWEST * unit || w.height <= (above + below) * unit)
+        return false;
+    if (!diagram_arrange(&d->slots, d->in->tree, (size_t)(d->width / (NARROWEST * unit)))) {
+        s->out_of_memory = true;
+        return false;
+    }
+    d->rows = rows_of(d->in->tree, d->slots.stats.depth);
+    d->pitch = (w.height - (above + below) * unit) / d->rows;
+    return true;
+}
+
+/* Whether a node is on the path. */
+static bool is_on_path(const diagram *d, octree_address node, unsigned depth)
+{
+    const unsigned deep = d->path ? octree_address_depth(d->path) : 0;
+    return d->path && depth <= deep && d->path >> 3 * (deep - depth) == node;
+}
+
+/* The middle of a row. */
+static double row_at(const diagram *d, unsigned depth)
+{
+    return d->top + (depth + 0.5) * d->pitch;
+}
+
+/* The stop of a node of this height whose middle is at `middle`, 0 to 1. */
+static stop stop_at(const diagram *d, unsigned depth, double middle, double height)
+{
+    const double y = row_at(d, depth);
+    return (stop){d->left + d->width * middle, y - height / 2, y + height / 2};
+}
+
+/* A rectangle about a pixel; at least one pixel wide and high. */
+static void fill_box(const diagram *d, uint64_t id, double x, double y, double width, double height, unsigned role)
+{
+    const int across = width < 1 ? 1 : (int)width, along = height < 1 ? 1 : (int)height;
+    scene_add_panel(d->scene, (scene_panel){.id = id,
+                                            .x = (int)floor(x - across / 2.0 + 0.5),
+                                            .y = (int)floor(y - along / 2.0 + 0.5),
+                                            .width = across,
+                                            .height = along,
+                                            .style = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role}});
+}
+
+/* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
 static scene_style line_style(theme_role role, scene_stroke stroke, unsigned width)
 {
@@ -26,142 +136,331 @@ static int compare_nodes(octree_address a, octree_address b)
     return p != q ? (p < q ? -1 : 1) : (depth_a > depth_b) - (depth_a < depth_b);
 }
 
-/* How the tick met a node; null where it did not. */
-static const octree_visit *find_visit(const diagram_marks *marks, octree_address node)
+/* How the tick met a node, whose visits are in pre-order; null where it did not. */
+static const octree_visit *find_visit(const octree_tick *tick, octree_address node)
 {
-    size_t low = 0, high = marks->visit_count;
+    size_t low = 0, high = tick ? tick->visit_count : 0;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        const int order = compare_nodes(marks->visits[middle].node, node);
+        const int order = compare_nodes(tick->visits[middle].node, node);
         if (order == 0)
-            return &marks->visits[middle];
+            return &tick->visits[middle];
         low = order < 0 ? middle + 1 : low;
         high = order < 0 ? high : middle;
     }
     return NULL;
 }
 
-/* The line to a node from above: bold where it was looked into, dashed where it was left out. */
-static scene_style style_of(const diagram_place *p, const diagram_marks *marks, octree_address node, theme_role role)
+/* The line to a node from above: as in the space view bold where it was looked into, dashed where it was left out. */
+static scene_style met_style(const diagram *d, octree_address node, theme_role role)
 {
-    const octree_visit *visit = find_visit(marks, node);
-    const bool pruned = visit && marks->pruned && visit->touch == OCTREE_TOUCH_PRUNED;
-    const bool visited = visit && marks->visited && visit->touch != OCTREE_TOUCH_PRUNED;
-    p->scene->tally.marked_visited += visited;
-    p->scene->tally.marked_pruned += pruned;
+    const octree_visit *visit = find_visit(d->in->tick, node);
+    const bool was_pruned = visit && visit->touch == OCTREE_TOUCH_PRUNED;
+    const bool pruned = was_pruned && view_shows(d->in->view, LAYER_PRUNED);
+    const bool visited = visit && !was_pruned && view_shows(d->in->view, LAYER_VISITED);
+    d->scene->tally.marked_visited += visited;
+    d->scene->tally.marked_pruned += pruned;
     return line_style(role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
 /* As high as the row allows, and as wide as the slot: a leaf is half as large as an inner node. */
-static void measure(const diagram_place *p, const diagram_node *node, double size[2])
+static void measure(const diagram *d, const diagram_node *node, double size[2])
 {
-    const int unit = p->scene->unit;
-    const double largest = (node->leaf ? DIAGRAM_NODE / 2 : DIAGRAM_NODE) * unit;
-    size[0] = fmax(fmin(largest, p->width * (node->right - node->left) - unit), 1);
-    size[1] = fmax(fmin(largest, p->pitch - 2 * unit), 1);
+    const int unit = d->scene->unit;
+    const double largest = (node->leaf ? NODE / 2 : NODE) * unit;
+    size[0] = fmax(fmin(largest, d->width * (node->right - node->left) - unit), 1);
+    size[1] = fmax(fmin(largest, d->pitch - 2 * unit), 1);
 }
 
-static unsigned role_of(const diagram_place *p, const diagram_node *node, const octree_box *world)
+static unsigned role_of(const diagram *d, const diagram_node *node)
 {
     const octree_node asked = {.depth = node->depth, .leaf = node->leaf, .box = node->box};
-    const view *v = &p->scene->view;
-    return filter_shows_node(&v->filter, world, &asked) ? node_role(v, node->depth, node->points) : ROLE_WORLD;
+    const view *v = &d->scene->view;
+    return filter_shows_node(&v->filter, &d->in->world, &asked) ? node_role(v, node->depth, node->points) : ROLE_WORLD;
 }
 
 /* From the foot of a node to the head of its child. */
-static void add_line(const diagram_place *p, octree_address child, const diagram_stop *from, const diagram_stop *to,
-                     scene_style style)
+static void add_line(const diagram *d, octree_address child, const stop *from, const stop *to, scene_style style)
 {
-    scene_add_segment(p->scene, (scene_segment){.id = child,
+    scene_add_segment(d->scene, (scene_segment){.id = child,
                                                 .in_picture = true,
                                                 .ends = {{from->x, from->foot, 0}, {to->x, to->head, 0}},
                                                 .style = style});
 }
 
-/* A ring around a node on the way, which a dark one keeps apart from the node's own colour. */
-static void add_ring(const diagram_place *p, unsigned depth, double x, const double size[2])
+/* A ring around a node on the path, which a dark one keeps apart from the node's own colour. */
+static void add_ring(const diagram *d, unsigned depth, double x, const double size[2])
 {
-    const double y = diagram_row(p, depth);
+    const double y = row_at(d, depth);
     for (int dark = 0; dark < 2; dark++) {
-        const double more = (dark ? RING : 2 * RING) * p->scene->unit;
-        diagram_fill(p, dark ? diagram_ring_id(depth) : diagram_way_id(depth), x, y, size[0] + more, size[1] + more,
-                     dark ? ROLE_BACKGROUND : ROLE_PLAYER);
+        const double more = (dark ? RING : 2 * RING) * d->scene->unit;
+        fill_box(d, PATH_ID | (dark ? 32 : 0) | depth, x, y, size[0] + more, size[1] + more,
+                 dark ? ROLE_BACKGROUND : ROLE_PLAYER);
     }
 }
 
-static void add_node(diagram_place *p, const diagram_node *node, double x, const double size[2], unsigned role)
+static void add_node(diagram *d, const diagram_node *node, double x, const double size[2], unsigned role)
 {
-    if (diagram_on_way(p, node->address, node->depth))
-        add_ring(p, node->depth, x, size);
-    diagram_fill(p, node->address, x, diagram_row(p, node->depth), size[0], size[1], role);
-    p->scene->tally.drawn++;
+    if (is_on_path(d, node->address, node->depth))
+        add_ring(d, node->depth, x, size);
+    fill_box(d, node->address, x, row_at(d, node->depth), size[0], size[1], role);
+    d->scene->tally.drawn++;
 }
 
-/* The nodes that have room, and the lines between them; or those on the way, which are to lie on top. */
-static void add_nodes(diagram_place *p, const octree_box *world, const diagram_marks *marks, bool on_way)
+/* The nodes that have room, and the lines between them; or those on the path, which are to lie on top. */
+static void add_nodes(diagram *d, bool on_path)
 {
-    diagram_stop stops[OCTREE_MAX_DEPTH + 1]; /* of the ancestors: parents come before their children */
-    for (size_t i = 0; i < p->slots.count; i++) {
-        const diagram_node *node = &p->slots.nodes[i];
-        const unsigned depth = node->depth, role = role_of(p, node, world);
+    stop stops[OCTREE_MAX_DEPTH + 1]; /* of the ancestors: parents come before their children */
+    for (size_t i = 0; i < d->slots.count; i++) {
+        const diagram_node *node = &d->slots.nodes[i];
+        const unsigned depth = node->depth, role = role_of(d, node);
         double size[2];
-        measure(p, node, size);
-        stops[depth] = diagram_stop_at(p, depth, (node->left + node->right) / 2, size[1]);
-        if (diagram_on_way(p, node->address, depth) != on_way)
+        measure(d, node, size);
+        stops[depth] = stop_at(d, depth, (node->left + node->right) / 2, size[1]);
+        if (is_on_path(d, node->address, depth) != on_path)
             continue;
-        if (on_way)
-            p->stops[depth] = stops[depth];
+        if (on_path)
+            d->stops[depth] = stops[depth];
         else if (depth)
-            add_line(p, node->address, &stops[depth - 1], &stops[depth],
-                     style_of(p, marks, node->address, (theme_role)role));
-        add_node(p, node, stops[depth].x, size, role);
+            add_line(d, node->address, &stops[depth - 1], &stops[depth], met_style(d, node->address, (theme_role)role));
+        add_node(d, node, stops[depth].x, size, role);
     }
 }
 
-/* The way from the root, on top of the other lines and of bars. */
-static void add_way(const diagram_place *p)
+/* The path from the root, on top of the other lines and of bars. */
+static void add_path(const diagram *d)
 {
-    const unsigned deep = octree_address_depth(p->way);
+    const unsigned deep = octree_address_depth(d->path);
     for (unsigned depth = 0; depth <= deep; depth++) {
-        const diagram_stop *at = &p->stops[depth];
+        const stop *at = &d->stops[depth];
         if (depth)
-            add_line(p, p->way >> 3 * (deep - depth), at - 1, at, line_style(ROLE_PLAYER, STROKE_SOLID, 2));
-        if (depth > p->slots.deepest)
-            diagram_fill(p, diagram_way_id(depth), at->x, diagram_row(p, depth), RING * p->scene->unit,
-                         at->foot - at->head, ROLE_PLAYER);
-        p->scene->tally.way++;
+            add_line(d, d->path >> 3 * (deep - depth), at - 1, at, line_style(ROLE_PLAYER, STROKE_SOLID, 2));
+        if (depth > d->slots.deepest)
+            fill_box(d, PATH_ID | depth, at->x, row_at(d, depth), RING * d->scene->unit, at->foot - at->head,
+                     ROLE_PLAYER);
+        d->scene->tally.path++;
     }
 }
 
-/* What the space view may have drawn beyond its part is covered. */
-static void add_ground(scene *s)
+/* ---- Levels that are folded --------------------------------------------------------------------------------- */
+
+/* What stands in a column of a level. */
+typedef struct bar {
+    size_t nodes, points;
+    bool shown; /* some of them, by the view's filter */
+} bar;
+
+typedef struct folding {
+    diagram *d;
+    bar *bars; /* of a level after the other, from the first that is folded */
+    size_t columns;
+} folding;
+
+static void count_node(const octree_node *node, double middle, void *context)
 {
-    const camera_window w = layout_diagram(&s->view);
-    scene_add_panel(s, (scene_panel){.id = DIAGRAM_GROUND_ID,
-                                     .x = (int)w.x,
-                                     .y = (int)w.y,
-                                     .width = (int)w.width,
-                                     .height = (int)w.height,
-                                     .style = {.layer = LAYER_DIAGRAM, .role = ROLE_BACKGROUND}});
+    folding *f = context;
+    diagram *d = f->d;
+    const size_t column = (size_t)(middle * (double)f->columns);
+    bar *b =
+        &f->bars[(node->depth - d->slots.deepest - 1) * f->columns + (column < f->columns ? column : f->columns - 1)];
+    b->nodes++;
+    b->points += node->count;
+    b->shown = b->shown || filter_shows_node(&d->scene->view.filter, &d->in->world, node);
+    if (is_on_path(d, node->address, node->depth))
+        d->stops[node->depth] = stop_at(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
 }
 
-void add_diagram(scene *s, const octree *tree, const diagram_marks *marks)
+/* 1 for a node, 2 for two or three, 3 for four to seven ... */
+static unsigned steps_of(size_t nodes)
 {
-    const octree_box world = octree_definition(tree).world;
-    diagram_place p;
-    octree_node end;
-    if (!view_shows(&s->view, LAYER_DIAGRAM))
-        return;
-    add_ground(s);
-    if (!diagram_place_make(&p, s, tree))
-        return;
-    p.way = marks->way && octree_node_at(tree, marks->way, &end) == OCTREE_OK ? marks->way : 0;
-    add_diagram_bars(&p, tree);
-    add_nodes(&p, &world, marks, false);
-    add_nodes(&p, &world, marks, true);
-    if (p.way)
-        add_way(&p);
-    if (p.words)
-        add_diagram_words(&p, p.way ? &end : NULL);
-    diagram_slots_release(&p.slots);
+    unsigned steps = 0;
+    for (; nodes && steps < BAR_STEPS; nodes /= 2)
+        steps++;
+    return steps;
 }
+
+static void add_bar(const folding *f, unsigned depth, size_t column, const bar *b)
+{
+    const diagram *d = f->d;
+    const view *v = &d->scene->view;
+    const double unit = d->scene->unit, width = d->width / (double)f->columns;
+    const double height = fmax(floor((d->pitch - 2 * unit) * steps_of(b->nodes) / BAR_STEPS), 1);
+    const double x = d->left + ((double)column + 0.5) * width;
+    fill_box(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, row_at(d, depth), fmax(width - unit / 2, 1),
+             height, b->shown ? node_role(v, depth, b->points / b->nodes) : ROLE_WORLD);
+    d->scene->tally.folded += b->nodes;
+}
+
+/* How many nodes stand in each column of the picture; and where the path leads through them. */
+static void add_bars(diagram *d)
+{
+    const diagram_slots *slots = &d->slots;
+    const unsigned levels = slots->stats.depth - slots->deepest;
+    folding f = {.d = d, .columns = (size_t)fmax(d->width / (BAR * d->scene->unit), 1)};
+    f.bars = levels ? calloc(levels * f.columns, sizeof *f.bars) : NULL;
+    if (levels && !f.bars)
+        d->scene->out_of_memory = true;
+    if (!f.bars)
+        return;
+    d->scene->tally.folded_from = slots->deepest + 1;
+    d->scene->tally.folded_to = slots->stats.depth;
+    diagram_visit_folded(slots, d->in->tree, count_node, &f);
+    for (size_t i = 0; i < levels * f.columns; i++)
+        if (f.bars[i].nodes)
+            add_bar(&f, slots->deepest + 1 + (unsigned)(i / f.columns), i % f.columns, &f.bars[i]);
+    free(f.bars);
+}
+
+/* ---- Words -------------------------------------------------------------------------------------------------- */
+
+typedef struct writing {
+    const diagram *d;
+    uint64_t next_id;
+} writing;
+
+static void write_words(writing *w, double x, double y, theme_role role, const char *format, ...)
+{
+    scene_label label = {.id = w->next_id++,
+                         .at = {floor(x), floor(y)},
+                         .style = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role, .width = 1}};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(label.text, sizeof label.text, format, arguments);
+    va_end(arguments);
+    scene_add_label(w->d->scene, label);
+}
+
+static void write_count(writing *w, double x, double y, size_t count)
+{
+    char text[NUMBER_TEXT];
+    if (count <= MOST_DIGITS)
+        snprintf(text, sizeof text, "%zu", count);
+    else
+        number_text((double)count, 3, text);
+    write_words(w, x, y, ROLE_TEXT, "%s", text);
+}
+
+static void write_rows(writing *w)
+{
+    const diagram *d = w->d;
+    const int unit = d->scene->unit;
+    const double left = w->d->window.x + EDGE * unit, right = d->left + d->width + EDGE * unit;
+    const unsigned each = (unsigned)ceil(TEXT_HEIGHT * unit / d->pitch); /* rows that are too low have words but now and
+                                                                            then */
+    write_words(w, left, w->d->window.y + EDGE * unit, ROLE_FAINT, "depth");
+    write_words(w, right, w->d->window.y + EDGE * unit, ROLE_FAINT, "nodes");
+    for (unsigned depth = 0; depth < d->rows; depth += each) {
+        const double y = row_at(d, depth) - 4 * unit;
+        write_words(w, left, y, ROLE_FAINT, "%u", depth);
+        if (d->slots.stats.nodes_at_depth[depth])
+            write_count(w, right, y, d->slots.stats.nodes_at_depth[depth]);
+    }
+}
+
+/* Where the path leads to. An address that is too long is cut: the diagram shows all of it. */
+static void write_end(writing *w)
+{
+    const octree_node *end = &w->d->end;
+    const int unit = w->d->scene->unit;
+    const size_t letters = (size_t)((w->d->window.width - 2 * EDGE * unit) / (TEXT_LETTER * unit));
+    const double foot = w->d->window.y + w->d->window.height - (WORDS_BELOW - 6) * unit;
+    char address[OCTREE_ADDRESS_TEXT], text[SCENE_TEXT * 2];
+    const size_t length =
+        (size_t)snprintf(text, sizeof text, "%s of %zu point%s: %s", end->leaf ? "leaf" : "node", end->count,
+                         plural(end->count), octree_address_format(end->address, address));
+    const size_t room = letters < SCENE_TEXT ? letters : SCENE_TEXT - 1;
+    if (length > room)
+        memcpy(text + room - 3, "...", 4);
+    write_words(w, w->d->window.x + EDGE * unit, foot, ROLE_PLAYER, "%s", text);
+}
+
+/* ---- The layer ---------------------------------------------------------------------------------------------- */
+
+/* What the space view may have drawn beyond its area is covered. */
+static void add_ground(const diagram *d)
+{
+    const camera_window w = d->window;
+    scene_add_panel(d->scene, (scene_panel){.id = GROUND_ID,
+                                            .x = (int)w.x,
+                                            .y = (int)w.y,
+                                            .width = (int)w.width,
+                                            .height = (int)w.height,
+                                            .style = {.layer = LAYER_DIAGRAM, .role = ROLE_BACKGROUND}});
+}
+
+/* The path leads to the player's leaf; in a tree alone to the node that is asked for. */
+static void find_path(diagram *d)
+{
+    const layer_source *in = d->in;
+    const bool found = in->tick
+                           ? in->tick->has_player && octree_locate(in->tree, in->tick->player, &d->end) == OCTREE_OK
+                           : in->asked && octree_node_at(in->tree, in->asked, &d->end) == OCTREE_OK;
+    d->path = found ? d->end.address : 0;
+}
+
+static void add(scene *s, const layer_source *in, view_layer own)
+{
+    diagram d = {.scene = s, .in = in, .window = layout_diagram(&s->view)};
+    if (!view_shows(&s->view, own))
+        return;
+    add_ground(&d);
+    if (!arrange(&d))
+        return;
+    find_path(&d);
+    add_bars(&d);
+    add_nodes(&d, false);
+    add_nodes(&d, true);
+    if (d.path)
+        add_path(&d);
+    if (d.words) {
+        writing w = {.d = &d};
+        write_rows(&w);
+        if (d.path)
+            write_end(&w);
+    }
+    diagram_slots_release(&d.slots);
+}
+
+static void add_legend(legend *l, const layer_source *in, view_layer own)
+{
+    const scene_tally *tally = &l->scene->tally;
+    (void)in;
+    (void)own;
+    if (tally->drawn)
+        legend_add(l, SIGN_NODES, "inner node, leaf")->role = ROLE_NODE_PLAIN;
+    if (tally->path)
+        legend_add(l, SIGN_LINE, "way from the root")->role = ROLE_PLAYER;
+    if (tally->folded)
+        legend_add(l, SIGN_BARS, "nodes, log2, folded")->role = ROLE_NODE_PLAIN;
+    if (filter_is_on(&l->scene->view.filter))
+        legend_add(l, SIGN_NODE, "node filtered out")->role = ROLE_WORLD;
+}
+
+static void describe_panel(description *d, uint64_t id)
+{
+    if (id == GROUND_ID) {
+        say(d, "the ground of the diagram");
+    } else if (id / BAR_ID == 1) {
+        say(d, "in the diagram, a bar: nodes of depth %u that have no room there", (unsigned)(id >> 32 & 255));
+    } else if (id / PATH_ID == 1) {
+        say(d, "in the diagram, the way to the player");
+    } else {
+        say(d, "in the diagram, ");
+        say_node(d, id);
+    }
+}
+
+static void describe(description *d, const described *element)
+{
+    if (element->kind == SCENE_PANEL) {
+        describe_panel(d, element->id);
+    } else if (element->kind == SCENE_LABEL) {
+        say(d, " of the diagram");
+    } else {
+        say(d, "in the diagram, %sthe line from its parent to ",
+            element->style.role == ROLE_PLAYER ? "the way to the player: " : "");
+        say_node(d, element->id);
+    }
+}
+
+const layer_type layer_DIAGRAM = {.add = add, .legend_place = 20, .legend = add_legend, .describe = describe};

@@ -1,4 +1,3 @@
-/* diagram_slots.c - see diagram_slots.h. */
 #include "diagram_slots.h"
 
 #include <stdlib.h>

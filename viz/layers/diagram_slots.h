@@ -9,8 +9,8 @@
  * Nodes are drawn one by one down to the deepest level at which every share is wide enough. What is deeper is folded:
  * it stands within the slot of its ancestor at that level, where its points are among the ancestor's in Morton order.
  */
-#ifndef SCENE_DIAGRAM_SLOTS_H
-#define SCENE_DIAGRAM_SLOTS_H
+#ifndef LAYERS_DIAGRAM_SLOTS_H
+#define LAYERS_DIAGRAM_SLOTS_H
 
 #include "octree/octree.h"
 

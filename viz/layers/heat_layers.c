@@ -1,7 +1,9 @@
-/* heat_layers.c - see heat_layers.h. */
+/* heat_layers.c - the layers of what the leaves have seen since tick 0: a mark in the middle of each, the larger and
+ * lighter the more. */
 #include "heat_layers.h"
-#include "filter.h"
-#include "layer.h"
+#include "layer_type.h"
+
+#include <inttypes.h>
 
 unsigned heat_step(uint64_t amount, unsigned shift)
 {
@@ -16,9 +18,14 @@ unsigned heat_step(uint64_t amount, unsigned shift)
 /* What the walk over the leaves carries with it. */
 typedef struct heat_walk {
     scene *scene;
-    const heat *heat;
-    octree_box world;
+    const layer_source *in;
+    view_layer layer;
 } heat_walk;
+
+static unsigned shift_of(view_layer layer)
+{
+    return layer == LAYER_VISIT_HEAT ? HEAT_VISITS_SHIFT : HEAT_POINTS_SHIFT;
+}
 
 /* No larger than half of what is seen of its leaf: marks do not cover each other. */
 static uint8_t mark_width(const scene *s, const octree_box *leaf, unsigned step)
@@ -28,35 +35,57 @@ static uint8_t mark_width(const scene *s, const octree_box *leaf, unsigned step)
     return (uint8_t)(width < most ? width : most > 0 ? most : 0);
 }
 
-static void add_mark(scene *s, const octree_node *leaf, view_layer layer, scene_shape shape, unsigned step)
-{
-    const scene_style style = {
-        .layer = (uint8_t)layer, .role = (uint8_t)theme_node_role(step), .width = mark_width(s, &leaf->box, step)};
-    scene_marker marker = {.id = leaf->address, .style = style, .shape = (uint8_t)shape};
-    for (int i = 0; i < 3; i++)
-        marker.at[i] = leaf->box.min[i] / 2 + leaf->box.max[i] / 2;
-    scene_add_marker(s, marker);
-}
-
 static octree_walk_order add_leaf(const octree_node *node, void *context)
 {
     heat_walk *w = context;
-    const view *v = &w->scene->view;
-    if (!filter_enters(&v->filter, &w->world, node))
+    scene *s = w->scene;
+    const view_filter *f = &s->view.filter;
+    if (!filter_enters(f, &w->in->world, node))
         return OCTREE_WALK_SKIP;
-    if (!node->leaf || !filter_shows_node(&v->filter, &w->world, node))
+    if (!node->leaf || !filter_shows_node(f, &w->in->world, node))
         return OCTREE_WALK_ON;
-    const heat_cell seen = heat_at(w->heat, node->address);
-    if (seen.visits)
-        add_mark(w->scene, node, LAYER_VISIT_HEAT, SHAPE_SQUARE, heat_step(seen.visits, HEAT_VISITS_SHIFT));
-    if (seen.points)
-        add_mark(w->scene, node, LAYER_POINT_HEAT, SHAPE_DIAMOND, heat_step(seen.points, HEAT_POINTS_SHIFT));
-    return w->scene->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+    const heat_cell seen = heat_at(w->in->heat, node->address);
+    const bool visits = w->layer == LAYER_VISIT_HEAT;
+    const uint64_t amount = visits ? seen.visits : seen.points;
+    if (amount) {
+        double middle[3];
+        const unsigned step = heat_step(amount, shift_of(w->layer));
+        scene_box_middle(&node->box, middle);
+        scene_add_mark(s, node->address, middle, visits ? SHAPE_SQUARE : SHAPE_DIAMOND,
+                       (scene_style){.layer = (uint8_t)w->layer,
+                                     .role = (uint8_t)theme_node_role(step),
+                                     .width = mark_width(s, &node->box, step)});
+    }
+    return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-void add_heat(scene *s, const octree *tree, const heat *h)
+static void add(scene *s, const layer_source *in, view_layer own)
 {
-    heat_walk w = {s, h, octree_definition(tree).world};
-    if (h && s->view.layers & VIEW_HEAT_LAYERS)
-        octree_walk(tree, add_leaf, &w);
+    heat_walk w = {s, in, own};
+    if (in->heat && view_shows(&s->view, own))
+        octree_walk(in->tree, add_leaf, &w);
 }
+
+static void add_legend(legend *l, const layer_source *in, view_layer own)
+{
+    const bool visits = own == LAYER_VISIT_HEAT;
+    (void)in;
+    legend_add(l, SIGN_GROWING_RAMP, "%s 1-%" PRIu64 "+ %s", visits ? "[]" : "<>", HEAT_LAST(shift_of(own)),
+               visits ? "visits" : "points");
+}
+
+static void describe(description *d, const described *element)
+{
+    const heat_cell seen = heat_at(d->heat, element->id);
+    if (element->style.layer == LAYER_VISIT_HEAT)
+        say(d, "visited in %" PRIu64 " of %" PRIu64 " ticks, ", seen.visits, d->tick->number + 1);
+    else
+        say(d, "%" PRIu64 " points in all ticks together, ", seen.points);
+    say_node(d, element->id);
+}
+
+const layer_type layer_VISIT_HEAT = {
+    .applies = layer_in_games, .add = add, .legend_place = 90, .legend = add_legend, .describe = describe};
+
+const layer_type layer_POINT_HEAT = {
+    .applies = layer_in_games, .add = add, .legend_place = 100, .legend = add_legend, .describe = describe};

@@ -1,9 +1,10 @@
-/* heat_layers.h - the layers of what the leaves have seen since tick 0. Private. */
-#ifndef SCENE_HEAT_LAYERS_H
-#define SCENE_HEAT_LAYERS_H
+/* heat_layers.h - the scales of the layers of heat. */
+#ifndef LAYERS_HEAT_LAYERS_H
+#define LAYERS_HEAT_LAYERS_H
 
-#include "heat.h"
-#include "scene.h"
+#include "theme.h"
+
+#include <stdint.h>
 
 /* The steps of both scales, the same in every session: each is twice as much as the one before in visits, and four
  * times as much in points. Step 0 begins at 1. */
@@ -16,9 +17,5 @@
 
 /* The step of an amount that is not 0. */
 unsigned heat_step(uint64_t amount, unsigned shift);
-
-/* A mark in the middle of each leaf that has seen something, with its address as id: the larger and lighter the more.
- * Null is no heat. */
-void add_heat(scene *s, const octree *tree, const heat *h);
 
 #endif

@@ -1,9 +1,47 @@
-/* text_space.c - see text_space.h. */
-#include "text_space.h"
 #include "layout.h"
+#include "layer.h"
 
 #include <math.h>
 #include <string.h>
+
+int panel_width(const view *v)
+{
+    const int width = LAYOUT_COLUMN * view_unit(v);
+    return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
+}
+
+/* What the column of text leaves. */
+static camera_window rest_of(const view *v)
+{
+    const int column = panel_width(v);
+    return (camera_window){column, 0, v->width - column, v->height};
+}
+
+camera_window layout_space(const view *v)
+{
+    camera_window w = rest_of(v);
+    const camera_window diagram = layout_diagram(v);
+    if (v->diagram == DIAGRAM_BESIDE && diagram.height == w.height)
+        w.width -= diagram.width;
+    else if (v->diagram == DIAGRAM_BESIDE)
+        w.height -= diagram.height;
+    return w;
+}
+
+camera_window layout_diagram(const view *v)
+{
+    camera_window w = rest_of(v);
+    if (v->diagram == DIAGRAM_NONE)
+        return (camera_window){0};
+    if (v->diagram == DIAGRAM_ONLY)
+        return w;
+    double *side = w.width < w.height ? &w.height : &w.width;
+    double *corner = w.width < w.height ? &w.y : &w.x;
+    const double half = (double)((int)*side / 2);
+    *corner += *side - half;
+    *side = half;
+    return w;
+}
 
 bool text_place(const scene *s, const double position[3], double pixel[2])
 {
@@ -39,7 +77,7 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
     return true;
 }
 
-void text_add_ground(scene *s, const scene_label *label, theme_role role)
+void text_add_on_ground(scene *s, const scene_label *label, theme_role ground)
 {
     const int unit = s->unit, letters = (int)strlen(label->text);
     scene_add_panel(s, (scene_panel){.id = label->id,
@@ -47,5 +85,6 @@ void text_add_ground(scene *s, const scene_label *label, theme_role role)
                                      .y = (int)label->at[1] - unit,
                                      .width = (letters * TEXT_LETTER + 1) * unit,
                                      .height = (TEXT_HEIGHT + 1) * unit,
-                                     .style = {.layer = label->style.layer, .role = (uint8_t)role}});
+                                     .style = {.layer = label->style.layer, .role = (uint8_t)ground}});
+    scene_add_label(s, *label);
 }

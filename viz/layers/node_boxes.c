@@ -1,6 +1,21 @@
-/* tick_nodes.c - see tick_nodes.h. */
-#include "tick_nodes.h"
-#include "filter.h"
+#include "node_boxes.h"
+
+theme_role node_role(const view *v, unsigned depth, size_t points)
+{
+    switch (v->coloring) {
+    case COLORING_OCCUPANCY:
+        return theme_node_role(theme_occupancy_step(points));
+    case COLORING_PLAIN:
+        return ROLE_NODE_PLAIN;
+    default:
+        return theme_node_role(depth);
+    }
+}
+
+void add_node_box(scene *s, const octree_node *node, scene_style style)
+{
+    scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth});
+}
 
 /* Those above it are met before it is: one of them is shown, unless the filter begins with this one. */
 static bool lies_in_a_shown_one(const view_filter *f, unsigned depth)
@@ -24,7 +39,18 @@ bool tick_node_shown(scene *s, const octree *tree, octree_address address, octre
     return !small;
 }
 
-void add_node_box(scene *s, const octree_node *node, scene_style style)
+void add_crossed_faces(scene *s, const octree_box *box, scene_style style)
 {
-    scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth});
+    for (unsigned face = 0; face < 6; face++) {
+        for (unsigned diagonal = 0; diagonal < 2; diagonal++) {
+            double ends[2][3];
+            const unsigned fixed = face / 2, across = (fixed + 1) % 3, along = (fixed + 2) % 3;
+            for (unsigned end = 0; end < 2; end++) {
+                ends[end][fixed] = face % 2 ? box->max[fixed] : box->min[fixed];
+                ends[end][across] = end ? box->max[across] : box->min[across];
+                ends[end][along] = end != diagonal ? box->max[along] : box->min[along];
+            }
+            scene_add_line(s, face * 2 + diagonal, ends[0], ends[1], style);
+        }
+    }
 }

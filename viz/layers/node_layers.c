@@ -1,12 +1,11 @@
-/* tree_nodes.c - a tree's nodes and points in a scene: those that the view shows, no smaller and no more than it says.
+/* node_layers.c - the layers of a tree's nodes and points: those that the view shows, no smaller and no more than it
+ * says.
  */
-#include "tree_nodes.h"
-#include "camera.h"
-#include "filter.h"
-#include "layer.h"
-#include "node_labels.h"
-#include "thinning.h"
+#include "layer_type.h"
+#include "layout.h"
+#include "node_boxes.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,10 +28,10 @@ static void thin_points(tree_walk *w)
 {
     scene *s = w->scene;
     size_t kept = 0;
-    w->sieve = thinning_finer(w->sieve);
+    w->sieve = sieve_finer(w->sieve);
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *marker = &s->markers.items[i];
-        const bool out = marker->style.layer == LAYER_POINTS && thinning_drops(w->sieve, marker->id);
+        const bool out = marker->style.layer == LAYER_POINTS && sieve_drops(w->sieve, marker->id);
         s->tally.points -= out;
         s->tally.thinned += out;
         if (!out)
@@ -76,7 +75,7 @@ static bool takes_point(tree_walk *w, const octree_point *point)
 {
     if (!filter_shows_point(&w->scene->view.filter, point->position))
         return false;
-    const bool out = thinning_drops(w->sieve, point->id);
+    const bool out = sieve_drops(w->sieve, point->id);
     w->scene->tally.thinned += out;
     return !out;
 }
@@ -114,18 +113,6 @@ static void add_points(tree_walk *w, const octree_node *leaf)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-theme_role node_role(const view *v, unsigned depth, size_t points)
-{
-    switch (v->coloring) {
-    case COLORING_OCCUPANCY:
-        return theme_node_role(theme_occupancy_step(points));
-    case COLORING_PLAIN:
-        return ROLE_NODE_PLAIN;
-    default:
-        return theme_node_role(depth);
-    }
-}
-
 /* Leave out the deepest level that is in the scene: what is shown is a whole number of levels. */
 static void drop_level(tree_walk *w)
 {
@@ -152,12 +139,7 @@ static void add_box(tree_walk *w, const octree_node *node)
         return;
     }
     const theme_role role = node_role(&s->view, node->depth, node->count);
-    scene_add_box(s, (scene_box){
-                         .id = node->address,
-                         .box = node->box,
-                         .depth = (uint8_t)node->depth,
-                         .style = {.layer = LAYER_NODES, .role = (uint8_t)role, .width = 1},
-                     });
+    add_node_box(s, node, (scene_style){.layer = LAYER_NODES, .role = (uint8_t)role, .width = 1});
     w->at_depth[node->depth]++;
     s->tally.nodes++;
     while (s->view.budget && s->tally.nodes > s->view.budget)
@@ -198,12 +180,73 @@ static octree_walk_order add_node(const octree_node *node, void *context)
     return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-void add_tree(scene *s, const octree *tree, size_t expected)
+/* ---- Labels ------------------------------------------------------------------------------------------------- */
+
+/* Write the path of a node into the middle of its box, where it fits the picture of the box (it would be taken for
+ * another's) and covers no other. */
+static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
-    tree_walk w = {.scene = s, .world = octree_definition(tree).world, .deepest = OCTREE_MAX_DEPTH};
+    scene_label label = {.id = box->id, .style = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1}};
+    char text[OCTREE_ADDRESS_TEXT];
+    double middle[3], pixel[2];
+    scene_box_middle(&box->box, middle);
+    snprintf(label.text, sizeof label.text, "%s", octree_address_format(box->id, text));
+    const double width = (double)(strlen(label.text) + 1) * TEXT_LETTER * s->unit;
+    if (!text_place(s, middle, pixel) || camera_box_pixels(&s->camera, &box->box) < width ||
+        !text_space_take(words, s, label.text, pixel, label.at))
+        return false;
+    text_add_on_ground(s, &label, ROLE_PANEL);
+    return true;
+}
+
+/* Shallow nodes first, then by address. */
+static void add_labels(scene *s)
+{
+    text_space words = {.count = 0};
+    for (unsigned depth = 0; depth <= OCTREE_MAX_DEPTH; depth++)
+        for (size_t i = 0; i < s->boxes.count; i++)
+            if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth == depth)
+                s->tally.labels += add_label(s, &words, &s->boxes.items[i]);
+}
+
+/* ---- The layers --------------------------------------------------------------------------------------------- */
+
+/* Both layers in one walk. Points are drawn smaller where there are many: for a game by the session's number, so that
+ * it does not change from tick to tick. */
+static void add(scene *s, const layer_source *in, view_layer own)
+{
+    const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
+    tree_walk w = {.scene = s, .world = in->world, .deepest = OCTREE_MAX_DEPTH};
     w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
-    octree_walk(tree, add_node, &w);
+    octree_walk(in->tree, add_node, &w);
     s->tally.deepest = w.deepest;
     s->tally.one_in = w.sieve + 1;
-    add_node_labels(s);
+    if (s->view.labels && view_shows(&s->view, own))
+        add_labels(s);
 }
+
+static void add_legend(legend *l, const layer_source *in, view_layer own)
+{
+    const size_t depths = octree_definition(in->tree).max_depth + 1;
+    (void)own;
+    if (l->scene->view.coloring == COLORING_DEPTH)
+        legend_add(l, SIGN_RAMP, "node, shallow to deep")->steps =
+            depths < THEME_NODE_DEPTHS ? (int)depths : THEME_NODE_DEPTHS;
+    else if (l->scene->view.coloring == COLORING_OCCUPANCY)
+        legend_add(l, SIGN_RAMP, "node, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
+    else
+        legend_add(l, SIGN_BOLD, "node");
+}
+
+static void describe(description *d, const described *element)
+{
+    if (element->kind == SCENE_PANEL)
+        say(d, "the ground of the path on ");
+    else if (element->kind == SCENE_LABEL)
+        say(d, " on ");
+    say_node(d, element->id);
+}
+
+const layer_type layer_NODES = {.add = add, .legend_place = 10, .legend = add_legend, .describe = describe};
+
+const layer_type layer_POINTS = {.legend_place = 110, .sign = SIGN_DOT, .text = "point", .worth = WORTH_PLAIN};

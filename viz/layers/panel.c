@@ -1,12 +1,7 @@
-/* panel.c - see panel.h. */
-#include "panel.h"
-#include "answer_layers.h"
-#include "layer.h"
+/* panel.c - the layer of text: the column at the left, which tells what this tick is about. */
+#include "layer_type.h"
 #include "layout.h"
 #include "number.h"
-#include "panel_legend.h"
-#include "panel_pen.h"
-#include "panel_view.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -85,80 +80,16 @@ static void write_events(pen *p, const octree_game *game)
     }
     const bool stopped = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL);
     const theme_role role = tick->hit_count ? ROLE_COLLISION : stopped ? ROLE_WARNING : ROLE_TEXT;
-    write_text(p, MARGIN, role, 1, words[0] ? words : quiet_word(game));
-    p->y += LINE;
-}
-
-/* A row names no more ids than these. */
-#define MOST_IDS 3
-
-/* "count: first second +more" of the ids that have room: none is cut. */
-static void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
-{
-    char text[SCENE_TEXT] = "", more[SCENE_TEXT] = "", id[SCENE_TEXT], rest[SCENE_TEXT] = "", number[SCENE_TEXT];
-    size_t told = 0, room = text_room(VALUE, 1);
-    snprintf(number, sizeof number, "%zu", count);
-    for (; told < count && told < MOST_IDS; told++) {
-        snprintf(id, sizeof id, " %" PRIu64, points[told].id);
-        if (told + 1 < count)
-            snprintf(rest, sizeof rest, " +%zu", count - told - 1);
-        else
-            rest[0] = 0;
-        if (strlen(number) + 1 + strlen(text) + strlen(id) + strlen(rest) > room)
-            break;
-        strcat(text, id);
-        strcpy(more, rest);
-    }
-    write_row(p, name, "%s%s%s%s", number, told ? ":" : "", text, more);
-}
-
-static void write_nearest(pen *p, const octree_answer *answer)
-{
-    char id[SCENE_TEXT], distance[NUMBER_TEXT];
-    if (answer->count == 0) {
-        write_row(p, "nearest", "none");
-        return;
-    }
-    number_text(answer->neighbors[0].distance, 6, distance);
-    snprintf(id, sizeof id, "%" PRIu64, answer->neighbors[0].point.id);
-    const bool fits = strlen(id) + strlen(" at ") + strlen(distance) <= text_room(VALUE, 1);
-    write_row(p, "nearest", "%s%s%s", id, fits ? " at " : "", fits ? distance : "");
-    if (!fits)
-        write_row(p, "", "at %s", distance);
-}
-
-static void write_knearest(pen *p, const octree_answer *answer)
-{
-    octree_point first[MOST_IDS];
-    for (size_t i = 0; i < answer->count && i < MOST_IDS; i++)
-        first[i] = answer->neighbors[i].point;
-    write_ids(p, "k near", first, answer->count);
-}
-
-static void write_radius(pen *p, const octree_answer *answer)
-{
-    char radius[NUMBER_TEXT];
-    write_row(p, "radius", "%zu within %s", answer->count, number_text(answer->radius, 6, radius));
-}
-
-static void write_range(pen *p, const octree_answer *answer)
-{
-    write_ids(p, "range", answer->points, answer->count);
+    write_line(p, MARGIN, role, words[0] ? words : quiet_word(game));
 }
 
 /* In the colours of what is drawn of them. */
 static void write_answers(pen *p, const octree_answer *answers, size_t count)
 {
-    static void (*const writers[OCTREE_QUERY_KINDS])(pen *, const octree_answer *) = {
-        [OCTREE_QUERY_RANGE] = write_range,
-        [OCTREE_QUERY_NEAREST] = write_nearest,
-        [OCTREE_QUERY_KNEAREST] = write_knearest,
-        [OCTREE_QUERY_RADIUS] = write_radius,
-    };
     for (size_t i = 0; i < count; i++) {
-        const view_layer layer = answer_layer(answers[i].kind);
+        const view_layer layer = layer_of_query(answers[i].kind);
         p->name = view_shows(&p->scene->view, layer) ? (theme_role)layer_rows[layer].role : ROLE_FAINT;
-        writers[answers[i].kind](p, &answers[i]);
+        layer_types[layer]->write_answer(p, &answers[i]);
     }
     p->name = ROLE_FAINT;
 }
@@ -185,8 +116,7 @@ static void write_keys(pen *p, const octree_game *game)
             (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ", session->keys[tick - 1]);
     if (used) {
         text[used - 1] = 0; /* the last blank */
-        write_text(p, MARGIN, ROLE_FAINT, 1, text);
-        p->y += LINE;
+        write_line(p, MARGIN, ROLE_FAINT, text);
     }
 }
 
@@ -203,20 +133,19 @@ static void write_wrapped(pen *p, theme_role role, const char *text)
                 break;
             }
         snprintf(line, sizeof line, "%.*s", (int)length, text);
-        write_text(p, MARGIN, role, 1, line);
-        p->y += LINE;
+        write_line(p, MARGIN, role, line);
         text += length + (text[length] == ' ');
     }
 }
 
-static void write_finding(pen *p, const finding *found)
+static void write_broken(pen *p, const layer_source *in)
 {
     char text[OCTREE_ADDRESS_TEXT];
-    if (!found->broken)
+    if (!in->broken)
         return;
     p->y += LINE / 2;
-    write_row(p, "broken", "%s", octree_address_format(found->where, text));
-    write_wrapped(p, ROLE_WARNING, found->broken);
+    write_row(p, "broken", "%s", octree_address_format(in->broken_at, text));
+    write_wrapped(p, ROLE_WARNING, in->broken);
 }
 
 static void write_title(pen *p, const char *text)
@@ -225,6 +154,129 @@ static void write_title(pen *p, const char *text)
     write_text(p, MARGIN, ROLE_TEXT, fits ? 2 : 1, text);
     p->y += 2 * LINE;
 }
+
+/* ---- What the view leaves out ------------------------------------------------------------------------------- */
+
+/* "from to to" of one axis of the region. */
+static void write_region_axis(pen *p, const char *name, const octree_box *region, int axis)
+{
+    char from[NUMBER_TEXT], to[NUMBER_TEXT];
+    write_row(p, name, "%c %s to %s", "xyz"[axis], number_text(region->min[axis], 6, from),
+              number_text(region->max[axis], 6, to));
+}
+
+static void write_filter(pen *p, const view_filter *f)
+{
+    char at[NUMBER_TEXT];
+    if (f->slice)
+        write_row(p, "slice", "%c = %s", f->slice, number_text(f->slice_at, 9, at));
+    if (f->by_depth && f->min_depth == f->max_depth)
+        write_row(p, "depth", "%u alone", f->min_depth);
+    else if (f->by_depth)
+        write_row(p, "depths", "%u to %u", f->min_depth, f->max_depth);
+    if (f->leaves)
+        write_row(p, "only", "leaves");
+    for (int axis = 0; f->by_region && axis < 3; axis++)
+        write_region_axis(p, axis ? "" : "region", &f->region, axis);
+}
+
+/* A value that is not to be passed over. */
+static void write_warning(pen *p, const char *name, const char *value)
+{
+    write_text(p, MARGIN, ROLE_FAINT, 1, name);
+    write_line(p, VALUE, ROLE_WARNING, value);
+}
+
+static void write_budget(pen *p, const scene_tally *tally)
+{
+    char text[SCENE_TEXT];
+    if (tally->beyond) {
+        snprintf(text, sizeof text, tally->deepest < 0 ? "no nodes" : "nodes to depth %d", tally->deepest);
+        write_warning(p, "budget", text);
+    }
+    if (tally->thinned) {
+        snprintf(text, sizeof text, "1 point in %" PRIu64, tally->one_in);
+        write_warning(p, tally->beyond ? "" : "budget", text);
+    }
+    if (tally->arrows.thinned) {
+        snprintf(text, sizeof text, "1 arrow in %" PRIu64, tally->arrows.one_in);
+        write_warning(p, tally->beyond || tally->thinned ? "" : "budget", text);
+    }
+}
+
+static void write_folded(pen *p, const scene_tally *tally)
+{
+    char text[SCENE_TEXT];
+    snprintf(text, sizeof text, tally->folded_from == tally->folded_to ? "depth %u" : "depths %u to %u",
+             tally->folded_from, tally->folded_to);
+    write_warning(p, "folded", text);
+}
+
+/* Whether "12 met < 2 px" has. */
+static bool has_room(size_t count, const char *what, const char *lod)
+{
+    char number[SCENE_TEXT];
+    snprintf(number, sizeof number, "%zu", count);
+    return strlen(number) + strlen(what) + strlen(" < ") + strlen(lod) + strlen(" px") <= text_room(VALUE, 1);
+}
+
+/* "lod    12 below 2 px", and what follows in words that fit. */
+static void write_small(pen *p, const scene_tally *tally)
+{
+    const struct {
+        size_t count;
+        const char *what;
+    } kinds[] = {{tally->small, ""},
+                 {tally->small_met, " met"},
+                 {tally->arrows.small, tally->arrows.small == 1 ? " arrow" : " arrows"}};
+    char lod[NUMBER_TEXT];
+    bool first = true;
+    number_text(p->scene->view.lod, 3, lod);
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        if (!kinds[i].count)
+            continue;
+        if (i == 0)
+            write_row(p, "lod", "%zu below %s px", kinds[i].count, lod);
+        else if (first)
+            write_row(p, "lod", "%zu%s < %s%s", kinds[i].count, kinds[i].what, lod,
+                      has_room(kinds[i].count, kinds[i].what, lod) ? " px" : "");
+        else
+            write_row(p, "", "and %zu%s", kinds[i].count, kinds[i].what);
+        first = false;
+    }
+}
+
+/* What of the tree is there, where it is not all of it. */
+static void write_shown(pen *p, const scene_tally *tally)
+{
+    const view *v = &p->scene->view;
+    if (!filter_is_on(&v->filter) && !tally->small && !tally->beyond && !tally->thinned)
+        return;
+    write_filter(p, &v->filter);
+    if (view_shows(v, LAYER_NODES))
+        write_row(p, "shown", "%zu nodes", tally->nodes);
+    if (view_shows(v, LAYER_POINTS))
+        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
+}
+
+/* A line for each thing that leaves something out or folds it, and how much is shown. */
+static void write_left_out(pen *p)
+{
+    const scene_tally *tally = &p->scene->tally;
+    const int before = p->y;
+    p->y += LINE / 2;
+    const int begin = p->y;
+    if (tally->folded)
+        write_folded(p, tally);
+    write_shown(p, tally);
+    write_small(p, tally);
+    write_budget(p, tally);
+    if (p->scene->view.labels && tally->labels < tally->nodes)
+        write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
+    p->y = p->y == begin ? before : p->y; /* all is there */
+}
+
+/* ---- The column --------------------------------------------------------------------------------------------- */
 
 /* Rows that the picture is too low for are counted in the place of the first. */
 static void end_rows(pen *p)
@@ -249,15 +301,7 @@ static void end_rows(pen *p)
     s->labels.count = kept;
     p->y = (int)first / s->unit < last ? (int)first / s->unit : last;
     snprintf(text, sizeof text, "and %zu more", rows);
-    write_text(p, MARGIN, ROLE_WARNING, 1, text);
-    p->y += LINE;
-}
-
-static pen begin_panel(scene *s)
-{
-    pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT};
-    fill(&p, 0, 0, COLUMN, s->view.height / s->unit + 1, ROLE_PANEL);
-    return p;
+    write_line(p, MARGIN, ROLE_WARNING, text);
 }
 
 /* Where there may be one. */
@@ -270,66 +314,82 @@ static void write_player(pen *p, const octree_game *game)
         write_row(p, "player", "away");
 }
 
-void add_tick_panel(scene *s, const octree_game *game, const finding *found)
+static void write_tick_rows(pen *p, const layer_source *in)
 {
-    const octree_tick *tick = octree_game_tick(game);
-    char title[SCENE_TEXT];
-    snprintf(title, sizeof title, "tick %" PRIu64, tick->number);
-    if (panel_width(&s->view) == 0) {
-        pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
-        write_text(&line, 4, ROLE_TEXT, 1, title);
-        line.y += LINE;
-        write_events(&line, game);
-        write_left_out(&line);
-        write_finding(&line, found);
-        end_rows(&line);
-        return;
-    }
-    pen p = begin_panel(s);
-    write_title(&p, title);
-    write_events(&p, game);
-    p.y += LINE / 2;
-    if (tick->key && (has_keys(game) || tick->key == 'n'))
-        write_row(&p, "key", "%c  %s", tick->key, key_meaning(tick->key));
-    write_keys(&p, game);
-    write_player(&p, game);
+    const octree_tick *tick = in->tick;
+    if (tick->key && (has_keys(in->game) || tick->key == 'n'))
+        write_row(p, "key", "%c  %s", tick->key, key_meaning(tick->key));
+    write_keys(p, in->game);
+    write_player(p, in->game);
     if (tick->swept)
-        write_row(&p, "tested", "the whole way");
-    p.y += LINE / 2;
-    write_statistics(&p, octree_game_tree(game), &octree_game_tick(game)->stats);
-    write_left_out(&p);
-    p.y += LINE / 2;
+        write_row(p, "tested", "the whole way");
+    p->y += LINE / 2;
+    write_statistics(p, in->tree, &tick->stats);
+    write_left_out(p);
+    p->y += LINE / 2;
     if (tick->hit_count)
-        write_ids(&p, "hits", tick->hits, tick->hit_count);
-    write_answers(&p, tick->answers, tick->answer_count);
-    write_refusals(&p, tick);
-    write_finding(&p, found);
-    end_rows(&p);
-    write_tick_legend(&p, game);
+        write_ids(p, "hits", tick->hits, tick->hit_count);
+    write_answers(p, in->answers, in->answer_count);
+    write_refusals(p, tick);
 }
 
-void add_tree_panel(scene *s, const octree *tree, const tree_look *about, const finding *found)
+static void write_tree_rows(pen *p, const layer_source *in)
 {
+    octree_stats stats;
+    octree_statistics(in->tree, &stats);
+    write_statistics(p, in->tree, &stats);
+    write_left_out(p);
+    p->y += LINE / 2;
+    write_world(p, &in->world);
+    if (in->answer_count)
+        p->y += LINE / 2;
+    write_answers(p, in->answers, in->answer_count);
+}
+
+/* Where there is no room for the column, the most important of its lines, on the picture itself. */
+static void add_lines(scene *s, const layer_source *in, const char *title)
+{
+    pen p = {.scene = s, .y = 4, .name = ROLE_FAINT};
+    if (in->tick) {
+        write_text(&p, 4, ROLE_TEXT, 1, title);
+        p.y += LINE;
+        write_events(&p, in->game);
+    }
+    write_left_out(&p);
+    write_broken(&p, in);
+    end_rows(&p);
+}
+
+static void add(scene *s, const layer_source *in, view_layer own)
+{
+    char tick[SCENE_TEXT];
+    const char *title = in->tick ? tick : in->title;
+    (void)own;
+    if (in->tick)
+        snprintf(tick, sizeof tick, "tick %" PRIu64, in->tick->number);
     if (panel_width(&s->view) == 0) {
-        pen line = {.scene = s, .y = 4, .name = ROLE_FAINT};
-        write_left_out(&line);
-        write_finding(&line, found);
-        end_rows(&line);
+        add_lines(s, in, title);
         return;
     }
-    octree_stats stats;
-    pen p = begin_panel(s);
-    write_title(&p, about->title);
-    octree_statistics(tree, &stats);
-    write_statistics(&p, tree, &stats);
-    write_left_out(&p);
-    p.y += LINE / 2;
-    const octree_box world = octree_definition(tree).world;
-    write_world(&p, &world);
-    if (about->answer_count)
+    pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT};
+    fill(&p, 0, 0, COLUMN, s->view.height / s->unit + 1, ROLE_PANEL);
+    write_title(&p, title);
+    if (in->tick) {
+        write_events(&p, in->game);
         p.y += LINE / 2;
-    write_answers(&p, about->answers, about->answer_count);
-    write_finding(&p, found);
+        write_tick_rows(&p, in);
+    } else {
+        write_tree_rows(&p, in);
+    }
+    write_broken(&p, in);
     end_rows(&p);
-    write_tree_legend(&p, tree, about);
+    write_legend(&p, in);
 }
+
+static void describe(description *d, const described *element)
+{
+    if (element->kind == SCENE_PANEL)
+        say(d, element->style.role == ROLE_PANEL ? "the panel that the text is on" : "a sign in the panel");
+}
+
+const layer_type layer_TEXT = {.add = add, .describe = describe};

@@ -1,55 +1,69 @@
-/* shape_layer.c - see shape_layer.h. */
-#include "shape_layer.h"
-#include "layer.h"
+/* shape_layer.c - the layer of what a session shows beside its points. Ids are places among the tick's shapes. */
+#include "layer_type.h"
+#include "text.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-static scene_style shape_style(unsigned width)
+static bool applies(const layer_source *in, view_layer own)
 {
-    return layer_style(LAYER_SHAPES, STROKE_SOLID, width);
+    (void)own;
+    return in->game && in->tick->shape_count > 0;
 }
 
-static void add_box(scene *s, uint64_t id, const octree_shape *shape)
+static void add_box(scene *s, uint64_t id, const octree_shape *shape, scene_style style)
 {
-    scene_box box = {.id = id, .style = shape_style(2)};
+    scene_box box = {.id = id, .style = style};
     memcpy(box.box.min, shape->at, sizeof box.box.min);
     memcpy(box.box.max, shape->to, sizeof box.box.max);
     scene_add_box(s, box);
 }
 
-static void add_segment(scene *s, uint64_t id, const octree_shape *shape)
-{
-    scene_segment line = {.id = id, .style = shape_style(2)};
-    memcpy(line.ends[0], shape->at, sizeof line.ends[0]);
-    memcpy(line.ends[1], shape->to, sizeof line.ends[1]);
-    scene_add_segment(s, line);
-}
-
-static void add_point(scene *s, uint64_t id, const octree_shape *shape)
-{
-    scene_marker marker = {.id = id, .style = shape_style(3), .shape = SHAPE_SQUARE};
-    memcpy(marker.at, shape->at, sizeof marker.at);
-    scene_add_marker(s, marker);
-}
-
-static void add_label(scene *s, uint64_t id, const octree_shape *shape)
+static void add_label(scene *s, uint64_t id, const octree_shape *shape, scene_style style)
 {
     _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label holds a shape's text and a blank before it");
-    scene_label label = {.id = id, .in_world = true, .style = shape_style(1)};
+    scene_label label = {.id = id, .in_world = true, .style = style};
+    label.style.width = 1;
     memcpy(label.at, shape->at, sizeof label.at);
     snprintf(label.text, sizeof label.text, " %s", shape->text); /* the blank keeps clear of a marker */
     scene_add_label(s, label);
 }
 
-void add_shapes(scene *s, const octree_tick *tick)
+static void add(scene *s, const layer_source *in, view_layer own)
 {
-    static void (*const adders[OCTREE_SHAPE_KINDS])(scene *, uint64_t, const octree_shape *) = {
-        [OCTREE_SHAPE_BOX] = add_box,
-        [OCTREE_SHAPE_SEGMENT] = add_segment,
-        [OCTREE_SHAPE_POINT] = add_point,
-        [OCTREE_SHAPE_LABEL] = add_label,
-    };
-    for (size_t i = 0; i < tick->shape_count; i++)
-        adders[tick->shapes[i].kind](s, i, &tick->shapes[i]);
+    for (size_t i = 0; i < in->tick->shape_count; i++) {
+        const octree_shape *shape = &in->tick->shapes[i];
+        const scene_style style = layer_style(own, STROKE_SOLID, 2);
+        if (shape->kind == OCTREE_SHAPE_BOX)
+            add_box(s, i, shape, style);
+        else if (shape->kind == OCTREE_SHAPE_SEGMENT)
+            scene_add_line(s, i, shape->at, shape->to, style);
+        else if (shape->kind == OCTREE_SHAPE_POINT)
+            scene_add_mark(s, i, shape->at, SHAPE_SQUARE, layer_style(own, STROKE_SOLID, 3));
+        else
+            add_label(s, i, shape, style);
+    }
 }
+
+static void add_legend(legend *l, const layer_source *in, view_layer own)
+{
+    (void)own;
+    legend_add(l, SIGN_BOLD, "%zu shape%s", in->tick->shape_count, plural(in->tick->shape_count));
+}
+
+static void describe(description *d, const described *element)
+{
+    const octree_shape *shape = &d->tick->shapes[element->id];
+    const bool label = shape->kind == OCTREE_SHAPE_LABEL;
+    say(d, "%sshape %" PRIu64 " of the session, %s %s", label ? ", " : "", element->id, octree_shape_name(shape->kind),
+        label ? "at " : "");
+    say_place(d, shape->at);
+    if (shape->kind == OCTREE_SHAPE_BOX || shape->kind == OCTREE_SHAPE_SEGMENT) {
+        say(d, " to ");
+        say_place(d, shape->to);
+    }
+}
+
+const layer_type layer_SHAPES = {
+    .applies = applies, .add = add, .legend_place = 190, .legend = add_legend, .describe = describe};

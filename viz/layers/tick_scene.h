@@ -1,6 +1,6 @@
-/* tick_scene.h - what a tree, or a tick of a game, looks like. */
-#ifndef SCENE_TICK_SCENE_H
-#define SCENE_TICK_SCENE_H
+/* tick_scene.h - what a tree, or a tick of a game, looks like: a scene with all layers that its view shows. */
+#ifndef LAYERS_TICK_SCENE_H
+#define LAYERS_TICK_SCENE_H
 
 #include "heat.h"
 #include "octree/game.h"
@@ -10,16 +10,15 @@
  * leaves the layers of heat empty. False when there is no memory. */
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h);
 
-/* What is said of a tree. */
-typedef struct tree_look {
+/* What is shown of a tree beside its nodes and points. */
+typedef struct tree_subject {
     const char *title;
-    octree_address node; /* it is marked, and the diagram shows the way to it; 0: none */
+    octree_address node; /* it is marked, and the diagram shows the path to it; 0: none */
     const octree_answer *answers;
     size_t answer_count;
-} tree_look;
+} tree_subject;
 
-/* Fill a scene with a tree alone: its nodes, its points, a line that names it, and what else is said of it. False when
- * there is no memory. */
-bool look_scene_build(scene *s, const view *v, const octree *tree, const tree_look *about);
+/* Fill a scene with a tree alone. False when there is no memory. */
+bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *about);
 
 #endif

@@ -1,8 +1,11 @@
-/* velocity_layer.c - see velocity_layer.h. */
+/* velocity_layer.c - the layer of velocities: for each point that moves and that the view shows an arrow with its id,
+ * from where it is along its velocity, up to the world's bounds, where it bounces. What is beyond the view's budget is
+ * left out and counted, which is a thousandth of that of points, since more could not be told apart; and so is what is
+ * shorter than the view's lod. */
 #include "velocity_layer.h"
-#include "filter.h"
-#include "layer.h"
-#include "thinning.h"
+#include "layer_type.h"
+#include "node_boxes.h"
+#include "text.h"
 
 #include <math.h>
 #include <string.h>
@@ -86,7 +89,7 @@ static size_t count_arrows(const scene *s, const octree_game *game, double ticks
     scene_segment arrow;
     size_t count = 0;
     for (size_t i = 0; i < tick->mover_count; i++)
-        count += !thinning_drops(sieve, tick->movers[i].id) && make_arrow(s, game, &tick->movers[i], ticks, &arrow);
+        count += !sieve_drops(sieve, tick->movers[i].id) && make_arrow(s, game, &tick->movers[i], ticks, &arrow);
     return count;
 }
 
@@ -96,20 +99,21 @@ static size_t most_arrows(const view *v)
     return v->budget ? (size_t)ceil((double)v->budget / CROWD) : SIZE_MAX;
 }
 
-void add_velocities(scene *s, const octree_game *game)
+static void add(scene *s, const layer_source *in, view_layer own)
 {
-    const octree_tick *tick = octree_game_tick(game);
+    const octree_game *game = in->game;
+    const octree_tick *tick = in->tick;
     const double ticks = velocity_ticks(game);
     uint64_t sieve = s->tally.one_in - 1; /* those of points that are left out are left out with them */
-    if (!view_shows(&s->view, LAYER_VELOCITIES) || tick->mover_count == 0)
+    if (!view_shows(&s->view, own) || tick->mover_count == 0)
         return;
     const size_t all = count_arrows(s, game, ticks, 0);
     size_t left = count_arrows(s, game, ticks, sieve);
     for (; left > most_arrows(&s->view); left = count_arrows(s, game, ticks, sieve))
-        sieve = thinning_finer(sieve);
+        sieve = sieve_finer(sieve);
     for (size_t i = 0; i < tick->mover_count; i++) {
         scene_segment arrow;
-        if (thinning_drops(sieve, tick->movers[i].id) || !make_arrow(s, game, &tick->movers[i], ticks, &arrow))
+        if (sieve_drops(sieve, tick->movers[i].id) || !make_arrow(s, game, &tick->movers[i], ticks, &arrow))
             continue;
         if (is_small(s, arrow.ends))
             s->tally.arrows.small++;
@@ -119,3 +123,33 @@ void add_velocities(scene *s, const octree_game *game)
     s->tally.arrows.thinned = all - left;
     s->tally.arrows.one_in = sieve + 1;
 }
+
+static bool applies(const layer_source *in, view_layer own)
+{
+    (void)own;
+    return in->game && (in->tick->mover_count > 0 || octree_game_fastest(in->game) > 0);
+}
+
+static void add_legend(legend *l, const layer_source *in, view_layer own)
+{
+    const unsigned ticks = velocity_ticks(in->game);
+    (void)own;
+    legend_add(l, SIGN_ARROW, "velocity, %u tick%s", ticks, plural(ticks));
+}
+
+static void describe(description *d, const described *element)
+{
+    for (size_t i = 0; i < d->tick->mover_count; i++) {
+        const octree_body *body = &d->tick->movers[i];
+        if (body->id != element->id)
+            continue;
+        say(d, "the velocity of ");
+        say_point(d, body->id, body->position);
+        say(d, ": ");
+        say_place(d, body->velocity);
+        say(d, " a tick, drawn for %u", velocity_ticks(d->game));
+    }
+}
+
+const layer_type layer_VELOCITIES = {
+    .applies = applies, .add = add, .legend_place = 120, .legend = add_legend, .describe = describe};

@@ -1,34 +1,80 @@
-/* visit_layers.c - see visit_layers.h. */
-#include "visit_layers.h"
-#include "layer.h"
-#include "tick_nodes.h"
-#include "tree_nodes.h"
+/* visit_layers.c - the layers of what a tick's questions met: nodes left out, nodes looked into, leaves of what was
+ * found. */
+#include "layer_type.h"
+#include "node_boxes.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool is_pruned(const octree_visit *visit)
+{
+    return visit->touch == OCTREE_TOUCH_PRUNED;
+}
 
 /* A node keeps the colour that it has in the tree. What was looked into is bold, what was left out is dashed. */
-static void add_met(scene *s, const octree *tree, const octree_visit *visit)
+static void add_met(scene *s, const layer_source *in, view_layer own)
 {
-    static const scene_style styles[OCTREE_TOUCH_KINDS] = {
-        [OCTREE_TOUCH_VISITED] = {.layer = LAYER_VISITED, .stroke = STROKE_SOLID, .width = 2},
-        [OCTREE_TOUCH_TAKEN] = {.layer = LAYER_VISITED, .stroke = STROKE_SOLID, .width = 2},
-        [OCTREE_TOUCH_PRUNED] = {.layer = LAYER_PRUNED, .stroke = STROKE_CUT, .width = 1},
-    };
+    const bool pruned = own == LAYER_PRUNED;
+    scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
     octree_node node;
-    scene_style style = styles[visit->touch];
-    if (!view_shows(&s->view, style.layer) || !tick_node_shown(s, tree, visit->node, &node))
-        return;
-    style.role = (uint8_t)node_role(&s->view, node.depth, node.count);
-    add_node_box(s, &node, style);
+    for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->visit_count; i++) {
+        const octree_visit *visit = &in->tick->visits[i];
+        if (is_pruned(visit) != pruned || !tick_node_shown(s, in->tree, visit->node, &node))
+            continue;
+        style.role = (uint8_t)node_role(&s->view, node.depth, node.count);
+        add_node_box(s, &node, style);
+    }
 }
 
-void add_visits(scene *s, const octree_game *game)
+static void add_hit(scene *s, const layer_source *in, view_layer own)
 {
-    const scene_style hit_style = layer_style(LAYER_HIT, STROKE_SOLID, 2);
-    const octree_tick *tick = octree_game_tick(game);
-    const octree *tree = octree_game_tree(game);
     octree_node node;
-    for (size_t i = 0; i < tick->visit_count; i++)
-        add_met(s, tree, &tick->visits[i]);
-    for (size_t i = 0; view_shows(&s->view, LAYER_HIT) && i < tick->hit_leaf_count; i++)
-        if (tick_node_shown(s, tree, tick->hit_leaves[i], &node))
-            add_node_box(s, &node, hit_style);
+    for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->hit_leaf_count; i++)
+        if (tick_node_shown(s, in->tree, in->tick->hit_leaves[i], &node))
+            add_node_box(s, &node, layer_style(own, STROKE_SOLID, 2));
 }
+
+static void add_pruned_legend(legend *l, const layer_source *in, view_layer own)
+{
+    (void)own;
+    legend_add(l, SIGN_DASHES, "%zu pruned", in->tick->touched[OCTREE_TOUCH_PRUNED]);
+}
+
+/* What was taken whole has a line of its own where one has no room for both counts. */
+static void add_visited_legend(legend *l, const layer_source *in, view_layer own)
+{
+    const size_t taken = in->tick->touched[OCTREE_TOUCH_TAKEN];
+    char rest[SCENE_TEXT];
+    (void)own;
+    legend_line *line = legend_add(l, SIGN_BOLD, "%zu visited", in->tick->touched[OCTREE_TOUCH_VISITED]);
+    const int length = snprintf(rest, sizeof rest, "%zu taken", taken);
+    if (taken && strlen(line->text) + strlen(", ") + (size_t)length > LEGEND_LETTERS)
+        legend_add(l, SIGN_NONE, "%s", rest);
+    else if (taken)
+        strcat(strcat(line->text, ", "), rest);
+}
+
+static void add_hit_legend(legend *l, const layer_source *in, view_layer own)
+{
+    const size_t leaves = in->tick->hit_leaf_count;
+    (void)own;
+    legend_add(l, SIGN_FRAME, "%zu %s hit", leaves, leaves == 1 ? "leaf" : "leaves");
+}
+
+static void describe(description *d, const described *element)
+{
+    const uint8_t layer = element->style.layer;
+    say_node(d, element->id);
+    say(d, layer == LAYER_PRUNED    ? "; the tick's questions left it out by its box"
+           : layer == LAYER_VISITED ? "; the tick's questions looked into it"
+                                    : "; it holds what the tick's questions found");
+}
+
+const layer_type layer_PRUNED = {
+    .applies = layer_in_games, .add = add_met, .legend_place = 40, .legend = add_pruned_legend, .describe = describe};
+
+const layer_type layer_VISITED = {
+    .applies = layer_in_games, .add = add_met, .legend_place = 30, .legend = add_visited_legend, .describe = describe};
+
+const layer_type layer_HIT = {
+    .applies = layer_in_games, .add = add_hit, .legend_place = 50, .legend = add_hit_legend, .describe = describe};

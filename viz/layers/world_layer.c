@@ -1,38 +1,204 @@
-/* world_layer.c - see world_layer.h. */
-#include "world_layer.h"
-#include "axes.h"
-#include "element_ids.h"
-#include "layer.h"
+/* world_layer.c - the world's box, what of it the view shows, and numbers along the edges of what the camera frames. */
+#include "layer_type.h"
 #include "layout.h"
+#include "number.h"
 
-void begin_scene(scene *s, const view *v, const octree_box *world, const double player[3], uint64_t tick)
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define TICK_SPACE 44     /* units of the picture that a number takes at least */
+#define MOST_TICKS 10     /* of one axis, about */
+#define TICK_LENGTH 0.012 /* of the box's longest side */
+#define END_ON 0.1        /* of its length seen from the side */
+#define DIGITS 9          /* of a number */
+#define FIRST_ID 1000     /* of the first axis's ticks */
+
+/* The axes of one scene: the box that they run along, and where words are already. */
+typedef struct axes {
+    scene *scene;
+    const octree_box *box;
+    double middle[2]; /* the pixel of the box's middle: numbers stand on the other side of their ticks */
+    text_space words;
+} axes;
+
+static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
+
+/* The smallest of 1, 2 and 5 times a power of ten that is at least `limit`; 0 where doubles end, at either side. */
+static double round_up(double limit)
 {
-    scene_clear(s);
-    s->view = *v;
-    s->unit = view_unit(v);
-    if (v->diagram == DIAGRAM_ONLY)
-        s->view.layers &= 1u << LAYER_TEXT;
-    s->camera = camera_make(v, layout_space(v), world, player, tick);
+    double power = 1;
+    while (power > limit)
+        power /= 10;
+    while (power > 0 && isfinite(power) && power * 10 <= limit)
+        power *= 10;
+    const double steps[] = {power, 2 * power, 5 * power, 10 * power};
+    for (int i = 0; i < 4; i++)
+        if (steps[i] >= limit && isfinite(steps[i]))
+            return steps[i];
+    return 0;
 }
 
-/* Where the slice and the region are. */
-static void add_filter(scene *s, const octree_box *world)
+/* Pixels of an axis as seen from its side at the middle of the box: the same wherever an orbit has come to. */
+static double side_length(const camera *c, int axis)
+{
+    double middle = 0;
+    for (int i = 0; i < 3; i++)
+        middle -= c->eye[i] * c->forward[i];
+    return 2 * c->half[axis] * c->zoom / (c->perspective ? fmax(middle, c->near) : 1);
+}
+
+/* The distance between numbers; 0 where there is room for none, or none is short enough. */
+static double step_of(const axes *a, int axis)
+{
+    const double extent = a->box->max[axis] - a->box->min[axis];
+    const double length = side_length(&a->scene->camera, axis);
+    const double count = fmin(floor(length / (TICK_SPACE * a->scene->unit)), MOST_TICKS);
+    if (!(extent > 0) || !isfinite(extent) || count < 1)
+        return 0;
+    const double step = round_up(extent / count);
+    const double largest = fmax(fabs(a->box->min[axis]), fabs(a->box->max[axis]));
+    return step > 0 && largest / step < 1e8 ? step : 0; /* numbers must be told apart by their digits */
+}
+
+/* Beyond the end of a tick, as seen from the middle of the box. */
+static bool place_number(axes *a, const double end[3], scene_label *number)
+{
+    double pixel[2], away[2];
+    const int unit = a->scene->unit;
+    if (!text_place(a->scene, end, pixel))
+        return false;
+    for (int i = 0; i < 2; i++)
+        away[i] = pixel[i] - a->middle[i];
+    const double length = sqrt(away[0] * away[0] + away[1] * away[1]);
+    const double reach[2] = {(double)strlen(number->text) * TEXT_LETTER * unit / 2 + unit,
+                             TEXT_HEIGHT * unit / 2.0 + unit};
+    for (int i = 0; i < 2; i++)
+        pixel[i] += length > 0 ? away[i] / length * reach[i] : 0;
+    return text_space_take(&a->words, a->scene, number->text, pixel, number->at);
+}
+
+/* A short line away from the box, and the number at its end where there is room. */
+static void add_tick(axes *a, int axis, double at, uint64_t id)
+{
+    scene *s = a->scene;
+    double from[3], to[3];
+    const double length = TICK_LENGTH * (s->camera.size / s->camera.scale);
+    for (int i = 0; i < 3; i++) {
+        from[i] = i == axis ? at : a->box->min[i];
+        to[i] = i == axis ? at : a->box->min[i] - length;
+    }
+    scene_label number = {.id = id, .style = axis_style};
+    char text[NUMBER_TEXT];
+    snprintf(number.text, sizeof number.text, "%s", number_text(at, DIGITS, text));
+    scene_add_line(s, id, from, to, axis_style);
+    if (place_number(a, to, &number))
+        text_add_on_ground(s, &number, ROLE_BACKGROUND);
+}
+
+/* An axis that is seen end on would have all of its numbers at one place. */
+static bool is_end_on(const axes *a, int axis)
+{
+    double end[3], pixels[2][2];
+    memcpy(end, a->box->min, sizeof end);
+    end[axis] = a->box->max[axis];
+    if (!text_place(a->scene, a->box->min, pixels[0]) || !text_place(a->scene, end, pixels[1]))
+        return false; /* the camera is beside it */
+    const double x = pixels[1][0] - pixels[0][0], y = pixels[1][1] - pixels[0][1];
+    return sqrt(x * x + y * y) < side_length(&a->scene->camera, axis) * END_ON;
+}
+
+static void add_ticks(axes *a, int axis)
+{
+    const double step = step_of(a, axis);
+    if (step == 0 || is_end_on(a, axis))
+        return;
+    const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
+    for (double i = first; i <= last; i++) /* + 0.0: no minus zero */
+        add_tick(a, axis, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
+}
+
+/* The letter at the end of an axis, whose way must be seen to be named. Numbers keep away from it. */
+static void add_letter(axes *a, int axis)
+{
+    if (is_end_on(a, axis))
+        return;
+    scene_label letter = {.id = (uint64_t)axis, .in_world = true, .style = axis_style, .text = {(char)('x' + axis), 0}};
+    double pixel[2], corner[2];
+    memcpy(letter.at, a->box->min, sizeof letter.at);
+    letter.at[axis] = a->box->max[axis];
+    scene_add_label(a->scene, letter);
+    if (text_place(a->scene, letter.at, pixel)) {
+        pixel[0] += 6 * a->scene->unit; /* where draw puts it */
+        text_space_take(&a->words, a->scene, letter.text, pixel, corner);
+    }
+}
+
+/* Where the box is not the world's, its edges are not drawn otherwise. */
+static void add_edge(axes *a, int axis)
+{
+    double end[3];
+    memcpy(end, a->box->min, sizeof end);
+    end[axis] = a->box->max[axis];
+    scene_add_line(a->scene, (uint64_t)axis, a->box->min, end, axis_style);
+}
+
+/* Three axes from the lowest corner of the box that the camera frames, each with its letter, and ticks with round
+ * numbers where text is shown. The numbers depend on the camera's kind and on the box, not on where an orbit has come
+ * to. */
+static void add_axes(scene *s, const octree_box *world)
+{
+    const bool fitted = s->view.fit == FIT_BOX;
+    axes a = {.scene = s, .box = fitted ? &s->view.focus : world};
+    double center[3];
+    scene_box_middle(a.box, center);
+    for (int axis = 0; axis < 3; axis++)
+        add_letter(&a, axis);
+    for (int axis = 0; fitted && axis < 3; axis++)
+        add_edge(&a, axis);
+    if (view_shows(&s->view, LAYER_TEXT) && text_place(s, center, a.middle))
+        for (int axis = 0; axis < 3; axis++)
+            add_ticks(&a, axis);
+}
+
+/* ---- Boxes -------------------------------------------------------------------------------------------------- */
+
+enum { WORLD_ID, SLICE_ID, REGION_ID, WORLD_IDS };
+
+static void add_box(scene *s, uint64_t id, const octree_box *box, scene_style style)
+{
+    scene_add_box(s, (scene_box){.id = id, .box = *box, .style = style});
+}
+
+static void add(scene *s, const layer_source *in, view_layer own)
 {
     const view_filter *f = &s->view.filter;
-    const scene_style style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .stroke = STROKE_DASHED, .width = 1};
-    octree_box plane = *world;
+    const scene_style dashed = {.layer = (uint8_t)own, .role = ROLE_FAINT, .stroke = STROKE_DASHED, .width = 1};
+    octree_box plane = in->world;
+    add_box(s, WORLD_ID, &in->world, layer_style(own, STROKE_SOLID, 1));
     if (f->slice) {
         plane.min[f->slice - 'x'] = plane.max[f->slice - 'x'] = f->slice_at;
-        scene_add_box(s, (scene_box){.id = SLICE_ID, .box = plane, .style = style});
+        add_box(s, SLICE_ID, &plane, dashed);
     }
     if (f->by_region)
-        scene_add_box(s, (scene_box){.id = REGION_ID, .box = f->region, .style = style});
+        add_box(s, REGION_ID, &f->region, dashed);
+    add_axes(s, &in->world);
 }
 
-void add_world(scene *s, const octree_box *world)
+static void describe(description *d, const described *element)
 {
-    const scene_style style = layer_style(LAYER_WORLD, STROKE_SOLID, 1);
-    scene_add_box(s, (scene_box){.id = WORLD_ID, .box = *world, .style = style});
-    add_filter(s, world);
-    add_axes(s, world);
+    static const char *const boxes[WORLD_IDS] = {"the world", "the slice that the view shows",
+                                                 "the region that the view shows"};
+    if (element->kind == SCENE_BOX) {
+        say(d, "%s, box ", boxes[element->id]);
+        say_box(d, &element->box);
+    } else if (element->kind == SCENE_SEGMENT && element->id < 3) {
+        say(d, "the %c axis", "xyz"[element->id]);
+    } else if (element->kind == SCENE_SEGMENT) {
+        say(d, "a mark of an axis");
+    } else {
+        say(d, element->kind == SCENE_PANEL ? "the ground of a number of an axis" : " of an axis");
+    }
 }
+
+const layer_type layer_WORLD = {.add = add, .describe = describe};

@@ -46,7 +46,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
 unsigned film_default_jobs(const octree_session *session, const film_options *options);
 
 /* Draw one tree, with the view and the renderer of the options, and write it as a PNG: the one frame of *summary. */
-bool film_tree(const octree *tree, const tree_look *about, const film_options *options, const char *path,
+bool film_tree(const octree *tree, const tree_subject *about, const film_options *options, const char *path,
                film_summary *summary, octreel_error *error);
 
 #endif

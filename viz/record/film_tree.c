@@ -16,7 +16,7 @@ static bool write_picture(const picture *p, const scene *s, const char *path, oc
     return picture_write(p, path, texts, sizeof texts / sizeof texts[0], error);
 }
 
-bool film_tree(const octree *tree, const tree_look *about, const film_options *options, const char *path,
+bool film_tree(const octree *tree, const tree_subject *about, const film_options *options, const char *path,
                film_summary *summary, octreel_error *error)
 {
     picture p;
@@ -25,7 +25,7 @@ bool film_tree(const octree *tree, const tree_look *about, const film_options *o
     *summary = (film_summary){0};
     if (!picture_fit(&v, tree, error) || !picture_open(&p, &v, &options->renderer, error))
         return false;
-    bool ok = look_scene_build(&s, &v, tree, about) || error_set(error, "there is no memory for a scene");
+    bool ok = tree_scene_build(&s, &v, tree, about) || error_set(error, "there is no memory for a scene");
     ok = ok && picture_draw(&p, &s, error) && write_picture(&p, &s, path, error);
     if (ok)
         *summary = (film_summary){

@@ -1,7 +1,7 @@
 /* picture.c - see picture.h. */
 #include "picture.h"
 #include "filter.h"
-#include "fit.h"
+#include "camera.h"
 
 _Static_assert(VIEW_MAX_SIDE <= IMAGE_MAX_SIDE, "what is drawn can be written, and read again");
 
@@ -19,7 +19,7 @@ bool picture_fit(view *v, const octree *tree, octreel_error *error)
 {
     char reason[FILTER_TEXT];
     const octree_def def = octree_definition(tree);
-    fit_view(v, tree);
+    camera_fit(v, tree);
     return !filter_refusal(&v->filter, &def, reason) || error_set(error, "%s", reason);
 }
 

@@ -1,6 +1,7 @@
 /* pick.c - finds what is drawn at a pixel of a frame; prints it for people and as JSON. */
 #include "pick.h"
 #include "frame_file.h"
+#include "layer.h"
 #include "json_write.h"
 #include "replay.h"
 #include "png_read.h"
@@ -120,8 +121,8 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
         p->elements[p->count++] = (pick_element){
             .touch = touches.items[i],
             .kind = element.kind,
-            .layer = element_layer(s, element),
-            .subject = element_words(from->take.game, &from->take.heat, s, element),
+            .layer = view_layer_name((view_layer)scene_style_of(s, element).layer),
+            .subject = describe_element(from->take.game, &from->take.heat, s, element),
         };
     }
     draw_touches_release(&touches);

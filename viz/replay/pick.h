@@ -3,9 +3,10 @@
 #ifndef REPLAY_PICK_H
 #define REPLAY_PICK_H
 
-#include "element_words.h"
+#include "describe.h"
 #include "folder.h"
 #include "image.h"
+#include "renderer.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,8 @@
-/* camera.c - see camera.h. No libm beyond sqrt, fabs, floor, fmod and fmax: the same camera on every machine. */
+/* No libm beyond sqrt, fabs, floor, fmod and fmax: the same camera on every machine. */
 #include "camera.h"
+#include "filter.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -54,7 +56,7 @@ void camera_turn(double turns, double *cosine, double *sine)
 
 /* Look along a direction given by azimuth (0: along +y, growing to the left of it) and elevation of the eye, in turns.
  */
-static void look(camera *c, double azimuth, double elevation)
+static void aim(camera *c, double azimuth, double elevation)
 {
     double ca, sa, ce, se;
     camera_turn(azimuth, &ca, &sa);
@@ -128,7 +130,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
         camera_unit(&c, player, target);
     const double distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
-    look(&c, cameras[v->camera].azimuth + orbit, cameras[v->camera].elevation);
+    aim(&c, cameras[v->camera].azimuth + orbit, cameras[v->camera].elevation);
     const double smaller = window.width < window.height ? window.width : window.height;
     c.zoom = v->camera == CAMERA_FOLLOW ? FOCAL * smaller / 2 : fit(&c, window, distance);
     stand(&c, target, distance);
@@ -226,4 +228,77 @@ static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
 bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)
 {
     return c->perspective ? is_seen_below(c, box, pixels) : parallel_box_pixels(c, box) < pixels;
+}
+
+/* ---- Views that fit ------------------------------------------------------------------------------------------ */
+
+/* Of the longest side: a box that is thinner is widened to it, so that points on a line or a plane are seen in a piece
+ * of their surroundings from any side. */
+#define THINNEST_FIT (1.0 / 16)
+
+typedef struct bounds {
+    const view_filter *filter;
+    octree_box world, box;
+    size_t count;
+} bounds;
+
+static void take_in(bounds *b, const double position[3])
+{
+    for (int i = 0; i < 3; i++) {
+        b->box.min[i] = b->count == 0 || position[i] < b->box.min[i] ? position[i] : b->box.min[i];
+        b->box.max[i] = b->count == 0 || position[i] > b->box.max[i] ? position[i] : b->box.max[i];
+    }
+    b->count++;
+}
+
+static octree_walk_order bound_node(const octree_node *node, void *context)
+{
+    bounds *b = context;
+    if (!filter_enters(b->filter, &b->world, node))
+        return OCTREE_WALK_SKIP;
+    if (!node->leaf || !filter_shows_points_of(b->filter, &b->world, node))
+        return OCTREE_WALK_ON;
+    for (size_t i = 0; i < node->count; i++)
+        if (filter_shows_point(b->filter, node->points[i].position))
+            take_in(b, node->points[i].position);
+    return OCTREE_WALK_ON;
+}
+
+/* Halves of extents, since extents can overflow. */
+static double half_of(const octree_box *box, int axis)
+{
+    return box->max[axis] / 2 - box->min[axis] / 2;
+}
+
+static void widen(octree_box *box)
+{
+    double longest = 0;
+    for (int i = 0; i < 3; i++)
+        longest = fmax(longest, half_of(box, i));
+    for (int i = 0; i < 3; i++) {
+        const double slack = longest * THINNEST_FIT - half_of(box, i);
+        if (slack <= 0)
+            continue;
+        box->min[i] = fmax(box->min[i] - slack, -DBL_MAX);
+        box->max[i] = fmin(box->max[i] + slack, DBL_MAX);
+    }
+}
+
+static bool is_a_place(const octree_box *box)
+{
+    return box->min[0] == box->max[0] && box->min[1] == box->max[1] && box->min[2] == box->max[2];
+}
+
+void camera_fit(view *v, const octree *tree)
+{
+    if (v->fit != FIT_POINTS)
+        return;
+    bounds b = {.filter = &v->filter, .world = octree_definition(tree).world};
+    octree_walk(tree, bound_node, &b);
+    v->fit = b.count ? FIT_BOX : FIT_WORLD;
+    octree_node leaf;
+    if (b.count && is_a_place(&b.box) && octree_locate(tree, b.box.min, &leaf) == OCTREE_OK)
+        b.box = leaf.box;
+    widen(&b.box);
+    v->focus = b.box;
 }

@@ -71,6 +71,11 @@ double camera_box_pixels(const camera *c, const octree_box *box);
 /* Whether that is less than so many pixels: sooner, for a box that is not just about as large. */
 bool camera_box_is_below(const camera *c, const octree_box *box, double pixels);
 
+/* Under FIT_POINTS, make the view frame the points that it shows of a tree, which is that of tick 0: a camera that fits
+ * stays where it is from tick to tick. Where they are all equal it is the cell of their leaf, and where there are none
+ * the world. Other views stay as they are. */
+void camera_fit(view *v, const octree *tree);
+
 /* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */
 void camera_turn(double turns, double *cosine, double *sine);
 

@@ -1,51 +1,41 @@
-/* heat.c - see heat.h. */
 #include "heat.h"
+#include "array.h"
 
-#include <stdlib.h>
+static const hash_map_keys by_node = {sizeof(heat_cell), hash_map_hash_id, hash_map_same_id};
 
 void heat_release(heat *h)
 {
     free(h->cells);
+    hash_map_release(&h->places);
     *h = (heat){0};
 }
 
-/* The cell of an address, or the free one where it would be. The room is a power of two and never full. */
-static heat_cell *probe(const heat *h, octree_address node)
+/* The cell of an address; null where there is none. */
+static heat_cell *find(const heat *h, octree_address node)
 {
-    size_t i = (size_t)(node * UINT64_C(0x9e3779b97f4a7c15) >> 32) & (h->room - 1);
-    while (h->cells[i].node && h->cells[i].node != node)
-        i = (i + 1) & (h->room - 1);
-    return &h->cells[i];
+    const uint32_t place = hash_map_find(&h->places, &by_node, h->cells, &node);
+    return place == HASH_MAP_NONE ? NULL : &h->cells[place];
 }
 
-static bool grow(heat *h)
+/* Made where there is none; null when there is no memory. */
+static heat_cell *find_or_add(heat *h, octree_address node)
 {
-    heat larger = {.count = h->count, .room = h->room ? 2 * h->room : 256};
-    larger.cells = larger.room <= SIZE_MAX / sizeof *h->cells ? calloc(larger.room, sizeof *h->cells) : NULL;
-    if (!larger.cells)
-        return false;
-    for (size_t i = 0; i < h->room; i++)
-        if (h->cells[i].node)
-            *probe(&larger, h->cells[i].node) = h->cells[i];
-    free(h->cells);
-    *h = larger;
-    return true;
-}
-
-/* The cell of an address, made where there is none; null when there is no memory. */
-static heat_cell *take(heat *h, octree_address node)
-{
-    if (2 * h->count >= h->room && !grow(h))
+    heat_cell *cell = find(h, node);
+    if (cell)
+        return cell;
+    const size_t count = h->places.count;
+    heat_cell *cells = array_reserve(h->cells, count + 1, &h->room, sizeof *cells);
+    if (!cells)
         return NULL;
-    heat_cell *cell = probe(h, node);
-    h->count += cell->node == 0;
-    cell->node = node;
-    return cell;
+    h->cells = cells;
+    cells[count] = (heat_cell){.node = node};
+    return hash_map_add(&h->places, &by_node, cells) ? &cells[count] : NULL;
 }
 
 heat_cell heat_at(const heat *h, octree_address node)
 {
-    return h && h->room ? *probe(h, node) : (heat_cell){0};
+    const heat_cell *cell = h ? find(h, node) : NULL;
+    return cell ? *cell : (heat_cell){0};
 }
 
 typedef struct heat_walk {
@@ -56,7 +46,7 @@ typedef struct heat_walk {
 static octree_walk_order add_points(const octree_node *node, void *context)
 {
     heat_walk *w = context;
-    heat_cell *cell = take(w->heat, node->address);
+    heat_cell *cell = find_or_add(w->heat, node->address);
     w->failed = !cell;
     if (cell)
         cell->points += node->count;
@@ -77,7 +67,7 @@ static void add_visit(heat *h, const octree *tree, octree_address address, bool 
     octree_node node;
     if (octree_node_at(tree, address, &node) != OCTREE_OK)
         return;
-    probe(h, address)->visits++;
+    find(h, address)->visits++;
     for (unsigned octant = 0; below && octant < 8; octant++)
         if (node.octants >> octant & 1)
             add_visit(h, tree, address << 3 | octant, true);

@@ -4,6 +4,7 @@
 #ifndef SCENE_HEAT_H
 #define SCENE_HEAT_H
 
+#include "hash_map.h"
 #include "octree/game.h"
 
 #include <stdbool.h>
@@ -17,8 +18,9 @@ typedef struct heat_cell {
 
 /* A zeroed one is that before tick 0. */
 typedef struct heat {
-    heat_cell *cells; /* a hash table; free ones have node 0 */
-    size_t count, room;
+    heat_cell *cells;
+    size_t room;
+    hash_map places; /* of cells by their nodes */
 } heat;
 
 void heat_release(heat *h);

@@ -101,7 +101,7 @@ typedef struct scene_tally {
     scene_arrows arrows;
     size_t drawn, folded;                 /* nodes in the diagram: one by one, and in its bars */
     unsigned folded_from, folded_to;      /* the depths that are bars */
-    size_t way;                           /* nodes on the way that it shows */
+    size_t path;                          /* nodes on the path that it shows */
     size_t marked_visited, marked_pruned; /* nodes that it marks as met so by the tick */
 } scene_tally;
 
@@ -130,8 +130,19 @@ void scene_add_marker(scene *s, scene_marker marker);
 void scene_add_label(scene *s, scene_label label);
 void scene_add_panel(scene *s, scene_panel panel);
 
-/* The same for a marker on each of many points, with their ids. */
+/* A segment in the world, and a marker. */
+void scene_add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style);
+void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style);
+
+/* A marker on each of many points, with their ids. */
 void scene_add_points(scene *s, scene_style style, const octree_point *points, size_t count);
+
+/* Where a box has its middle; extents can overflow. */
+static inline void scene_box_middle(const octree_box *box, double middle[3])
+{
+    for (int i = 0; i < 3; i++)
+        middle[i] = box->min[i] / 2 + box->max[i] / 2;
+}
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 

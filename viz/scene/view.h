@@ -53,7 +53,7 @@ typedef enum view_diagram {
 /* What the camera frames. */
 typedef enum view_fit {
     FIT_WORLD,
-    FIT_POINTS, /* those that are shown at tick 0; fit_view() makes a box of them */
+    FIT_POINTS, /* those that are shown at tick 0; camera_fit() makes a box of them */
     FIT_BOX,
 } view_fit;
 

@@ -1,7 +1,7 @@
 /* golden_frames.c - see golden_frames.h. */
 #include "golden_frames.h"
 #include "broken_tree.h"
-#include "fit.h"
+#include "camera.h"
 #include "layer.h"
 #include "picture.h"
 #include "octree/sample.h"
@@ -189,7 +189,7 @@ static bool build_scene(scene *s, const golden_frame *frame, const view *v, cons
     if (strcmp(frame->name, "asked") != 0)
         return tick_scene_build(s, v, game, h);
     return octree_address_parse("6/0", &asked) && octree_node_at(octree_game_tree(game), asked, &node) == OCTREE_OK &&
-           look_scene_build(s, v, octree_game_tree(game), &(tree_look){.title = frame->name, .node = asked});
+           tree_scene_build(s, v, octree_game_tree(game), &(tree_subject){.title = frame->name, .node = asked});
 }
 
 bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
@@ -204,7 +204,7 @@ bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
         return error_set(error, "%s: no such camera or layer", frame->name);
     if (octree_game_create(&session, &game) != OCTREE_OK)
         return error_set(error, "%s: the session cannot be played", frame->name);
-    fit_view(&v, octree_game_tree(game));
+    camera_fit(&v, octree_game_tree(game));
     heat h = {0};
     bool ok = heat_add_tick(&h, game);
     for (uint64_t tick = 0; tick < frame->tick; tick++) {

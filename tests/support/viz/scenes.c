@@ -102,7 +102,7 @@ void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat
 
 void build_tree(scene *s, const view *v, const octree *tree, const char *title)
 {
-    assert_true(look_scene_build(s, v, tree, &(tree_look){.title = title}));
+    assert_true(tree_scene_build(s, v, tree, &(tree_subject){.title = title}));
 }
 
 scene busy_scene(int width, int height, view_camera camera)

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "answer_layers.h"
 #include "draw_list.h"
+#include "layer_type.h"
 #include "random_session.h"
 
 static void check_marked(const scene *s, unsigned layer, const octree_answer *answer)
@@ -35,6 +35,10 @@ static void check_nearest(const scene *s, const octree_answer *answer, size_t pl
     due->segments += answer->count;
     due->markers += answer->count;
 }
+
+/* The great circles of a ball, and the chords that each is drawn by. */
+#define BALL_CIRCLES 3
+#define BALL_CHORDS 96
 
 /* The rank that a label of this id tells beside a place, or null. */
 static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, const double at[3])
@@ -228,8 +232,8 @@ static void answers_of_a_tree_are_drawn_as_those_of_a_tick(void **state)
         play_tick(game);
     build_tick(&tick, &v, game);
     const octree_tick *asked = octree_game_tick(game);
-    const tree_look about = {"tree", 0, asked->answers, asked->answer_count};
-    assert_true(look_scene_build(&tree, &v, octree_game_tree(game), &about));
+    const tree_subject about = {"tree", 0, asked->answers, asked->answer_count};
+    assert_true(tree_scene_build(&tree, &v, octree_game_tree(game), &about));
     for (unsigned layer = LAYER_RANGE; layer <= LAYER_NEAREST; layer++) {
         const layer_counts a = count_layer(&tick, layer), b = count_layer(&tree, layer);
         assert_true(a.boxes + a.segments + a.markers > 0 && a.boxes == b.boxes && a.segments == b.segments);
@@ -255,7 +259,7 @@ static void marks_are_smaller_where_there_are_many(void **state)
         const octree_answer answer = {.kind = OCTREE_QUERY_RADIUS, .radius = 5, .points = points, .count = counts[i]};
         const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
         scene s = empty_scene(&v, &world);
-        add_answers(&s, &answer, 1);
+        layer_RADIUS.add_answer(&s, &answer, 0, LAYER_RADIUS);
         assert_int_equal(s.markers.count, counts[i]);
         const unsigned width = s.markers.items[0].style.width;
         assert_true(width > 0 && (i % 2 ? width == before : width < before));

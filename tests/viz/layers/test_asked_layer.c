@@ -28,7 +28,7 @@ static octree_walk_order check_asked(const octree_node *node, void *context)
     scene s = {0};
     char address[OCTREE_ADDRESS_TEXT], text[SCENE_TEXT];
     double middle[3];
-    assert_true(look_scene_build(&s, &a->view, a->tree, &(tree_look){.title = "asked", .node = node->address}));
+    assert_true(tree_scene_build(&s, &a->view, a->tree, &(tree_subject){.title = "asked", .node = node->address}));
     const layer_counts found = count_layer(&s, LAYER_ASKED);
     const scene_box *box = only_box(&s, LAYER_ASKED, node->address);
     assert_true(same_box(&box->box, &node->box));
@@ -74,10 +74,10 @@ static void without_a_node_or_its_layer_nothing_is_marked(void **state)
     octree *tree = brute_tree(&points, world, 4, OCTREE_MAX_DEPTH);
     for (int i = 0; i < 3; i++) {
         view v = view_of(640, 360, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
-        const tree_look about = {.title = "asked", .node = i == 0 ? 0 : i == 1 ? OCTREE_ROOT : OCTREE_ROOT << 63};
+        const tree_subject about = {.title = "asked", .node = i == 0 ? 0 : i == 1 ? OCTREE_ROOT : OCTREE_ROOT << 63};
         scene s = {0};
         v.layers &= i == 1 ? ~(1u << LAYER_ASKED) : VIEW_ALL_LAYERS;
-        assert_true(look_scene_build(&s, &v, tree, &about));
+        assert_true(tree_scene_build(&s, &v, tree, &about));
         const layer_counts found = count_layer(&s, LAYER_ASKED);
         assert_int_equal(found.boxes + found.segments + found.markers + found.labels, 0);
         assert_false(says(&s, "node root"));

@@ -1,6 +1,6 @@
 /* test_axes.c - the numbers along the edges of the world: round, where they say, apart from each other. */
 #include "scenes.h"
-#include "fit.h"
+#include "camera.h"
 
 #include <float.h>
 #include <math.h>
@@ -156,7 +156,7 @@ static void a_fitted_box_has_the_axes_and_not_the_world(void **state)
     view v = view_of(1280, 720, CAMERA_ISO, VIEW_ALL_LAYERS);
     scene s = {0};
     v.fit = FIT_POINTS;
-    fit_view(&v, tree);
+    camera_fit(&v, tree);
     build_tree(&s, &v, tree, "fitted");
     assert_true(count_numbers(&s) >= 5);
     check_numbers(&s, &v.focus);

@@ -5,8 +5,7 @@
 
 #include "broken_tree.h"
 #include "draw_list.h"
-#include "element_ids.h"
-#include "panel.h"
+#include "layer_type.h"
 #include "random_session.h"
 
 /* Three lines from face to face through the corner that a cell's eight octants share. */
@@ -23,7 +22,7 @@ static void check_planes(const scene *s, const octree *tree, view_layer layer, s
             memcpy(to, first.max, sizeof to);
             from[axis] = cell.min[axis];
             to[axis] = cell.max[axis];
-            assert_int_equal(lines_between(s, layer, change_line_id(nodes[i], axis), from, to), 1);
+            assert_int_equal(lines_between(s, layer, nodes[i] << 2 | axis, from, to), 1);
         }
     }
     assert_int_equal(found.segments, 3 * count);
@@ -191,11 +190,18 @@ static void every_sentence_is_told_whole(void **state)
     scene s = {0};
     for (size_t i = 0; i < sizeof sentences / sizeof sentences[0]; i++) {
         const view v = view_default();
-        const finding found = {.broken = sentences[i], .where = OCTREE_ROOT};
+        const layer_source in = {.view = &v,
+                                 .tree = octree_game_tree(game),
+                                 .world = session.tree.world,
+                                 .broken = sentences[i],
+                                 .broken_at = OCTREE_ROOT,
+                                 .game = game,
+                                 .session = &session,
+                                 .tick = octree_game_tick(game)};
         build_tick(&s, &v, game);
         s.labels.count = 0;
-        add_broken(&s, &session.tree.world, &found);
-        add_tick_panel(&s, game, &found);
+        layer_BROKEN.add(&s, &in, LAYER_BROKEN);
+        layer_TEXT.add(&s, &in, LAYER_TEXT);
         char told[256];
         collect_warning(&s, told);
         assert_true(i + 1 == sizeof sentences / sizeof sentences[0] ? strlen(told) > 0

@@ -1,5 +1,5 @@
-/* test_element_words.c - every element that a tick can show is told in words, of what it is about. */
-#include "element_words.h"
+/* test_describe.c - every element that a tick can show is told in words, of what it is about. */
+#include "describe.h"
 #include "scenes.h"
 
 #include <inttypes.h>
@@ -87,7 +87,7 @@ static bool is_cross(const octree_game *game, const scene *s, scene_element elem
 static void check_element(const octree_game *game, const heat *h, const scene *s, scene_element element,
                           size_t seen[EXPECTED])
 {
-    const element_subject subject = element_words(game, h, s, element);
+    const element_subject subject = describe_element(game, h, s, element);
     const size_t i = expectation_of(scene_style_of(s, element), element.kind);
     if (is_cross(game, s, element)) {
         assert_string_equal(subject.text, "a cross that crosses the collision out");
@@ -150,18 +150,19 @@ static void words_of_a_node_and_of_a_point_are_these(void **state)
     build_tick(&s, &v, game);
     bool found = false;
     for (size_t i = 0; i < s.markers.count; i++) {
-        const element_subject subject = element_words(game, NULL, &s, (scene_element){SCENE_MARKER, i});
+        const element_subject subject = describe_element(game, NULL, &s, (scene_element){SCENE_MARKER, i});
         found |= strcmp(subject.text, "point 5 at (-1, 2, 3)") == 0;
     }
     assert_true(found);
     for (size_t i = 0; i < s.boxes.count; i++) {
         if (s.boxes.items[i].style.layer != LAYER_NODES || s.boxes.items[i].id != OCTREE_ROOT)
             continue;
-        const element_subject subject = element_words(game, NULL, &s, (scene_element){SCENE_BOX, i});
+        const element_subject subject = describe_element(game, NULL, &s, (scene_element){SCENE_BOX, i});
         assert_string_equal(subject.text,
                             "node root: inner node at depth 0, 11 points, box (-1000, -1000, -1000) to (1000, 1000, "
                             "1000)");
-        assert_string_equal(element_layer(&s, (scene_element){SCENE_BOX, i}), "nodes");
+        assert_string_equal(view_layer_name((view_layer)scene_style_of(&s, (scene_element){SCENE_BOX, i}).layer),
+                            "nodes");
     }
     scene_release(&s);
     octree_game_destroy(game);

@@ -9,9 +9,8 @@
 
 #include "brute.h"
 #include "draw_list.h"
-#include "element_ids.h"
 #include "layout.h"
-#include "tree_nodes.h"
+#include "node_boxes.h"
 
 static const scene_panel *find_panel(const scene *s, uint64_t id)
 {
@@ -129,7 +128,7 @@ static void check_bars(const scene *s, unsigned depth, size_t nodes, double pitc
     size_t bars = 0;
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
-        if (panel->style.layer != LAYER_DIAGRAM || !diagram_is_bar(panel->id) || diagram_bar_depth(panel->id) != depth)
+        if (panel->style.layer != LAYER_DIAGRAM || panel->id >> 61 != 1 || (panel->id >> 32 & 255) != depth)
             continue;
         const double steps = ceil(panel->height * 16 / (pitch - 2 * s->unit));
         assert_true(steps >= 1 && steps <= 16);
@@ -206,7 +205,7 @@ static void check_way(const scene *s, octree_address leaf)
     const unsigned deep = octree_address_depth(leaf);
     size_t yellow = 0;
     for (unsigned depth = 0; depth <= deep; depth++) {
-        const scene_panel *mark = find_panel(s, diagram_way_id(depth));
+        const scene_panel *mark = find_panel(s, UINT64_C(1) << 62 | depth);
         const scene_panel *node = find_panel(s, leaf >> 3 * (deep - depth));
         assert_true(mark && mark->style.role == ROLE_PLAYER);
         if (node)
@@ -217,7 +216,7 @@ static void check_way(const scene *s, octree_address leaf)
     for (size_t i = 0; i < s->segments.count; i++)
         yellow += s->segments.items[i].style.layer == LAYER_DIAGRAM && s->segments.items[i].style.role == ROLE_PLAYER;
     assert_int_equal(yellow, deep);
-    assert_int_equal(s->tally.way, deep + 1);
+    assert_int_equal(s->tally.path, deep + 1);
     snprintf(wanted, sizeof wanted, ": %s", octree_address_format(leaf, text));
     assert_non_null(strstr(find_words(s, "leaf of "), wanted));
 }
@@ -268,8 +267,8 @@ static octree *sampled(octree_sample_kind kind, size_t count, size_t capacity)
 static scene look_at(const view *v, const octree *tree, octree_address node)
 {
     scene s = {0};
-    const tree_look about = {.title = "diagram", .node = node};
-    assert_true(look_scene_build(&s, v, tree, &about));
+    const tree_subject about = {.title = "diagram", .node = node};
+    assert_true(tree_scene_build(&s, v, tree, &about));
     assert_int_equal(s.refused, 0);
     return s;
 }
@@ -284,7 +283,7 @@ static void levels_that_have_no_room_are_folded_and_counted(void **state)
         scene s = look_at(&v, tree, 0);
         const recount r = check_diagram(&s, tree, 0);
         assert_true(r.folded > 0 && r.drawn_at[1] > 0 && r.drawn + r.folded == node_count(tree));
-        assert_int_equal(s.tally.way, 0);
+        assert_int_equal(s.tally.path, 0);
         scene_release(&s);
         octree_destroy(tree);
     }
@@ -398,7 +397,7 @@ static void only_the_diagram_and_words_are_left_of_a_tick(void **state)
     build_tick(&s, &v, game);
     const layer_counts none = count_layer(&s, LAYER_DIAGRAM);
     assert_int_equal(none.boxes + none.segments + none.markers + none.labels + none.panels, 0);
-    assert_int_equal(s.tally.drawn + s.tally.folded + s.tally.way, 0);
+    assert_int_equal(s.tally.drawn + s.tally.folded + s.tally.path, 0);
     scene_release(&s);
     octree_game_destroy(game);
 }

@@ -3,6 +3,7 @@
 #include "brute.h"
 #include "column.h"
 #include "draw_list.h"
+#include "layer_type.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -191,8 +192,8 @@ static void the_legend_has_what_the_diagram_shows(void **state)
         scene s = {0};
         v.diagram = i & 1 ? DIAGRAM_ONLY : DIAGRAM_BESIDE;
         v.filter.leaves = i & 2;
-        const tree_look about = {.title = "legend", .node = i & 8 ? OCTREE_ROOT : 0};
-        assert_true(look_scene_build(&s, &v, i & 4 ? large : small, &about));
+        const tree_subject about = {.title = "legend", .node = i & 8 ? OCTREE_ROOT : 0};
+        assert_true(tree_scene_build(&s, &v, i & 4 ? large : small, &about));
         assert_true(says(&s, "inner node, leaf") && says(&s, "node, shallow to deep"));
         assert_int_equal(says(&s, "node filtered out"), (i & 2) != 0);
         assert_int_equal(says(&s, "nodes, log2, folded"), (i & 4) != 0);
@@ -204,6 +205,28 @@ static void the_legend_has_what_the_diagram_shows(void **state)
     octree_destroy(large);
 }
 
+/* Each in a place of its own: of two in one place the second would be missing. */
+static void every_layer_that_is_listed_has_a_place_and_words(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= LAYER_COUNT; i++) {
+        const layer_type *type = layer_types[i];
+        assert_int_equal(type->legend_place > 0, type->text || type->legend);
+        for (int j = 0; type->legend_place && j < i; j++)
+            assert_int_not_equal(type->legend_place, layer_types[j]->legend_place);
+    }
+}
+
+static void every_kind_of_query_has_a_layer_and_a_row_of_the_panel(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
+        const view_layer layer = layer_of_query((octree_query_kind)kind);
+        assert_string_equal(view_layer_name(layer), octree_query_name((octree_query_kind)kind));
+        assert_true(layer_types[layer]->add_answer && layer_types[layer]->write_answer);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -212,6 +235,8 @@ int main(void)
         cmocka_unit_test(the_legend_leaves_out_queries_that_the_session_never_asks),
         cmocka_unit_test(the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_where_none_is),
         cmocka_unit_test(the_legend_has_what_the_diagram_shows),
+        cmocka_unit_test(every_layer_that_is_listed_has_a_place_and_words),
+        cmocka_unit_test(every_kind_of_query_has_a_layer_and_a_row_of_the_panel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "draw_list.h"
-#include "panel_pen.h"
+#include "pen.h"
 #include "random_session.h"
 #include "tick_lines.h"
 #include "ticks_write.h"

@@ -1,7 +1,7 @@
 /* test_fit.c - the box that a fitting camera frames: the points that are shown at tick 0. */
 #include "scenes.h"
 #include "brute.h"
-#include "fit.h"
+#include "camera.h"
 
 #include <float.h>
 #include <math.h>
@@ -41,7 +41,7 @@ static void the_box_is_the_smallest_around_the_points(void **state)
         brute_sample(&points, OCTREE_SAMPLE_CLUSTERED, seed, &world, 50 * seed);
         octree *tree = brute_tree(&points, world, 4, 21);
         view v = fitting(CAMERA_ISO);
-        fit_view(&v, tree);
+        camera_fit(&v, tree);
         const octree_box expected = box_around(&points);
         assert_int_equal(v.fit, FIT_BOX);
         assert_true(same_box(&v.focus, &expected));
@@ -60,7 +60,7 @@ static void what_a_filter_leaves_out_is_not_framed(void **state)
     view v = fitting(CAMERA_ISO);
     v.filter = (view_filter){.by_region = true, .region = {{-900, 0, 100}, {0, 500, 999}}};
     brute_range(&points, &v.filter.region, &shown);
-    fit_view(&v, tree);
+    camera_fit(&v, tree);
     const octree_box expected = box_around(&shown);
     assert_true(shown.count > 50 && same_box(&v.focus, &expected));
     octree_destroy(tree);
@@ -73,18 +73,18 @@ static void other_views_and_empty_trees_frame_the_world(void **state)
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
     view v = fitting(CAMERA_TOP);
-    fit_view(&v, tree);
+    camera_fit(&v, tree);
     assert_int_equal(v.fit, FIT_WORLD);
     insert_all(tree, (const double[][3]){{0.5, 0.5, 0.5}}, 1);
-    fit_view(&v, tree);
+    camera_fit(&v, tree);
     assert_int_equal(v.fit, FIT_WORLD);
     v.fit = FIT_BOX;
     v.focus = cube(0, 0.25);
-    fit_view(&v, tree);
+    camera_fit(&v, tree);
     assert_true(v.fit == FIT_BOX && v.focus.max[0] == 0.25);
     v.fit = FIT_POINTS;
     v.filter = (view_filter){.by_region = true, .region = cube(-1, 0)};
-    fit_view(&v, tree);
+    camera_fit(&v, tree);
     assert_int_equal(v.fit, FIT_WORLD);
     octree_destroy(tree);
 }
@@ -101,7 +101,7 @@ static void one_point_and_equal_points_are_framed_by_their_cell(void **state)
         octree_node leaf;
         assert_int_equal(octree_locate(tree, place, &leaf), OCTREE_OK);
         view v = fitting(CAMERA_FRONT);
-        fit_view(&v, tree);
+        camera_fit(&v, tree);
         assert_int_equal(leaf.depth, count == 1 ? 0 : 6);
         assert_true(v.fit == FIT_BOX && same_box(&v.focus, &leaf.box));
         octree_destroy(tree);
@@ -156,7 +156,7 @@ static void every_camera_but_the_follower_sees_all_points_of_odd_clouds(void **s
         for (int kind_of_camera = 0; kind_of_camera < CAMERA_COUNT; kind_of_camera++) {
             view v = fitting((view_camera)kind_of_camera);
             const octree_box world = octree_definition(tree).world;
-            fit_view(&v, tree);
+            camera_fit(&v, tree);
             for (int i = 0; i < 3; i++)
                 assert_true(v.focus.min[i] <= v.focus.max[i]);
             for (uint64_t tick = 0; kind_of_camera != CAMERA_FOLLOW && tick < 480; tick += 60) {
@@ -189,8 +189,8 @@ static void neither_place_nor_scale_changes_a_bit_of_a_fitted_pixel(void **state
         insert_all(there, (const double(*)[3])moved, 3);
         view a = fitting(CAMERA_ORBIT), b = fitting(CAMERA_ORBIT);
         scene s = {0}, t = {0};
-        fit_view(&a, here);
-        fit_view(&b, there);
+        camera_fit(&a, here);
+        camera_fit(&b, there);
         build_tree(&s, &a, here, "");
         build_tree(&t, &b, there, "");
         for (int j = 0; j < 3; j++) {

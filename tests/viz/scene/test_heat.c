@@ -89,7 +89,7 @@ static void check_session(const octree_session *session)
         octree_walk(tree, add_node, &(tick_walk){&all, &met});
         assert_true(heat_add_tick(&h, game));
         octree_walk(tree, check_node, (void *[]){&h, &all});
-        assert_int_equal(h.count, all.size);
+        assert_int_equal(h.places.count, all.size);
         memcpy(before, octree_game_tick(game)->player, sizeof before);
         if (octree_game_over(game))
             break;

@@ -1,0 +1,40 @@
+/* asked_layer.c - the layer of the node of a tree that is asked for. */
+#include "layer_type.h"
+#include "node_boxes.h"
+
+#define MARK 12 /* half units: half the size of the mark on a node that appears small */
+
+static bool applies(const layer_source *in, view_layer own)
+{
+    (void)own;
+    return in->asked != 0;
+}
+
+/* Bold, in the colour of the path to it in the diagram; and where it appears small, a mark that is seen. */
+static void add(scene *s, const layer_source *in, view_layer own)
+{
+    octree_node node;
+    double middle[3];
+    if (octree_node_at(in->tree, in->asked, &node) != OCTREE_OK)
+        return;
+    add_node_box(s, &node, layer_style(own, STROKE_SOLID, 2));
+    if (camera_box_pixels(&s->camera, &node.box) > 2 * MARK * s->unit)
+        return;
+    scene_box_middle(&node.box, middle);
+    scene_add_mark(s, in->asked, middle, SHAPE_LOZENGE, layer_style(own, STROKE_SOLID, MARK));
+}
+
+static void add_legend(legend *l, const layer_source *in, view_layer own)
+{
+    char address[OCTREE_ADDRESS_TEXT];
+    (void)own;
+    legend_add(l, SIGN_BOLD, "node %.42s", octree_address_format(in->asked, address));
+}
+
+static void describe(description *d, const described *element)
+{
+    say_node(d, element->id);
+}
+
+const layer_type layer_ASKED = {
+    .applies = applies, .add = add, .legend_place = 80, .legend = add_legend, .describe = describe};

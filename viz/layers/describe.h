@@ -1,0 +1,55 @@
+/* describe.h - what an element of a tick's scene is about, in words: ids taken back to the nodes, points, queries and
+ * events that they stand for. Each layer describes its own (layer_type.h).
+ */
+#ifndef LAYERS_DESCRIBE_H
+#define LAYERS_DESCRIBE_H
+
+#include "heat.h"
+#include "octree/game.h"
+#include "scene.h"
+
+/* Room for the words about one element. */
+#define ELEMENT_WORDS 512
+
+typedef struct element_subject {
+    bool has_node, has_point;
+    octree_node node;         /* the node it is about; where the tree has none any more, its cell */
+    bool gone;                /* there is only the cell */
+    octree_point point;       /* the point it is about */
+    char text[ELEMENT_WORDS]; /* such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)" */
+} element_subject;
+
+/* `s` must be the scene of the game's last tick, and `h` the heat that it was made with. */
+element_subject describe_element(const octree_game *game, const heat *h, const scene *s, scene_element element);
+
+/* ---- For layers --------------------------------------------------------------------------------------------- */
+
+/* A description while it is written. */
+typedef struct description {
+    const octree_game *game;
+    const octree_tick *tick;
+    const heat *heat;
+    element_subject *subject;
+    size_t length; /* of the text */
+} description;
+
+/* What layers read of an element. */
+typedef struct described {
+    scene_kind kind;
+    scene_style style;
+    uint64_t id;
+    octree_box box; /* of a box */
+    double at[3];   /* of a marker */
+} described;
+
+/* Add words; what has no room is cut. */
+void say(description *d, const char *format, ...);
+void say_number(description *d, double value);
+void say_place(description *d, const double place[3]); /* "(1, 2, 3)" */
+void say_box(description *d, const octree_box *box);   /* "(0, 0, 0) to (5, 5, 5)" */
+
+/* The node or point becomes the description's subject. */
+void say_node(description *d, octree_address address);
+void say_point(description *d, uint64_t id, const double position[3]);
+
+#endif

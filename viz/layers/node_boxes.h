@@ -1,0 +1,37 @@
+/* node_boxes.h - boxes of nodes, for the layers that show some of them; and how too many points are thinned out. */
+#ifndef LAYERS_NODE_BOXES_H
+#define LAYERS_NODE_BOXES_H
+
+#include "octree/digest.h"
+#include "scene.h"
+
+/* The colour of a node of this depth and with so many points. */
+theme_role node_role(const view *v, unsigned depth, size_t points);
+
+/* A node's box, with its address as id. */
+void add_node_box(scene *s, const octree_node *node, scene_style style);
+
+/* The node at an address that a tick names, or its empty cell where the tree has no node there any more. False when the
+ * view's filter leaves it out; or where it is smaller than the view's lod and lies in one that is shown, which is
+ * counted. */
+bool tick_node_shown(scene *s, const octree *tree, octree_address address, octree_node *node);
+
+/* The diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1: a box is told from others without a colour.
+ */
+void add_crossed_faces(scene *s, const octree_box *box, scene_style style);
+#define CROSS_LINES 12
+
+/* Which of too many points are left out: by the id alone, so that a point that moves does not come and go, and so that
+ * its velocity is left out with it. A sieve with n of its lowest bits set keeps about one id in 2^n, of which a finer
+ * one keeps a part. */
+static inline bool sieve_drops(uint64_t sieve, uint64_t id)
+{
+    return octree_digest_word(OCTREE_DIGEST_START, id) & sieve;
+}
+
+static inline uint64_t sieve_finer(uint64_t sieve)
+{
+    return sieve << 1 | 1;
+}
+
+#endif
