@@ -67,13 +67,12 @@ static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64
     if (!make_slots(b, memory, b->items.count + 1))
         return false;
     const size_t slot = slot_of(b, body->id);
-    moving_body *added = list_append(memory, &b->items, sizeof *added);
-    if (!added)
+    moving_body added = {.id = body->id, .since = tick, .moved = UINT64_MAX};
+    memcpy(added.position, body->position, sizeof added.position);
+    memcpy(added.origin, body->position, sizeof added.origin);
+    memcpy(added.velocity, body->velocity, sizeof added.velocity);
+    if (!list_push(memory, &b->items, &added, sizeof added))
         return false;
-    *added = (moving_body){.id = body->id, .since = tick, .moved = UINT64_MAX};
-    memcpy(added->position, body->position, sizeof added->position);
-    memcpy(added->origin, body->position, sizeof added->origin);
-    memcpy(added->velocity, body->velocity, sizeof added->velocity);
     b->slots[slot] = (uint32_t)b->items.count;
     b->movers += is_moving(body->velocity);
     return true;
@@ -191,10 +190,9 @@ octree_status game_move(octree_game *game, const double from[3], uint64_t id, co
 
 octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
 {
-    octree_refusal *refusal = list_append(&game->memory, &game->refusals, sizeof *refusal);
-    if (!refusal)
+    const octree_refusal refusal = {id, why, {position[0], position[1], position[2]}};
+    if (!list_push(&game->memory, &game->refusals, &refusal, sizeof refusal))
         return OCTREE_NO_MEMORY;
-    *refusal = (octree_refusal){id, why, {position[0], position[1], position[2]}};
     if (why == OCTREE_FULL)
         game->tick.events |= OCTREE_EVENT_FULL;
     if (why == OCTREE_OUTSIDE)
@@ -317,12 +315,10 @@ octree_status game_list_movers(octree_game *game)
         const moving_body *body = &bodies_items(all)[i];
         octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
         if (!is_moving(now.velocity))
-            continue; /* at rest, or so fast that it stays where it is */
-        octree_body *mover = list_append(&game->memory, &game->movers, sizeof *mover);
-        if (!mover)
-            return OCTREE_NO_MEMORY;
+            continue;                                              /* at rest, or so fast that it stays where it is */
         memcpy(now.position, body->position, sizeof now.position); /* a full leaf may have refused the move */
-        *mover = now;
+        if (!list_push(&game->memory, &game->movers, &now, sizeof now))
+            return OCTREE_NO_MEMORY;
     }
     return OCTREE_OK;
 }

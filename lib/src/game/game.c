@@ -27,11 +27,10 @@ const char *octree_shape_name(octree_shape_kind kind)
 static octree_status list_shapes(octree_game *game, const octree_shape *shapes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        octree_shape *shape = list_append(&game->memory, &game->shapes, sizeof *shape);
-        if (!shape)
+        octree_shape shape = shapes[i];
+        shape.tick = game->tick.number;
+        if (!list_push(&game->memory, &game->shapes, &shape, sizeof shape))
             return OCTREE_NO_MEMORY;
-        *shape = shapes[i];
-        shape->tick = game->tick.number;
     }
     return OCTREE_OK;
 }

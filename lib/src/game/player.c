@@ -1,4 +1,4 @@
-/* game_player.c - who the player is; its step, and the collision test that may take it back.
+/* player.c - the player: its step, and the collision test that may take it back.
  *
  * The test asks the tree before the step is made, about the step's end and without the player's own point: what it
  * finds is what a step that is made and taken back would have met, and nothing has to be undone.
@@ -10,27 +10,15 @@
 
 #include <string.h>
 
-static const struct {
-    char key;
-    int axis; /* -1: no step */
-    int direction;
-} keys[] = {
-    {'w', 1, 1}, {'s', 1, -1}, {'d', 0, 1}, {'a', 0, -1}, {'e', 2, 1}, {'f', 2, -1}, {'n', -1, 0}, {'.', -1, 0},
-};
-
-#define KEY_COUNT (sizeof keys / sizeof keys[0])
-
-static size_t key_index(char key)
+/* The direction of a key's step on an axis; 0 for none. */
+static int direction_of(char key, int axis)
 {
-    size_t i = 0;
-    while (i < KEY_COUNT && keys[i].key != key)
-        i++;
-    return i;
+    return (key == "dwe"[axis]) - (key == "asf"[axis]);
 }
 
 bool game_is_key(char key)
 {
-    return key_index(key) < KEY_COUNT;
+    return key && strchr("dweasfn.", key);
 }
 
 /* ---- The collision test --------------------------------------------------------------------------------------
@@ -93,11 +81,10 @@ static octree_status trace_hits(octree_game *game)
     const octree_point *hits = game->hits.items;
     game->hit_from.count = 0;
     for (size_t i = 0; i < game->hits.count; i++) {
-        double(*from)[3] = list_append(&game->memory, &game->hit_from, sizeof *from);
-        if (!from)
-            return OCTREE_NO_MEMORY;
         const moving_body *body = bodies_find(&game->bodies, hits[i].id);
-        memcpy(*from, body && was_moved(game, body) ? body->before : hits[i].position, sizeof *from);
+        const double *from = body && was_moved(game, body) ? body->before : hits[i].position;
+        if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))
+            return OCTREE_NO_MEMORY;
     }
     return OCTREE_OK;
 }
@@ -122,13 +109,6 @@ octree_status game_collide(octree_game *game, const double to[3])
 }
 
 /* ---- The step ----------------------------------------------------------------------------------------------- */
-
-/* The player's place after a net number of steps on each axis. */
-static void place_after(const octree_player *player, const int64_t steps[3], double position[3])
-{
-    for (int i = 0; i < 3; i++)
-        position[i] = player->position[i] + (double)steps[i] * player->step;
-}
 
 /* The player stays. Swept, the test is made anew for it as for one that waits: what comes its way is not missed. */
 static octree_status refuse_step(octree_game *game, octree_status why, const double to[3])
@@ -171,14 +151,17 @@ octree_status game_step_player(octree_game *game)
     game_find_player(game);
     if (!game->tick.has_player)
         return OCTREE_OK;
-    const size_t key = key_index(game->tick.key);
-    if (keys[key].axis < 0 || game->session->player.kind != OCTREE_PLAYER_KEYS)
+    const octree_player *player = &game->session->player;
+    if (player->kind != OCTREE_PLAYER_KEYS)
         return game_collide(game, game->tick.player);
     int64_t steps[3];
-    memcpy(steps, game->steps, sizeof steps);
-    steps[keys[key].axis] += keys[key].direction;
     double to[3];
-    place_after(&game->session->player, steps, to);
+    for (int i = 0; i < 3; i++) {
+        steps[i] = game->steps[i] + direction_of(game->tick.key, i);
+        to[i] = player->position[i] + (double)steps[i] * player->step;
+    }
+    if (memcmp(steps, game->steps, sizeof steps) == 0)
+        return game_collide(game, game->tick.player);
     if (check_position(game->tree, to) != OCTREE_OK) {
         game->tick.events |= OCTREE_EVENT_REFUSED;
         return game_collide(game, game->tick.player);

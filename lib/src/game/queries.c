@@ -43,11 +43,8 @@ octree_status octree_query_check(const octree_query *query)
 bool collect_point(const octree_point *point, void *context)
 {
     point_collector *c = context;
-    octree_point *item = list_append(c->memory, c->points, sizeof *item);
-    if (item)
-        *item = *point;
-    c->failed = !item;
-    return item != NULL;
+    c->failed = !list_push(c->memory, c->points, point, sizeof *point);
+    return !c->failed;
 }
 
 void sort_points(list *points, size_t first)
@@ -233,11 +230,8 @@ static void assign_results(octree_game *game)
 static void note_visit(octree_address node, octree_touch touch, void *context)
 {
     octree_game *game = context;
-    octree_visit *visit = list_append(&game->memory, &game->visits, sizeof *visit);
-    if (visit)
-        *visit = (octree_visit){node, touch, touch == OCTREE_TOUCH_TAKEN};
-    else
-        game->lost_visits = true;
+    const octree_visit visit = {node, touch, touch == OCTREE_TOUCH_TAKEN};
+    game->lost_visits |= !list_push(&game->memory, &game->visits, &visit, sizeof visit);
 }
 
 octree_search game_search(octree_game *game, octree_cost *cost)
@@ -277,10 +271,8 @@ static void sort_visits(octree_game *game)
 static bool add_leaf_of(octree_game *game, const octree_point *point)
 {
     const uint64_t code = morton_code(game->tree->axes, point->position);
-    octree_address *leaf = list_append(&game->memory, &game->hit_leaves, sizeof *leaf);
-    if (leaf)
-        *leaf = morton_address(code, path_to(game->tree, code).depth);
-    return leaf != NULL;
+    const octree_address leaf = morton_address(code, path_to(game->tree, code).depth);
+    return list_push(&game->memory, &game->hit_leaves, &leaf, sizeof leaf);
 }
 
 static bool add_leaves(octree_game *game)

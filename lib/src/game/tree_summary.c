@@ -5,14 +5,6 @@
 
 #define SUBTREE_POINTS 512
 
-/* Places that are worth telling apart: with more, most subtrees would be looked at anyway. */
-static size_t most_touched(const octree *tree)
-{
-    enum { ALWAYS = 4096, POINTS = 64 };
-    const size_t some = tree->root.count / POINTS;
-    return some > ALWAYS ? some : ALWAYS;
-}
-
 /* A subtree of SUBTREE_POINTS points or fewer whose parent has more, or a leaf. */
 typedef struct subtree {
     octree_address address;
@@ -33,11 +25,10 @@ void tree_summary_touch(tree_summary *s, arena *memory, const octree *tree, cons
 {
     if (!s->known)
         return;
-    uint64_t *code = s->touched.count < most_touched(tree) ? list_append(memory, &s->touched, sizeof *code) : NULL;
-    if (code)
-        *code = morton_code(tree->axes, place);
-    else
-        s->known = false;
+    /* With more places than these most subtrees would be looked at anyway. */
+    const bool few = s->touched.count < 4096 + tree->root.count / 64;
+    const uint64_t code = morton_code(tree->axes, place);
+    s->known = few && list_push(memory, &s->touched, &code, sizeof code);
 }
 
 void tree_summary_release(tree_summary *s, arena *memory)
@@ -53,11 +44,7 @@ void tree_summary_release(tree_summary *s, arena *memory)
 
 static void add_inner(update *u, octree_address address)
 {
-    octree_address *item = list_append(u->memory, &u->to->inner, sizeof *item);
-    if (item)
-        *item = address;
-    else
-        u->out_of_memory = true;
+    u->out_of_memory |= !list_push(u->memory, &u->to->inner, &address, sizeof address);
 }
 
 static void add_node(octree_stats *stats, uint64_t *sum, const node *n, octree_address address)
@@ -208,10 +195,8 @@ static bool subtract(arena *memory, const list *a, const list *b, list *out)
             j++;
         if (j < b->count && in_b[j] == in_a[i])
             continue;
-        octree_address *item = list_append(memory, out, sizeof *item);
-        if (!item)
+        if (!list_push(memory, out, &in_a[i], sizeof in_a[i]))
             return false;
-        *item = in_a[i];
     }
     return true;
 }

@@ -10,6 +10,8 @@
 
 #include "octree/octree.h"
 
+#include <string.h>
+
 #define POOL_MAX_UNITS 64
 
 /* The allocator of a tree or a game, and how many bytes are allocated from it. */
@@ -52,6 +54,16 @@ typedef struct list {
 
 /* Space for one more item of this size, which must be the same at every call; null when there is no memory. */
 void *list_append(arena *memory, list *l, size_t item_size);
+
+/* Append a copy of an item. False when there is no memory. */
+static inline bool list_push(arena *memory, list *l, const void *item, size_t item_size)
+{
+    void *room = list_append(memory, l, item_size);
+    if (room)
+        memcpy(room, item, item_size);
+    return room != NULL;
+}
+
 void list_release(arena *memory, list *l, size_t item_size);
 
 #endif
