@@ -140,21 +140,16 @@ static bool remove_file(const char *path, octreel_error *error)
     return remove(path) == 0 || error_set(error, "%s: cannot be removed: %s", path, strerror(errno));
 }
 
-static bool copy_into(const char *from, const char *folder, const char *name, octreel_error *error)
-{
-    char *to = path_join(folder, name);
-    const bool ok = to ? file_copy_to(from, to, error) : error_no_memory(error);
-    free(to);
-    return ok;
-}
-
 static bool write_picture(const accepting *a, const diff_pair *pair, action what, octreel_error *error)
 {
     if (what == REMOVED)
         return remove_file(pair->a->path, error);
     if (a->reference.kind == DIFF_PICTURE || pair->a)
         return file_copy_to(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
-    return copy_into(pair->b->path, a->reference.path, pair->b->name, error);
+    char *to = path_join(a->reference.path, pair->b->name);
+    const bool ok = to ? file_copy_to(pair->b->path, to, error) : error_no_memory(error);
+    free(to);
+    return ok;
 }
 
 static void say(const accepting *a, const diff_pair *pair, action what)

@@ -13,36 +13,25 @@
 
 /* ---- Reading ------------------------------------------------------------------------------------------------- */
 
-/* Exactly `digits` hexadecimal digits in lower case, behind which *at is moved. */
-static bool take_hexadecimal(const char **at, int digits, uint64_t *value)
+/* So many hexadecimal digits in lower case and the character that ends them; *at is moved after it. */
+static bool take_hexadecimal(const char **at, size_t digits, char end, uint64_t *value)
 {
-    static const char all[] = "0123456789abcdef";
-    *value = 0;
-    for (int i = 0; i < digits; i++, (*at)++) {
-        const char *digit = **at ? strchr(all, **at) : NULL;
-        if (!digit)
-            return false;
-        *value = *value << 4 | (uint64_t)(digit - all);
-    }
+    if (strspn(*at, "0123456789abcdef") != digits || (*at)[digits] != end)
+        return false;
+    *value = strtoull(*at, NULL, 16);
+    *at += digits + 1;
     return true;
 }
 
-static bool take_side_length(const char **at, int *value)
+static bool take_side_length(const char **at, char end, int *value)
 {
-    *value = 0;
+    char *end_of_number;
     if (**at < '1' || **at > '9')
         return false;
-    for (; **at >= '0' && **at <= '9' && *value <= IMAGE_MAX_SIDE; (*at)++)
-        *value = 10 * *value + (**at - '0');
-    return *value <= IMAGE_MAX_SIDE;
-}
-
-static bool take_character(const char **at, char expected)
-{
-    if (**at != expected)
-        return false;
-    (*at)++;
-    return true;
+    const long length = strtol(*at, &end_of_number, 10);
+    *value = (int)length;
+    *at = end_of_number + 1;
+    return *end_of_number == end && length <= IMAGE_MAX_SIDE;
 }
 
 static bool holds_control(const char *name)
@@ -60,7 +49,7 @@ static bool parse_background(const char *line, image_color *color)
     if (strncmp(line, word, sizeof word - 1) != 0)
         return false;
     line += sizeof word - 1;
-    if (!take_hexadecimal(&line, 6, &value) || *line)
+    if (!take_hexadecimal(&line, 6, 0, &value))
         return false;
     *color = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
     return true;
@@ -68,9 +57,8 @@ static bool parse_background(const char *line, image_color *color)
 
 static bool parse_frame(const char *line, frame_digest *digest, const char **name)
 {
-    const bool ok = take_hexadecimal(&line, 16, &digest->pixels) && take_character(&line, ' ') &&
-                    take_side_length(&line, &digest->width) && take_character(&line, 'x') &&
-                    take_side_length(&line, &digest->height) && take_character(&line, ' ');
+    const bool ok = take_hexadecimal(&line, 16, ' ', &digest->pixels) && take_side_length(&line, 'x', &digest->width) &&
+                    take_side_length(&line, ' ', &digest->height);
     *name = line;
     return ok && *line && !holds_control(line) && !strchr(line, '/');
 }

@@ -1,30 +1,26 @@
 /* mask.c - see mask.h. */
 #include "mask.h"
+#include "array.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static size_t count_runs(const uint8_t *bytes, size_t size)
-{
-    size_t count = 1;
-    for (size_t i = 0; i < size; i++)
-        count += !bytes[i] != (i == 0 || !bytes[i - 1]);
-    return count;
-}
-
 static bool pack(pixel_mask *mask, const uint8_t *bytes)
 {
     const size_t size = (size_t)mask->width * (size_t)mask->height;
-    uint32_t *runs = calloc(count_runs(bytes, size), sizeof *runs);
-    if (!runs)
-        return false;
+    size_t room = 0;
+    mask->count = 0;
     free(mask->runs);
-    mask->runs = runs;
-    mask->count = 1;
-    for (size_t i = 0; i < size; i++) {
-        const bool left_out = mask->count % 2 == 0;
-        mask->count += (bytes[i] != 0) != left_out;
-        runs[mask->count - 1]++;
+    mask->runs = NULL;
+    for (size_t i = 0; i < size; mask->count++) {
+        const size_t first = i;
+        uint32_t *grown = array_reserve(mask->runs, mask->count + 1, &room, sizeof *grown);
+        if (!grown)
+            return false;
+        mask->runs = grown;
+        while (i < size && (bytes[i] != 0) == (mask->count % 2 != 0))
+            i++;
+        mask->runs[mask->count] = (uint32_t)(i - first);
     }
     return true;
 }

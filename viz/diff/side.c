@@ -1,5 +1,6 @@
 /* side.c - see side.h. */
 #include "side.h"
+#include "array.h"
 #include "digest_file.h"
 #include "frame_file.h"
 
@@ -22,43 +23,26 @@ const char *diff_kind_name(diff_kind kind)
     return names[kind];
 }
 
-/* The part behind the last slash. */
+/* The part after the last slash. */
 static const char *base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
 }
 
-static bool grow(diff_side *side)
-{
-    if (side->count < side->room)
-        return true;
-    const size_t room = side->room ? 2 * side->room : 64;
-    diff_frame *frames = realloc(side->frames, room * sizeof *frames);
-    if (!frames)
-        return false;
-    side->frames = frames;
-    side->room = room;
-    return true;
-}
-
-static char *path_of(const diff_side *side, const char *name)
-{
-    return side->kind == DIFF_PICTURE ? strdup(side->path) : path_join(side->path, name);
-}
-
 bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
 {
-    diff_frame frame = {.name = strdup(name), .digest = digest};
     const bool has_path = side->kind != DIFF_DIGESTS;
+    diff_frame *grown = array_reserve(side->frames, side->count + 1, &side->room, sizeof *grown);
+    diff_frame frame = {.name = grown ? strdup(name) : NULL, .digest = digest};
+    side->frames = grown ? grown : side->frames;
     if (frame.name && has_path)
-        frame.path = path_of(side, name);
-    if (frame.name && (frame.path || !has_path) && grow(side)) {
+        frame.path = side->kind == DIFF_PICTURE ? strdup(side->path) : path_join(side->path, name);
+    if (frame.name && (frame.path || !has_path)) {
         side->frames[side->count++] = frame;
         return true;
     }
     free(frame.name);
-    free(frame.path);
     return error_set(error, "there is no memory for the frames of %s", side->path);
 }
 
@@ -79,21 +63,12 @@ static bool belongs(const diff_side *side, const char *name)
     return side->kind == DIFF_RECORDING ? frame_parse_name(name, &tick) : is_png_name(name);
 }
 
-static bool is_recording(const char *folder)
-{
-    struct stat status;
-    char *path = path_join(folder, "recording.json");
-    const bool is = path && stat(path, &status) == 0;
-    free(path);
-    return is;
-}
-
 static bool read_folder(diff_side *side, octreel_error *error)
 {
     DIR *entries = opendir(side->path);
     if (!entries)
         return error_set(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
-    side->kind = is_recording(side->path) ? DIFF_RECORDING : DIFF_FOLDER;
+    side->kind = folder_has(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
     bool ok = true;
     errno = 0;
     for (struct dirent *entry; ok && (entry = readdir(entries)); errno = 0)
@@ -153,12 +128,6 @@ void diff_side_release(diff_side *side)
     }
     free(side->frames);
     *side = (diff_side){0};
-}
-
-const diff_frame *diff_side_find(const diff_side *side, const char *name)
-{
-    const diff_frame wanted = {.name = (char *)name};
-    return side->count ? bsearch(&wanted, side->frames, side->count, sizeof wanted, by_name) : NULL;
 }
 
 static bool fact_spared(const diff_side *side, const char *name, const output_file *output, octreel_error *error)

@@ -4,7 +4,6 @@
 
 #include "folder.h"
 #include "image.h"
-#include "folder.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -44,10 +43,7 @@ bool diff_side_spared(const diff_side *side, const output_file *output, octreel_
 /* "picture", "folder", "recording", "digests". */
 const char *diff_kind_name(diff_kind kind);
 
-/* Put a frame behind the others: a copy of its name, its path where the side's kind has paths, and its digest. */
+/* Append a frame: a copy of its name, its path where the side's kind has paths, and its digest. */
 bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
-
-/* The frame of this name, or null. */
-const diff_frame *diff_side_find(const diff_side *side, const char *name);
 
 #endif

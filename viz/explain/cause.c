@@ -15,10 +15,7 @@ typedef struct playing {
     bool looked, unlike;  /* and whether they differ */
     bool warm;            /* a tick before has left other heat, and it is shown */
     bool shows_heat;
-    const cause_wanted *wanted;
-    size_t next_wanted;
-    cause_watch *watch; /* may be null */
-    void *context;
+    const cause_watcher *watcher;
     cause *found;
 } playing;
 
@@ -54,13 +51,10 @@ static bool trees_differ(playing *p)
     return p->unlike;
 }
 
-static bool is_wanted(playing *p, uint64_t tick, bool differs)
+static bool is_wanted(const playing *p, uint64_t tick, bool differs)
 {
-    const cause_wanted *w = p->wanted;
-    while (p->next_wanted < w->count && w->ticks[p->next_wanted] < tick)
-        p->next_wanted++;
-    return (differs && p->found->differing <= w->first) ||
-           (p->next_wanted < w->count && w->ticks[p->next_wanted] == tick);
+    const cause_watcher *w = p->watcher;
+    return (w->wants && w->wants(w->context, tick)) || (differs && p->found->differing <= w->first);
 }
 
 static bool keep(cause *c, uint64_t tick, cause_facts *facts)
@@ -107,7 +101,7 @@ static bool look_at(playing *p, octreel_error *error)
     p->found->compared++;
     if (!ok)
         return error_set(error, "there is no memory for what differs in tick %" PRIu64, tick);
-    return !p->watch || p->watch(p->context, games, differs, error);
+    return !p->watcher->watch || p->watcher->watch(p->watcher->context, games, differs, error);
 }
 
 /* ---- All of them --------------------------------------------------------------------------------------------- */
@@ -131,10 +125,10 @@ static bool same_rules(const octree *a, const octree *b)
            x.max_depth == y.max_depth && x.full_leaf == y.full_leaf;
 }
 
-bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2], const cause_wanted *wanted,
-                cause_watch *watch, void *context, cause *c, octreel_error *error)
+bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2],
+                const cause_watcher *watcher, cause *c, octreel_error *error)
 {
-    playing p = {.wanted = wanted, .watch = watch, .context = context, .found = c};
+    playing p = {.watcher = watcher, .found = c};
     *c = (cause){0};
     cause_compare_sessions(a, b, &c->session);
     if (views)

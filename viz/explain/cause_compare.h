@@ -2,8 +2,8 @@
  * compared as the objects that are written of them. Each adds facts; where there is no memory for it
  * facts->out_of_memory is set.
  */
-#ifndef CAUSE_COMPARE_H
-#define CAUSE_COMPARE_H
+#ifndef EXPLAIN_CAUSE_COMPARE_H
+#define EXPLAIN_CAUSE_COMPARE_H
 
 #include "cause_facts.h"
 #include "octree/game.h"

@@ -5,8 +5,8 @@
  * "nodes.gone" and "tree.points"; "velocities", "hit_from", "visited" and "heat" are what is drawn and in no file.
  * Values are JSON as in those files. A fact is data; cause_words.h makes sentences of it, and cause_json.h JSON.
  */
-#ifndef CAUSE_FACTS_H
-#define CAUSE_FACTS_H
+#ifndef EXPLAIN_CAUSE_FACTS_H
+#define EXPLAIN_CAUSE_FACTS_H
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -1,7 +1,6 @@
 /* cause_json.c - see cause_json.h. */
 #include "cause_json.h"
 #include "text.h"
-#include "trace_words.h"
 
 #include <stdlib.h>
 

@@ -14,8 +14,8 @@
  * 7}]} "ticks" has those that are told in detail. "elements" are drawn under the pixels that differ, the largest first,
  * no more than CAUSE_ELEMENTS.
  */
-#ifndef CAUSE_JSON_H
-#define CAUSE_JSON_H
+#ifndef EXPLAIN_CAUSE_JSON_H
+#define EXPLAIN_CAUSE_JSON_H
 
 #include "explain.h"
 #include "json_write.h"

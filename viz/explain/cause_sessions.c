@@ -136,7 +136,7 @@ static char *write_session(const octree_session *session)
     return text_stream_end(&s, &text) ? text : NULL;
 }
 
-/* The next object of a text, and *at is moved behind it; null at the end. */
+/* The next object of a text, and *at is moved after it; null at the end. */
 static json_t *next_object(const char **at)
 {
     json_error_t error;

@@ -15,7 +15,7 @@ typedef struct phrase {
     const char *moved, *added, *gone;  /* the verbs for each change */
     bool option;                       /* of the whole session: what follows from it shows in all ticks */
     bool every;                        /* said to be of every tick where it is not of one */
-    bool minor;                        /* told behind the others; where there is little room, only without them */
+    bool minor;                        /* told after the others; where there is little room, only without them */
 } phrase;
 
 #define PLAIN .option = false
@@ -119,7 +119,7 @@ static void print_list(FILE *out, const json_t *list)
     fputs(nested ? "" : ")", out);
 }
 
-/* A box as its corners; else each member behind its name, and words in quotes. */
+/* A box as its corners; else each member after its name, and words in quotes. */
 static void print_object(FILE *out, json_t *object)
 {
     const char *key;

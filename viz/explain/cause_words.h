@@ -1,12 +1,12 @@
 /* cause_words.h - why two recordings differ, in sentences. */
-#ifndef CAUSE_WORDS_H
-#define CAUSE_WORDS_H
+#ifndef EXPLAIN_CAUSE_WORDS_H
+#define EXPLAIN_CAUSE_WORDS_H
 
 #include "cause.h"
 
 #include <stdio.h>
 
-/* The facts of one list, with commas between, those that matter least behind a semicolon: "node 0/3/7 split, point 12
+/* The facts of one list, with commas between, those that matter least after a semicolon: "node 0/3/7 split, point 12
  * moved from (0, 0, 0) to (1, 2, 3)". Brief is without places, and no more than CAUSE_BRIEF groups of facts, those that
  * matter least left out. Nothing where there is none. */
 #define CAUSE_BRIEF 4

@@ -1,9 +1,9 @@
 /* explain.c - see explain.h. */
 #include "explain.h"
 #include "cause_words.h"
-#include "sentence.h"
-#include "frame_file.h"
 #include "file.h"
+#include "frame_file.h"
+#include "sentence.h"
 #include "text.h"
 
 #include <stdlib.h>
@@ -52,7 +52,6 @@ typedef struct watching {
     explanation *e;
     const diff_options *options;
     wanted_pair *pairs; /* in ascending order of their ticks */
-    uint64_t *ticks;    /* the same, without the pairs */
     size_t count, next;
 } watching;
 
@@ -70,15 +69,24 @@ static bool check_lines(explanation *e, const octree_game *const games[2], bool 
     return recorded_check_line(sides[0], games[0], error) && recorded_check_line(sides[1], games[1], error);
 }
 
+/* Ticks are asked for in ascending order. */
+static bool is_wanted(void *context, uint64_t tick)
+{
+    watching *w = context;
+    while (w->next < w->count && w->pairs[w->next].tick < tick)
+        w->next++;
+    return w->next < w->count && w->pairs[w->next].tick == tick;
+}
+
 static bool watch(void *context, const octree_game *const games[2], bool differs, octreel_error *error)
 {
     watching *w = context;
     const uint64_t tick = octree_game_tick(games[0])->number;
     if (!check_lines(w->e, games, differs, error) || !tracer_add_tick(&w->e->tracer, w->e->sides, games, error))
         return false;
-    if (w->next == w->count || w->pairs[w->next].tick != tick)
+    if (!is_wanted(w, tick))
         return true;
-    const diff_pair *pair = w->pairs[w->next++].pair;
+    const diff_pair *pair = w->pairs[w->next].pair;
     return !pair->difference.unlike.pixels ||
            tracer_add_pair(&w->e->tracer, w->e->sides, games, pair, w->options, error);
 }
@@ -93,8 +101,7 @@ static int by_number(const void *a, const void *b)
 static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
 {
     w->pairs = malloc((result->count + 1) * sizeof *w->pairs);
-    w->ticks = malloc((result->count + 1) * sizeof *w->ticks);
-    if (!w->pairs || !w->ticks)
+    if (!w->pairs)
         return false;
     for (size_t i = 0; i < result->count && w->count < most; i++) {
         const diff_pair *pair = &result->pairs[i];
@@ -103,8 +110,6 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
             w->count++;
     }
     qsort(w->pairs, w->count, sizeof *w->pairs, by_number);
-    for (size_t i = 0; i < w->count; i++)
-        w->ticks[i] = w->pairs[i].tick;
     return true;
 }
 
@@ -112,12 +117,12 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 {
     const cause_view views[2] = {e->sides[0].view, e->sides[1].view};
     watching w = {.e = e, .options = &result->options};
-    bool ok = list_pairs(&w, result, most) || error_set(error, "there is no memory for %zu ticks", result->count);
-    const cause_wanted wanted = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, w.ticks, w.count};
-    ok = ok && cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, views, &wanted,
-                          watch, &w, &e->cause, error);
+    const cause_watcher watcher = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, is_wanted, watch, &w};
+    const bool ok = list_pairs(&w, result, most)
+                        ? cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, views,
+                                     &watcher, &e->cause, error)
+                        : error_set(error, "there is no memory for %zu ticks", result->count);
     free(w.pairs);
-    free(w.ticks);
     return ok;
 }
 

@@ -86,12 +86,12 @@ bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error)
 static uint64_t scene_of(const recorded *r, uint64_t tick)
 {
     static const char before[] = "\"scene\": \"";
-    const size_t behind = sizeof "0123456789abcdef\"}\n" - 1, length = sizeof before - 1;
+    const size_t tail = sizeof "0123456789abcdef\"}\n" - 1, length = sizeof before - 1;
     uint64_t scene = 0;
     if (frame_scene(r->side->path, tick, &scene))
         return scene;
-    const char *digits = r->lines.line + r->lines.size - behind;
-    if (r->lines.size > behind + length && memcmp(digits - length, before, length) == 0)
+    const char *digits = r->lines.line + r->lines.size - tail;
+    if (r->lines.size > tail + length && memcmp(digits - length, before, length) == 0)
         scene = strtoull(digits, NULL, 16);
     return scene;
 }

@@ -1,6 +1,6 @@
 /* recorded.h - a recording that is asked why it differs: what it was made from, and whether its files agree. */
-#ifndef DIFF_RECORDED_H
-#define DIFF_RECORDED_H
+#ifndef EXPLAIN_RECORDED_H
+#define EXPLAIN_RECORDED_H
 
 #include "cause_compare.h"
 #include "replay.h"

@@ -3,7 +3,6 @@
 #include "cause_words.h"
 #include "frame_file.h"
 #include "text.h"
-#include "trace_words.h"
 #include "image_digest.h"
 #include "png_read.h"
 

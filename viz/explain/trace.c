@@ -1,18 +1,17 @@
 /* trace.c - see trace.h. */
 #include "trace.h"
+#include "array.h"
 #include "frame_file.h"
-#include "layer.h"
-#include "tick_scene.h"
+#include "hash_map.h"
 #include "png_read.h"
+#include "text.h"
+#include "tick_scene.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
 
-/* Samples of a picture that is traced, which take 8 bytes each at most. */
+/* Samples of a picture that is traced, which take 8 bytes each. */
 #define MOST_SAMPLES ((size_t)1 << 25)
-
-/* Pixels are added up in portions of so many. */
-#define PORTION ((size_t)1 << 16)
 
 void tracer_close(tracer *t)
 {
@@ -33,58 +32,6 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
         if ((sides[i].view.view.layers & VIEW_HEAT_LAYERS) && !heat_add_tick(&t->heats[i], games[i]))
             return error_set(error, "there is no memory for the heat of the nodes");
     return true;
-}
-
-/* ---- What is drawn ------------------------------------------------------------------------------------------- */
-
-/* The pixels of a pair that are unlike, and what of the reference is at each of their samples. */
-typedef struct spots {
-    size_t *at; /* y * width + x */
-    size_t count;
-    uint32_t *numbers; /* of the reference: samples * samples of each */
-    int width, samples;
-} spots;
-
-static void release_spots(spots *s)
-{
-    free(s->at);
-    free(s->numbers);
-}
-
-static bool list_spots(const image *a, const image *b, const diff_pair *pair, const diff_options *options, int samples,
-                       spots *s)
-{
-    image_tolerance tolerance;
-    *s = (spots){.width = a->width, .samples = samples};
-    s->at = malloc(((size_t)pair->difference.unlike.pixels + 1) * sizeof *s->at);
-    const bool ok = pair_tolerance(pair, options, &tolerance) && s->at;
-    for (int y = 0; ok && y < a->height; y++)
-        for (int x = 0; x < a->width; x++) {
-            const image_color p = image_color_at(a, x, y), q = image_color_at(b, x, y);
-            if ((p.r != q.r || p.g != q.g || p.b != q.b) && !image_is_ignored(&tolerance, a->width, x, y) &&
-                s->count < pair->difference.unlike.pixels)
-                s->at[s->count++] = (size_t)y * (size_t)a->width + (size_t)x;
-        }
-    pair_tolerance_release(&tolerance);
-    s->numbers = ok ? calloc(s->count + 1, sizeof *s->numbers * (size_t)(samples * samples)) : NULL;
-    return s->numbers != NULL;
-}
-
-/* The number at one of the samples of a spot. */
-static uint32_t number_at(const spots *s, const uint32_t *numbers, size_t spot, int sample)
-{
-    const size_t samples = (size_t)s->samples, width = (size_t)s->width;
-    const size_t x = s->at[spot] % width * samples + (size_t)sample % samples;
-    const size_t y = s->at[spot] / width * samples + (size_t)sample / samples;
-    return numbers[y * width * samples + x];
-}
-
-static void keep_numbers(spots *s, const uint32_t *numbers)
-{
-    const int all = s->samples * s->samples;
-    for (size_t i = 0; i < s->count; i++)
-        for (int j = 0; j < all; j++)
-            s->numbers[i * (size_t)all + (size_t)j] = number_at(s, numbers, i, j);
 }
 
 /* ---- What it belongs to -------------------------------------------------------------------------------------- */
@@ -132,21 +79,29 @@ static trace_part upper(trace_part a, trace_part b)
     return a.layer > b.layer ? a : b;
 }
 
-static bool same_part(trace_part a, trace_part b)
+static bool same_part(const void *a, const void *b)
 {
-    return a.layer == b.layer && a.id == b.id;
+    const trace_part *x = a, *y = b;
+    return x->layer == y->layer && x->id == y->id;
 }
 
+/* What both sides show, a number a sample. */
+typedef struct pictures {
+    uint32_t *numbers[2];
+    size_t width;   /* in pixels */
+    size_t samples; /* of a pixel, each way */
+} pictures;
+
 /* Of the samples of a pixel the first at which the sides show unlike elements; else the first that shows any. */
-static trace_part part_at(const tracer *t, const octree_game *const games[2], const spots *s, const uint32_t *numbers,
-                          size_t spot)
+static trace_part part_at(const tracer *t, const octree_game *const games[2], const pictures *p, size_t x, size_t y)
 {
-    const int all = s->samples * s->samples;
     trace_part found = {.layer = TRACE_BACKGROUND, .pixels = 1};
-    for (int i = 0; i < all; i++) {
-        const trace_part a = part_of(&t->scenes[0], s->numbers[spot * (size_t)all + (size_t)i], games);
-        const trace_part b = part_of(&t->scenes[1], number_at(s, numbers, spot, i), games);
-        if (!same_part(a, b))
+    for (size_t i = 0; i < p->samples * p->samples; i++) {
+        const size_t row = y * p->samples + i / p->samples;
+        const size_t at = (row * p->width + x) * p->samples + i % p->samples;
+        const trace_part a = part_of(&t->scenes[0], p->numbers[0][at], games);
+        const trace_part b = part_of(&t->scenes[1], p->numbers[1][at], games);
+        if (!same_part(&a, &b))
             return upper(a, b);
         if (found.layer == TRACE_BACKGROUND)
             found = b;
@@ -154,80 +109,88 @@ static trace_part part_at(const tracer *t, const octree_game *const games[2], co
     return found;
 }
 
-static int by_part(const void *a, const void *b)
+/* ---- Adding up ----------------------------------------------------------------------------------------------- */
+
+static uint64_t hash_part(const void *part)
 {
-    const trace_part *x = a, *y = b;
-    return x->layer != y->layer ? x->layer - y->layer : (x->id > y->id) - (x->id < y->id);
+    const uint64_t key =
+        ((const trace_part *)part)->id * (TRACE_BACKGROUND + 1) + (uint64_t)((const trace_part *)part)->layer;
+    return hash_map_hash_id(&key);
+}
+
+static const hash_map_keys by_part = {sizeof(trace_part), hash_part, same_part};
+
+/* A trace while its parts are added up. */
+typedef struct counting {
+    trace made;
+    size_t room;
+    hash_map map;
+} counting;
+
+static bool count_part(counting *c, const trace_part *part)
+{
+    trace *made = &c->made;
+    const uint32_t place = hash_map_find(&c->map, &by_part, made->parts, part);
+    made->pixels++;
+    if (place != HASH_MAP_NONE) {
+        made->parts[place].pixels++;
+        return true;
+    }
+    trace_part *grown = array_reserve(made->parts, made->count + 1, &c->room, sizeof *grown);
+    if (!grown)
+        return false;
+    made->parts = grown;
+    made->parts[made->count++] = *part;
+    return hash_map_add(&c->map, &by_part, made->parts);
+}
+
+static bool count_parts(counting *c, const tracer *t, const octree_game *const games[2], const image frames[2],
+                        const image_tolerance *tolerance, const pictures *p)
+{
+    for (int y = 0; y < frames[0].height; y++)
+        for (int x = 0; x < frames[0].width; x++) {
+            const image_color a = image_color_at(&frames[0], x, y), b = image_color_at(&frames[1], x, y);
+            if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_ignored(tolerance, frames[0].width, x, y))
+                continue;
+            const trace_part part = part_at(t, games, p, (size_t)x, (size_t)y);
+            if (!count_part(c, &part))
+                return false;
+        }
+    return true;
 }
 
 static int by_pixels(const void *a, const void *b)
 {
     const trace_part *x = a, *y = b;
-    return x->pixels != y->pixels ? (x->pixels < y->pixels) - (x->pixels > y->pixels) : by_part(a, b);
-}
-
-/* Add up what is of one part; returns how many parts there are. */
-static size_t fold(trace_part *parts, size_t count)
-{
-    size_t kept = 0;
-    if (count == 0)
-        return 0;
-    qsort(parts, count, sizeof *parts, by_part);
-    for (size_t i = 0; i < count; i++) {
-        if (kept && same_part(parts[kept - 1], parts[i]))
-            parts[kept - 1].pixels += parts[i].pixels;
-        else
-            parts[kept++] = parts[i];
-    }
-    qsort(parts, kept, sizeof *parts, by_pixels);
-    return kept;
+    if (x->pixels != y->pixels)
+        return x->pixels < y->pixels ? 1 : -1;
+    return x->layer != y->layer ? x->layer - y->layer : (x->id > y->id) - (x->id < y->id);
 }
 
 static bool keep_trace(tracer *t, const trace *made)
 {
-    if (t->count == t->room) {
-        const size_t room = t->room ? 2 * t->room : 16;
-        trace *grown = realloc(t->traces, room * sizeof *grown);
-        if (!grown)
-            return false;
-        t->traces = grown;
-        t->room = room;
-    }
-    t->traces[t->count++] = *made;
-    return true;
-}
-
-/* Make room for one more: by adding up first, and by memory where that does not help. */
-static bool make_room(trace *made, size_t *room)
-{
-    if (made->count < *room)
-        return true;
-    made->count = fold(made->parts, made->count);
-    if (made->parts && made->count < *room / 2)
-        return true;
-    trace_part *grown = realloc(made->parts, (*room + PORTION) * sizeof *grown);
+    trace *grown = array_reserve(t->traces, t->count + 1, &t->room, sizeof *grown);
     if (!grown)
         return false;
-    made->parts = grown;
-    *room += PORTION;
+    t->traces = grown;
+    t->traces[t->count++] = *made;
+    if (made->count)
+        qsort(made->parts, made->count, sizeof *made->parts, by_pixels);
     return true;
 }
 
-static bool add_trace(tracer *t, const octree_game *const games[2], const spots *s, const uint32_t *numbers)
+static bool add_trace(tracer *t, const octree_game *const games[2], const diff_pair *pair, const diff_options *options,
+                      const image frames[2], const pictures *p)
 {
-    trace made = {.tick = octree_game_tick(games[0])->number, .pixels = s->count};
-    size_t room = 0;
-    bool ok = true;
-    for (size_t i = 0; ok && i < s->count; i++) {
-        ok = make_room(&made, &room);
-        if (ok)
-            made.parts[made.count++] = part_at(t, games, s, numbers, i);
-    }
-    made.count = fold(made.parts, made.count);
-    if (ok && keep_trace(t, &made))
-        return true;
-    free(made.parts);
-    return false;
+    counting c = {.made.tick = octree_game_tick(games[0])->number};
+    image_tolerance tolerance;
+    const bool ok = pair_tolerance(pair, options, &tolerance) && count_parts(&c, t, games, frames, &tolerance, p) &&
+                    keep_trace(t, &c.made);
+    if (!ok)
+        free(c.made.parts);
+    hash_map_release(&c.map);
+    pair_tolerance_release(&tolerance);
+    return ok;
 }
 
 /* ---- A pair -------------------------------------------------------------------------------------------------- */
@@ -266,22 +229,19 @@ static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
 static bool trace_frames(tracer *t, const octree_game *const games[2], const diff_pair *pair,
                          const diff_options *options, const image frames[2], octreel_error *error)
 {
-    const int samples = view_samples(&t->scenes[0].view);
-    const size_t size = (size_t)frames[0].width * (size_t)frames[0].height * (size_t)(samples * samples);
-    spots s;
+    const size_t side = (size_t)view_samples(&t->scenes[0].view), width = (size_t)frames[0].width;
+    const size_t size = width * (size_t)frames[0].height * side * side;
     if (size > MOST_SAMPLES) {
         snprintf(t->untraced, sizeof t->untraced, "a picture of more than %zu samples is too large for it",
                  MOST_SAMPLES);
         return true;
     }
-    uint32_t *numbers = malloc(size * sizeof *numbers);
-    bool ok = list_spots(&frames[0], &frames[1], pair, options, samples, &s) && numbers;
-    if (ok && pick(t, &t->scenes[0], numbers)) {
-        keep_numbers(&s, numbers);
-        ok = !pick(t, &t->scenes[1], numbers) || add_trace(t, games, &s, numbers);
-    }
-    release_spots(&s);
-    free(numbers);
+    pictures p = {{malloc(size * sizeof **p.numbers), malloc(size * sizeof **p.numbers)}, width, side};
+    bool ok = p.numbers[0] && p.numbers[1];
+    if (ok && pick(t, &t->scenes[0], p.numbers[0]) && pick(t, &t->scenes[1], p.numbers[1]))
+        ok = add_trace(t, games, pair, options, frames, &p);
+    free(p.numbers[0]);
+    free(p.numbers[1]);
     return ok || error_set(error, "there is no memory to trace what differs in %s", diff_pair_name(pair));
 }
 
@@ -310,4 +270,36 @@ static int by_tick(const void *tick, const void *told)
 const trace *tracer_at(const tracer *t, uint64_t tick)
 {
     return t->count ? bsearch(&tick, t->traces, t->count, sizeof *t->traces, by_tick) : NULL;
+}
+
+/* ---- In words ------------------------------------------------------------------------------------------------ */
+
+void trace_print_part(FILE *out, const trace_part *part)
+{
+    char text[OCTREE_ADDRESS_TEXT];
+    if (part->layer == LAYER_NODES)
+        fprintf(out, "node %s", octree_address_format(part->id, text));
+    else if (part->layer == LAYER_POINTS)
+        fprintf(out, "point %" PRIu64, part->id);
+    else if (part->layer == TRACE_BACKGROUND)
+        fputs("the background", out);
+    else
+        fputs(view_layer_words((view_layer)part->layer), out);
+}
+
+void trace_print(FILE *out, const trace *t)
+{
+    const size_t most = t->count < TRACE_TOLD ? t->count : TRACE_TOLD;
+    uint64_t told = 0;
+    fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural(t->pixels));
+    for (int text = 0; text < 2; text++) /* what is written says what is drawn: it comes last */
+        for (size_t i = 0; i < most; i++) {
+            if ((t->parts[i].layer == LAYER_TEXT) != text)
+                continue;
+            fprintf(out, "%s%" PRIu64 " of ", told ? ", " : "", t->parts[i].pixels);
+            trace_print_part(out, &t->parts[i]);
+            told += t->parts[i].pixels;
+        }
+    if (told < t->pixels)
+        fprintf(out, ", %" PRIu64 " of others", t->pixels - told);
 }

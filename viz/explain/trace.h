@@ -1,6 +1,6 @@
 /* trace.h - the pixels in which two frames of a tick differ, traced to the elements that are drawn there. */
-#ifndef DIFF_TRACE_H
-#define DIFF_TRACE_H
+#ifndef EXPLAIN_TRACE_H
+#define EXPLAIN_TRACE_H
 
 #include "diff.h"
 #include "renderer.h"
@@ -8,6 +8,8 @@
 #include "layer.h"
 #include "octree/game.h"
 #include "recorded.h"
+
+#include <stdio.h>
 
 /* What some of the pixels show, on one side or both. Nodes that are there because one above them split, or that are
  * gone because it merged, count as that one. */
@@ -49,5 +51,13 @@ bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *cons
 
 /* What is known of a tick, or null. */
 const trace *tracer_at(const tracer *t, uint64_t tick);
+
+/* "node 0/3/7", "point 12", "text". */
+void trace_print_part(FILE *out, const trace_part *part);
+
+/* "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text"; of many parts the first so many, and
+ * text last of them. */
+#define TRACE_TOLD 5
+void trace_print(FILE *out, const trace *t);
 
 #endif

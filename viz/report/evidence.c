@@ -42,7 +42,7 @@ static size_t stem_length(const char *name)
     return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
 }
 
-/* What is put behind a stem at most, also while it is written. */
+/* What is appended to a stem at most, also while it is written. */
 #define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
 
 /* How much of a stem fits into the name of a file, whole letters of UTF-8. */

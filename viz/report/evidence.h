@@ -1,6 +1,6 @@
 /* evidence.h - a folder that shows what a comparison found: pictures of each pair that differs, and report.html. */
-#ifndef DIFF_EVIDENCE_H
-#define DIFF_EVIDENCE_H
+#ifndef REPORT_EVIDENCE_H
+#define REPORT_EVIDENCE_H
 
 #include "diff.h"
 

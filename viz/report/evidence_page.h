@@ -1,7 +1,7 @@
 /* evidence_page.h - the page of evidence/report.html, its style and scripts inside, as CMake made bytes of it: what
- * comes before the facts and pictures of a comparison, and what behind them. */
-#ifndef DIFF_EVIDENCE_PAGE_H
-#define DIFF_EVIDENCE_PAGE_H
+ * comes before the facts and pictures of a comparison, and what comes after. */
+#ifndef REPORT_EVIDENCE_PAGE_H
+#define REPORT_EVIDENCE_PAGE_H
 
 #include <stddef.h>
 

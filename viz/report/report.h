@@ -1,6 +1,6 @@
 /* report.h - what a comparison found, for people and for programs. */
-#ifndef DIFF_REPORT_H
-#define DIFF_REPORT_H
+#ifndef REPORT_REPORT_H
+#define REPORT_REPORT_H
 
 #include "evidence.h"
 #include "explain.h"

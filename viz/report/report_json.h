@@ -1,6 +1,6 @@
 /* report_json.h - members of JSON that more than one report has. */
-#ifndef DIFF_REPORT_JSON_H
-#define DIFF_REPORT_JSON_H
+#ifndef REPORT_REPORT_JSON_H
+#define REPORT_REPORT_JSON_H
 
 #include "json_write.h"
 #include "report.h"

@@ -1,7 +1,7 @@
 /* report_page.c - report.html of a folder of evidence: see report.h.
  *
  * Between the page's two halves go the facts, a line of JSON for the whole and one for each frame that differs, and
- * behind them the pictures. They stay on the disk until they are copied, a block at a time.
+ * then the pictures. They stay on the disk until they are copied, a block at a time.
  */
 #include "diff_words.h"
 #include "evidence_page.h"

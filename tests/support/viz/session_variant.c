@@ -43,12 +43,12 @@ static void make_variant(variant *v)
 
 static char *headline_of(const variant *a, const variant *b)
 {
-    const cause_wanted wanted = {.first = 1};
+    const cause_watcher first = {.first = 1};
     octreel_error error = {""};
     char *text;
     cause c;
     text_stream s;
-    if (!cause_find(&a->session, &b->session, NULL, &wanted, NULL, NULL, &c, &error))
+    if (!cause_find(&a->session, &b->session, NULL, &first, &c, &error))
         fail_msg("%s", error.text);
     assert_true(text_stream_begin(&s));
     cause_print_headline(s.stream, &c);

@@ -23,11 +23,8 @@ static void a_folder_stands_for_its_pictures_in_order(void **state)
     diff_side side = assert_side(folder.path);
     assert_int_equal(side.kind, DIFF_FOLDER);
     assert_int_equal(side.count, 5);
-    for (size_t i = 0; i < side.count; i++) {
+    for (size_t i = 0; i < side.count; i++)
         assert_string_equal(side.frames[i].name, expected[i]);
-        assert_ptr_equal(diff_side_find(&side, expected[i]), &side.frames[i]);
-    }
-    assert_null(diff_side_find(&side, "d.png"));
     diff_side_release(&side);
 }
 

@@ -278,10 +278,10 @@ static void assert_played_right(const changed_session *t, const cause *c)
 /* The one fact, the first thing that is said, and what follows. */
 static void assert_named(const changed_session *t, uint64_t seed)
 {
-    const cause_wanted all = {.first = SIZE_MAX};
+    const cause_watcher all = {.first = SIZE_MAX};
     octreel_error error = {""};
     cause c;
-    if (!cause_find(&t->made.session, &t->changed, NULL, &all, NULL, NULL, &c, &error))
+    if (!cause_find(&t->made.session, &t->changed, NULL, &all, &c, &error))
         fail_msg("%s", error.text);
     char *headline;
     text_stream s;

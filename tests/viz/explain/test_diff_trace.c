@@ -9,7 +9,6 @@
 #include "layer.h"
 #include "recordings.h"
 #include "text.h"
-#include "trace_words.h"
 
 /* A film of these layers alone. */
 static place film_layers(const temp_folder *own, const char *name, const octree_session *session, unsigned layers,
