@@ -17,8 +17,9 @@
 /* Start as {.out = stream}. The caller pairs begin with end, and in an object each value with a key. */
 typedef struct json_writer {
     FILE *out;
-    bool comma;   /* one is due before the next value or key */
-    bool newline; /* one is due before the next value, key or end */
+    bool comma;                    /* one is due before the next value or key */
+    bool newline;                  /* one is due before the next value, key or end */
+    const struct json_member *row; /* whose value is written by a table: json_table.h */
 } json_writer;
 
 void json_write_begin_object(json_writer *writer);

@@ -1,6 +1,7 @@
 /* number.c - decimal text as doubles, whatever the locale. */
 #include "number.h"
 
+#include <errno.h>
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -146,6 +147,29 @@ bool number_parse(const char *begin, const char *limit, const char **end, double
     if (!isfinite(magnitude))
         return false;
     *value = number.negative ? -magnitude : magnitude;
+    return true;
+}
+
+bool numbers_parse(const char *text, double *values, size_t count)
+{
+    const char *at = text, *limit = text + strlen(text);
+    for (size_t i = 0; i < count; i++, at++)
+        if (!number_parse(at, limit, &at, &values[i]) || *at != (i + 1 < count ? ',' : 0))
+            return false;
+    return true;
+}
+
+bool whole_parse(const char **text, uint64_t max, uint64_t *value)
+{
+    char *end;
+    if (!is_digit(**text))
+        return false;
+    errno = 0;
+    const unsigned long long number = strtoull(*text, &end, 10);
+    if (errno || number > max)
+        return false;
+    *value = number;
+    *text = end;
     return true;
 }
 

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* Read the decimal number that starts at begin, no blanks before it, and never look at limit or beyond: a sign or
  * none, digits with a point or none, an exponent or none ("1", "-.5", "+2.", "1e-3"). *end is the first character
@@ -17,6 +18,12 @@ bool number_parse(const char *begin, const char *limit, const char **end, double
 /* True when begin starts with what C prints for a NaN or an infinity, in any case: "nan", "-nan(ind)", "inf",
  * "Infinity". *end is the first character behind it, or begin. */
 bool number_parse_nonfinite(const char *begin, const char *limit, const char **end);
+
+/* Read a whole text as `count` numbers with commas between. False, and *values may then be changed, when it is none. */
+bool numbers_parse(const char *text, double *values, size_t count);
+
+/* Read a decimal whole number at *text, which is moved behind it. False on a sign, no digits, or more than `max`. */
+bool whole_parse(const char **text, uint64_t max, uint64_t *value);
 
 /* The digits of a macro that is a plain number, for text that is put together when it is compiled. */
 #define NUMBER_DIGITS(macro) NUMBER_DIGITS_OF(macro)

@@ -5,7 +5,7 @@
 #include "film_report.h"
 #include "folder_files.h"
 #include "progress.h"
-#include "view_file.h"
+#include "recording_file.h"
 
 #include <stdio.h>
 
@@ -125,7 +125,7 @@ static bool read_film(arguments *a)
         return refuse("%s: holds no recording that could be resumed (%s is missing)", a->film.folder, missing);
     }
     if (a->film.resume && folder_has(a->film.folder, "recording.json") &&
-        !view_read_recording(a->film.folder, &a->film.view, &every, &error)) {
+        !recording_read(a->film.folder, &a->film.view, &every, &error)) {
         return refuse("%s", error.text);
     }
     if (a->film.every == 0)

@@ -34,9 +34,9 @@ bool read_ticks(const char *text, uint64_t *first, uint64_t *last);             
 /* The options of a view are the same for every command that draws. They are collected while the command line is read,
  * and then become a view. */
 #define VIEW_OPTION 256 /* the first of getopt's numbers for them */
-#define VIEW_OPTIONS 16 /* at most */
+#define VIEW_OPTIONS 32 /* at most */
 typedef struct view_options {
-    const char *values[VIEW_OPTIONS]; /* as they were typed; null: not given */
+    const char *values[VIEW_OPTIONS]; /* as they were typed, at the numbers of view_option_at(); null: not given */
 } view_options;
 
 /* Write them where getopt_long will read them, VIEW_OPTIONS at most; returns their number. */

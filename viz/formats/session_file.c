@@ -1,14 +1,17 @@
-/* session_file.c - sessions that own their arrays: copying, keys, freeing. */
+/* session_file.c - session files: read, written, and sessions that own their arrays. */
 #include "session_file.h"
-#include "session_reader.h"
+#include "file.h"
+#include "session_members.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* ---- Owning ------------------------------------------------------------------------------------------------- */
+
 static bool fail_memory(octreel_error *error)
 {
-    snprintf(error->text, sizeof error->text, "out of memory for the session");
-    return false;
+    return error_set(error, "out of memory for the session");
 }
 
 /* Replace *items by a copy of them, null when there are none; null with false when there is no memory. */
@@ -35,7 +38,7 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
     out->session.queries = queries;
     out->session.shapes = shapes;
     out->session.keys = NULL;
-    bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_memory(error);
+    const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_memory(error);
     if (!done)
         session_release(out);
     return done;
@@ -43,11 +46,8 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
 
 bool session_set_keys(session_file *file, const char *keys, octreel_error *error)
 {
-    char reason[SESSION_KEYS_REASON];
-    if (!session_check_keys(keys, reason)) {
-        snprintf(error->text, sizeof error->text, "%s", reason);
+    if (!session_check_keys(keys, error))
         return false;
-    }
     char *copy = strdup(keys);
     if (!copy)
         return fail_memory(error);
@@ -64,4 +64,198 @@ void session_release(session_file *file)
     free((octree_query *)file->session.queries);
     free((octree_shape *)file->session.shapes);
     *file = (session_file){0};
+}
+
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
+
+static bool read_header(json_reader *r, json_t *object)
+{
+    session_loader *s = r->context;
+    if (!json_object_get(object, "octreel"))
+        return json_fail(r, NULL, "is no session: the first object has no \"octreel\": \"session\"");
+    return json_read_members(r, object, NULL, session_header_members, &s->header);
+}
+
+static bool read_tick(json_reader *r, json_t *object)
+{
+    session_tick ignored;
+    if (json_object_get(object, "octreel"))
+        return json_fail(r, NULL, "a second header; what follows the first are objects of one tick each");
+    return json_read_members(r, object, NULL, session_tick_members, &ignored);
+}
+
+static bool check_text(json_reader *r)
+{
+    const size_t size = (size_t)(r->limit - r->at);
+    if (size > INT_MAX)
+        return json_fail_line(r, 1, NULL, "is larger than 2 GiB; keep the points in a file of their own");
+    const char *nul = memchr(r->at, 0, size);
+    if (!nul)
+        return true;
+    for (; r->at < nul; r->at++)
+        r->line += *r->at == '\n';
+    return json_fail_line(r, r->line, NULL, "holds a NUL byte, so it is no text");
+}
+
+static bool read_stream(json_reader *r)
+{
+    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* some editors put it before UTF-8 */
+    if (r->limit - r->at >= 3 && memcmp(r->at, byte_order_mark, 3) == 0)
+        r->at += 3;
+    if (!check_text(r))
+        return false;
+    if (!json_next_object(r))
+        return json_fail_line(r, r->line, NULL, "holds no session");
+    if (!json_read_object(r, false, read_header))
+        return false;
+    while (json_next_object(r))
+        if (!json_read_object(r, false, read_tick))
+            return false;
+    return true;
+}
+
+/* What is of every tick comes last in a session, though it is the first in its file. */
+static bool append_standing(json_reader *r, int list, size_t item_size)
+{
+    session_loader *s = r->context;
+    for (size_t i = 0; i < s->standing[list].count; i++) {
+        void *item = session_append(r, NULL, &s->lists[list], item_size);
+        if (!item)
+            return false;
+        memcpy(item, (const char *)s->standing[list].items + i * item_size, item_size);
+    }
+    return true;
+}
+
+/* Hand the loader's arrays over to the session. */
+static octree_session assemble(const session_loader *s)
+{
+    octree_session session = s->header.session;
+    session.bodies = s->bodies;
+    session.edits = s->lists[SESSION_EDITS].items;
+    session.edit_count = s->lists[SESSION_EDITS].count;
+    session.queries = s->lists[SESSION_QUERIES].items;
+    session.query_count = s->lists[SESSION_QUERIES].count;
+    session.shapes = s->lists[SESSION_SHAPES].items;
+    session.shape_count = s->lists[SESSION_SHAPES].count;
+    return session;
+}
+
+bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
+                   octreel_error *error)
+{
+    session_loader loader = {.folder = folder, .header = {.session = session_default_header()}};
+    loader.tick = OCTREE_EVERY_TICK;
+    json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &loader, .error = error};
+    const bool done = read_stream(&r) && append_standing(&r, SESSION_QUERIES, sizeof(octree_query)) &&
+                      append_standing(&r, SESSION_SHAPES, sizeof(octree_shape));
+    *out = (session_file){assemble(&loader)};
+    for (int i = 0; i < SESSION_LISTS; i++)
+        free(loader.standing[i].items);
+    if (!done)
+        session_release(out);
+    return done;
+}
+
+bool session_read(const char *path, session_file *out, octreel_error *error)
+{
+    char reason[FILE_REASON];
+    char *text;
+    size_t size;
+    *out = (session_file){0};
+    if (!file_read_whole(path, &text, &size, reason))
+        return error_set(error, "%s: %s", json_name_end(path), reason);
+    const char *slash = strrchr(path, '/');
+    char *folder = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
+    const bool done = folder ? session_parse(path, folder, text, size, out, error) : fail_memory(error);
+    free(folder);
+    free(text);
+    return done;
+}
+
+/* ---- Writing ------------------------------------------------------------------------------------------------ */
+
+static size_t count_single_queries(const octree_session *session)
+{
+    size_t count = session->query_count;
+    while (count > 0 && session->queries[count - 1].tick == OCTREE_EVERY_TICK)
+        count--;
+    return count;
+}
+
+static size_t count_single_shapes(const octree_session *session)
+{
+    size_t count = session->shape_count;
+    while (count > 0 && session->shapes[count - 1].tick == OCTREE_EVERY_TICK)
+        count--;
+    return count;
+}
+
+void session_write_header(const octree_session *session, FILE *out)
+{
+    const size_t queries = count_single_queries(session), shapes = count_single_shapes(session);
+    session_header header = {.session = *session};
+    header.standing.query_count = session->query_count - queries;
+    header.standing.queries = header.standing.query_count ? session->queries + queries : NULL;
+    header.standing.shape_count = session->shape_count - shapes;
+    header.standing.shapes = header.standing.shape_count ? session->shapes + shapes : NULL;
+    json_writer writer = {.out = out};
+    json_write_object(&writer, session_header_members, &header);
+    json_write_end_line(&writer);
+}
+
+void session_write_tick(uint64_t tick, const octree_input *input, FILE *out)
+{
+    json_writer writer = {.out = out};
+    if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0)
+        return;
+    json_write_object(&writer, session_tick_members, &(session_tick){tick, *input});
+    json_write_end_line(&writer);
+}
+
+/* What of a session belongs to single ticks and has not been written: the rest of its arrays. */
+typedef struct rest {
+    octree_input input;
+    uint64_t tick; /* the next; UINT64_MAX: none */
+} rest;
+
+static void find_next_tick(rest *left)
+{
+    const octree_input *i = &left->input;
+    left->tick = i->edit_count ? i->edits->tick : UINT64_MAX;
+    if (i->query_count && i->queries->tick < left->tick)
+        left->tick = i->queries->tick;
+    if (i->shape_count && i->shapes->tick < left->tick)
+        left->tick = i->shapes->tick;
+}
+
+/* Split what belongs to the next tick off the front of the rest. */
+static octree_input take_tick(rest *left)
+{
+    octree_input *i = &left->input, taken = *i;
+    taken.edit_count = taken.query_count = taken.shape_count = 0;
+    for (; i->edit_count && i->edits->tick == left->tick; i->edits++, i->edit_count--)
+        taken.edit_count++;
+    for (; i->query_count && i->queries->tick == left->tick; i->queries++, i->query_count--)
+        taken.query_count++;
+    for (; i->shape_count && i->shapes->tick == left->tick; i->shapes++, i->shape_count--)
+        taken.shape_count++;
+    return taken;
+}
+
+bool session_write(const octree_session *session, FILE *out)
+{
+    rest left = {.input = {.edits = session->edits,
+                           .edit_count = session->edit_count,
+                           .queries = session->queries,
+                           .query_count = count_single_queries(session),
+                           .shapes = session->shapes,
+                           .shape_count = count_single_shapes(session)}};
+    session_write_header(session, out);
+    for (find_next_tick(&left); left.tick != UINT64_MAX; find_next_tick(&left)) {
+        const uint64_t tick = left.tick;
+        const octree_input input = take_tick(&left);
+        session_write_tick(tick, &input, out);
+    }
+    return fflush(out) == 0 && !ferror(out);
 }

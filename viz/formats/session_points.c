@@ -1,12 +1,14 @@
-/* session_points.c - the points of a session file: listed, from a file of points, or a sample. */
+/* session_points.c - the points of a session file: listed, from a file of points, or a sample; and velocities by id. */
 #include "cloud.h"
+#include "hash_map.h"
 #include "octree/sample.h"
-#include "session_ids.h"
-#include "session_reader.h"
+#include "session_members.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const hash_map_keys by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
 
 /* Whether the player has an id that no point may have. */
 static bool is_apart(const octree_player *player)
@@ -15,97 +17,94 @@ static bool is_apart(const octree_player *player)
 }
 
 /* The id of a point that is given none: its place counted from 1, passing over the player's id. */
-static uint64_t default_id(const session_reader *reader, size_t place)
+static uint64_t default_id(const session_loader *s, size_t place)
 {
-    uint64_t id = (uint64_t)place + 1, player = reader->session->player.id;
-    return is_apart(&reader->session->player) && player != 0 && id >= player ? id + 1 : id;
+    const octree_player *player = &s->header.session.player;
+    const uint64_t id = (uint64_t)place + 1;
+    return is_apart(player) && player->id != 0 && id >= player->id ? id + 1 : id;
 }
 
 /* Make room for all points. */
-static bool take_bodies(session_reader *reader, const json_place *at, size_t count)
+static bool make_bodies(json_reader *r, const json_place *at, size_t count)
 {
-    reader->bodies = calloc(count > 0 ? count : 1, sizeof *reader->bodies);
-    if (!reader->bodies)
-        return session_fail(reader, at, "out of memory for %zu points", count);
-    reader->session->body_count = count;
+    session_loader *s = r->context;
+    s->bodies = calloc(count > 0 ? count : 1, sizeof *s->bodies);
+    if (!s->bodies)
+        return json_fail(r, at, "out of memory for %zu points", count);
+    s->header.session.body_count = count;
     return true;
 }
 
 /* ---- A list ------------------------------------------------------------------------------------------------- */
 
 /* [x, y, z] or [x, y, z, id] */
-static bool read_row(session_reader *reader, json_t *row, const json_place *at, octree_body *body)
+static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
 {
-    size_t size = json_array_size(row);
+    const size_t size = json_array_size(row);
     if (size != 3 && size != 4)
-        return session_expected(reader, row, at, "a point [x, y, z] or [x, y, z, id]");
-    for (size_t i = 0; i < 3; i++) {
-        json_place place = {at, NULL, i};
-        if (!session_read_number(reader, json_array_get(row, i), &place, &body->position[i]))
+        return json_expected(r, row, at, "a point [x, y, z] or [x, y, z, id]");
+    for (size_t i = 0; i < 3; i++)
+        if (!json_read_number(r, json_array_get(row, i), &(json_place){at, NULL, i}, &body->position[i]))
             return false;
-    }
-    return size == 3 || session_read_id(reader, json_array_get(row, 3), &(json_place){at, NULL, 3}, &body->id);
+    return size == 3 ||
+           json_read_whole(r, json_array_get(row, 3), &(json_place){at, NULL, 3}, 0, JSON_LARGEST_WHOLE, &body->id);
 }
 
-static bool read_point(session_reader *reader, json_t *value, const json_place *at, void *into)
+static bool read_point(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    static const session_member members[] = {
-        {"id", session_read_id, offsetof(octree_body, id), false},
-        {"position", session_read_vector, offsetof(octree_body, position), true},
-        {"velocity", session_read_vector, offsetof(octree_body, velocity), false},
-        {0},
-    };
+    const session_loader *s = r->context;
     octree_body *body = (octree_body *)into + at->index;
-    body->id = default_id(reader, at->index);
+    body->id = default_id(s, at->index);
     if (json_is_array(value))
-        return read_row(reader, value, at, body);
+        return read_row(r, value, at, body);
     if (json_is_object(value))
-        return session_read_members(reader, value, at, members, body);
-    return session_expected(reader, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
+        return json_read_members(r, value, at, session_body_members, body);
+    return json_expected(r, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
 }
 
-static bool fail_repeated(session_reader *reader, const json_place *at, size_t place, size_t earlier)
+/* Add the bodies to a map by their ids. False with an error where two have one, or one has the player's. */
+static bool map_ids(json_reader *r, const json_place *at, hash_map *map)
 {
-    json_place first = {at, NULL, earlier};
-    return session_fail(reader, &(json_place){at, NULL, place}, "id %" PRIu64 " is taken by points[%zu] in line %zu",
-                        reader->bodies[place].id, earlier, session_line(reader, &first));
+    const session_loader *s = r->context;
+    const octree_player *player = &s->header.session.player;
+    uint32_t clash = HASH_MAP_NONE;
+    for (size_t i = 0; i < s->header.session.body_count; i++) {
+        const uint64_t *id = &s->bodies[i].id;
+        const json_place place = {at, NULL, i};
+        const uint32_t first = hash_map_find(map, &by_id, s->bodies, id);
+        if (first != HASH_MAP_NONE)
+            return json_fail(r, &place, "id %" PRIu64 " is taken by points[%" PRIu32 "] in line %zu", *id, first,
+                             json_line(r, &(json_place){at, NULL, first}));
+        if (!hash_map_add(map, &by_id, s->bodies))
+            return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
+    }
+    if (is_apart(player))
+        clash = hash_map_find(map, &by_id, s->bodies, &player->id);
+    return clash == HASH_MAP_NONE ||
+           json_fail(r, &(json_place){at, NULL, clash}, "id %" PRIu64 " is the player's", player->id);
 }
 
-static bool check_ids(session_reader *reader, const json_place *at)
+static bool read_list(json_reader *r, json_t *list, const json_place *at)
 {
-    size_t count = reader->session->body_count, earlier = 0;
-    if (count == 0)
-        return true;
-    session_id *ids = session_ids_sorted(reader->bodies, count);
-    if (!ids)
-        return session_fail(reader, at, "out of memory for %zu points", count);
-    size_t repeated = session_ids_repeated(ids, count, &earlier);
-    const octree_player *apart = &reader->session->player;
-    const session_id *player = is_apart(apart) ? session_ids_find(ids, count, apart->id) : NULL;
-    size_t clash = player ? player->place : count;
-    free(ids);
-    if (repeated < count)
-        return fail_repeated(reader, at, repeated, earlier);
-    return clash == count ||
-           session_fail(reader, &(json_place){at, NULL, clash}, "id %" PRIu64 " is the player's", apart->id);
-}
-
-static bool read_list(session_reader *reader, json_t *list, const json_place *at)
-{
-    return take_bodies(reader, at, json_array_size(list)) &&
-           session_read_elements(reader, list, at, "a list of points", read_point, reader->bodies) &&
-           check_ids(reader, at);
+    session_loader *s = r->context;
+    hash_map map = {0};
+    const bool done = make_bodies(r, at, json_array_size(list)) &&
+                      json_read_elements(r, list, at, "a list of points", read_point, s->bodies) &&
+                      map_ids(r, at, &map);
+    hash_map_release(&map);
+    return done;
 }
 
 /* ---- Positions from elsewhere ------------------------------------------------------------------------------- */
 
-static bool take_positions(session_reader *reader, const json_place *at, double (*const positions)[3], size_t count)
+static bool copy_positions(json_reader *r, const json_place *at, double (*const positions)[3], size_t count)
 {
-    if (!take_bodies(reader, at, count))
+    session_loader *s = r->context;
+    if (!make_bodies(r, at, count))
         return false;
     for (size_t i = 0; i < count; i++) {
-        reader->bodies[i].id = default_id(reader, i);
-        memcpy(reader->bodies[i].position, positions[i], sizeof positions[i]);
+        s->bodies[i].id = default_id(s, i);
+        memcpy(s->bodies[i].position, positions[i], sizeof positions[i]);
     }
     return true;
 }
@@ -113,31 +112,29 @@ static bool take_positions(session_reader *reader, const json_place *at, double 
 /* The path of a file that the session names; the caller frees it. */
 static char *path_in_folder(const char *folder, const char *file)
 {
-    size_t length = strlen(folder), size = length + strlen(file) + 2;
-    bool separate = length > 0 && folder[length - 1] != '/';
+    const size_t length = strlen(folder), size = length + strlen(file) + 2;
+    const bool separate = length > 0 && folder[length - 1] != '/';
     char *path = malloc(size);
     if (path)
         snprintf(path, size, "%s%s%s", *file == '/' ? "" : folder, *file != '/' && separate ? "/" : "", file);
     return path;
 }
 
-static bool read_file(session_reader *reader, json_t *value, const json_place *at, void *into)
+static bool read_file(json_reader *r, json_t *value, const json_place *at, void *into)
 {
+    const session_loader *s = r->context;
     (void)into;
     if (!json_is_string(value) || json_string_length(value) == 0)
-        return session_expected(reader, value, at, "the name of a file");
+        return json_expected(r, value, at, "the name of a file");
     cloud cloud;
-    octreel_error reason;
-    char *path = path_in_folder(reader->folder, json_string_value(value));
+    char *path = path_in_folder(s->folder, json_string_value(value));
     if (!path)
-        return session_fail(reader, at, "out of memory");
-    bool done = cloud_read(path, NULL, &cloud, &reason);
+        return json_fail(r, at, "out of memory");
+    bool done = cloud_read(path, NULL, &cloud, r->error);
     free(path);
-    if (!done) {
-        snprintf(reader->error->text, sizeof reader->error->text, "%s", reason.text);
+    if (!done)
         return false;
-    }
-    done = take_positions(reader, at, cloud.positions, cloud.count);
+    done = copy_positions(r, at, cloud.positions, cloud.count);
     cloud_release(&cloud);
     return done;
 }
@@ -147,57 +144,156 @@ typedef struct sample {
     uint64_t count, seed;
 } sample;
 
-static bool read_sample_kind(session_reader *reader, json_t *value, const json_place *at, void *into)
+static const char *sample_at(int n)
 {
-    char known[96] = "";
-    if (json_is_string(value) && octree_sample_parse(json_string_value(value), into))
-        return true;
-    for (int i = 0; i < OCTREE_SAMPLE_KINDS; i++) {
-        size_t length = strlen(known);
-        snprintf(known + length, sizeof known - length, "%s%s", i > 0 ? ", " : "one of ",
-                 octree_sample_name((octree_sample_kind)i));
-    }
-    return session_expected(reader, value, at, known);
+    return octree_sample_name((octree_sample_kind)n);
 }
 
-static bool read_sample_count(session_reader *reader, json_t *value, const json_place *at, void *into)
+static bool read_sample(json_reader *r, json_t *value, const json_place *at)
 {
-    return session_read_whole(reader, value, at, 0, SESSION_MOST_SAMPLES, into);
-}
-
-static bool read_sample(session_reader *reader, json_t *value, const json_place *at)
-{
-    static const session_member members[] = {
-        {"sample", read_sample_kind, offsetof(sample, kind), true},
-        {"count", read_sample_count, offsetof(sample, count), true},
-        {"seed", session_read_id, offsetof(sample, seed), false},
+    static const json_member members[] = {
+        {"sample", &json_choice, offsetof(sample, kind), .required = true, .names = sample_at},
+        {"count", &json_uint64, offsetof(sample, count), .required = true, .max = SESSION_MOST_SAMPLES},
+        {"seed", &json_uint64, offsetof(sample, seed), .max = JSON_LARGEST_WHOLE},
         {0},
     };
+    const session_loader *s = r->context;
     sample wanted = {.seed = 1};
-    if (!session_read_members(reader, value, at, members, &wanted))
+    if (!json_read_members(r, value, at, members, &wanted))
         return false;
-    size_t count = (size_t)wanted.count;
+    const size_t count = (size_t)wanted.count;
     double(*positions)[3] = malloc((count > 0 ? count : 1) * sizeof *positions);
     if (!positions)
-        return session_fail(reader, at, "out of memory for %zu points", count);
-    octree_status status = octree_sample(wanted.kind, wanted.seed, &reader->session->tree.world, count, positions);
-    bool done = status == OCTREE_OK ? take_positions(reader, at, positions, count)
-                                    : session_fail(reader, at, "%s", octree_status_text(status));
+        return json_fail(r, at, "out of memory for %zu points", count);
+    const octree_status status =
+        octree_sample(wanted.kind, wanted.seed, &s->header.session.tree.world, count, positions);
+    const bool done = status == OCTREE_OK ? copy_positions(r, at, positions, count)
+                                          : json_fail(r, at, "%s", octree_status_text(status));
     free(positions);
     return done;
 }
 
 /* ---- All of them -------------------------------------------------------------------------------------------- */
 
-bool session_read_points(session_reader *reader, json_t *value, const json_place *at, void *into)
+static const json_member file_members[] = {
+    {"file", JSON_CODEC(read_file, NULL, NULL), .required = true},
+    {0},
+};
+
+static bool read_points(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    static const session_member file_members[] = {{"file", read_file, 0, true}, {0}};
     if (json_is_array(value))
-        return read_list(reader, value, at);
+        return read_list(r, value, at);
     if (json_object_get(value, "file"))
-        return session_read_members(reader, value, at, file_members, into);
+        return json_read_members(r, value, at, file_members, into);
     if (json_object_get(value, "sample"))
-        return read_sample(reader, value, at);
-    return session_fail(
-        reader, at, "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
+        return read_sample(r, value, at);
+    return json_fail(r, at,
+                     "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
 }
+
+/* Points at rest are short; a velocity of -0 is none at rest. */
+static void write_point(json_writer *w, const octree_body *body)
+{
+    if (json_nonzero_vector.is_set(body->velocity)) {
+        json_write_object(w, session_body_members, body);
+        return;
+    }
+    json_write_begin_array(w);
+    for (int axis = 0; axis < 3; axis++)
+        json_write_number(w, body->position[axis]);
+    json_write_integer(w, body->id);
+    json_write_end_array(w);
+}
+
+static void write_points(json_writer *w, const void *from)
+{
+    const octree_session *session = from;
+    json_write_begin_array(w);
+    for (size_t i = 0; i < session->body_count; i++) {
+        json_write_newline(w);
+        write_point(w, &session->bodies[i]);
+    }
+    if (session->body_count > 0)
+        json_write_newline(w);
+    json_write_end_array(w);
+}
+
+const json_codec session_points_codec = {read_points, write_points, NULL};
+
+/* ---- Velocities --------------------------------------------------------------------------------------------- */
+
+/* The points by id, and which of them has been given its velocity. */
+typedef struct receivers {
+    hash_map ids;
+    bool *given;
+} receivers;
+
+/* [id, vx, vy, vz] */
+static bool read_velocity(json_reader *r, json_t *row, const json_place *at, void *into)
+{
+    const session_loader *s = r->context;
+    const receivers *points = into;
+    uint64_t id;
+    if (!json_is_array(row) || json_array_size(row) != 4)
+        return json_expected(r, row, at, "[id, vx, vy, vz]");
+    if (!json_read_whole(r, json_array_get(row, 0), &(json_place){at, NULL, 0}, 0, JSON_LARGEST_WHOLE, &id))
+        return false;
+    const uint32_t place = hash_map_find(&points->ids, &by_id, s->bodies, &id);
+    if (place == HASH_MAP_NONE)
+        return json_fail(r, at, "no point has the id %" PRIu64, id);
+    if (points->given[place])
+        return json_fail(r, at, "the point with the id %" PRIu64 " was given a velocity before", id);
+    points->given[place] = true;
+    for (size_t i = 1; i < 4; i++)
+        if (!json_read_number(r, json_array_get(row, i), &(json_place){at, NULL, i}, &s->bodies[place].velocity[i - 1]))
+            return false;
+    return true;
+}
+
+static bool read_velocity_list(json_reader *r, json_t *list, const json_place *at)
+{
+    const session_loader *s = r->context;
+    const size_t count = s->header.session.body_count;
+    receivers points = {.given = calloc(count > 0 ? count : 1, sizeof *points.given)};
+    const bool done = (points.given || json_fail(r, at, "out of memory for %zu points", count)) &&
+                      map_ids(r, at, &points.ids) &&
+                      json_read_elements(r, list, at, "a list of velocities", read_velocity, &points);
+    hash_map_release(&points.ids);
+    free(points.given);
+    return done;
+}
+
+typedef struct random_velocities {
+    double speed;
+    uint64_t seed;
+} random_velocities;
+
+static bool read_random_velocities(json_reader *r, json_t *value, const json_place *at)
+{
+    static const json_member members[] = {
+        {"speed", &json_positive, offsetof(random_velocities, speed), .required = true},
+        {"seed", &json_uint64, offsetof(random_velocities, seed), .max = JSON_LARGEST_WHOLE},
+        {0},
+    };
+    const session_loader *s = r->context;
+    random_velocities wanted = {.seed = 1};
+    if (!json_read_members(r, value, at, members, &wanted))
+        return false;
+    for (size_t i = 0; i < s->header.session.body_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            s->bodies[i].velocity[axis] = wanted.speed * (2 * octree_random_unit(&wanted.seed) - 1);
+    return true;
+}
+
+static bool read_velocities(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    (void)into;
+    if (json_is_array(value))
+        return read_velocity_list(r, value, at);
+    if (json_is_object(value))
+        return read_random_velocities(r, value, at);
+    return json_expected(r, value, at, "a list of [id, vx, vy, vz] or {\"speed\": ..., \"seed\": ...}");
+}
+
+const json_codec session_velocities_codec = {read_velocities, NULL, NULL};

@@ -3,7 +3,7 @@
 #include "png_write.h"
 #include "json_write.h"
 #include "octree/digest.h"
-#include "view_file.h"
+#include "recording_file.h"
 #include "file.h"
 
 #include <errno.h>
@@ -153,12 +153,6 @@ static void write_text(json_writer *w, const char *key, const char *text)
     json_member_text(w, key, text);
 }
 
-static void write_count(json_writer *w, const char *key, uint64_t value)
-{
-    json_write_newline(w);
-    json_member_integer(w, key, value);
-}
-
 static void end_object(json_writer *w)
 {
     json_write_newline(w);
@@ -171,14 +165,7 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
     memory_file file;
     if (!begin_file(&file, error))
         return false;
-    json_writer writer = {.out = file.stream}, *w = &writer;
-    json_write_begin_object(w);
-    write_text(w, "octreel", "recording");
-    write_count(w, "version", RECORDING_VERSION);
-    view_write(w, v);
-    write_text(w, "theme", theme_name());
-    write_count(w, "every", every);
-    end_object(w);
+    recording_write(file.stream, v, every);
     return end_file(&file, place, "recording.json", "tells of another view (size, camera, layers, every ...)", error);
 }
 

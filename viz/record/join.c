@@ -3,7 +3,7 @@
 #include "folder_files.h"
 #include "missing.h"
 #include "recording.h"
-#include "view_file.h"
+#include "recording_file.h"
 #include "viewer.h"
 
 #include <errno.h>
@@ -163,7 +163,7 @@ bool join_parts(film_options *options, film_summary *summary, octreel_error *err
     session_file file;
     uint64_t digest;
     *summary = (film_summary){0};
-    if (!view_read_recording(options->folder, &options->view, &options->every, error) ||
+    if (!recording_read(options->folder, &options->view, &options->every, error) ||
         !read_session_file(options->folder, &file, &digest, error))
         return false;
     const bool ok = join_session(&j, &file.session, digest, error);

@@ -1,7 +1,7 @@
 /* replay.c - opens a recording and plays it to a tick. */
 #include "replay.h"
 #include "octree/digest.h"
-#include "view_file.h"
+#include "recording_file.h"
 #include "file.h"
 
 #include <inttypes.h>
@@ -27,7 +27,7 @@ static bool read_session(replay *r, const char *folder, octreel_error *error)
 bool replay_read(replay *r, const char *folder, octreel_error *error)
 {
     *r = (replay){.film.folder = folder};
-    if (!view_read_recording(folder, &r->film.view, &r->film.every, error) || !read_session(r, folder, error))
+    if (!recording_read(folder, &r->film.view, &r->film.every, error) || !read_session(r, folder, error))
         return false;
     r->ticks = octree_session_length(&r->session.session) + 1;
     return true;

@@ -1,5 +1,5 @@
 #include "verify_line.h"
-#include "json_place.h"
+#include "json_read.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -9,7 +9,7 @@
 #include "session_file.h"
 #include "tick_lines.h"
 #include "verified.h"
-#include "view_file.h"
+#include "recording_file.h"
 
 static void film_session_of(const place *folder, const place *again)
 {
@@ -18,7 +18,7 @@ static void film_session_of(const place *folder, const place *again)
     octreel_error error = {""};
     octreel_error unread = {""};
     session_file file;
-    if (!view_read_recording(folder->path, &options.view, &options.every, &error))
+    if (!recording_read(folder->path, &options.view, &options.every, &error))
         fail_msg("%s", error.text);
     if (!session_read(path.path, &file, &unread))
         fail_msg("%s", unread.text);
@@ -31,7 +31,7 @@ static uint64_t frames_of(const place *folder, uint64_t ticks)
     octreel_error error;
     uint64_t every;
     view ignored;
-    assert_true(view_read_recording(folder->path, &ignored, &every, &error));
+    assert_true(recording_read(folder->path, &ignored, &every, &error));
     return (ticks - 1) / every + 1;
 }
 

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "json_place.h"
+#include "json_read.h"
 #include "json_write.h"
 
 #include <float.h>
@@ -158,16 +158,16 @@ static void failed_stream_keeps_its_error(void **state)
 
 /* ---- Places ------------------------------------------------------------------------------------------------- */
 
-static const char text[] =
-    " {\"a]\": \"}\\\"]\", \"points\" : [[1, 2], {\"v\": [3, {\"w\": true}]} , 5 ], \"\\u006b\": 7,"
-    " \"last\": 8}";
+/* Each value on a line of its own. */
+static const char text[] = "{\"a]\":\n\"}\\\"]\", \"points\" :\n[\n[1,\n2], {\"v\": [3, {\"w\":\ntrue}]} ,\n5 ],"
+                           " \"\\u006b\":\n7, \"last\":\n8}";
 
-static void assert_place(const json_place *place, const char *name, const char *begins)
+static void assert_place(const json_place *place, const char *name, size_t line)
 {
+    const json_reader r = {.at = text, .limit = text + strlen(text), .line = 1};
     char found[64];
     assert_string_equal(json_place_format(place, found, sizeof found), name);
-    const char *at = json_place_find(place, text, text + strlen(text));
-    assert_memory_equal(at, begins, strlen(begins));
+    assert_int_equal(json_line(&r, place), line);
 }
 
 static void places_are_named_and_found(void **state)
@@ -175,27 +175,28 @@ static void places_are_named_and_found(void **state)
     json_place first = {NULL, "a]", 0}, last = {NULL, "last", 0}, points = {NULL, "points", 0};
     json_place row = {&points, NULL, 0}, object = {&points, NULL, 1}, number = {&points, NULL, 2};
     json_place second = {&row, NULL, 1}, v = {&object, "v", 0}, element = {&v, NULL, 1}, w = {&element, "w", 0};
+    json_place escaped = {NULL, "k", 0};
     (void)state;
-    assert_place(NULL, "", "{\"a]\"");
-    assert_place(&first, "a]", "\"}\\\"");
-    assert_place(&last, "last", "8}");
-    assert_place(&points, "points", "[[1");
-    assert_place(&row, "points[0]", "[1,");
-    assert_place(&second, "points[0][1]", "2]");
-    assert_place(&w, "points[1].v[1].w", "true");
-    assert_place(&number, "points[2]", "5 ]");
+    assert_place(NULL, "", 1);
+    assert_place(&first, "a]", 2);
+    assert_place(&points, "points", 3);
+    assert_place(&row, "points[0]", 4);
+    assert_place(&second, "points[0][1]", 5);
+    assert_place(&w, "points[1].v[1].w", 6);
+    assert_place(&number, "points[2]", 7);
+    assert_place(&escaped, "k", 8);
+    assert_place(&last, "last", 9);
 }
 
 static void place_that_is_not_there_is_that_above_it(void **state)
 {
-    json_place missing = {NULL, "missing", 0}, below = {&missing, "last", 0}, escaped = {NULL, "k", 0};
+    json_place missing = {NULL, "missing", 0}, below = {&missing, "last", 0};
     json_place points = {NULL, "points", 0}, beyond = {&points, NULL, 3}, member = {&points, "v", 0};
     (void)state;
-    assert_place(&missing, "missing", "{\"a]\"");
-    assert_place(&below, "missing.last", "{\"a]\"");
-    assert_place(&escaped, "k", "{\"a]\"");
-    assert_place(&beyond, "points[3]", "[[1");
-    assert_place(&member, "points.v", "[[1");
+    assert_place(&missing, "missing", 1);
+    assert_place(&below, "missing.last", 1);
+    assert_place(&beyond, "points[3]", 3);
+    assert_place(&member, "points.v", 3);
 }
 
 static void long_name_of_a_place_is_cut(void **state)

@@ -14,7 +14,7 @@
 #include "moving_tree.h"
 #include "recordings.h"
 #include "session_file.h"
-#include "view_file.h"
+#include "recording_file.h"
 
 static void assert_not_opened(const octreel_recorder_def *def, octreel_status why, const char *part)
 {
@@ -256,7 +256,7 @@ static void resume(const place *folder)
     octreel_error error = {""};
     octreel_error unread = {""};
     session_file file;
-    assert_true(view_read_recording(folder->path, &options.view, &options.every, &error));
+    assert_true(recording_read(folder->path, &options.view, &options.every, &error));
     if (!session_read(path.path, &file, &unread))
         fail_msg("%s", unread.text);
     assert_filmed(&file.session, &options);

@@ -1,4 +1,4 @@
-/* test_view_file.c - the view in recording.json: what is written is read back, and what is none is refused. */
+/* test_recording_file.c - the view in recording.json: what is written is read back, and what is none is refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "fixture.h"
 #include "folder_files.h"
 #include "layer.h"
-#include "view_file.h"
+#include "recording_file.h"
 
 static octree_box random_box(uint64_t *random)
 {
@@ -70,9 +70,10 @@ static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
     for (int i = 0; i < 300; i++) {
         const view written = random_view(&random);
         view read;
+        uint64_t every;
         octreel_error error = {""};
         assert_true(write_recording_file(&(folder_place){.folder = folder->name}, &written, 1, &error));
-        if (!view_read(folder->name, &read, &error))
+        if (!recording_read(folder->name, &read, &every, &error))
             fail_msg("%s", error.text);
         assert_same_view(&written, &read);
     }
@@ -85,10 +86,11 @@ static void members_that_are_missing_are_off(void **state)
 {
     const temp_folder *folder = *state;
     view read;
+    uint64_t every;
     octreel_error error = {""};
     const view expected = {.width = 160, .height = 90, .camera = CAMERA_TOP, .layers = 1u << LAYER_NODES};
     file_write_text(place_in(folder, "recording.json").path, VIEW "}\n");
-    assert_true(view_read(folder->name, &read, &error));
+    assert_true(recording_read(folder->name, &read, &every, &error));
     assert_same_view(&expected, &read);
 }
 
@@ -109,11 +111,12 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
          "version: the recording was made by an older octreel, of format version 1: film its session.json again"},
         {"{\"octreel\": \"recording\", \"version\": 2, \"width\": 0}",
          "width: expected a whole number from 1 to 16384"},
-        {START "\"camera\": \"up\"}", "recording.json:3: camera: expected the name of a camera, found \"up\""},
+        {START "\"camera\": \"up\"}",
+         "recording.json:3: camera: expected one of iso, top, front, side, follow, orbit, found \"up\""},
         {START "\"camera\": \"iso\", \"layers\": [\"nodes\", \"walls\"]}", "layers[1]: expected the name of a layer"},
         {START "\"camera\": \"iso\", \"layers\": 7}", "layers: expected a list of layers, found 7"},
-        {VIEW ", \"color_by\": null}", "color_by: expected the name of a colour mode, found null"},
-        {VIEW ", \"diagram\": \"above\"}", "diagram: expected the name of a place for the diagram, found \"above\""},
+        {VIEW ", \"color_by\": null}", "color_by: expected one of depth, occupancy, plain, found null"},
+        {VIEW ", \"diagram\": \"above\"}", "diagram: expected one of none, beside, only, found \"above\""},
         {VIEW ", \"slice\": {}}", "slice: expected an axis"},
         {VIEW ", \"slice\": {\"w\": 1}}", "slice: expected an axis"},
         {VIEW ", \"slice\": {\"x\": 1, \"y\": 1}}", "slice: expected an axis"},
@@ -126,7 +129,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {VIEW ", \"region\": {\"min\": [0, 2, 0], \"max\": [1, 1, 1]}}", "region: min is above max on y"},
         {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [0, 0, 0]}}", "fit: the box has no extent"},
         {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [1e999, 0, 0]}}", "recording.json:"},
-        {VIEW ", \"lod\": -1}", "lod: expected pixels from 0 to 16384, found -1"},
+        {VIEW ", \"lod\": -1}", "lod: expected a number from 0 to 16384, found -1"},
         {VIEW ", \"aa\": 3}", "aa: expected 1, 2 or 4, found 3"},
         {VIEW ", \"budget\": 0.5}", "budget: expected a whole number"},
         {VIEW ", \"theme\": \"day\"}", "theme: expected the theme that there is"},
@@ -134,9 +137,10 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
     const temp_folder *folder = *state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         view read;
+        uint64_t every;
         octreel_error error = {""};
         file_write_text(place_in(folder, "recording.json").path, rows[i][0]);
-        assert_false(view_read(folder->name, &read, &error));
+        assert_false(recording_read(folder->name, &read, &every, &error));
         if (!strstr(error.text, rows[i][1]))
             fail_msg("\"%s\" and not \"%s\"", error.text, rows[i][1]);
     }
@@ -146,12 +150,13 @@ static void what_is_no_recording_is_refused(void **state)
 {
     const temp_folder *folder = *state;
     view read;
+    uint64_t every;
     octreel_error error;
-    assert_false(view_read(folder->name, &read, &error));
+    assert_false(recording_read(folder->name, &read, &every, &error));
     assert_non_null(strstr(error.text, "recording.json: cannot be opened"));
-    assert_false(view_read("", &read, &error));
+    assert_false(recording_read("", &read, &every, &error));
     assert_int_equal(mkdir(place_in(folder, "recording.json").path, 0777), 0);
-    assert_false(view_read(folder->name, &read, &error));
+    assert_false(recording_read(folder->name, &read, &every, &error));
 }
 
 static void film(const char *format, const char *view, const char *folder)
@@ -190,8 +195,9 @@ static void camera_from_takes_the_whole_view_of_another_recording(void **state)
     film("record --keys dd %s -o %s", from, d.path);
     assert_same_view_files(c.path, d.path);
     view changed;
+    uint64_t every;
     octreel_error error;
-    assert_true(view_read(c.path, &changed, &error));
+    assert_true(recording_read(c.path, &changed, &every, &error));
     assert_true(changed.camera == CAMERA_TOP && changed.width == 200 && changed.fit == FIT_BOX);
 }
 

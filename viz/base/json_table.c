@@ -1,0 +1,312 @@
+#include "json_table.h"
+
+#include <string.h>
+
+/* ---- Members ------------------------------------------------------------------------------------------------ */
+
+static bool is_member(const json_member *table, const char *name)
+{
+    while (table->name && strcmp(table->name, name) != 0)
+        table++;
+    return table->name;
+}
+
+/* The line is the member's, the place that of its object. */
+static bool fail_unknown(json_reader *r, const json_place *at, const json_member *table, const char *name)
+{
+    char known[200] = "";
+    for (size_t length = 0; table->name && length < sizeof known; table++)
+        length += (size_t)snprintf(known + length, sizeof known - length, "%s %s", length ? "," : "", table->name);
+    return json_fail_line(r, json_line(r, &(json_place){at, name, 0}), at, "unknown member \"%.40s\"; known:%s", name,
+                          known);
+}
+
+bool json_read_members(json_reader *r, json_t *object, const json_place *at, const json_member *table, void *into)
+{
+    const char *name;
+    json_t *value;
+    if (!json_is_object(object))
+        return json_expected(r, object, at, "an object");
+    json_object_foreach(object, name, value) if (!is_member(table, name)) return fail_unknown(r, at, table, name);
+    for (; table->name; table++) {
+        value = json_object_get(object, table->name);
+        if (!value && table->required)
+            return json_fail(r, at, "the member \"%s\" is missing", table->name);
+        const json_place place = {at, table->name, 0};
+        r->row = table;
+        if (value && !table->codec->read(r, value, &place, (char *)into + table->offset))
+            return false;
+    }
+    return true;
+}
+
+void json_write_members(json_writer *w, const json_member *table, const void *from)
+{
+    for (; table->name; table++) {
+        const void *value = (const char *)from + table->offset;
+        if (!table->codec->write || (table->codec->is_set && !table->codec->is_set(value)))
+            continue;
+        if (table->line)
+            json_write_newline(w);
+        json_write_key(w, table->name);
+        w->row = table;
+        table->codec->write(w, value);
+    }
+}
+
+void json_write_object(json_writer *w, const json_member *table, const void *from)
+{
+    json_write_begin_object(w);
+    json_write_members(w, table, from);
+    json_write_end_object(w);
+}
+
+static bool read_object(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return json_read_members(r, value, at, r->row->members, into);
+}
+
+static void write_object(json_writer *w, const void *from)
+{
+    json_write_object(w, w->row->members, from);
+}
+
+const json_codec json_structure = {read_object, write_object, NULL};
+
+bool json_read_elements(json_reader *r, json_t *list, const json_place *at, const char *expected, json_read_value *read,
+                        void *into)
+{
+    if (!json_is_array(list))
+        return json_expected(r, list, at, expected);
+    const size_t count = json_array_size(list);
+    for (size_t i = 0; i < count; i++)
+        if (!read(r, json_array_get(list, i), &(json_place){at, NULL, i}, into))
+            return false;
+    return true;
+}
+
+/* ---- Kinds and choices -------------------------------------------------------------------------------------- */
+
+/* {"range": ...}, {"nearest": ...} or {"radius": ...} */
+static const char *list_kinds(json_name *kinds, char *text, size_t size)
+{
+    size_t length = 0;
+    for (int i = 0; kinds(i) && length < size; i++) {
+        const char *before = i == 0 ? "" : kinds(i + 1) ? ", " : " or ";
+        length += (size_t)snprintf(text + length, size - length, "%s{\"%s\": ...}", before, kinds(i));
+    }
+    return text;
+}
+
+int json_read_kind(json_reader *r, json_t *object, const json_place *at, json_name *kinds)
+{
+    char forms[200];
+    int found = -1;
+    for (int kind = 0; kinds(kind); kind++) {
+        if (!json_object_get(object, kinds(kind)))
+            continue;
+        if (found >= 0) {
+            json_fail(r, at, "expected one of %s, found \"%s\" and \"%s\" together",
+                      list_kinds(kinds, forms, sizeof forms), kinds(found), kinds(kind));
+            return -1;
+        }
+        found = kind;
+    }
+    if (found < 0)
+        json_fail(r, at, "expected %s", list_kinds(kinds, forms, sizeof forms));
+    return found;
+}
+
+int json_find_name(json_name *names, const char *name)
+{
+    for (int i = 0; name && names(i); i++)
+        if (strcmp(name, names(i)) == 0)
+            return i;
+    return -1;
+}
+
+static bool read_choice(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    json_name *names = r->row->names;
+    const int found = json_find_name(names, json_string_value(value));
+    char known[200] = "one of";
+    if (found >= 0) {
+        *(int *)into = found;
+        return true;
+    }
+    size_t length = strlen(known);
+    for (int i = 0; names(i) && length < sizeof known; i++)
+        length += (size_t)snprintf(known + length, sizeof known - length, "%s %s", i ? "," : "", names(i));
+    return json_expected(r, value, at, known);
+}
+
+static void write_choice(json_writer *w, const void *from)
+{
+    json_write_string(w, w->row->names(*(const int *)from));
+}
+
+static bool is_later(const void *from)
+{
+    return *(const int *)from != 0;
+}
+
+const json_codec json_choice = {read_choice, write_choice, NULL};
+const json_codec json_later_choice = {read_choice, write_choice, is_later};
+
+static bool read_bool(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    *(bool *)into = json_is_true(value);
+    return json_is_boolean(value) || json_expected(r, value, at, "true or false");
+}
+
+static void write_bool(json_writer *w, const void *from)
+{
+    json_write_bool(w, *(const bool *)from);
+}
+
+static bool is_true(const void *from)
+{
+    return *(const bool *)from;
+}
+
+const json_codec json_bool = {read_bool, write_bool, is_true};
+
+/* ---- Numbers ------------------------------------------------------------------------------------------------ */
+
+bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, double min, double max, uint64_t *into)
+{
+    char what[80];
+    const double number = json_real_value(value);
+    if (json_is_real(value) && number >= min && number <= max && (double)(uint64_t)number == number) {
+        *into = (uint64_t)number;
+        return true;
+    }
+    snprintf(what, sizeof what, "a whole number from %.0f to %.0f", min, max);
+    return json_expected(r, value, at, what);
+}
+
+bool json_read_uint64(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return json_read_whole(r, value, at, r->row->min, r->row->max, into);
+}
+
+static bool read_size(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    uint64_t number = 0;
+    const bool done = json_read_uint64(r, value, at, &number);
+    if (done)
+        *(size_t *)into = (size_t)number;
+    return done;
+}
+
+bool json_read_int(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    uint64_t number = 0;
+    const bool done = json_read_uint64(r, value, at, &number);
+    if (done)
+        *(int *)into = (int)number;
+    return done;
+}
+
+/* Never more than can be read again. */
+void json_write_uint64(json_writer *w, const void *from)
+{
+    const uint64_t number = *(const uint64_t *)from, max = (uint64_t)w->row->max;
+    json_write_integer(w, number < max ? number : max);
+}
+
+static void write_size(json_writer *w, const void *from)
+{
+    json_write_uint64(w, &(uint64_t){*(const size_t *)from});
+}
+
+static void write_int(json_writer *w, const void *from)
+{
+    json_write_uint64(w, &(uint64_t){(unsigned)*(const int *)from});
+}
+
+const json_codec json_uint64 = {json_read_uint64, json_write_uint64, NULL};
+const json_codec json_size = {read_size, write_size, NULL};
+const json_codec json_int = {json_read_int, write_int, NULL};
+
+bool json_read_number(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    *(double *)into = json_real_value(value);
+    return json_is_real(value) || json_expected(r, value, at, "a number");
+}
+
+bool json_read_positive(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    *(double *)into = json_real_value(value);
+    return (json_is_real(value) && *(double *)into >= 0) ||
+           json_expected(r, value, at, "a number that is not negative");
+}
+
+static bool read_interval(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    char what[80];
+    const double number = *(double *)into = json_real_value(value);
+    snprintf(what, sizeof what, "a number from %g to %g", r->row->min, r->row->max);
+    return (json_is_real(value) && number >= r->row->min && number <= r->row->max) || json_expected(r, value, at, what);
+}
+
+void json_write_double(json_writer *w, const void *from)
+{
+    json_write_number(w, *(const double *)from);
+}
+
+const json_codec json_number = {json_read_number, json_write_double, NULL};
+const json_codec json_positive = {json_read_positive, json_write_double, NULL};
+const json_codec json_interval = {read_interval, json_write_double, NULL};
+
+/* ---- Places ------------------------------------------------------------------------------------------------- */
+
+bool json_read_vector(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    double *vector = into;
+    if (!json_is_array(value) || json_array_size(value) != 3)
+        return json_expected(r, value, at, "three numbers [x, y, z]");
+    for (size_t i = 0; i < 3; i++)
+        if (!json_read_number(r, json_array_get(value, i), &(json_place){at, NULL, i}, &vector[i]))
+            return false;
+    return true;
+}
+
+void json_write_vector(json_writer *w, const void *from)
+{
+    json_write_numbers(w, from, 3);
+}
+
+/* -0 has bits: what is read back is the same. */
+static bool has_bits(const void *from)
+{
+    static const double zero[3];
+    return memcmp(from, zero, sizeof zero) != 0;
+}
+
+const json_codec json_vector = {json_read_vector, json_write_vector, NULL};
+const json_codec json_nonzero_vector = {json_read_vector, json_write_vector, has_bits};
+
+static const json_member corners[] = {
+    {"min", &json_vector, offsetof(octree_box, min), .required = true},
+    {"max", &json_vector, offsetof(octree_box, max), .required = true},
+    {0},
+};
+
+bool json_read_box(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const octree_box *box = into;
+    if (!json_read_members(r, value, at, corners, into))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (box->min[i] > box->max[i])
+            return json_fail(r, at, "min is above max on %c", "xyz"[i]);
+    return true;
+}
+
+void json_write_box(json_writer *w, const void *from)
+{
+    json_write_object(w, corners, from);
+}
+
+const json_codec json_box = {json_read_box, json_write_box, NULL};

@@ -1,0 +1,128 @@
+#include "recording_file.h"
+#include "file.h"
+#include "session_file.h"
+#include "theme.h"
+#include "view_options.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the file holds: the view comes first, so that offsets in it are offsets in this. */
+typedef struct recorded {
+    view view;
+    uint64_t every;
+} recorded;
+
+static bool read_kind(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *kind = json_string_value(value);
+    (void)into;
+    return (kind && strcmp(kind, "recording") == 0) || json_expected(r, value, at, "\"recording\"");
+}
+
+static void write_kind(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_string(w, "recording");
+}
+
+/* Digests of scenes in ticks.jsonl and in frames are those of the version. */
+static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    uint64_t version;
+    (void)into;
+    if (!json_read_whole(r, value, at, 1, RECORDING_VERSION, &version))
+        return false;
+    return version == RECORDING_VERSION ||
+           json_fail(r, at,
+                     "the recording was made by an older octreel, of format version %" PRIu64
+                     ": film its session.json again, or use that octreel",
+                     version);
+}
+
+static void write_version(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_integer(w, RECORDING_VERSION);
+}
+
+static bool read_theme(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *name = json_string_value(value);
+    char what[80];
+    (void)into;
+    snprintf(what, sizeof what, "the theme that there is, \"%s\"", theme_name());
+    return (name && strcmp(name, theme_name()) == 0) || json_expected(r, value, at, what);
+}
+
+static void write_theme(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_string(w, theme_name());
+}
+
+/* The options of the view stand between the first two and the others. */
+static const json_member own_members[] = {
+    {"octreel", JSON_CODEC(read_kind, write_kind, NULL), .required = true},
+    {"version", JSON_CODEC(read_version, write_version, NULL), .required = true},
+    {"theme", JSON_CODEC(read_theme, write_theme, NULL), .required = false},
+    {"every", &json_uint64, offsetof(recorded, every), .min = 1, .max = SESSION_LAST_TICK},
+};
+
+#define MOST_MEMBERS 32
+
+static void list_members(json_member members[MOST_MEMBERS])
+{
+    size_t count = 0;
+    members[count++] = own_members[0];
+    members[count++] = own_members[1];
+    for (size_t i = 0; view_option_at(i) && count < MOST_MEMBERS - 3; i++)
+        if (view_option_at(i)->member.name)
+            members[count++] = view_option_at(i)->member;
+    members[count++] = own_members[2];
+    members[count++] = own_members[3];
+    members[count] = (json_member){0};
+    while (count > 0)
+        members[--count].line = true;
+}
+
+void recording_write(FILE *out, const view *v, uint64_t every)
+{
+    const recorded written = {*v, every};
+    json_writer writer = {.out = out}, *w = &writer;
+    json_member members[MOST_MEMBERS];
+    list_members(members);
+    json_write_begin_object(w);
+    json_write_members(w, members, &written);
+    json_write_newline(w);
+    json_write_end_object(w);
+    json_write_end_line(w);
+}
+
+static bool read_object(json_reader *r, json_t *object)
+{
+    json_member members[MOST_MEMBERS];
+    list_members(members);
+    return json_read_members(r, object, NULL, members, r->context);
+}
+
+bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error)
+{
+    char reason[FILE_REASON], *text, *path = path_join(folder, "recording.json");
+    recorded found = {.every = 1};
+    size_t size;
+    if (!path)
+        return error_no_memory(error);
+    bool done = file_read_whole(path, &text, &size, reason) || error_set(error, "%s: %s", path, reason);
+    if (done) {
+        json_reader r = {.name = path, .at = text, .limit = text + size, .line = 1, .context = &found, .error = error};
+        json_next_object(&r);
+        done = json_read_object(&r, true, read_object);
+        free(text);
+    }
+    free(path);
+    *v = found.view;
+    *every = found.every;
+    return done;
+}

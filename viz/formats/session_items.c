@@ -1,0 +1,283 @@
+/* session_items.c - edits, queries and shapes: lists of objects of one kind among several, each with a member that
+ * bears its kind's name. */
+#include "array.h"
+#include "session_members.h"
+
+#include <string.h>
+
+#define MOST_OF_A_KIND 6
+
+/* What a list is of. */
+struct session_items {
+    int list;          /* of the loader's */
+    const char *words; /* "a list of edits" */
+    json_name *kinds;
+    void (*members)(int kind, json_member table[MOST_OF_A_KIND]); /* of one kind, the named one first */
+    size_t size, tick, kind;                                      /* of an item; and where its tick and kind are */
+};
+
+/* ---- Edits -------------------------------------------------------------------------------------------------- */
+
+#define ID "id", &json_uint64, offsetof(octree_body, id), .max = JSON_LARGEST_WHOLE
+#define POSITION "position", &json_vector, offsetof(octree_body, position), .required = true
+#define VELOCITY "velocity", &json_nonzero_vector, .offset = offsetof(octree_body, velocity)
+
+const json_member session_body_members[] = {{ID}, {POSITION}, {VELOCITY}, {0}};
+static const json_member insert_members[] = {{ID, .required = true}, {POSITION}, {VELOCITY}, {0}};
+static const json_member move_members[] = {{ID, .required = true}, {POSITION}, {0}};
+
+static const json_member edit_members[] = {
+    [OCTREE_EDIT_INSERT] = {"insert", &json_structure, offsetof(octree_edit, body), .members = insert_members},
+    [OCTREE_EDIT_REMOVE] = {"remove", &json_uint64, offsetof(octree_edit, body.id), .max = JSON_LARGEST_WHOLE},
+    [OCTREE_EDIT_MOVE] = {"move", &json_structure, offsetof(octree_edit, body), .members = move_members},
+};
+
+static const char *edit_name(int n)
+{
+    return (size_t)n < sizeof edit_members / sizeof edit_members[0] ? edit_members[n].name : NULL;
+}
+
+static void list_edit_members(int kind, json_member table[MOST_OF_A_KIND])
+{
+    table[0] = edit_members[kind];
+}
+
+/* ---- Queries ------------------------------------------------------------------------------------------------ */
+
+static bool is_player(const json_t *value)
+{
+    return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
+}
+
+static bool read_target(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_query *query = into;
+    query->at_player = is_player(value);
+    if (query->at_player)
+        return true;
+    if (!json_is_array(value))
+        return json_expected(r, value, at, "\"player\" or three numbers [x, y, z]");
+    return json_read_vector(r, value, at, query->target);
+}
+
+static void write_target(json_writer *w, const void *from)
+{
+    const octree_query *query = from;
+    if (query->at_player)
+        json_write_string(w, "player");
+    else
+        json_write_numbers(w, query->target, 3);
+}
+
+static bool read_at_player(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_query *query = into;
+    query->at_player = is_player(value);
+    return query->at_player || json_expected(r, value, at, "\"player\"");
+}
+
+static bool is_at_player(const void *from)
+{
+    return ((const octree_query *)from)->at_player;
+}
+
+static const char *query_name(int n)
+{
+    return octree_query_name((octree_query_kind)n);
+}
+
+static const struct {
+    octree_query_member bit;
+    json_member member;
+} query_members[] = {
+    {OCTREE_QUERY_HAS_BOX, {"box", &json_box, offsetof(octree_query, box), .required = true}},
+    {OCTREE_QUERY_HAS_K, {"k", &json_size, offsetof(octree_query, k), .required = true, .max = UINT32_MAX}},
+    {OCTREE_QUERY_HAS_RADIUS, {"radius", &json_positive, offsetof(octree_query, radius), .required = true}},
+    {OCTREE_QUERY_HAS_TARGET, {"at", JSON_CODEC(read_target, write_target, NULL), .required = true}},
+};
+
+static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target, is_at_player), .offset = 0};
+
+/* The members that the kind reads, by its traits. A box without a target can be relative to the player. */
+static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
+{
+    const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
+    size_t count = 1;
+    for (size_t i = 0; i < sizeof query_members / sizeof query_members[0]; i++) {
+        if (query_members[i].bit == about->named_by) {
+            table[0] = query_members[i].member;
+            table[0].name = about->name;
+        } else if (about->members & query_members[i].bit) {
+            table[count++] = query_members[i].member;
+        }
+    }
+    if (about->members & OCTREE_QUERY_HAS_BOX && !(about->members & OCTREE_QUERY_HAS_TARGET))
+        table[count] = box_at_player;
+}
+
+/* ---- Shapes ------------------------------------------------------------------------------------------------- */
+
+static bool read_shape_box(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_shape *shape = into;
+    octree_box box;
+    if (!json_read_box(r, value, at, &box))
+        return false;
+    memcpy(shape->at, box.min, sizeof shape->at);
+    memcpy(shape->to, box.max, sizeof shape->to);
+    return true;
+}
+
+static void write_shape_box(json_writer *w, const void *from)
+{
+    const octree_shape *shape = from;
+    octree_box box;
+    memcpy(box.min, shape->at, sizeof box.min);
+    memcpy(box.max, shape->to, sizeof box.max);
+    json_write_box(w, &box);
+}
+
+static bool read_segment(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_shape *shape = into;
+    if (!json_is_array(value) || json_array_size(value) != 2)
+        return json_expected(r, value, at, "two places [[x, y, z], [x, y, z]]");
+    return json_read_vector(r, json_array_get(value, 0), &(json_place){at, NULL, 0}, shape->at) &&
+           json_read_vector(r, json_array_get(value, 1), &(json_place){at, NULL, 1}, shape->to);
+}
+
+static void write_segment(json_writer *w, const void *from)
+{
+    const octree_shape *shape = from;
+    json_write_begin_array(w);
+    json_write_numbers(w, shape->at, 3);
+    json_write_numbers(w, shape->to, 3);
+    json_write_end_array(w);
+}
+
+static bool read_text(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *text = json_string_value(value);
+    if (!text)
+        return json_expected(r, value, at, "a text");
+    const size_t length = strlen(text);
+    for (size_t i = 0; i < length; i++)
+        if (text[i] < ' ' || text[i] > '~')
+            return json_fail(r, at, "a label is of printable ASCII characters, and byte %zu is none", i + 1);
+    if (length >= OCTREE_SHAPE_TEXT)
+        return json_fail(r, at, "a label has at most %d characters, not %zu", OCTREE_SHAPE_TEXT - 1, length);
+    memcpy(into, text, length + 1);
+    return true;
+}
+
+static void write_text(json_writer *w, const void *from)
+{
+    json_write_string(w, from);
+}
+
+/* The named member of each kind, and what else it has. */
+static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
+    [OCTREE_SHAPE_BOX] = {{"box", JSON_CODEC(read_shape_box, write_shape_box, NULL), .required = true}},
+    [OCTREE_SHAPE_SEGMENT] = {{"segment", JSON_CODEC(read_segment, write_segment, NULL), .required = true}},
+    [OCTREE_SHAPE_POINT] = {{"point", &json_vector, offsetof(octree_shape, at), .required = true}},
+    [OCTREE_SHAPE_LABEL] = {{"label", JSON_CODEC(read_text, write_text, NULL), offsetof(octree_shape, text),
+                             .required = true},
+                            {"at", &json_vector, offsetof(octree_shape, at), .required = true}},
+};
+
+static const char *shape_name(int n)
+{
+    return octree_shape_name((octree_shape_kind)n);
+}
+
+static void list_shape_members(int kind, json_member table[MOST_OF_A_KIND])
+{
+    memcpy(table, shape_members[kind], sizeof shape_members[kind]);
+}
+
+/* ---- Lists of them ------------------------------------------------------------------------------------------ */
+
+#define ITEM(type) sizeof(type), offsetof(type, tick), offsetof(type, kind)
+
+const session_items session_edits = {SESSION_EDITS, "a list of edits", edit_name, list_edit_members, ITEM(octree_edit)};
+const session_items session_queries = {SESSION_QUERIES, "a list of queries", query_name, list_query_members,
+                                       ITEM(octree_query)};
+const session_items session_shapes = {SESSION_SHAPES, "a list of shapes", shape_name, list_shape_members,
+                                      ITEM(octree_shape)};
+
+void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size)
+{
+    void *items = array_reserve(list->items, list->count + 1, &list->room, item_size);
+    if (!items) {
+        json_fail(r, at, "out of memory after %zu of them", list->count);
+        return NULL;
+    }
+    list->items = items;
+    return (char *)items + item_size * list->count++;
+}
+
+static bool read_item(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const session_items *type = into;
+    session_loader *s = r->context;
+    session_list *list = s->tick == OCTREE_EVERY_TICK ? &s->standing[type->list] : &s->lists[type->list];
+    json_member table[MOST_OF_A_KIND] = {0};
+    const int kind = json_read_kind(r, value, at, type->kinds);
+    char *item = kind < 0 ? NULL : session_append(r, at, list, type->size);
+    if (!item)
+        return false;
+    memset(item, 0, type->size);
+    memcpy(item + type->tick, &s->tick, sizeof s->tick);
+    memcpy(item + type->kind, &kind, sizeof kind);
+    type->members(kind, table);
+    return json_read_members(r, value, at, table, item);
+}
+
+static bool read_items(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    session_loader *s = r->context;
+    const session_items *type = r->row->about;
+    (void)into;
+    if (type->list == SESSION_EDITS && s->tick == 0)
+        return json_fail(r, at, "edits begin at tick 1; what is there at tick 0 are the header's points");
+    return json_read_elements(r, value, at, type->words, read_item, (void *)type);
+}
+
+/* In octree_input an array is followed by its count. */
+typedef struct counted {
+    const char *items;
+    size_t count;
+} counted;
+_Static_assert(offsetof(octree_input, edit_count) == offsetof(octree_input, edits) + offsetof(counted, count), "edits");
+_Static_assert(offsetof(octree_input, query_count) == offsetof(octree_input, queries) + offsetof(counted, count), "");
+_Static_assert(offsetof(octree_input, shape_count) == offsetof(octree_input, shapes) + offsetof(counted, count), "");
+
+static counted counted_at(const void *from)
+{
+    counted list;
+    memcpy(&list, from, sizeof list);
+    return list;
+}
+
+static void write_items(json_writer *w, const void *from)
+{
+    const session_items *type = w->row->about;
+    const counted list = counted_at(from);
+    json_write_begin_array(w);
+    for (size_t i = 0; i < list.count; i++) {
+        const char *item = list.items + i * type->size;
+        json_member table[MOST_OF_A_KIND] = {0};
+        int kind;
+        memcpy(&kind, item + type->kind, sizeof kind);
+        type->members(kind, table);
+        json_write_object(w, table, item);
+    }
+    json_write_end_array(w);
+}
+
+static bool has_items(const void *from)
+{
+    return counted_at(from).count > 0;
+}
+
+const json_codec session_items_codec = {read_items, write_items, has_items};

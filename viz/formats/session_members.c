@@ -1,0 +1,263 @@
+#include "session_members.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+static session_loader *loader_of(const json_reader *r)
+{
+    return r->context;
+}
+
+/* ---- What the file is --------------------------------------------------------------------------------------- */
+
+static bool read_kind(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *kind = json_string_value(value);
+    (void)into;
+    return (kind && strcmp(kind, "session") == 0) || json_expected(r, value, at, "\"session\"");
+}
+
+static void write_kind(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_string(w, "session");
+}
+
+static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    (void)into;
+    return (json_is_real(value) && json_real_value(value) == 1) ||
+           json_expected(r, value, at, "1, the only version there is");
+}
+
+static void write_version(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_integer(w, 1);
+}
+
+/* ---- World and tree ----------------------------------------------------------------------------------------- */
+
+static double box_size_of(double step)
+{
+    return 0.6 * step;
+}
+
+/* Halves first: no world overflows. Rounding must not take the centre out of a world of a few ulps. */
+static void place_player(octree_player *player, const octree_box *world)
+{
+    double longest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double half = world->max[i] / 2 - world->min[i] / 2;
+        double centre = world->min[i] / 2 + world->max[i] / 2;
+        longest = half > longest ? half : longest;
+        centre = centre < world->min[i] ? world->min[i] : centre;
+        player->position[i] = centre > world->max[i] ? world->max[i] : centre;
+    }
+    player->step = longest / 20;
+    player->box_size = box_size_of(player->step);
+}
+
+static bool read_world(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const octree_box *world = into;
+    if (!json_read_box(r, value, at, into))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (world->min[i] == world->max[i])
+            return json_fail(r, at, "min must be below max on every axis, and is not on %c", "xyz"[i]);
+    place_player(&loader_of(r)->header.session.player, world);
+    return true;
+}
+
+static const char *full_at(int n)
+{
+    static const char *const names[] = {[OCTREE_REFUSE] = "refuse", [OCTREE_GROW] = "grow"};
+    return (size_t)n < sizeof names / sizeof names[0] ? names[n] : NULL;
+}
+
+static const json_member tree_members[] = {
+    {"capacity", &json_size, offsetof(octree_def, leaf_capacity), .min = 1, .max = UINT32_MAX},
+    {"depth", &json_size, offsetof(octree_def, max_depth), .max = OCTREE_MAX_DEPTH},
+    {"full", &json_choice, offsetof(octree_def, full_leaf), .names = full_at},
+    {0},
+};
+
+/* ---- Player ------------------------------------------------------------------------------------------------- */
+
+static bool read_position(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const octree_box *world = &loader_of(r)->header.session.tree.world;
+    const double *position = into;
+    if (!json_read_vector(r, value, at, into))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (position[i] < world->min[i] || position[i] > world->max[i])
+            return json_fail(r, at, "the player is outside the world on %c", "xyz"[i]);
+    return true;
+}
+
+/* The box follows the step, unless its size is given too. */
+static bool read_step(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_player *player = &loader_of(r)->header.session.player;
+    if (!json_read_positive(r, value, at, into))
+        return false;
+    player->box_size = box_size_of(player->step);
+    return true;
+}
+
+static bool read_is_body(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    bool is_body;
+    if (!json_bool.read(r, value, at, &is_body))
+        return false;
+    *(octree_player_kind *)into = is_body ? OCTREE_PLAYER_BODY : OCTREE_PLAYER_KEYS;
+    return true;
+}
+
+static void write_is_body(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_bool(w, true);
+}
+
+static bool is_body(const void *from)
+{
+    return *(const octree_player_kind *)from == OCTREE_PLAYER_BODY;
+}
+
+#define ID "id", &json_uint64, offsetof(octree_player, id), .max = JSON_LARGEST_WHOLE
+#define BODY "body", JSON_CODEC(read_is_body, write_is_body, is_body), .offset = offsetof(octree_player, kind)
+#define BOX_SIZE "box_size", &json_positive, .offset = offsetof(octree_player, box_size)
+#define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep)
+
+/* Where a body is, and how far it goes, is said by the point with its id. */
+static const json_member body_player_members[] = {{ID}, {BODY}, {BOX_SIZE}, {SWEEP}, {0}};
+static const json_member player_members[] = {
+    {ID},
+    {BODY},
+    {"position", JSON_CODEC(read_position, json_write_vector, NULL), .offset = offsetof(octree_player, position)},
+    {"step", JSON_CODEC(read_step, json_write_double, NULL), .offset = offsetof(octree_player, step)},
+    {BOX_SIZE},
+    {SWEEP},
+    {0},
+};
+
+static bool read_player(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_player *player = into;
+    if (json_is_null(value)) {
+        *player = (octree_player){.kind = OCTREE_PLAYER_NONE};
+        return true;
+    }
+    const bool body = json_is_true(json_object_get(value, "body"));
+    return json_read_members(r, value, at, body ? body_player_members : player_members, player);
+}
+
+static void write_player(json_writer *w, const void *from)
+{
+    const octree_player *player = from;
+    if (player->kind == OCTREE_PLAYER_NONE)
+        json_write_null(w);
+    else
+        json_write_object(w, player->kind == OCTREE_PLAYER_BODY ? body_player_members : player_members, player);
+}
+
+/* ---- Keys and ticks ----------------------------------------------------------------------------------------- */
+
+bool session_check_keys(const char *keys, octreel_error *error)
+{
+    const size_t good = strspn(keys, "wasdefnq.");
+    const char key = keys[good];
+    char name[16];
+    if (key == 0)
+        return true;
+    snprintf(name, sizeof name, key >= ' ' && key <= '~' ? "'%c'" : "byte 0x%02x", (unsigned char)key);
+    return error_set(error, "key %zu, %s, is not one of w a s d e f n q .", good + 1, name);
+}
+
+static bool read_keys(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *keys = json_string_value(value), **copy = into;
+    octreel_error reason;
+    if (!keys)
+        return json_expected(r, value, at, "a string of keys");
+    if (!session_check_keys(keys, &reason))
+        return json_fail(r, at, "%s", reason.text);
+    *copy = strdup(keys);
+    return *copy || json_fail(r, at, "out of memory");
+}
+
+static void write_keys(json_writer *w, const void *from)
+{
+    json_write_string(w, *(const char *const *)from);
+}
+
+static bool has_keys(const void *from)
+{
+    return *(const char *const *)from;
+}
+
+static bool read_ticks(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    loader_of(r)->ends = true;
+    return json_read_uint64(r, value, at, into);
+}
+
+static bool has_end(const void *from)
+{
+    return *(const uint64_t *)from != SESSION_ENDLESS;
+}
+
+static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    session_loader *s = loader_of(r);
+    uint64_t *tick = into;
+    if (!json_read_uint64(r, value, at, tick))
+        return false;
+    if (s->tick != OCTREE_EVERY_TICK && *tick <= s->tick)
+        return json_fail(r, at, "tick %" PRIu64 " comes after tick %" PRIu64 "; ticks must ascend", *tick, s->tick);
+    s->tick = *tick;
+    if (!s->ends)
+        s->header.session.ticks = *tick;
+    return true;
+}
+
+/* ---- The objects of a file ---------------------------------------------------------------------------------- */
+
+octree_session session_default_header(void)
+{
+    octree_session session = {.tree = octree_def_default()};
+    session.tree.leaf_capacity = 8;
+    place_player(&session.player, &session.tree.world);
+    return session;
+}
+
+#define HEADER(where) .offset = offsetof(session_header, where), .line = true
+
+/* Positions need the world, points the player, and velocities the points. */
+const json_member session_header_members[] = {
+    {"octreel", JSON_CODEC(read_kind, write_kind, NULL), .required = true},
+    {"version", JSON_CODEC(read_version, write_version, NULL), .required = true},
+    {"world", JSON_CODEC(read_world, json_write_box, NULL), HEADER(session.tree.world)},
+    {"tree", &json_structure, HEADER(session.tree), .members = tree_members},
+    {"player", JSON_CODEC(read_player, write_player, NULL), HEADER(session.player)},
+    {"keys", JSON_CODEC(read_keys, write_keys, has_keys), HEADER(session.keys)},
+    {"ticks", JSON_CODEC(read_ticks, json_write_uint64, has_end), HEADER(session.ticks), .max = SESSION_LAST_TICK},
+    {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries},
+    {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes},
+    {"points", &session_points_codec, HEADER(session)},
+    {"velocities", &session_velocities_codec, HEADER(session)},
+    {0},
+};
+
+#define TICK(where) .offset = offsetof(session_tick, where)
+
+const json_member session_tick_members[] = {
+    {"tick", JSON_CODEC(read_number, json_write_uint64, NULL), TICK(tick), .required = true, .max = SESSION_LAST_TICK},
+    {"edits", &session_items_codec, TICK(input.edits), .about = &session_edits},
+    {"queries", &session_items_codec, TICK(input.queries), .about = &session_queries},
+    {"shapes", &session_items_codec, TICK(input.shapes), .about = &session_shapes},
+    {0},
+};

@@ -1,0 +1,65 @@
+/* session_members.h - the members of a session file, one row each, by which they are read and written. Private to
+ * session_*.c.
+ */
+#ifndef FORMATS_SESSION_MEMBERS_H
+#define FORMATS_SESSION_MEMBERS_H
+
+#include "json_table.h"
+#include "session_file.h"
+
+/* A growing array. */
+typedef struct session_list {
+    void *items;
+    size_t count, room;
+} session_list;
+
+/* The first object of a file. Queries and shapes of every tick come last in a session's arrays, but first in its file.
+ */
+typedef struct session_header {
+    octree_session session; /* without edits, and without the queries and shapes of single ticks */
+    octree_input standing;  /* queries and shapes of every tick */
+} session_header;
+
+/* Each of the others: what happens in one tick. */
+typedef struct session_tick {
+    uint64_t tick;
+    octree_input input;
+} session_tick;
+
+/* The lists of a session whose objects are of one kind among several. */
+enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_LISTS };
+
+/* A session that is being read: the context of its json_reader. */
+typedef struct session_loader {
+    const char *folder;    /* of files of points */
+    session_header header; /* its queries and shapes are in the lists below */
+    uint64_t tick;         /* of the object at hand; OCTREE_EVERY_TICK in the header */
+    bool ends;             /* the header says after how many ticks */
+    octree_body *bodies;   /* header.session.body_count of them */
+    session_list lists[SESSION_LISTS], standing[SESSION_LISTS]; /* of single ticks; of every tick */
+} session_loader;
+
+/* The tables of both. */
+extern const json_member session_header_members[], session_tick_members[];
+
+/* What the members that are left out stand for. */
+octree_session session_default_header(void);
+
+/* A list of such objects, by row->about; it stands in an octree_input. */
+typedef struct session_items session_items;
+extern const session_items session_edits, session_queries, session_shapes;
+extern const json_codec session_items_codec;
+
+/* Points, in a list, a file or a sample; and velocities by id, which are never written: bodies have theirs. */
+extern const json_codec session_points_codec, session_velocities_codec;
+
+/* A body: id, position and velocity. */
+extern const json_member session_body_members[];
+
+/* False with the reason when a key is none that the game knows. */
+bool session_check_keys(const char *keys, octreel_error *error);
+
+/* Room for one more item; null with an error when there is no memory. */
+void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size);
+
+#endif

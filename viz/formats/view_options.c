@@ -1,0 +1,444 @@
+#include "view_options.h"
+#include "layer.h"
+#include "number.h"
+#include "recording_file.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* ---- Names to choose from ----------------------------------------------------------------------------------- */
+
+static const char *camera_at(int n)
+{
+    return view_camera_name((view_camera)n);
+}
+
+static const char *coloring_at(int n)
+{
+    return view_coloring_name((view_coloring)n);
+}
+
+static const char *diagram_at(int n)
+{
+    return view_diagram_name((view_diagram)n);
+}
+
+const char *view_layer_at(int n)
+{
+    return n < LAYER_COUNT ? view_layer_name((view_layer)n) : NULL;
+}
+
+/* Those of view_fit that a command line can ask for. */
+static const char *fit_at(int n)
+{
+    static const char *const names[] = {[FIT_WORLD] = "world", [FIT_POINTS] = "points"};
+    return (size_t)n < sizeof names / sizeof names[0] ? names[n] : NULL;
+}
+
+/* "there is no camera "x"; there are iso, top ..." */
+static bool no_such(const char *what, const char *text, int length, json_name *names, octreel_error *error)
+{
+    char known[320] = "";
+    for (size_t i = 0, at = 0; names((int)i) && at < sizeof known; i++)
+        at += (size_t)snprintf(known + at, sizeof known - at, "%s%s", i ? ", " : "", names((int)i));
+    return error_set(error, "there is no %s \"%.*s\"; there are %s", what, length < 100 ? length : 100, text, known);
+}
+
+/* ---- Values of each type ------------------------------------------------------------------------------------ */
+
+static bool refuse(const view_option *option, const char *text, octreel_error *error)
+{
+    return error_set(error, "--%s takes %s, not \"%.200s\"", option->name, option->takes, text);
+}
+
+static void *value_of(const view_option *option, const view *v)
+{
+    return (char *)v + option->member.offset;
+}
+
+static bool parse_choice(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    const int found = json_find_name(option->member.names, text);
+    if (found < 0)
+        return no_such(option->takes, text, (int)strlen(text), option->member.names, error);
+    *(int *)value_of(option, v) = found;
+    return true;
+}
+
+static void print_choice(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    snprintf(text, VIEW_OPTION_TEXT, "%s", option->member.names(*(const int *)value_of(option, v)));
+}
+
+static bool parse_switch(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    (void)text, (void)error;
+    return *(bool *)value_of(option, v) = true;
+}
+
+static void print_switch(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    snprintf(text, VIEW_OPTION_TEXT, "%s", *(const bool *)value_of(option, v) ? "on" : "off");
+}
+
+static bool parse_whole(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    const char *at = text;
+    uint64_t value;
+    if (!whole_parse(&at, (uint64_t)option->member.max, &value) || *at != 0)
+        return refuse(option, text, error);
+    *(uint64_t *)value_of(option, v) = value;
+    return true;
+}
+
+static void print_whole(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    snprintf(text, VIEW_OPTION_TEXT, "%" PRIu64, *(const uint64_t *)value_of(option, v));
+}
+
+static bool parse_number(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    double value;
+    if (!numbers_parse(text, &value, 1) || !(value >= option->member.min && value <= option->member.max))
+        return refuse(option, text, error);
+    *(double *)value_of(option, v) = value;
+    return true;
+}
+
+static void print_number(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    number_print(*(const double *)value_of(option, v), text);
+}
+
+static void print_box(const octree_box *box, char text[VIEW_OPTION_TEXT])
+{
+    for (int i = 0; i < 6; i++) {
+        text += number_print(i < 3 ? box->min[i] : box->max[i - 3], text);
+        *text++ = i < 5 ? ',' : 0;
+    }
+}
+
+/* ---- Size --------------------------------------------------------------------------------------------------- */
+
+static bool parse_size(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    const char *at = text;
+    uint64_t width, height;
+    if (!whole_parse(&at, INT32_MAX, &width) || *at++ != 'x' || !whole_parse(&at, INT32_MAX, &height) || *at != 0)
+        return refuse(option, text, error);
+    v->width = (int)width;
+    v->height = (int)height;
+    return true;
+}
+
+static void print_size(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    (void)option;
+    snprintf(text, VIEW_OPTION_TEXT, "%dx%d", v->width, v->height);
+}
+
+/* ---- Camera ------------------------------------------------------------------------------------------------- */
+
+static bool parse_camera_from(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    uint64_t every;
+    (void)option;
+    return recording_read(text, v, &every, error);
+}
+
+static bool parse_fit(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    const int found = json_find_name(fit_at, text);
+    if (found < 0)
+        return no_such(option->takes, text, (int)strlen(text), fit_at, error);
+    v->fit = (view_fit)found;
+    return true;
+}
+
+static void print_fit(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    (void)option;
+    if (v->fit == FIT_BOX)
+        print_box(&v->focus, text);
+    else
+        snprintf(text, VIEW_OPTION_TEXT, "the %s", fit_at((int)v->fit));
+}
+
+static bool read_fit(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    view *v = into;
+    v->fit = FIT_BOX;
+    if (!json_read_box(r, value, at, &v->focus))
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (v->focus.min[i] < v->focus.max[i])
+            return true;
+    return json_fail(r, at, "the box has no extent");
+}
+
+static void write_fit(json_writer *w, const void *from)
+{
+    json_write_box(w, &((const view *)from)->focus);
+}
+
+static bool fits_box(const void *from)
+{
+    return ((const view *)from)->fit == FIT_BOX;
+}
+
+/* ---- Layers ------------------------------------------------------------------------------------------------- */
+
+static bool parse_layers(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    const char *bad;
+    return view_layers_parse(text, &v->layers, &bad) ||
+           no_such(option->takes, bad, (int)strcspn(bad, ","), view_layer_at, error);
+}
+
+static bool read_layer(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const int layer = json_find_name(view_layer_at, json_string_value(value));
+    if (layer >= 0)
+        *(unsigned *)into |= 1u << layer;
+    return layer >= 0 || json_expected(r, value, at, "the name of a layer");
+}
+
+static bool read_layers(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return json_read_elements(r, value, at, "a list of layers", read_layer, into);
+}
+
+static void write_layers(json_writer *w, const void *from)
+{
+    json_write_begin_array(w);
+    for (int i = 0; view_layer_at(i); i++)
+        if (*(const unsigned *)from >> i & 1)
+            json_write_string(w, view_layer_at(i));
+    json_write_end_array(w);
+}
+
+/* ---- What of the tree is shown ------------------------------------------------------------------------------ */
+
+static bool parse_slice(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    if (text[0] < 'x' || text[0] > 'z' || text[1] != '=' || !numbers_parse(text + 2, &v->filter.slice_at, 1))
+        return refuse(option, text, error);
+    v->filter.slice = text[0];
+    return true;
+}
+
+static void print_slice(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    (void)option;
+    if (v->filter.slice)
+        number_print(v->filter.slice_at, text + snprintf(text, VIEW_OPTION_TEXT, "%c=", v->filter.slice));
+    else
+        snprintf(text, VIEW_OPTION_TEXT, "none");
+}
+
+static bool read_slice(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    view_filter *f = into;
+    const char *axis = json_object_size(value) == 1 ? json_object_iter_key(json_object_iter(value)) : "";
+    if (strlen(axis) != 1 || !strchr("xyz", *axis))
+        return json_expected(r, value, at, "an axis and a place as in {\"z\": 100}");
+    f->slice = *axis;
+    return json_read_number(r, json_object_get(value, axis), &(json_place){at, axis, 0}, &f->slice_at);
+}
+
+static void write_slice(json_writer *w, const void *from)
+{
+    const view_filter *f = from;
+    json_write_begin_object(w);
+    json_write_key(w, (const char[]){f->slice, 0});
+    json_write_number(w, f->slice_at);
+    json_write_end_object(w);
+}
+
+static bool has_slice(const void *from)
+{
+    return ((const view_filter *)from)->slice != 0;
+}
+
+/* "2:5", "2:", ":5" or "3" */
+static bool parse_depths(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    const char *at = text;
+    uint64_t from = 0, to = OCTREE_MAX_DEPTH;
+    const bool begins = whole_parse(&at, OCTREE_MAX_DEPTH, &from), open = *at == ':';
+    at += open;
+    const bool ends = open && whole_parse(&at, OCTREE_MAX_DEPTH, &to);
+    to = open ? to : from;
+    if (*at != 0 || from > to || !(begins || ends))
+        return refuse(option, text, error);
+    v->filter.by_depth = true;
+    v->filter.min_depth = (unsigned)from;
+    v->filter.max_depth = (unsigned)to;
+    return true;
+}
+
+static void print_depths(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    (void)option;
+    if (v->filter.by_depth)
+        snprintf(text, VIEW_OPTION_TEXT, "%u-%u", v->filter.min_depth, v->filter.max_depth);
+    else
+        snprintf(text, VIEW_OPTION_TEXT, "all");
+}
+
+static bool read_depths(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    view_filter *f = into;
+    uint64_t depths[2];
+    if (!json_is_array(value) || json_array_size(value) != 2)
+        return json_expected(r, value, at, "two depths as in [2, 5]");
+    for (size_t i = 0; i < 2; i++)
+        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, i ? (double)depths[0] : 0,
+                             OCTREE_MAX_DEPTH, &depths[i]))
+            return false;
+    f->by_depth = true;
+    f->min_depth = (unsigned)depths[0];
+    f->max_depth = (unsigned)depths[1];
+    return true;
+}
+
+static void write_depths(json_writer *w, const void *from)
+{
+    const view_filter *f = from;
+    json_write_numbers(w, (double[]){f->min_depth, f->max_depth}, 2);
+}
+
+static bool has_depths(const void *from)
+{
+    return ((const view_filter *)from)->by_depth;
+}
+
+static bool parse_region(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    double corners[6];
+    if (!numbers_parse(text, corners, 6))
+        return refuse(option, text, error);
+    for (int i = 0; i < 3; i++)
+        if (corners[i] > corners[i + 3])
+            return error_set(error, "--region: min must be below max on every axis, not so in \"%.200s\"", text);
+    v->filter.by_region = true;
+    memcpy(&v->filter.region, corners, sizeof corners);
+    return true;
+}
+
+static void print_region(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    (void)option;
+    if (v->filter.by_region)
+        print_box(&v->filter.region, text);
+    else
+        snprintf(text, VIEW_OPTION_TEXT, "none");
+}
+
+static bool read_region(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    view_filter *f = into;
+    f->by_region = true;
+    return json_read_box(r, value, at, &f->region);
+}
+
+static void write_region(json_writer *w, const void *from)
+{
+    json_write_box(w, &((const view_filter *)from)->region);
+}
+
+static bool has_region(const void *from)
+{
+    return ((const view_filter *)from)->by_region;
+}
+
+/* ---- Anti-aliasing ------------------------------------------------------------------------------------------ */
+
+static bool parse_aa(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    if (text[0] == 0 || text[1] != 0 || !strchr("124", text[0]))
+        return refuse(option, text, error);
+    v->aa = text[0] - '0';
+    return true;
+}
+
+static void print_aa(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
+{
+    (void)option;
+    snprintf(text, VIEW_OPTION_TEXT, "%d", view_samples(v));
+}
+
+static bool read_aa(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return json_read_int(r, value, at, into) && (*(int *)into != 3 || json_expected(r, value, at, "1, 2 or 4"));
+}
+
+/* 0 samples are 1. */
+static void write_aa(json_writer *w, const void *from)
+{
+    json_write_integer(w, *(const int *)from > 1 ? (uint64_t) * (const int *)from : 1);
+}
+
+/* ---- The rows ------------------------------------------------------------------------------------------------- */
+
+#define MOST_PIXELS NUMBER_DIGITS(VIEW_MAX_SIDE)
+#define SIZE NUMBER_DIGITS(VIEW_DEFAULT_WIDTH) "x" NUMBER_DIGITS(VIEW_DEFAULT_HEIGHT)
+#define LOD NUMBER_DIGITS(VIEW_DEFAULT_LOD)
+#define BUDGET NUMBER_DIGITS(VIEW_DEFAULT_BUDGET)
+
+/* A value of recording.json: its name and type, and where it is in the view. */
+#define MEMBER(text, how, field) .member.name = text, .member.codec = how, .member.offset = offsetof(view, field)
+
+static const view_option rows[] = {
+    {"camera-from", "DIR", "the whole view of a recording; other options here change it", .parse = parse_camera_from},
+    {"size", "WxH", "picture in pixels (default " SIZE "; a side is 1 to " MOST_PIXELS ")", "pixels as in 1280x720",
+     "size", .parse = parse_size, .print = print_size},
+    {MEMBER("width", &json_int, width), .member.required = true, .member.min = 1, .member.max = VIEW_MAX_SIDE},
+    {MEMBER("height", &json_int, height), .member.required = true, .member.min = 1, .member.max = VIEW_MAX_SIDE},
+    {"camera", "NAME", "(default iso) one of", "camera", "camera", parse_choice, print_choice,
+     MEMBER("camera", &json_choice, camera), .member.required = true, .member.names = camera_at},
+    {"fit", "WHAT", "what the camera frames (points: those shown at tick 0); record: world, inspect: points", "fit",
+     "fit", parse_fit, print_fit, .member.name = "fit", .member.codec = JSON_CODEC(read_fit, write_fit, fits_box)},
+    {"layers", "LIST", "(default all but heat; -text leaves one out, default,visit-heat adds one) of", "layer", NULL,
+     parse_layers, NULL, MEMBER("layers", JSON_CODEC(read_layers, write_layers, NULL), layers), .member.required = true,
+     .member.names = view_layer_at},
+    {"color-by", "MODE", "what the colour of a node tells (default depth): one of", "colour mode", "colouring",
+     parse_choice, print_choice, MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at},
+    {"diagram", "WHERE", "draw the tree as a tree, its root at the top (default none): one of", "diagram", "diagram",
+     parse_choice, print_choice, MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at},
+    {"slice", "AXIS=AT", "only nodes that cut a plane, as in z=100, and the points of such leaves",
+     "an axis and a place as in z=100", "slice", parse_slice, print_slice,
+     MEMBER("slice", JSON_CODEC(read_slice, write_slice, has_slice), filter)},
+    {"depths", "A:B", "only nodes of depth A to B; A:, :B and A alone will do; the root is 0",
+     "levels from 0 to " NUMBER_DIGITS(OCTREE_MAX_DEPTH) " as in 2:5, 2:, :5 or 3", "range of depths", parse_depths,
+     print_depths, MEMBER("depths", JSON_CODEC(read_depths, write_depths, has_depths), filter)},
+    {"leaves", NULL, "only leaves", NULL, "rule for leaves alone", parse_switch, print_switch,
+     MEMBER("leaves", &json_bool, filter.leaves)},
+    {"region", "BOX", "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it",
+     "six numbers as in -10,-10,-10,10,10,10", "region", parse_region, print_region,
+     MEMBER("region", JSON_CODEC(read_region, write_region, has_region), filter)},
+    {"labels", NULL, "write paths such as 0/3/7 on nodes, where there is room", NULL, "rule for labels", parse_switch,
+     print_switch, MEMBER("labels", &json_bool, labels)},
+    {"lod", "PX", "leave out boxes below PX pixels whose ancestor is drawn (default " LOD "; 0: none)",
+     "pixels from 0 to " MOST_PIXELS, "level of detail", parse_number, print_number, MEMBER("lod", &json_interval, lod),
+     .member.max = VIEW_MAX_SIDE},
+    {"budget", "N", "at most N boxes and N points a frame, which says what it leaves out (default " BUDGET "; 0: all)",
+     "a whole number below 2^53", "budget", parse_whole, print_whole, MEMBER("budget", &json_uint64, budget),
+     .member.max = JSON_LARGEST_WHOLE},
+    {"aa", "N", "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel",
+     "1, 2 or 4 samples on each side of a pixel", "anti-aliasing", parse_aa, print_aa,
+     MEMBER("aa", JSON_CODEC(read_aa, write_aa, NULL), aa), .member.min = 1, .member.max = 4},
+};
+
+const view_option *view_option_at(size_t n)
+{
+    return n < sizeof rows / sizeof rows[0] ? &rows[n] : NULL;
+}
+
+const view_option *view_option_named(const char *name)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (rows[i].name && strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+    return NULL;
+}
