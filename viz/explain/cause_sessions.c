@@ -3,7 +3,7 @@
 #include "cause_compare.h"
 #include "session_file.h"
 #include "text.h"
-#include "view_file.h"
+#include "recording_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -252,13 +252,8 @@ static json_t *view_object(const cause_view *v)
     text_stream s;
     json_error_t error;
     char *text;
-    if (text_stream_begin(&s)) {
-        json_writer w = {.out = s.stream};
-        json_write_begin_object(&w);
-        view_write(&w, &v->view);
-        json_member_integer(&w, "every", v->every);
-        json_write_end_object(&w);
-    }
+    if (text_stream_begin(&s))
+        recording_write(s.stream, &v->view, v->every);
     json_t *object = text_stream_end(&s, &text) && text ? json_loads(text, PARSE_FLAGS, &error) : NULL;
     free(text);
     return object;

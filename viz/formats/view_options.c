@@ -65,20 +65,10 @@ static bool parse_choice(const view_option *option, const char *text, view *v, o
     return true;
 }
 
-static void print_choice(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    snprintf(text, VIEW_OPTION_TEXT, "%s", option->member.names(*(const int *)value_of(option, v)));
-}
-
 static bool parse_switch(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     (void)text, (void)error;
     return *(bool *)value_of(option, v) = true;
-}
-
-static void print_switch(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    snprintf(text, VIEW_OPTION_TEXT, "%s", *(const bool *)value_of(option, v) ? "on" : "off");
 }
 
 static bool parse_whole(const view_option *option, const char *text, view *v, octreel_error *error)
@@ -91,11 +81,6 @@ static bool parse_whole(const view_option *option, const char *text, view *v, oc
     return true;
 }
 
-static void print_whole(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    snprintf(text, VIEW_OPTION_TEXT, "%" PRIu64, *(const uint64_t *)value_of(option, v));
-}
-
 static bool parse_number(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     double value;
@@ -103,19 +88,6 @@ static bool parse_number(const view_option *option, const char *text, view *v, o
         return refuse(option, text, error);
     *(double *)value_of(option, v) = value;
     return true;
-}
-
-static void print_number(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    number_print(*(const double *)value_of(option, v), text);
-}
-
-static void print_box(const octree_box *box, char text[VIEW_OPTION_TEXT])
-{
-    for (int i = 0; i < 6; i++) {
-        text += number_print(i < 3 ? box->min[i] : box->max[i - 3], text);
-        *text++ = i < 5 ? ',' : 0;
-    }
 }
 
 /* ---- Size --------------------------------------------------------------------------------------------------- */
@@ -129,12 +101,6 @@ static bool parse_size(const view_option *option, const char *text, view *v, oct
     v->width = (int)width;
     v->height = (int)height;
     return true;
-}
-
-static void print_size(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    (void)option;
-    snprintf(text, VIEW_OPTION_TEXT, "%dx%d", v->width, v->height);
 }
 
 /* ---- Camera ------------------------------------------------------------------------------------------------- */
@@ -153,15 +119,6 @@ static bool parse_fit(const view_option *option, const char *text, view *v, octr
         return no_such(option->takes, text, (int)strlen(text), fit_at, error);
     v->fit = (view_fit)found;
     return true;
-}
-
-static void print_fit(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    (void)option;
-    if (v->fit == FIT_BOX)
-        print_box(&v->focus, text);
-    else
-        snprintf(text, VIEW_OPTION_TEXT, "the %s", fit_at((int)v->fit));
 }
 
 static bool read_fit(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -227,15 +184,6 @@ static bool parse_slice(const view_option *option, const char *text, view *v, oc
     return true;
 }
 
-static void print_slice(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    (void)option;
-    if (v->filter.slice)
-        number_print(v->filter.slice_at, text + snprintf(text, VIEW_OPTION_TEXT, "%c=", v->filter.slice));
-    else
-        snprintf(text, VIEW_OPTION_TEXT, "none");
-}
-
 static bool read_slice(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     view_filter *f = into;
@@ -275,15 +223,6 @@ static bool parse_depths(const view_option *option, const char *text, view *v, o
     v->filter.min_depth = (unsigned)from;
     v->filter.max_depth = (unsigned)to;
     return true;
-}
-
-static void print_depths(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    (void)option;
-    if (v->filter.by_depth)
-        snprintf(text, VIEW_OPTION_TEXT, "%u-%u", v->filter.min_depth, v->filter.max_depth);
-    else
-        snprintf(text, VIEW_OPTION_TEXT, "all");
 }
 
 static bool read_depths(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -326,15 +265,6 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
     return true;
 }
 
-static void print_region(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    (void)option;
-    if (v->filter.by_region)
-        print_box(&v->filter.region, text);
-    else
-        snprintf(text, VIEW_OPTION_TEXT, "none");
-}
-
 static bool read_region(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     view_filter *f = into;
@@ -362,12 +292,6 @@ static bool parse_aa(const view_option *option, const char *text, view *v, octre
     return true;
 }
 
-static void print_aa(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT])
-{
-    (void)option;
-    snprintf(text, VIEW_OPTION_TEXT, "%d", view_samples(v));
-}
-
 static bool read_aa(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     return json_read_int(r, value, at, into) && (*(int *)into != 3 || json_expected(r, value, at, "1, 2 or 4"));
@@ -386,47 +310,47 @@ static void write_aa(json_writer *w, const void *from)
 #define LOD NUMBER_DIGITS(VIEW_DEFAULT_LOD)
 #define BUDGET NUMBER_DIGITS(VIEW_DEFAULT_BUDGET)
 
-/* A value of recording.json: its name and type, and where it is in the view. */
+/* A value of recording.json: its name and codec, and where it is in the view. */
 #define MEMBER(text, how, field) .member.name = text, .member.codec = how, .member.offset = offsetof(view, field)
 
 static const view_option rows[] = {
-    {"camera-from", "DIR", "the whole view of a recording; other options here change it", .parse = parse_camera_from},
-    {"size", "WxH", "picture in pixels (default " SIZE "; a side is 1 to " MOST_PIXELS ")", "pixels as in 1280x720",
-     "size", .parse = parse_size, .print = print_size},
+    {"camera-from", "DIR", NULL, "the whole view of a recording; other options here change it",
+     .parse = parse_camera_from},
+    {"size", "WxH", "pixels as in 1280x720", "picture in pixels (default " SIZE "; a side is 1 to " MOST_PIXELS ")",
+     .parse = parse_size},
     {MEMBER("width", &json_int, width), .member.required = true, .member.min = 1, .member.max = VIEW_MAX_SIDE},
     {MEMBER("height", &json_int, height), .member.required = true, .member.min = 1, .member.max = VIEW_MAX_SIDE},
-    {"camera", "NAME", "(default iso) one of", "camera", "camera", parse_choice, print_choice,
-     MEMBER("camera", &json_choice, camera), .member.required = true, .member.names = camera_at},
-    {"fit", "WHAT", "what the camera frames (points: those shown at tick 0); record: world, inspect: points", "fit",
-     "fit", parse_fit, print_fit, .member.name = "fit", .member.codec = JSON_CODEC(read_fit, write_fit, fits_box)},
-    {"layers", "LIST", "(default all but heat; -text leaves one out, default,visit-heat adds one) of", "layer", NULL,
-     parse_layers, NULL, MEMBER("layers", JSON_CODEC(read_layers, write_layers, NULL), layers), .member.required = true,
+    {"camera", "NAME", "camera", "(default iso) one of", parse_choice, MEMBER("camera", &json_choice, camera),
+     .member.required = true, .member.names = camera_at},
+    {"fit", "WHAT", "fit", "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
+     parse_fit, .member.name = "fit", .member.codec = JSON_CODEC(read_fit, write_fit, fits_box)},
+    {"layers", "LIST", "layer", "(default all but heat; -text leaves one out, default,visit-heat adds one) of",
+     parse_layers, MEMBER("layers", JSON_CODEC(read_layers, write_layers, NULL), layers), .member.required = true,
      .member.names = view_layer_at},
-    {"color-by", "MODE", "what the colour of a node tells (default depth): one of", "colour mode", "colouring",
-     parse_choice, print_choice, MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at},
-    {"diagram", "WHERE", "draw the tree as a tree, its root at the top (default none): one of", "diagram", "diagram",
-     parse_choice, print_choice, MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at},
-    {"slice", "AXIS=AT", "only nodes that cut a plane, as in z=100, and the points of such leaves",
-     "an axis and a place as in z=100", "slice", parse_slice, print_slice,
+    {"color-by", "MODE", "colour mode", "what the colour of a node tells (default depth): one of", parse_choice,
+     MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at},
+    {"diagram", "WHERE", "diagram", "draw the tree as a tree, its root at the top (default none): one of", parse_choice,
+     MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at},
+    {"slice", "AXIS=AT", "an axis and a place as in z=100",
+     "only nodes that cut a plane, as in z=100, and the points of such leaves", parse_slice,
      MEMBER("slice", JSON_CODEC(read_slice, write_slice, has_slice), filter)},
-    {"depths", "A:B", "only nodes of depth A to B; A:, :B and A alone will do; the root is 0",
-     "levels from 0 to " NUMBER_DIGITS(OCTREE_MAX_DEPTH) " as in 2:5, 2:, :5 or 3", "range of depths", parse_depths,
-     print_depths, MEMBER("depths", JSON_CODEC(read_depths, write_depths, has_depths), filter)},
-    {"leaves", NULL, "only leaves", NULL, "rule for leaves alone", parse_switch, print_switch,
-     MEMBER("leaves", &json_bool, filter.leaves)},
-    {"region", "BOX", "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it",
-     "six numbers as in -10,-10,-10,10,10,10", "region", parse_region, print_region,
+    {"depths", "A:B", "levels from 0 to " NUMBER_DIGITS(OCTREE_MAX_DEPTH) " as in 2:5, 2:, :5 or 3",
+     "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", parse_depths,
+     MEMBER("depths", JSON_CODEC(read_depths, write_depths, has_depths), filter)},
+    {"leaves", NULL, NULL, "only leaves", parse_switch, MEMBER("leaves", &json_bool, filter.leaves)},
+    {"region", "BOX", "six numbers as in -10,-10,-10,10,10,10",
+     "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", parse_region,
      MEMBER("region", JSON_CODEC(read_region, write_region, has_region), filter)},
-    {"labels", NULL, "write paths such as 0/3/7 on nodes, where there is room", NULL, "rule for labels", parse_switch,
-     print_switch, MEMBER("labels", &json_bool, labels)},
-    {"lod", "PX", "leave out boxes below PX pixels whose ancestor is drawn (default " LOD "; 0: none)",
-     "pixels from 0 to " MOST_PIXELS, "level of detail", parse_number, print_number, MEMBER("lod", &json_interval, lod),
-     .member.max = VIEW_MAX_SIDE},
-    {"budget", "N", "at most N boxes and N points a frame, which says what it leaves out (default " BUDGET "; 0: all)",
-     "a whole number below 2^53", "budget", parse_whole, print_whole, MEMBER("budget", &json_uint64, budget),
-     .member.max = JSON_LARGEST_WHOLE},
-    {"aa", "N", "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel",
-     "1, 2 or 4 samples on each side of a pixel", "anti-aliasing", parse_aa, print_aa,
+    {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes, where there is room", parse_switch,
+     MEMBER("labels", &json_bool, labels)},
+    {"lod", "PX", "pixels from 0 to " MOST_PIXELS,
+     "leave out boxes below PX pixels whose ancestor is drawn (default " LOD "; 0: none)", parse_number,
+     MEMBER("lod", &json_interval, lod), .member.max = VIEW_MAX_SIDE},
+    {"budget", "N", "a whole number below 2^53",
+     "at most N boxes and N points a frame, which says what it leaves out (default " BUDGET "; 0: all)", parse_whole,
+     MEMBER("budget", &json_uint64, budget), .member.max = JSON_LARGEST_WHOLE},
+    {"aa", "N", "1, 2 or 4 samples on each side of a pixel",
+     "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", parse_aa,
      MEMBER("aa", JSON_CODEC(read_aa, write_aa, NULL), aa), .member.min = 1, .member.max = 4},
 };
 

@@ -1,5 +1,6 @@
-/* view_options.h - the options of a view, one row each, by which the command line, recording.json, programs that record
- * themselves and comparisons of recordings go. A new option is a member of `view` and its row in view_options.c.
+/* view_options.h - the options of a view, one row each, by which the command line, recording.json and programs that
+ * record themselves go; comparisons go by recording.json. A new option is a member of `view` and a row in
+ * view_options.c.
  */
 #ifndef FORMATS_VIEW_OPTIONS_H
 #define FORMATS_VIEW_OPTIONS_H
@@ -7,21 +8,16 @@
 #include "json_table.h"
 #include "view.h"
 
-/* Room for the text of any option's value. */
-#define VIEW_OPTION_TEXT 192
-
 typedef struct view_option view_option;
 
 struct view_option {
     const char *name;  /* on the command line, without dashes; null: it is in recording.json alone */
     const char *value; /* what stands for its value in the help; null: it takes none */
-    const char *help;  /* behind it come the names, where member.names has some */
     const char *takes; /* what fits, in words: "pixels as in 1280x720"; of a choice what it is one of: "camera" */
-    const char *words; /* what differs between two views: "size"; null: it is not compared as a whole */
+    const char *help;  /* behind it come the names, where member.names has some */
+
     /* Change a view by the text of a value. False, with a sentence, where it does not fit. */
     bool (*parse)(const view_option *option, const char *text, view *v, octreel_error *error);
-    /* The value for people: "1280x720", "z=100", "none". Null where `words` is. */
-    void (*print)(const view_option *option, const view *v, char text[VIEW_OPTION_TEXT]);
     json_member member; /* of recording.json; its name is null where it has none */
 };
 
