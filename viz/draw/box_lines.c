@@ -1,29 +1,121 @@
-/* merged_boxes.c - see merged_boxes.h. Boxes of a tree come in one order, so that from frame to frame a few come
- * between others and a few are missing. */
 #include "box_lines.h"
+#include "array.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/* So many in a row may be missing at once; what comes behind more of them is taken for new. */
+/* Boxes of a tree come in one order, so that from frame to frame a few come between others and a few are missing. So
+ * many in a row may be missing at once; what comes after more of them is taken for new. */
 #define MISSING_AT_MOST 64
 
-static void release(const box_arrays *arrays)
+void box_lines_clear(box_lines *kept)
 {
-    free(arrays->boxes);
-    free(arrays->lines);
+    kept->now.count = kept->count = kept->idle = 0;
+    hash_map_clear(&kept->map);
 }
 
-void merged_boxes_release(merged_boxes *kept)
+void box_lines_release(box_lines *kept)
 {
-    release(&kept->now);
-    release(&kept->next);
+    free(kept->now.items);
+    free(kept->before.items);
+    free(kept->lines);
+    free(kept->changed);
+    hash_map_release(&kept->map);
     memset(kept, 0, sizeof *kept);
 }
 
-static bool is_among(const scene_box *box, unsigned first, unsigned behind)
+/* ---- Lines --------------------------------------------------------------------------------------------------- */
+
+/* Planes of a tree have few bits, and those at the top: they are brought down before they are mixed. */
+static uint64_t fold(double value)
 {
-    return box->style.layer >= first && box->style.layer < behind;
+    uint64_t bits;
+    const double canonical = value + 0.0; /* of the two zeros one */
+    memcpy(&bits, &canonical, sizeof bits);
+    return bits ^ bits >> 32;
+}
+
+static uint64_t hash_key(const void *of)
+{
+    const line_key *key = of;
+    const uint64_t mixed = (fold(key->u) + key->kind) * UINT64_C(0x9e3779b97f4a7c15) ^
+                           (fold(key->v) + key->kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
+    return (mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32;
+}
+
+/* The two zeros are one. */
+static bool same_key(const void *a, const void *b)
+{
+    const line_key *p = a, *q = b;
+    return p->u == q->u && p->v == q->v && p->kind == q->kind;
+}
+
+static const hash_map_keys by_key = {sizeof(line), hash_key, same_key};
+
+static uint32_t add_line(box_lines *kept, const line_key *key)
+{
+    line *lines = array_reserve(kept->lines, kept->count + 1, &kept->room, sizeof *lines);
+    if (!lines)
+        return LINE_NONE;
+    kept->lines = lines;
+    uint8_t *changed = array_reserve(kept->changed, kept->count + 1, &kept->changed_room, sizeof *changed);
+    if (!changed)
+        return LINE_NONE;
+    kept->changed = changed;
+    lines[kept->count] = (line){.key = *key};
+    if (!hash_map_add(&kept->map, &by_key, lines))
+        return LINE_NONE;
+    kept->idle++;
+    return (uint32_t)kept->count++;
+}
+
+/* One user more of a line, which may be new. LINE_NONE when there is no memory. */
+static uint32_t ref_line(box_lines *kept, const line_key *key)
+{
+    uint32_t place = hash_map_find(&kept->map, &by_key, kept->lines, key);
+    if (place == HASH_MAP_NONE)
+        place = add_line(kept, key);
+    if (place == LINE_NONE)
+        return LINE_NONE;
+    kept->idle -= kept->lines[place].users++ == 0;
+    kept->changed[place] = true;
+    return place;
+}
+
+static void unref_line(box_lines *kept, uint32_t place)
+{
+    kept->idle += --kept->lines[place].users == 0;
+    kept->changed[place] = true;
+}
+
+/* ---- Boxes --------------------------------------------------------------------------------------------------- */
+
+static bool ref_edge(box_lines *kept, lined_box *of, unsigned edge)
+{
+    const line_key key = line_key_of(&of->box, edge / 4, edge % 4);
+    of->lines[edge] = ref_line(kept, &key);
+    return of->lines[edge] != LINE_NONE;
+}
+
+/* Edges along axes of no extent are dots on others, but for a box that is a dot itself. */
+static bool ref_edges(box_lines *kept, lined_box *of)
+{
+    const octree_box *box = &of->box.box;
+    bool ok = true, dot = true;
+    for (unsigned edge = 0; ok && edge < BOX_EDGES; edge++) {
+        const bool extends = box->min[edge / 4] < box->max[edge / 4];
+        of->lines[edge] = LINE_NONE;
+        ok = !extends || ref_edge(kept, of, edge);
+        dot = dot && !extends;
+    }
+    return ok && (!dot || ref_edge(kept, of, 0));
+}
+
+static void unref_edges(box_lines *kept, const lined_box *of, const lined_box *end)
+{
+    for (; of < end; of++)
+        for (unsigned edge = 0; edge < BOX_EDGES; edge++)
+            if (of->lines[edge] != LINE_NONE)
+                unref_line(kept, of->lines[edge]);
 }
 
 static bool same_box(const scene_box *a, const scene_box *b)
@@ -32,103 +124,53 @@ static bool same_box(const scene_box *a, const scene_box *b)
            memcmp(&a->box, &b->box, sizeof a->box) == 0;
 }
 
-bool merged_boxes_are(const merged_boxes *kept, const scene *s, unsigned first, unsigned behind)
+/* Where a box is among the next few from `from` on; null when it is not. */
+static const lined_box *find_box(const lined_boxes *in, size_t from, const scene_box *box)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < s->boxes.count; i++) {
-        const scene_box *box = &s->boxes.items[i];
-        if (!is_among(box, first, behind))
-            continue;
-        if (count == kept->now.count || !same_box(&kept->now.boxes[count], box))
-            return false;
-        count++;
-    }
-    return count == kept->now.count;
-}
-
-/* Room for these, and for some more in the frames to come. */
-static bool make_room(box_arrays *next, const scene *s, unsigned first, unsigned behind)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->boxes.count; i++)
-        count += is_among(&s->boxes.items[i], first, behind);
-    next->count = 0;
-    if (count <= next->room)
-        return true;
-    release(next);
-    *next = (box_arrays){.room = count + count / 8};
-    next->boxes = malloc(next->room * sizeof *next->boxes);
-    next->lines = malloc(next->room * sizeof *next->lines);
-    next->room = next->boxes && next->lines ? next->room : 0;
-    return next->room > 0;
-}
-
-static bool use_line(line_set *lines, const scene_box *box, unsigned axis, unsigned corner, uint32_t *place)
-{
-    const line_key key = line_key_of(box, axis, corner);
-    *place = lines_use(lines, &key);
-    return *place != LINE_NONE;
-}
-
-/* Edges along axes of no extent are dots on others, but for a box that is a dot itself. */
-static bool use_lines(line_set *lines, const scene_box *box, box_lines *places)
-{
-    bool ok = true, dot = true;
-    for (unsigned edge = 0; ok && edge < BOX_EDGES; edge++) {
-        const unsigned axis = edge / 4;
-        const bool extends = box->box.min[axis] < box->box.max[axis];
-        places->of[edge] = LINE_NONE;
-        ok = !extends || use_line(lines, box, axis, edge % 4, &places->of[edge]);
-        dot = dot && !extends;
-    }
-    return ok && (!dot || use_line(lines, box, 0, 0, &places->of[0]));
-}
-
-static void leave_lines(line_set *lines, const box_lines *places, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        for (unsigned edge = 0; edge < BOX_EDGES; edge++)
-            if (places[i].of[edge] != LINE_NONE)
-                lines_leave(lines, places[i].of[edge]);
-}
-
-/* Where a box is among the next few from `from` on, or the number of all. */
-static size_t find_box(const box_arrays *now, size_t from, const scene_box *box)
-{
-    const size_t left = now->count - from, end = from + (left < MISSING_AT_MOST ? left : MISSING_AT_MOST);
+    const size_t left = in->count - from, end = from + (left < MISSING_AT_MOST ? left : MISSING_AT_MOST);
     for (size_t i = from; i < end; i++)
-        if (same_box(&now->boxes[i], box))
-            return i;
-    return now->count;
+        if (same_box(&in->items[i].box, box))
+            return &in->items[i];
+    return NULL;
 }
 
-/* The next box, which is kept from `old` on or comes from nowhere. */
-static bool take_box(merged_boxes *kept, line_set *lines, const scene_box *box, size_t *old)
+/* Add the next box, which was there from *old on or is new. */
+static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
-    const box_arrays *now = &kept->now;
-    const size_t found = find_box(now, *old, box), at = kept->next.count++;
-    kept->next.boxes[at] = *box;
-    if (found == now->count)
-        return use_lines(lines, box, &kept->next.lines[at]);
-    kept->next.lines[at] = now->lines[found];
-    leave_lines(lines, &now->lines[*old], found - *old);
-    *old = found + 1;
+    const lined_box *next = kept->before.items + *old, *found = find_box(&kept->before, *old, box);
+    lined_box *items = array_reserve(kept->now.items, kept->now.count + 1, &kept->now.room, sizeof *items);
+    if (!items)
+        return false;
+    kept->now.items = items;
+    lined_box *added = &items[kept->now.count++];
+    *changed = *changed || !found || found != next;
+    if (!found) {
+        added->box = *box;
+        return ref_edges(kept, added);
+    }
+    *added = *found;
+    unref_edges(kept, next, found);
+    *old = (size_t)(found - kept->before.items) + 1;
     return true;
 }
 
-bool merged_boxes_become(merged_boxes *kept, line_set *lines, const scene *s, unsigned first, unsigned behind)
+bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned end, bool *changed)
 {
+    const lined_boxes before = kept->now;
     size_t old = 0;
-    bool ok = make_room(&kept->next, s, first, behind);
+    bool ok = true;
+    kept->now = kept->before;
+    kept->now.count = 0;
+    kept->before = before;
+    *changed = false;
     for (size_t i = 0; ok && i < s->boxes.count; i++) {
         const scene_box *box = &s->boxes.items[i];
-        if (is_among(box, first, behind))
-            ok = take_box(kept, lines, box, &old);
+        if (box->style.layer >= first && box->style.layer < end)
+            ok = add_box(kept, box, &old, changed);
     }
-    if (ok && old < kept->now.count)
-        leave_lines(lines, &kept->now.lines[old], kept->now.count - old);
-    const box_arrays before = kept->now;
-    kept->now = kept->next;
-    kept->next = before;
+    if (ok && old < before.count) {
+        unref_edges(kept, before.items + old, before.items + before.count);
+        *changed = true;
+    }
     return ok;
 }

@@ -1,39 +1,95 @@
-/* merged_boxes.h - the boxes whose edges were merged last, each with the lines that its edges lie on; and what of them
- * is not as it was. Private to the edges.
- */
-#ifndef DRAW_MERGED_BOXES_H
-#define DRAW_MERGED_BOXES_H
+/* box_lines.h - the lines of the world that the edges of boxes lie on: boxes share an edge where two lines are equal.
+ * Boxes and lines are kept from one scene to the next, and what changed is marked. For this folder. */
+#ifndef DRAW_BOX_LINES_H
+#define DRAW_BOX_LINES_H
 
-#include "lines.h"
+#include "hash_map.h"
+#include "scene.h"
 
+/* Parallel to an axis at `u` and `v` on the two others. */
+typedef struct line_key {
+    double u, v;
+    uint32_t kind; /* layer, style, width and axis: what is drawn alike */
+} line_key;
+
+/* The line through a place. */
+static inline line_key line_key_at(scene_style style, unsigned axis, const double at[3])
+{
+    return (line_key){
+        .u = at[(axis + 1) % 3],
+        .v = at[(axis + 2) % 3],
+        .kind = (uint32_t)style.layer << 24 | (uint32_t)style.stroke << 16 | (uint32_t)style.width << 8 | axis,
+    };
+}
+
+/* That of the edge of a box at one of the four corners across an axis. */
+static inline line_key line_key_of(const scene_box *box, unsigned axis, unsigned corner)
+{
+    double at[3] = {0};
+    at[(axis + 1) % 3] = (corner & 1 ? box->box.max : box->box.min)[(axis + 1) % 3];
+    at[(axis + 2) % 3] = (corner & 2 ? box->box.max : box->box.min)[(axis + 2) % 3];
+    return line_key_at(box->style, axis, at);
+}
+
+static inline unsigned line_key_axis(const line_key *key)
+{
+    return key->kind & 0xff;
+}
+
+static inline int compare_doubles(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+/* The order of painting: by kind, and then by place. */
+static inline int line_key_compare(const line_key *a, const line_key *b)
+{
+    if (a->kind != b->kind)
+        return a->kind < b->kind ? -1 : 1;
+    const int u = compare_doubles(a->u, b->u);
+    return u ? u : compare_doubles(a->v, b->v);
+}
+
+typedef struct line {
+    line_key key;
+    uint32_t users;        /* edges of boxes that lie on it */
+    uint32_t first, count; /* its merged edges */
+    uint32_t stretches;    /* while it is merged: how many there are on it, */
+    uint32_t last;         /* and the last of these, LINE_NONE before the first */
+} line;
+
+#define LINE_NONE HASH_MAP_NONE
 #define BOX_EDGES 12
 
-/* The lines of a box's edges, four along each axis; LINE_NONE where the box has no extent. */
-typedef struct box_lines {
-    uint32_t of[BOX_EDGES];
-} box_lines;
+/* A box and the lines of its edges, four along each axis; LINE_NONE where the box has no extent. */
+typedef struct lined_box {
+    scene_box box;
+    uint32_t lines[BOX_EDGES];
+} lined_box;
 
-/* Side by side. */
-typedef struct box_arrays {
-    scene_box *boxes;
-    box_lines *lines;
+typedef struct lined_boxes {
+    lined_box *items;
     size_t count, room;
-} box_arrays;
+} lined_boxes;
 
 /* A zeroed one is empty. */
-typedef struct merged_boxes {
-    box_arrays now;
-    box_arrays next; /* memory for those of the next time */
-} merged_boxes;
+typedef struct box_lines {
+    lined_boxes now, before;
+    line *lines; /* each once; a new one comes after all others */
+    size_t count, room;
+    uint8_t *changed; /* for each line: whether its merged edges are out of date */
+    size_t changed_room;
+    size_t idle;  /* lines without users */
+    hash_map map; /* of lines by their keys */
+} box_lines;
 
-void merged_boxes_release(merged_boxes *kept);
+void box_lines_clear(box_lines *kept);
+void box_lines_release(box_lines *kept);
 
-/* Whether these are the boxes of a scene in the layers [first, behind), in this order. */
-bool merged_boxes_are(const merged_boxes *kept, const scene *s, unsigned first, unsigned behind);
-
-/* Become these. Lines of boxes that come or go are marked as changed; boxes that stay are found where few others came
- * or went before them. False when there is no memory: then lines and boxes are to be cleared. Cost: O(n), and a search
- * for a line for each edge of a box that comes. */
-bool merged_boxes_become(merged_boxes *kept, line_set *lines, const scene *s, unsigned first, unsigned behind);
+/* Take over the boxes of a scene in the layers [first, end), in their order. Lines of boxes that come or go are marked
+ * as changed, and *changed is set when there are such boxes; those that stay are found where few others came or went
+ * before them. False when there is no memory: then it is to be cleared. Cost: O(n), and a search for a line for each
+ * edge of a box that comes. */
+bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned end, bool *changed);
 
 #endif

@@ -1,6 +1,4 @@
-/* canvas.c - see canvas.h. */
 #include "canvas.h"
-#include "fill.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +10,8 @@
 #define NOTHING 255
 _Static_assert(THEME_COLORS <= NOTHING, "an index is left over");
 
+#define CENTRE (QUAD_SUBPIXELS / 2)
+
 /* A frame under way. */
 typedef struct drawing {
     canvas *canvas;
@@ -19,6 +19,7 @@ typedef struct drawing {
     rasteriser *rasterise;
     void *context;
     uint8_t *indices;
+    octreel_error *error;
     bool blank; /* nothing is in `indices` yet */
 } drawing;
 
@@ -35,11 +36,123 @@ static size_t count_pixels(const canvas *c)
     return (size_t)c->width * (size_t)c->height;
 }
 
-/* ---- What is filled ----------------------------------------------------------------------------------------- */
+/* ---- Filling -------------------------------------------------------------------------------------------------
+ *
+ * Corners are whole 1/256 pixels, so that whether a pixel's centre is in a quad is a question of integers. By the rule
+ * that GL states and llvmpipe keeps, a pixel belongs to what its centre is in; a centre on an edge belongs to the quad
+ * that has the edge on its left, or, where the edge is level, on its top.
+ */
 
-static fill_target target_of(const drawing *d)
+static bool is_rectangle(const quad *q)
 {
-    return (fill_target){d->indices, d->canvas->width, d->canvas->height};
+    const int32_t *x = q->x, *y = q->y;
+    return (x[0] == x[3] && x[1] == x[2] && y[0] == y[1] && y[2] == y[3]) ||
+           (x[0] == x[1] && x[2] == x[3] && y[1] == y[2] && y[3] == y[0]);
+}
+
+/* The sides 0-3 and 1-2 lie along `across`: one is the other, moved. */
+static bool is_strip(const int32_t along[4], const int32_t across[4])
+{
+    const int32_t width = across[3] - across[0];
+    return along[0] == along[3] && along[1] == along[2] && width == across[2] - across[1] && width > 0 &&
+           width % QUAD_SUBPIXELS == 0;
+}
+
+static bool is_inside(const drawing *d, const quad *q)
+{
+    const int32_t right = d->canvas->width * QUAD_SUBPIXELS, bottom = d->canvas->height * QUAD_SUBPIXELS;
+    bool inside = true;
+    for (int i = 0; i < 4; i++)
+        inside &= q->x[i] >= 0 && q->y[i] >= 0 && q->x[i] <= right && q->y[i] <= bottom;
+    return inside;
+}
+
+/* Upright rectangles; and lines as they are stroked, parallelograms with two sides along an axis, as long as a whole
+ * number of pixels. These must lie in the picture: GL clips what reaches beyond it, in single precision. */
+static bool can_fill(const drawing *d, const quad *q)
+{
+    return is_rectangle(q) || (is_inside(d, q) && (is_strip(q->x, q->y) || is_strip(q->y, q->x)));
+}
+
+/* The first pixel whose centre is not before a coordinate: 0 to `size`. */
+static int first_pixel(int32_t at, int size)
+{
+    if (at <= CENTRE)
+        return 0;
+    const int32_t pixel = (at - CENTRE + QUAD_SUBPIXELS - 1) / QUAD_SUBPIXELS;
+    return pixel < size ? pixel : size;
+}
+
+static void fill_rectangle(const drawing *d, const quad *q)
+{
+    const int32_t *x = q->x, *y = q->y;
+    const int width = d->canvas->width, height = d->canvas->height;
+    const int left = first_pixel(x[0] < x[2] ? x[0] : x[2], width);
+    const int right = first_pixel(x[0] < x[2] ? x[2] : x[0], width);
+    const int top = first_pixel(y[0] < y[2] ? y[0] : y[2], height);
+    const int bottom = first_pixel(y[0] < y[2] ? y[2] : y[0], height);
+    uint8_t *row = d->indices + (size_t)top * (size_t)width + left;
+    for (int i = top; i < bottom && left < right; i++, row += width)
+        memset(row, q->color, (size_t)(right - left));
+}
+
+/* An axis of the picture: its pixels, and the bytes from one to the next. */
+typedef struct fill_axis {
+    int size;
+    ptrdiff_t step;
+} fill_axis;
+
+/* Quotient and remainder, rounded down. */
+static int64_t divide(int64_t a, int64_t b, int64_t *rest)
+{
+    int64_t quotient = a / b;
+    *rest = a % b;
+    if (*rest < 0) {
+        *rest += b;
+        quotient--;
+    }
+    return quotient;
+}
+
+/* Step by step along one axis, a run of `width` pixels across. The lower edge runs from (a0, b0) to (a1, b1), a0 < a1;
+ * at the centre of step i it is at P / Q pixels from the centre of pixel 0 across, with Q = 256 (a1 - a0). */
+static void fill_strip(uint8_t *indices, uint8_t color, fill_axis along, fill_axis across, const int32_t a[2],
+                       const int32_t b[2], int width, bool lower_is_in)
+{
+    const int64_t length = a[1] - a[0], rise = b[1] - b[0], whole = QUAD_SUBPIXELS * length;
+    const int begin = first_pixel(a[0], along.size), end = first_pixel(a[1], along.size);
+    const int64_t centre = (int64_t)begin * QUAD_SUBPIXELS + CENTRE;
+    int64_t rest, more;
+    int64_t at = divide((b[0] - CENTRE) * length + rise * (centre - a[0]), whole, &rest);
+    const int64_t turn = divide(rise * QUAD_SUBPIXELS, whole, &more);
+    uint8_t *step = indices + begin * along.step;
+    for (int i = begin; i < end; i++, step += along.step) {
+        const int64_t first = at + (rest > 0 || !lower_is_in);
+        for (int64_t j = first < 0 ? 0 : first; j < first + width && j < across.size; j++)
+            step[j * across.step] = color;
+        at += turn;
+        rest += more;
+        if (rest >= whole) {
+            rest -= whole;
+            at++;
+        }
+    }
+}
+
+/* An edge that goes down to the right has what is below it on its left side: there its centres are not in. */
+static void fill_quad(const drawing *d, const quad *q)
+{
+    const bool flat = is_strip(q->x, q->y);
+    if (is_rectangle(q)) {
+        fill_rectangle(d, q);
+        return;
+    }
+    const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
+    const int first = along[0] > along[1], last = 1 - first;
+    const int32_t a[2] = {along[first], along[last]}, b[2] = {across[first], across[last]};
+    const fill_axis x = {d->canvas->width, 1}, y = {d->canvas->height, d->canvas->width};
+    fill_strip(d->indices, q->color, flat ? x : y, flat ? y : x, a, b, (across[3] - across[0]) / QUAD_SUBPIXELS,
+               !flat || b[1] <= b[0]);
 }
 
 static void fill_all(drawing *d, size_t start, size_t end)
@@ -47,15 +160,14 @@ static void fill_all(drawing *d, size_t start, size_t end)
     if (d->blank)
         memset(d->indices, 0, count_pixels(d->canvas));
     d->blank = false;
-    const fill_target to = target_of(d);
     for (size_t i = start; i < end; i++)
-        fill_quad(&to, &d->quads[i]);
+        fill_quad(d, &d->quads[i]);
 }
 
 /* ---- The rasteriser ----------------------------------------------------------------------------------------- */
 
 /* The rows that quads may light. */
-static void find_rows(const drawing *d, size_t start, size_t end, int *first, int *behind)
+static void find_rows(const drawing *d, size_t start, size_t end, int *first, int *end_row)
 {
     int32_t least = INT32_MAX, most = INT32_MIN;
     for (size_t i = start; i < end; i++)
@@ -66,20 +178,22 @@ static void find_rows(const drawing *d, size_t start, size_t end, int *first, in
         }
     const int height = d->canvas->height, rows = most <= 0 ? 0 : (int)(most / QUAD_SUBPIXELS) + 1;
     *first = least <= 0 ? 0 : (int)(least / QUAD_SUBPIXELS);
-    *behind = rows < height ? rows : height;
+    *end_row = rows < height ? rows : height;
 }
 
 static bool lay_over(drawing *d, size_t start, size_t end)
 {
     canvas *c = d->canvas;
-    int first, behind;
-    find_rows(d, start, end, &first, &behind);
-    if (first >= behind)
+    int first, end_row;
+    find_rows(d, start, end, &first, &end_row);
+    if (first >= end_row)
         return true;
     c->over = c->over ? c->over : malloc(count_pixels(c));
-    if (!c->over || !d->rasterise(d->context, d->quads + start, end - start, NOTHING, first, behind, c->over))
+    if (!c->over)
+        return error_no_memory(d->error);
+    if (!d->rasterise(d->context, d->quads + start, end - start, NOTHING, first, end_row, c->over, d->error))
         return false;
-    const size_t last = (size_t)behind * (size_t)c->width;
+    const size_t last = (size_t)end_row * (size_t)c->width;
     for (size_t i = (size_t)first * (size_t)c->width; i < last; i++)
         d->indices[i] = c->over[i] == NOTHING ? d->indices[i] : c->over[i];
     return true;
@@ -92,7 +206,7 @@ static bool rasterise_all(drawing *d, size_t start, size_t end)
     if (!d->blank)
         return lay_over(d, start, end);
     d->blank = false;
-    return d->rasterise(d->context, d->quads + start, end - start, 0, 0, d->canvas->height, d->indices);
+    return d->rasterise(d->context, d->quads + start, end - start, 0, 0, d->canvas->height, d->indices, d->error);
 }
 
 /* ---- A frame ------------------------------------------------------------------------------------------------ */
@@ -100,10 +214,9 @@ static bool rasterise_all(drawing *d, size_t start, size_t end)
 /* Many rectangles in a row, and those that come last, are filled. */
 static bool draw_span(drawing *d, size_t start, size_t end)
 {
-    const fill_target to = target_of(d);
     size_t begun = start;
     for (size_t i = start, run; i < end; i = run + 1) {
-        for (run = i; run < end && fill_takes(&to, &d->quads[run]);)
+        for (run = i; run < end && can_fill(d, &d->quads[run]);)
             run++;
         if (run == i || (run < end && run - i < WORTH_A_PASS))
             continue;
@@ -129,17 +242,6 @@ static size_t count_same(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* Without memory for it the next frame is drawn from its beginning. */
-static void remember(canvas *c, const quad_list *quads)
-{
-    c->last.count = 0;
-    for (size_t i = 0; i < quads->count; i++)
-        quads_add(&c->last, &quads->items[i]);
-    if (c->last.out_of_memory)
-        c->last.count = 0;
-    c->last.out_of_memory = false;
-}
-
 /* Whether it pays to keep what is alike up to `same`, where `start` quads are drawn, and there is room for it. */
 static bool is_worth_keeping(canvas *c, size_t start, size_t same)
 {
@@ -149,9 +251,10 @@ static bool is_worth_keeping(canvas *c, size_t start, size_t same)
     return c->kept != NULL;
 }
 
-bool canvas_draw(canvas *c, const quad_list *quads, rasteriser *rasterise, void *context, uint8_t *indices)
+bool canvas_draw(canvas *c, quad_list *quads, rasteriser *rasterise, void *context, uint8_t *indices,
+                 octreel_error *error)
 {
-    drawing d = {c, quads->items, rasterise, context, indices, true};
+    drawing d = {c, quads->items, rasterise, context, indices, error, true};
     const size_t same = count_same(&c->last, quads);
     size_t start = c->kept_count <= same ? c->kept_count : 0;
     if (start > 0) {
@@ -169,6 +272,8 @@ bool canvas_draw(canvas *c, const quad_list *quads, rasteriser *rasterise, void 
         return false;
     if (d.blank)
         memset(indices, 0, count_pixels(c));
-    remember(c, quads);
+    const quad_list last = c->last;
+    c->last = *quads;
+    *quads = last;
     return true;
 }

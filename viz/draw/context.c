@@ -1,8 +1,6 @@
-/* context.c - the kinds of contexts that this program was built with, and the choice among them. */
 #include "context.h"
 
 #include <dlfcn.h>
-#include <stdio.h>
 #include <string.h>
 
 static const struct {
@@ -43,7 +41,7 @@ bool draw_context_built(draw_context kind)
     return (unsigned)kind < DRAW_CONTEXTS && kinds[kind].open;
 }
 
-/* The first kind that opens, in the order of draw_context; the first one's reason when none does. */
+/* When none opens, the first one's reason is told. */
 static context *open_any(const renderer_choice *choice, octreel_error *error)
 {
     octreel_error *reason = error, later;
@@ -63,18 +61,16 @@ context *context_open(const renderer_choice *choice, octreel_error *error)
         return open_any(choice, error);
     if (draw_context_built(choice->context))
         return kinds[choice->context].open(choice, error);
-    snprintf(error->text, sizeof error->text, "this program was built without the %s context",
-             draw_context_name(choice->context));
+    error_set(error, "this program was built without the %s context", draw_context_name(choice->context));
     return NULL;
 }
 
-void *context_load(const char *const *names, size_t count, const char *sentence, octreel_error *error)
+void *context_load(const char *name, const char *other_name, const char *sentence, octreel_error *error)
 {
-    void *library = NULL;
-    for (size_t i = 0; !library && i < count; i++)
-        library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
+    void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+    library = library ? library : dlopen(other_name, RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        snprintf(error->text, sizeof error->text, "%s: %s", sentence, dlerror());
+        error_set(error, "%s: %s", sentence, dlerror());
     return library;
 }
 

@@ -1,13 +1,33 @@
-/* context.h - an off-screen GL context and its functions. One kind a file, context_osmesa.c and context_egl.c; which of
- * them are there is CMake's choice, and context.c picks one. Private. */
+/* context.h - the kinds of off-screen GL contexts: their names, and the interface that renderer.c draws through.
+ * context_osmesa.c and context_egl.c are one kind each; CMake chooses which of them are built. */
 #ifndef DRAW_CONTEXT_H
 #define DRAW_CONTEXT_H
 
-#include "renderer.h"
+#include "error.h"
+
+#include <stddef.h>
+
+/* In the order in which DRAW_AUTO tries those that are built. */
+typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
+
+/* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. And the inverse; false when there is no such name. */
+const char *draw_context_name(draw_context kind);
+bool draw_context_parse(const char *name, draw_context *kind);
+
+/* Whether this program was built with it. */
+bool draw_context_built(draw_context kind);
+
+/* Which renderer is wanted; all zero draws the same pixels everywhere. */
+typedef struct renderer_choice {
+    draw_context context;
+    bool any_renderer; /* accept drivers other than llvmpipe: a graphics card, say */
+} renderer_choice;
+
+/* ---- For this folder ---------------------------------------------------------------------------------------- */
 
 typedef void (*context_function)(void);
 
-/* What the kinds begin their own structs with. */
+/* The kinds begin their own structs with this. */
 typedef struct context context;
 struct context {
     const char *name;
@@ -22,16 +42,16 @@ struct context {
     void (*close)(context *c);
 };
 
-/* A kind opens a context and makes it current. Null, and a sentence, when it cannot be. */
+/* Open a context and make it current. Null, and a sentence, when that fails. */
 typedef context *context_opener(const renderer_choice *choice, octreel_error *error);
 context_opener context_osmesa_open, context_egl_open;
 
 /* The context of a choice; under DRAW_AUTO the first kind that opens. */
 context_opener context_open;
 
-/* For the kinds: open the first library of these names that there is; null, with a sentence, when there is none. And
- * find one of its functions, which goes into *function, a pointer to a function of `size` bytes. */
-void *context_load(const char *const *names, size_t count, const char *sentence, octreel_error *error);
+/* For the kinds: open a library by the first of two names that is found; null, with a sentence, when none is. And find
+ * one of its functions, which goes into *function, a pointer to a function of `size` bytes. */
+void *context_load(const char *name, const char *other_name, const char *sentence, octreel_error *error);
 bool context_symbol(void *library, const char *name, void *function, size_t size);
 
 #endif

@@ -1,13 +1,9 @@
-/* context_egl.c - EGL without a display, a surface or a configuration, opened at run time: what draws off-screen where
- * Mesa is too new for OSMesa.
- *
- * EGL may find a graphics card. Where it can name its devices, the one that is software is asked for.
- */
+/* context_egl.c - EGL without a display, a surface or a configuration, opened at run time: draws off-screen where Mesa
+ * is too new for OSMesa. It may find a graphics card; where it can name its devices, the software one is asked for. */
 #include "context.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,8 +27,6 @@ typedef struct egl_context {
     EGLContext mesa;
 } egl_context;
 
-static const char *const library_names[] = {"libEGL.so.1", "libEGL.so"};
-
 static bool look_up(egl *egl, void *library)
 {
 #define EGL_FIND(name) context_symbol(library, "egl" #name, &egl->name, sizeof egl->name)
@@ -41,14 +35,9 @@ static bool look_up(egl *egl, void *library)
 #undef EGL_FIND
 }
 
-/* Whether a list with blanks between has this word. */
 static bool has_word(const char *list, const char *word)
 {
-    const size_t length = strlen(word);
-    for (const char *at = list; at && (at = strstr(at, word)); at += length)
-        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == 0))
-            return true;
-    return false;
+    return list && strstr(list, word);
 }
 
 /* The device that draws with the processor, or null where devices cannot be asked. */
@@ -119,20 +108,20 @@ static bool open_mesa(egl_context *c, bool any_renderer)
 
 context *context_egl_open(const renderer_choice *choice, octreel_error *error)
 {
-    void *library = context_load(library_names, sizeof library_names / sizeof library_names[0],
+    void *library = context_load("libEGL.so.1", "libEGL.so",
                                  "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);
     egl_context *c = library ? calloc(1, sizeof *c) : NULL;
     if (!c) {
         if (library)
-            snprintf(error->text, sizeof error->text, "there is no memory for a context");
+            error_no_memory(error);
         return NULL;
     }
     c->face = (context){.name = "egl", .use = use, .find = find, .close = close_context};
     if (look_up(&c->egl, library) && open_mesa(c, choice->any_renderer))
         return &c->face;
-    snprintf(error->text, sizeof error->text,
-             "EGL gives no OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error 0x%04x",
-             c->egl.GetError ? (unsigned)c->egl.GetError() : 0);
+    error_set(error,
+              "EGL gives no OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error 0x%04x",
+              c->egl.GetError ? (unsigned)c->egl.GetError() : 0);
     close_context(&c->face);
     return NULL;
 }

@@ -1,12 +1,11 @@
-/* context_osmesa.c - Mesa's off-screen context, opened at run time: without the library there is a sentence and not a
+/* context_osmesa.c - Mesa's off-screen context. The library is opened at run time: without it there is an error, not a
  * program that does not start. */
 #include "context.h"
 
 #include <GL/osmesa.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-/* The framebuffer object is what is drawn to; Mesa wants a buffer for its own all the same. */
+/* Drawing goes to a framebuffer object; Mesa wants a buffer of its own all the same. */
 #define OWN_SIDE 4
 
 typedef struct osmesa_context {
@@ -17,8 +16,6 @@ typedef struct osmesa_context {
     OSMESAproc (*find)(const char *);
     unsigned char own[OWN_SIDE * OWN_SIDE * 4];
 } osmesa_context;
-
-static const char *const library_names[] = {"libOSMesa.so.8", "libOSMesa.so"};
 
 static bool use(context *face)
 {
@@ -56,19 +53,19 @@ static bool open_mesa(osmesa_context *c, void *library)
 
 context *context_osmesa_open(const renderer_choice *choice, octreel_error *error)
 {
-    (void)choice; /* it knows no other device than the processor */
-    void *library = context_load(library_names, sizeof library_names / sizeof library_names[0],
+    (void)choice; /* it draws with the processor in any case */
+    void *library = context_load("libOSMesa.so.8", "libOSMesa.so",
                                  "OSMesa, the off-screen renderer, cannot be loaded (Debian: libosmesa6)", error);
     osmesa_context *c = library ? calloc(1, sizeof *c) : NULL;
     if (!c) {
         if (library)
-            snprintf(error->text, sizeof error->text, "there is no memory for a context");
+            error_no_memory(error);
         return NULL;
     }
     c->face = (context){.name = "osmesa", .use = use, .find = find, .close = close_context};
     if (open_mesa(c, library))
         return &c->face;
-    snprintf(error->text, sizeof error->text, "OSMesa gives no compatibility context");
+    error_set(error, "OSMesa gives no compatibility context");
     close_context(&c->face);
     return NULL;
 }

@@ -1,7 +1,7 @@
-/* edges.c - see edges.h. A box has twelve edges; on a tree most of them are shared. They are gathered by the line that
- * they lie on, compared by the very doubles of the planes, and each line is swept once. Most are not even gathered: a
- * tree's boxes come from the root down, and what lies on an edge of a parent is covered by the stretch before it. And
- * from one frame to the next a line keeps its edges, unless a box on it came or went. */
+/* edges.c - a box has twelve edges; on a tree most of them are shared. They are gathered by the line that they lie on,
+ * compared by the very doubles of the planes, and each line is swept once. Most are not even gathered: a tree's boxes
+ * come from the root down, and what lies on an edge of a parent is covered by the stretch before it. And from one frame
+ * to the next a line keeps its edges, unless a box on it came or went. */
 #include "edges.h"
 #include "array.h"
 
@@ -12,8 +12,8 @@
 typedef struct stretch {
     double from, to;
     uint64_t id;
-    uint32_t line; /* its place in the set of lines */
     scene_style style;
+    uint32_t previous; /* on the same line; LINE_NONE: none */
     uint8_t depth;
 } stretch;
 
@@ -22,10 +22,103 @@ typedef struct stretch_list {
     size_t count, room;
 } stretch_list;
 
+void edges_release(edge_list *list)
+{
+    box_lines_release(&list->boxes);
+    free(list->order);
+    free(list->now.items);
+    free(list->before.items);
+    memset(list, 0, sizeof *list);
+}
+
+/* ---- The order of lines --------------------------------------------------------------------------------------- */
+
 static int compare_lines(const void *a, const void *b)
 {
-    const line *p = *(line *const *)a, *q = *(line *const *)b;
-    return line_key_compare(&p->key, &q->key);
+    const line *const *p = a, *const *q = b;
+    return line_key_compare(&(*p)->key, &(*q)->key);
+}
+
+/* Put the lines that came last, sorted, between the others, from the last place on. */
+static void merge_order(edge_list *list, const line *const *sorted)
+{
+    const line *lines = list->boxes.lines;
+    size_t old = list->ordered, new = list->boxes.count - old;
+    for (size_t at = list->boxes.count; new > 0;) {
+        const bool comes = old == 0 || line_key_compare(&lines[list->order[old - 1]].key, &sorted[new - 1]->key) < 0;
+        list->order[--at] = comes ? (uint32_t)(sorted[--new] - lines) : list->order[--old];
+    }
+    list->ordered = list->boxes.count;
+}
+
+static bool order_lines(edge_list *list)
+{
+    const size_t old = list->ordered, count = list->boxes.count;
+    if (old == count)
+        return true;
+    const line **sorted = malloc((count - old) * sizeof *sorted);
+    uint32_t *order = sorted ? realloc(list->order, list->boxes.room * sizeof *order) : NULL;
+    if (order) {
+        list->order = order;
+        for (size_t i = old; i < count; i++)
+            sorted[i - old] = &list->boxes.lines[i];
+        qsort(sorted, count - old, sizeof *sorted, compare_lines);
+        merge_order(list, sorted);
+    }
+    free(sorted);
+    return order != NULL;
+}
+
+/* ---- The stretches of lines ----------------------------------------------------------------------------------- */
+
+/* Whether a stretch that was put on the same line before leaves nothing of this one to be seen: what sweep_line() would
+ * find, known at once. */
+static bool is_covered(const stretch *it, const stretch *by)
+{
+    if (it->from < by->from || it->to > by->to || it->depth < by->depth)
+        return false;
+    return it->depth > by->depth || it->from > by->from || it->id >= by->id;
+}
+
+static bool collect_edge(stretch_list *all, line *on, const scene_box *box, unsigned axis)
+{
+    const stretch it = {.from = box->box.min[axis],
+                        .to = box->box.max[axis],
+                        .id = box->id,
+                        .style = box->style,
+                        .previous = on->last,
+                        .depth = box->depth};
+    if (on->last != LINE_NONE && is_covered(&it, &all->items[on->last]))
+        return true;
+    stretch *items =
+        all->count < LINE_NONE ? array_reserve(all->items, all->count + 1, &all->room, sizeof *items) : NULL;
+    if (!items)
+        return false;
+    all->items = items;
+    on->stretches++;
+    on->last = (uint32_t)all->count;
+    items[all->count++] = it;
+    return true;
+}
+
+/* The stretches of all lines that are changed. */
+static bool collect(stretch_list *all, box_lines *from)
+{
+    bool ok = true;
+    for (size_t i = 0; i < from->count; i++)
+        if (from->changed[i]) {
+            from->lines[i].stretches = 0;
+            from->lines[i].last = LINE_NONE;
+        }
+    for (size_t i = 0; ok && i < from->now.count; i++) {
+        const lined_box *box = &from->now.items[i];
+        for (unsigned edge = 0; ok && edge < BOX_EDGES; edge++) {
+            const uint32_t place = box->lines[edge];
+            if (place != LINE_NONE && from->changed[place])
+                ok = collect_edge(all, &from->lines[place], &box->box, edge / 4);
+        }
+    }
+    return ok;
 }
 
 static int compare_stretches(const void *a, const void *b)
@@ -39,22 +132,74 @@ static int compare_stretches(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-static bool make_room(edge_list *list, size_t count)
+/* Most lines have few, and these nearly in order. */
+static void sort_stretches(stretch *line, size_t count)
 {
-    edge *items = array_reserve(list->items, list->count + count, &list->room, sizeof *items);
+    enum { FEW = 24 };
+    if (count > FEW) {
+        qsort(line, count, sizeof *line, compare_stretches);
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        const stretch it = line[i];
+        size_t at = i;
+        for (; at > 0 && compare_stretches(&line[at - 1], &it) > 0; at--)
+            line[at] = line[at - 1];
+        line[at] = it;
+    }
+}
+
+/* Those of one line side by side, sorted. */
+static bool gather(stretch_list *one, const stretch_list *all, const line *on)
+{
+    stretch *items = array_reserve(one->items, on->stretches + 1, &one->room, sizeof *items);
+    if (!items)
+        return false;
+    uint32_t place = on->last;
+    for (size_t i = on->stretches; i-- > 0; place = items[i].previous)
+        items[i] = all->items[place];
+    one->items = items;
+    one->count = on->stretches;
+    sort_stretches(items, one->count);
+    return true;
+}
+
+/* ---- The sweep of a line -------------------------------------------------------------------------------------- */
+
+/* A line under way: its edges are those from the first one on. */
+typedef struct sweep {
+    edge_array *edges;
+    const line_key *on;
+    unsigned axis;
+    size_t first;
+} sweep;
+
+/* The end of the last edge of the line; null when there is none. */
+static double *last_end(const sweep *w)
+{
+    return w->edges->count > w->first ? &w->edges->items[w->edges->count - 1].ends[1][w->axis] : NULL;
+}
+
+static bool reserve_edges(edge_array *edges, size_t count)
+{
+    edge *items = array_reserve(edges->items, edges->count + count, &edges->room, sizeof *items);
     if (items)
-        list->items = items;
+        edges->items = items;
     return items != NULL;
 }
 
-void edges_release(edge_list *list)
+static bool add_edge(const sweep *w, const stretch *of, double from, double to)
 {
-    lines_release(&list->lines);
-    merged_boxes_release(&list->boxes);
-    free(list->order);
-    free(list->items);
-    free(list->before);
-    memset(list, 0, sizeof *list);
+    if (!reserve_edges(w->edges, 1))
+        return false;
+    edge *added = &w->edges->items[w->edges->count++];
+    *added = (edge){.style = of->style, .depth = of->depth};
+    for (int end = 0; end < 2; end++) {
+        added->ends[end][w->axis] = end ? to : from;
+        added->ends[end][(w->axis + 1) % 3] = w->on->u;
+        added->ends[end][(w->axis + 2) % 3] = w->on->v;
+    }
+    return true;
 }
 
 static bool same_style(scene_style a, scene_style b)
@@ -62,26 +207,14 @@ static bool same_style(scene_style a, scene_style b)
     return a.layer == b.layer && a.role == b.role && a.stroke == b.stroke && a.width == b.width;
 }
 
-/* Add the stretch [from, to] with the style of `of`, to the last edge where it goes on from there on the same line. */
-static bool emit(edge_list *list, const stretch *of, double from, double to, bool same_line)
+/* Add [from, to] with the style of a stretch, to the last edge where it goes on from there. */
+static bool emit(const sweep *w, const stretch *of, double from, double to)
 {
-    const line *on = &list->lines.items[of->line];
-    const unsigned axis = line_key_axis(&on->key);
-    edge *last = list->count ? &list->items[list->count - 1] : NULL;
-    if (same_line && last && last->depth == of->depth && same_style(last->style, of->style) &&
-        last->ends[1][axis] == from) {
-        last->ends[1][axis] = to;
-        return true;
-    }
-    if (!make_room(list, 1))
-        return false;
-    edge *added = &list->items[list->count++];
-    *added = (edge){.id = of->id, .style = of->style, .depth = of->depth};
-    for (int end = 0; end < 2; end++) {
-        added->ends[end][axis] = end ? to : from;
-        added->ends[end][(axis + 1) % 3] = on->key.u;
-        added->ends[end][(axis + 2) % 3] = on->key.v;
-    }
+    double *end = last_end(w);
+    const edge *last = end ? &w->edges->items[w->edges->count - 1] : NULL;
+    if (!last || *end != from || last->depth != of->depth || !same_style(last->style, of->style))
+        return add_edge(w, of, from, to);
+    *end = to;
     return true;
 }
 
@@ -106,32 +239,26 @@ static double next_change(const stretch *line, size_t count, size_t begun, const
 
 /* Sweep the stretches of one line, sorted by where they begin. Those that have ended are dropped from the front, so
  * that a line costs little more than its length times the depth of the tree. */
-static bool sweep_line(edge_list *list, const stretch *line, size_t count)
+static bool sweep_line(const sweep *w, const stretch *line, size_t count)
 {
-    if (count == 0)
-        return true;
-    const unsigned axis = line_key_axis(&list->lines.items[line[0].line].key);
     size_t first = 0;
-    bool same_line = false;
-    double at = line[0].from;
+    double at = count ? line[0].from : 0;
     while (first < count) {
         size_t begun = first;
         while (begun < count && line[begun].from <= at)
             begun++;
         const stretch *now = shallowest(line + first, begun - first, at);
         if (!now) {
-            const bool covered = same_line && list->items[list->count - 1].ends[1][axis] == at;
-            if (!covered && !emit(list, &line[first], at, at, false))
+            const double *end = last_end(w);
+            if (!(end && *end == at) && !add_edge(w, &line[first], at, at))
                 return false; /* a box of no extent is a dot */
-            same_line = true;
             first = begun;
             at = begun < count ? line[begun].from : at;
             continue;
         }
         const double to = next_change(line, count, begun, now);
-        if (!emit(list, now, at, to, same_line))
+        if (!emit(w, now, at, to))
             return false;
-        same_line = true;
         at = to;
         while (first < count && line[first].to <= at)
             first++;
@@ -139,206 +266,63 @@ static bool sweep_line(edge_list *list, const stretch *line, size_t count)
     return true;
 }
 
-/* Whether a stretch that was put on the same line before leaves nothing of this one to be seen: what sweep_line() would
- * find, known at once. */
-static bool is_covered(const stretch *it, const stretch *by)
-{
-    if (it->from < by->from || it->to > by->to || it->depth < by->depth)
-        return false;
-    return it->depth > by->depth || it->from > by->from || it->id >= by->id;
-}
-
-static bool append_stretch(stretch_list *all, const stretch *it)
-{
-    stretch *items = array_reserve(all->items, all->count + 1, &all->room, sizeof *items);
-    if (!items)
-        return false;
-    all->items = items;
-    all->items[all->count++] = *it;
-    return true;
-}
-
-static bool collect_edge(stretch_list *all, line *on, uint32_t place, const scene_box *box, unsigned axis)
-{
-    const stretch it = {.from = box->box.min[axis],
-                        .to = box->box.max[axis],
-                        .id = box->id,
-                        .line = place,
-                        .style = box->style,
-                        .depth = box->depth};
-    if (on->last != LINE_NONE && is_covered(&it, &all->items[on->last]))
-        return true;
-    on->last = (uint32_t)all->count;
-    on->next++; /* a count, so far */
-    return append_stretch(all, &it);
-}
-
-/* The stretches of all lines that are changed. */
-static bool collect(stretch_list *all, edge_list *list)
-{
-    bool ok = true;
-    line_set *lines = &list->lines;
-    for (size_t i = 0; i < lines->count; i++)
-        if (lines->changed[i]) {
-            lines->items[i].next = 0;
-            lines->items[i].last = LINE_NONE;
-        }
-    const box_arrays *boxes = &list->boxes.now;
-    for (size_t i = 0; ok && i < boxes->count; i++)
-        for (unsigned edge = 0; ok && edge < BOX_EDGES; edge++) {
-            const uint32_t place = boxes->lines[i].of[edge];
-            if (place != LINE_NONE && lines->changed[place])
-                ok = collect_edge(all, &lines->items[place], place, &boxes->boxes[i], edge / 4);
-        }
-    return ok && all->count <= UINT32_MAX;
-}
-
-/* The lines that came last, in their order, by way of pointers. Null when there is no memory. */
-static const line **sort_new_lines(const edge_list *list)
-{
-    const line_set *lines = &list->lines;
-    const size_t count = lines->count - list->ordered;
-    const line **sorted = malloc((count + 1) * sizeof *sorted);
-    for (size_t i = 0; sorted && i < count; i++)
-        sorted[i] = &lines->items[list->ordered + i];
-    if (sorted)
-        qsort(sorted, count, sizeof *sorted, compare_lines);
-    return sorted;
-}
-
-/* Put the lines that came last between the others, from the last one on. */
-static void merge_order(edge_list *list, const line *const *sorted)
-{
-    const line *lines = list->lines.items;
-    size_t old = list->ordered, new = list->lines.count - old;
-    for (size_t at = list->lines.count; new > 0;) {
-        const bool comes = old == 0 || line_key_compare(&lines[list->order[old - 1]].key, &sorted[new - 1]->key) < 0;
-        list->order[--at] = comes ? (uint32_t)(sorted[--new] - lines) : list->order[--old];
-    }
-    list->ordered = list->lines.count;
-}
-
-static bool order_lines(edge_list *list)
-{
-    if (list->ordered == list->lines.count)
-        return true;
-    const line **sorted = sort_new_lines(list);
-    uint32_t *order = sorted ? realloc(list->order, list->lines.room * sizeof *order) : NULL;
-    if (order) {
-        list->order = order;
-        merge_order(list, sorted);
-    }
-    free(sorted);
-    return order != NULL;
-}
-
-/* Stretches side by side with those of their line, line by line in their order. Null when there is no memory. */
-static stretch *gather(const stretch_list *all, edge_list *list)
-{
-    stretch *gathered = malloc((all->count + 1) * sizeof *gathered);
-    line *lines = list->lines.items;
-    uint32_t next = 0;
-    for (size_t i = 0; i < list->ordered; i++) {
-        const uint32_t place = list->order[i];
-        if (!list->lines.changed[place])
-            continue;
-        const uint32_t count = lines[place].next;
-        lines[place].next = next;
-        next += count;
-    }
-    for (size_t i = 0; gathered && i < all->count; i++)
-        gathered[lines[all->items[i].line].next++] = all->items[i];
-    return gathered;
-}
-
-/* Most lines have few, and these nearly in order. */
-static void sort_stretches(stretch *line, size_t count)
-{
-    enum { FEW = 24 };
-    if (count > FEW) {
-        qsort(line, count, sizeof *line, compare_stretches);
-        return;
-    }
-    for (size_t i = 1; i < count; i++) {
-        const stretch it = line[i];
-        size_t at = i;
-        for (; at > 0 && compare_stretches(&line[at - 1], &it) > 0; at--)
-            line[at] = line[at - 1];
-        line[at] = it;
-    }
-}
+/* ---- All lines ------------------------------------------------------------------------------------------------ */
 
 /* The edges of a line that are as they were. */
 static bool copy_edges(edge_list *list, const line *of)
 {
+    edge_array *now = &list->now;
     if (of->count == 0)
         return true;
-    if (!make_room(list, of->count))
+    if (!reserve_edges(now, of->count))
         return false;
-    memcpy(list->items + list->count, list->before + of->first, of->count * sizeof *list->items);
-    list->count += of->count;
+    memcpy(now->items + now->count, list->before.items + of->first, of->count * sizeof *now->items);
+    now->count += of->count;
     return true;
 }
 
 /* Line by line in their order: what is gathered of those that are changed, and the edges before of all others. */
-static bool sweep_lines(edge_list *list, stretch *gathered)
+static bool sweep_lines(edge_list *list, const stretch_list *all)
 {
     bool ok = true;
-    uint32_t begin = 0;
+    stretch_list one = {0};
     for (size_t i = 0; ok && i < list->ordered; i++) {
-        line *on = &list->lines.items[list->order[i]];
-        uint8_t *changed = &list->lines.changed[list->order[i]];
-        const size_t first = list->count;
-        if (*changed) {
-            sort_stretches(gathered + begin, on->next - begin);
-            ok = sweep_line(list, gathered + begin, on->next - begin);
-            begin = on->next;
-            on->count = (uint32_t)(list->count - first);
-        } else {
-            ok = copy_edges(list, on);
-        }
-        on->first = (uint32_t)first;
+        line *on = &list->boxes.lines[list->order[i]];
+        uint8_t *changed = &list->boxes.changed[list->order[i]];
+        const sweep w = {&list->now, &on->key, line_key_axis(&on->key), list->now.count};
+        ok = *changed ? gather(&one, all, on) && sweep_line(&w, one.items, one.count) : copy_edges(list, on);
+        on->first = (uint32_t)w.first;
+        on->count = (uint32_t)(list->now.count - w.first);
         *changed = false;
     }
+    free(one.items);
     return ok;
-}
-
-static void swap_arrays(edge_list *list)
-{
-    edge *const items = list->items;
-    const size_t room = list->room;
-    list->items = list->before;
-    list->room = list->before_room;
-    list->before = items;
-    list->before_room = room;
-    list->count = 0;
 }
 
 static bool merge_lines(edge_list *list)
 {
     stretch_list all = {0};
-    swap_arrays(list);
-    const bool ok = order_lines(list) && collect(&all, list);
-    stretch *gathered = ok ? gather(&all, list) : NULL;
-    const bool swept = gathered && sweep_lines(list, gathered);
-    free(gathered);
+    const edge_array before = list->before;
+    list->before = list->now;
+    list->now = before;
+    list->now.count = 0;
+    const bool merged = order_lines(list) && collect(&all, &list->boxes) && sweep_lines(list, &all);
     free(all.items);
-    return swept;
+    return merged;
 }
 
 static void forget(edge_list *list)
 {
-    lines_clear(&list->lines);
-    list->boxes.now.count = list->ordered = list->count = 0;
+    box_lines_clear(&list->boxes);
+    list->now.count = list->ordered = 0;
 }
 
-bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned behind)
+bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned end)
 {
-    if (merged_boxes_are(&list->boxes, s, first, behind))
-        return true;
-    if (list->lines.idle > list->lines.count / 2)
+    bool changed;
+    if (list->boxes.idle > list->boxes.count / 2)
         forget(list);
-    if (merged_boxes_become(&list->boxes, &list->lines, s, first, behind) && merge_lines(list))
+    if (box_lines_update(&list->boxes, s, first, end, &changed) && (!changed || merge_lines(list)))
         return true;
     forget(list);
     return false;

@@ -1,7 +1,5 @@
-/* letters.c - see letters.h. */
 #include "letters.h"
 #include "project.h"
-#include "stroke.h"
 
 #include <math.h>
 #include <stb_easy_font.h>
@@ -52,7 +50,8 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
     }
 }
 
-bool letters_box(const scene *s, const scene_label *label, draw_box *box)
+/* The pixels that a label's letters may light; false when it is out of sight. */
+static bool find_box(const scene *s, const scene_label *label, draw_box *box)
 {
     char text[SCENE_TEXT];
     if (!place(s, label, &box->x, &box->y))
@@ -62,4 +61,19 @@ bool letters_box(const scene *s, const scene_label *label, draw_box *box)
     box->width = stb_easy_font_width(text) * scale;
     box->height = stb_easy_font_height(text) * scale;
     return true;
+}
+
+void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context)
+{
+    for (size_t i = 0; i < s->panels.count; i++) {
+        const scene_panel *panel = &s->panels.items[i];
+        const draw_box box = {panel->x, panel->y, panel->width, panel->height};
+        visit(&box, context);
+    }
+    const scene fine = project_samples(s);
+    for (size_t i = 0; i < s->labels.count; i++) {
+        draw_box box;
+        if (find_box(&fine, &s->labels.items[i], &box))
+            visit(&box, context);
+    }
 }

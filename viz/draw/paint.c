@@ -1,7 +1,5 @@
-/* paint.c - see paint.h. */
 #include "paint.h"
 #include "layer.h"
-#include "project.h"
 #include "letters.h"
 #include "stroke.h"
 
@@ -21,13 +19,8 @@ void painter_release(painter *p)
 
 static void stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_style style, unsigned depth)
 {
-    static void (*const strokes[])(quad_list *, const pencil *, const piece *,
-                                   unsigned) = {[STROKE_SOLID] = stroke_solid,
-                                                [STROKE_DASHED] = stroke_dashed,
-                                                [STROKE_CUT] = stroke_cut,
-                                                [STROKE_ARROW] = stroke_arrow};
     const pencil with = pencil_make(s, style, depth);
-    strokes[style.stroke](&p->quads, &with, pieces, count);
+    stroke_line(&p->quads, &with, pieces, count);
 }
 
 static void paint_segment(painter *p, const scene *s, const double from[3], const double to[3], scene_style style,
@@ -40,25 +33,19 @@ static void paint_segment(painter *p, const scene *s, const double from[3], cons
     stroke(p, s, pieces, count, style, depth);
 }
 
-static void paint_flat(painter *p, const scene *s, const scene_segment *segment)
-{
-    piece flat;
-    if (project_flat(s, segment->ends[0], segment->ends[1], &flat))
-        stroke(p, s, &flat, 1, segment->style, 0);
-}
-
 /* Those of the world, or those of the picture. */
 static void paint_segments(painter *p, const scene *s, bool in_picture)
 {
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *segment = &s->segments.items[i];
+        piece flat;
         if (segment->in_picture != in_picture)
             continue;
         quads_begin(&p->quads, SCENE_SEGMENT, i);
-        if (in_picture)
-            paint_flat(p, s, segment);
-        else
+        if (!in_picture)
             paint_segment(p, s, segment->ends[0], segment->ends[1], segment->style, 0);
+        else if (project_flat(s, segment->ends[0], segment->ends[1], &flat))
+            stroke(p, s, &flat, 1, segment->style, 0);
     }
 }
 
@@ -76,12 +63,13 @@ static bool paint_boxes(painter *p, const scene *s)
 
 size_t paint_edge_count(const painter *p)
 {
-    return p->tree.count + p->edges.count;
+    return p->tree.now.count + p->edges.now.count;
 }
 
 const edge *paint_edge_at(const painter *p, size_t index)
 {
-    return index < p->tree.count ? &p->tree.items[index] : &p->edges.items[index - p->tree.count];
+    const edge_array *tree = &p->tree.now;
+    return index < tree->count ? &tree->items[index] : &p->edges.now.items[index - tree->count];
 }
 
 static void paint_marker(painter *p, const scene *s, const scene_marker *marker)
@@ -118,15 +106,6 @@ typedef struct point_place {
     bool seen; /* it is a point, and in the picture */
 } point_place;
 
-static point_place place_point(const scene *s, const scene_marker *marker)
-{
-    size_t pixel;
-    unsigned band;
-    if (!paint_point_pixel(s, marker, &pixel, &band))
-        return (point_place){0};
-    return (point_place){(uint32_t)pixel, (uint8_t)band, true};
-}
-
 /* A byte a pixel, all 0, and a place a marker. */
 static bool make_room_for_points(painter *p, const scene *s)
 {
@@ -153,10 +132,15 @@ static bool paint_points(painter *p, const scene *s)
     if (!make_room_for_points(p, s))
         return false;
     for (size_t i = 0; i < s->markers.count; i++) {
-        const point_place at = p->places[i] = place_point(s, &s->markers.items[i]);
-        uint8_t *nearest = &p->nearest[at.pixel];
-        if (at.seen && (*nearest == 0 || *nearest > at.band + 1))
-            *nearest = (uint8_t)(at.band + 1);
+        size_t pixel = 0;
+        unsigned band = 0;
+        p->places[i].seen = paint_point_pixel(s, &s->markers.items[i], &pixel, &band);
+        if (!p->places[i].seen)
+            continue;
+        p->places[i].pixel = (uint32_t)pixel;
+        p->places[i].band = (uint8_t)band;
+        if (p->nearest[pixel] == 0 || p->nearest[pixel] > band + 1)
+            p->nearest[pixel] = (uint8_t)(band + 1);
     }
     for (size_t i = 0; i < s->markers.count; i++) {
         const point_place at = p->places[i];
@@ -173,21 +157,9 @@ static bool paint_points(painter *p, const scene *s)
     return true;
 }
 
-scene paint_samples(const scene *s)
-{
-    scene fine = *s;
-    const int samples = view_samples(&s->view);
-    fine.view.width *= samples;
-    fine.view.height *= samples;
-    fine.camera.zoom *= samples;
-    fine.camera.middle[0] *= samples;
-    fine.camera.middle[1] *= samples;
-    return fine;
-}
-
 bool paint(painter *p, const scene *picture)
 {
-    const scene fine = paint_samples(picture), *s = &fine;
+    const scene fine = project_samples(picture), *s = &fine;
     p->quads.count = 0;
     p->quads.out_of_memory = false;
     p->overflowed = 0;

@@ -1,4 +1,5 @@
-/* paint.h - a scene as flat quads in painter's order: all that the picture is, before any GL. Private to draw. */
+/* paint.h - a scene as flat quads in painter's order: all that the picture is, before any GL. For this
+ * folder. */
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H
 
@@ -20,10 +21,6 @@ void painter_release(painter *p);
 
 /* Fill p->quads with a scene. False when there is no memory. */
 bool paint(painter *p, const scene *picture);
-
-/* The scene as its samples see it, which is what is painted: a picture that is larger, through a camera that enlarges.
- * Its elements are shared. */
-scene paint_samples(const scene *s);
 
 /* The merged edges that are painted: quads of boxes have their indices, from 0 to paint_edge_count() - 1. */
 size_t paint_edge_count(const painter *p);

@@ -1,14 +1,25 @@
-/* project.c - see project.h. */
 #include "project.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Pixels that a clipped line may reach beyond the picture, so that its ends are not seen. */
+/* Pixels that a clipped line reaches beyond the picture, so that its ends are not seen. */
 #define CLIP_MARGIN 64.0
 
 /* Camera coordinates beyond this could overflow on their way to pixels. */
 #define FARTHEST 1e301
+
+scene project_samples(const scene *s)
+{
+    scene fine = *s;
+    const int samples = view_samples(&s->view);
+    fine.view.width *= samples;
+    fine.view.height *= samples;
+    fine.camera.zoom *= samples;
+    fine.camera.middle[0] *= samples;
+    fine.camera.middle[1] *= samples;
+    return fine;
+}
 
 /* A depth in bands from the near side of the world, not yet rounded: a real number in 0..QUAD_BANDS for what is in it.
  */
@@ -103,9 +114,7 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
     *overflowed = !see(s, first, a) || !see(s, second, b);
     if (*overflowed)
         return 0;
-    if (!s->camera.perspective)
-        return cut(s, a, b, pieces);
-    if (!keep_side(a, b, 2, 1, s->camera.near))
+    if (s->camera.perspective && !keep_side(a, b, 2, 1, s->camera.near))
         return 0;
     return cut(s, a, b, pieces);
 }

@@ -1,9 +1,13 @@
-/* project.h - world geometry through the camera: clipped, cut into bands of depth, in pixels; all in doubles. Private.
- */
+/* project.h - world geometry through the camera: clipped, cut into bands of depth, in pixels; all in doubles. For this
+ * folder. */
 #ifndef DRAW_PROJECT_H
 #define DRAW_PROJECT_H
 
 #include "quads.h"
+
+/* The scene as its samples see it, which is what is painted: a picture that is larger, through a camera that enlarges.
+ * Its elements are shared. All else here is of such a scene: its pixels are samples. */
+scene project_samples(const scene *s);
 
 /* A piece of a segment within one band, in pixels. */
 typedef struct piece {

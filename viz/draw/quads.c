@@ -1,5 +1,5 @@
-/* quads.c - see quads.h. */
 #include "quads.h"
+#include "array.h"
 #include "layer.h"
 
 #include <stdlib.h>
@@ -26,17 +26,13 @@ void quads_release(quad_list *list)
 
 void quads_add(quad_list *list, const quad *q)
 {
-    if (list->count == list->room) {
-        const size_t room = list->room ? 2 * list->room : 1024;
-        quad *items = room <= SIZE_MAX / sizeof *items ? realloc(list->items, room * sizeof *items) : NULL;
-        if (!items) {
-            list->out_of_memory = true;
-            return;
-        }
-        list->items = items;
-        list->room = room;
+    quad *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
+    if (!items) {
+        list->out_of_memory = true;
+        return;
     }
-    quad *added = &list->items[list->count++];
+    list->items = items;
+    quad *added = &items[list->count++];
     *added = *q;
     added->kind = list->kind;
     added->index = list->index;

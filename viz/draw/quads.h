@@ -1,4 +1,4 @@
-/* quads.h - the flat quads that a scene is painted with, in painter's order. No GL. Private.
+/* quads.h - the flat quads that a scene is painted with, in painter's order. For this folder.
  *
  * Coordinates are in 1/256 pixel, y down, snapped. What covers what is decided here and in doubles: layers in their
  * order; within a layer eight bands of view depth, far to near; within a band deeper nodes first.
@@ -6,16 +6,16 @@
 #ifndef DRAW_QUADS_H
 #define DRAW_QUADS_H
 
-#include "renderer.h"
+#include "scene.h"
 
 #define QUAD_SUBPIXELS 256
 
 typedef struct quad {
     int32_t x[4], y[4];
     uint8_t color;  /* an index of the theme's table */
-    uint8_t kind;   /* scene_kind of what it is a part of */
+    uint8_t kind;   /* scene_kind of the element that it is a part of */
     uint16_t order; /* smaller is painted first */
-    uint32_t index; /* of that element; of a box, that of the edge in the painter's list */
+    uint32_t index; /* of that element; of a box, that of the edge in the painter's list instead */
 } quad;
 
 typedef struct quad_list {

@@ -6,13 +6,59 @@
  */
 #include "renderer.h"
 #include "canvas.h"
-#include "gl.h"
 #include "paint.h"
-#include "rasterise.h"
 
-#include <stdio.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The GL functions in use: result, name, parameters. */
+#define GL_FUNCTIONS(X)                                                                                                \
+    X(const GLubyte *, GetString, (GLenum name))                                                                       \
+    X(void, GetIntegerv, (GLenum name, GLint * value))                                                                 \
+    X(GLenum, GetError, (void))                                                                                        \
+    X(void, GenFramebuffers, (GLsizei count, GLuint * names))                                                          \
+    X(void, BindFramebuffer, (GLenum target, GLuint name))                                                             \
+    X(void, GenRenderbuffers, (GLsizei count, GLuint * names))                                                         \
+    X(void, BindRenderbuffer, (GLenum target, GLuint name))                                                            \
+    X(void, RenderbufferStorage, (GLenum target, GLenum format, GLsizei width, GLsizei height))                        \
+    X(void, FramebufferRenderbuffer, (GLenum target, GLenum attachment, GLenum kind, GLuint name))                     \
+    X(GLenum, CheckFramebufferStatus, (GLenum target))                                                                 \
+    X(void, Viewport, (GLint x, GLint y, GLsizei width, GLsizei height))                                               \
+    X(void, Disable, (GLenum what))                                                                                    \
+    X(void, ShadeModel, (GLenum mode))                                                                                 \
+    X(void, PixelStorei, (GLenum name, GLint value))                                                                   \
+    X(void, ReadBuffer, (GLenum buffer))                                                                               \
+    X(void, DrawBuffer, (GLenum buffer))                                                                               \
+    X(void, ClearColor, (GLfloat red, GLfloat green, GLfloat blue, GLfloat alpha))                                     \
+    X(void, Clear, (GLbitfield mask))                                                                                  \
+    X(void, MatrixMode, (GLenum mode))                                                                                 \
+    X(void, LoadIdentity, (void))                                                                                      \
+    X(void, EnableClientState, (GLenum array))                                                                         \
+    X(void, VertexPointer, (GLint size, GLenum type, GLsizei stride, const void *pointer))                             \
+    X(void, ColorPointer, (GLint size, GLenum type, GLsizei stride, const void *pointer))                              \
+    X(void, DrawElements, (GLenum mode, GLsizei count, GLenum type, const void *indices))                              \
+    X(void, ReadPixels, (GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, void *pixels))
+
+typedef struct gl {
+#define GL_MEMBER(result, name, parameters) result(GLAPIENTRY *name) parameters;
+    GL_FUNCTIONS(GL_MEMBER)
+#undef GL_MEMBER
+} gl;
+
+/* False, with a sentence that names the first one missing, when the context does not have them all. */
+static bool gl_load(gl *functions, const context *c, octreel_error *error)
+{
+    const char *missing = NULL;
+#define GL_LOOK_UP(result, name, parameters)                                                                           \
+    functions->name = (result(GLAPIENTRY *) parameters)c->find(c, "gl" #name);                                         \
+    if (!functions->name && !missing)                                                                                  \
+        missing = "gl" #name;
+    GL_FUNCTIONS(GL_LOOK_UP)
+#undef GL_LOOK_UP
+    return !missing || error_set(error, "the %s context has no %s", c->name, missing);
+}
 
 #define BATCH 8192 /* quads a draw call */
 
@@ -39,20 +85,18 @@ static bool check_driver(renderer *r, bool any, octreel_error *error)
     const char *name = (const char *)r->gl.GetString(GL_RENDERER);
     if (name && (any || strncmp(name, "llvmpipe", 8) == 0))
         return true;
-    snprintf(error->text, sizeof error->text,
-             "the %s context draws with \"%.60s\"; frames are the same everywhere with llvmpipe alone (is "
-             "GALLIUM_DRIVER set?)",
-             r->context->name, name ? name : "nothing");
-    return false;
+    return error_set(error,
+                     "the %s context draws with \"%.60s\"; frames are the same everywhere with llvmpipe alone (is "
+                     "GALLIUM_DRIVER set?)",
+                     r->context->name, name ? name : "nothing");
 }
 
 static bool check_size(int width, int height, octreel_error *error)
 {
     if (width >= 1 && height >= 1 && width <= VIEW_MAX_SIDE && height <= VIEW_MAX_SIDE)
         return true;
-    snprintf(error->text, sizeof error->text, "a picture of %d x %d pixels cannot be drawn: each side must be 1 to %d",
-             width, height, VIEW_MAX_SIDE);
-    return false;
+    return error_set(error, "a picture of %d x %d pixels cannot be drawn: each side must be 1 to %d", width, height,
+                     VIEW_MAX_SIDE);
 }
 
 static bool make_framebuffer(renderer *r, octreel_error *error)
@@ -71,9 +115,8 @@ static bool make_framebuffer(renderer *r, octreel_error *error)
     if (r->side <= limits[0] && r->side <= limits[1] && r->width <= largest && r->height <= largest &&
         gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && gl->GetError() == GL_NO_ERROR)
         return true;
-    snprintf(error->text, sizeof error->text, "the %s context gives no framebuffer of %d x %d pixels", r->context->name,
-             r->width, r->height);
-    return false;
+    return error_set(error, "the %s context gives no framebuffer of %d x %d pixels", r->context->name, r->width,
+                     r->height);
 }
 
 /* All state that a frame depends on; nothing changes it later. */
@@ -113,7 +156,7 @@ renderer *renderer_open(int width, int height, const renderer_choice *choice, oc
         return NULL;
     renderer *r = calloc(1, sizeof *r);
     if (!r) {
-        snprintf(error->text, sizeof error->text, "there is no memory for a renderer");
+        error_no_memory(error);
         return NULL;
     }
     r->width = width;
@@ -164,25 +207,18 @@ static void put_vertices(renderer *r, const quad *quads, size_t count)
                 (float)quads[i].x[j] * scale - 1, (float)quads[i].y[j] * scale - 1, {quads[i].color, 0, 0, 255}};
 }
 
-static bool fail(octreel_error *error, const char *sentence)
-{
-    snprintf(error->text, sizeof error->text, "%s", sentence);
-    return false;
-}
-
 bool renderer_fits(const renderer *r, const scene *s, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
     return (s->view.width * samples == r->width && s->view.height * samples == r->height) ||
-           fail(error, "the scene is not of the renderer's size");
+           error_set(error, "the scene is not of the renderer's size");
 }
 
-/* Draw quads on a ground of one byte. */
-static bool send_quads(renderer *r, const quad *quads, size_t count, uint8_t ground, const draw_box *part,
-                       uint8_t *bytes, octreel_error *error)
+bool renderer_rasterise(renderer *r, const quad *quads, size_t count, uint8_t ground, renderer_part part,
+                        uint8_t *bytes, octreel_error *error)
 {
     if (!r->context->use(r->context))
-        return fail(error, "the renderer's context cannot be made current");
+        return error_set(error, "the renderer's context cannot be made current");
     const gl *gl = &r->gl;
     gl->ClearColor((float)ground / 255, 0, 0, 0);
     gl->Clear(GL_COLOR_BUFFER_BIT);
@@ -191,48 +227,28 @@ static bool send_quads(renderer *r, const quad *quads, size_t count, uint8_t gro
         put_vertices(r, quads + start, size);
         gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * size), GL_UNSIGNED_INT, r->indices);
     }
-    gl->ReadPixels(part->x, part->y, part->width, part->height, GL_RED, GL_UNSIGNED_BYTE, bytes);
+    gl->ReadPixels(part.x, part.y, part.width, part.height, GL_RED, GL_UNSIGNED_BYTE, bytes);
     const GLenum failure = gl->GetError();
-    if (failure != GL_NO_ERROR)
-        snprintf(error->text, sizeof error->text, "GL reports error 0x%04x", failure);
-    return failure == GL_NO_ERROR;
+    return failure == GL_NO_ERROR || error_set(error, "GL reports error 0x%04x", failure);
 }
-
-bool renderer_rasterise(renderer *r, const quad *quads, size_t count, const draw_box *part, uint8_t *bytes,
-                        octreel_error *error)
-{
-    return send_quads(r, quads, count, 0, part, bytes, error);
-}
-
-/* Who rasterises for the canvas, and why it failed. */
-typedef struct sender {
-    renderer *renderer;
-    octreel_error *error;
-    bool failed;
-} sender;
 
 /* A rasteriser: see canvas.h. */
-static bool send_rows(void *context, const quad *quads, size_t count, uint8_t ground, int first, int end,
-                      uint8_t *indices)
+static bool rasterise_rows(void *context, const quad *quads, size_t count, uint8_t ground, int first, int end,
+                           uint8_t *indices, octreel_error *error)
 {
-    sender *to = context;
-    const int width = to->renderer->width;
-    const draw_box rows = {0, first, width, end - first};
-    to->failed =
-        !send_quads(to->renderer, quads, count, ground, &rows, indices + (size_t)first * (size_t)width, to->error);
-    return !to->failed;
+    renderer *r = context;
+    const renderer_part rows = {0, first, r->width, end - first};
+    return renderer_rasterise(r, quads, count, ground, rows, indices + (size_t)first * (size_t)r->width, error);
 }
 
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error *error)
 {
-    sender to = {r, error, false};
     if (!renderer_fits(r, s, error))
         return false;
     if (!paint(&r->painter, s))
-        return fail(error, "there is no memory for a frame");
+        return error_no_memory(error);
     r->left_out = s->refused + r->painter.overflowed;
-    return canvas_draw(&r->canvas, &r->painter.quads, send_rows, &to, indices) ||
-           (!to.failed && fail(error, "there is no memory for a frame"));
+    return canvas_draw(&r->canvas, &r->painter.quads, rasterise_rows, r, indices, error);
 }
 
 size_t renderer_left_out(const renderer *r)

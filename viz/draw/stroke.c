@@ -1,4 +1,3 @@
-/* stroke.c - see stroke.h. */
 #include "stroke.h"
 #include "layer.h"
 
@@ -86,31 +85,17 @@ static bool is_speck(const piece *pieces, unsigned count)
     return fabs(first->from[0] - last->to[0]) < 1 && fabs(first->from[1] - last->to[1]) < 1;
 }
 
-static void add_speck(quad_list *list, const pencil *with, const piece *at)
+static void add_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
-    add_rectangle(list, blank(with, at->band), (int)floor(at->from[0]), (int)floor(at->from[1]), with->width,
-                  with->width);
-}
-
-void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
-{
-    if (count && is_speck(pieces, count)) {
-        add_speck(list, with, &pieces[0]);
-        return;
-    }
     for (unsigned i = 0; i < count; i++)
         add_line(list, with, pieces[i].band, pieces[i].from, pieces[i].to);
 }
 
 /* Dashes run on from piece to piece: `phase` is how far into dash and gap the line is. */
-void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+static void add_dashes(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     const double half_unit = with->unit * with->samples / 2.0, dash = DASH * half_unit, period = dash + GAP * half_unit;
     double phase = 0;
-    if (count && is_speck(pieces, count)) {
-        add_speck(list, with, &pieces[0]);
-        return;
-    }
     for (unsigned i = 0; i < count; i++) {
         const double dx = pieces[i].to[0] - pieces[i].from[0], dy = pieces[i].to[1] - pieces[i].from[1];
         const double length = sqrt(dx * dx + dy * dy);
@@ -126,23 +111,11 @@ void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, uns
     }
 }
 
-void stroke_cut(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
-{
-    pencil ground = *with;
-    ground.style.role = ROLE_BACKGROUND;
-    stroke_solid(list, &ground, pieces, count);
-    stroke_dashed(list, with, pieces, count);
-}
-
 /* A head is no longer than half of its arrow, and is left out where it would be a blot. */
-void stroke_arrow(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+static void add_head(quad_list *list, const pencil *with, const piece *first, const piece *last)
 {
-    stroke_solid(list, with, pieces, count);
-    if (count == 0)
-        return;
-    const piece *last = &pieces[count - 1];
     const double half_unit = with->unit * with->samples / 2.0;
-    const double dx = last->to[0] - pieces[0].from[0], dy = last->to[1] - pieces[0].from[1];
+    const double dx = last->to[0] - first->from[0], dy = last->to[1] - first->from[1];
     const double length = sqrt(dx * dx + dy * dy), most = HEAD * half_unit;
     const double back = length / 2 < most ? length / 2 : most, side = back * HEAD_SIDE / HEAD;
     if (side < with->samples)
@@ -152,6 +125,27 @@ void stroke_arrow(quad_list *list, const pencil *with, const piece *pieces, unsi
                                last->to[1] - (dy * back - dx * side * way) / length};
         add_line(list, with, last->band, last->to, end);
     }
+}
+
+void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+{
+    if (count == 0)
+        return;
+    if (is_speck(pieces, count)) {
+        const double *at = pieces[0].from;
+        const int x = (int)floor(at[0]), y = (int)floor(at[1]);
+        add_rectangle(list, blank(with, pieces[0].band), x, y, with->width, with->width);
+        return;
+    }
+    pencil under = *with;
+    if (with->style.stroke == STROKE_CUT)
+        under.style.role = ROLE_BACKGROUND;
+    if (with->style.stroke != STROKE_DASHED)
+        add_solid(list, &under, pieces, count);
+    if (with->style.stroke == STROKE_DASHED || with->style.stroke == STROKE_CUT)
+        add_dashes(list, with, pieces, count);
+    if (with->style.stroke == STROKE_ARROW)
+        add_head(list, with, &pieces[0], &pieces[count - 1]);
 }
 
 static void add_frame(quad_list *list, quad q, int left, int top, int side, int line)
@@ -176,29 +170,27 @@ static void add_diamond(quad_list *list, quad q, int left, int top, int side)
 /* A diamond of which only the edge is drawn. */
 static void add_lozenge(quad_list *list, const pencil *with, unsigned band, int left, int top, int side)
 {
-    pencil thin = *with;
-    thin.width = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
     const double half = (side - with->samples) / 2.0, cx = left + side / 2.0, cy = top + side / 2.0;
     const double corners[5][2] = {{cx - half, cy}, {cx, cy - half}, {cx + half, cy}, {cx, cy + half}, {cx - half, cy}};
     for (int i = 0; i < 4; i++)
-        add_line(list, &thin, band, corners[i], corners[i + 1]);
+        add_line(list, with, band, corners[i], corners[i + 1]);
 }
 
 static void add_cross(quad_list *list, const pencil *with, unsigned band, int x, int y, int side)
 {
-    pencil thick = *with;
-    thick.width = with->unit * with->samples;
     const double left = x, right = x + side, top = y, bottom = y + side;
-    add_line(list, &thick, band, (double[2]){left, top}, (double[2]){right, bottom});
-    add_line(list, &thick, band, (double[2]){left, bottom}, (double[2]){right, top});
+    add_line(list, with, band, (double[2]){left, top}, (double[2]){right, bottom});
+    add_line(list, with, band, (double[2]){left, bottom}, (double[2]){right, top});
 }
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
 {
     const int half = with->style.width * with->unit / 2, side = (2 * half + 1) * with->samples;
     const int left = (int)floor(pixel[0]) - (side - 1) / 2, top = (int)floor(pixel[1]) - (side - 1) / 2;
-    const int line = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
     const quad q = blank(with, band);
+    pencil thin = *with, thick = *with;
+    thin.width = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
+    thick.width = with->unit * with->samples;
     switch (shape) {
     case SHAPE_SQUARE:
         add_rectangle(list, q, left, top, side, side);
@@ -207,13 +199,13 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
         add_diamond(list, q, left, top, side);
         break;
     case SHAPE_FRAME:
-        add_frame(list, q, left, top, side, line);
+        add_frame(list, q, left, top, side, thin.width);
         break;
     case SHAPE_LOZENGE:
-        add_lozenge(list, with, band, left, top, side);
+        add_lozenge(list, &thin, band, left, top, side);
         break;
     case SHAPE_CROSS:
-        add_cross(list, with, band, left, top, side);
+        add_cross(list, &thick, band, left, top, side);
         break;
     }
 }

@@ -1,5 +1,4 @@
-/* stroke.h - lines, marks and letters as quads of whole 1/256 pixels; where a picture has several samples a pixel, of
- * whole 1/256 samples. Private. */
+/* stroke.h - lines and marks as quads of whole 1/256 samples. For this folder. */
 #ifndef DRAW_STROKE_H
 #define DRAW_STROKE_H
 
@@ -16,11 +15,8 @@ typedef struct pencil {
 
 pencil pencil_make(const scene *s, scene_style style, unsigned depth);
 
-/* The pieces of one segment. However short, it leaves a mark of at least one pixel. */
-void stroke_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
-void stroke_dashed(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
-void stroke_cut(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
-void stroke_arrow(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
+/* The pieces of one segment, as its stroke says. However short, it leaves a mark of at least one pixel. */
+void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
 void stroke_panel(quad_list *list, const scene_panel *panel, int samples);

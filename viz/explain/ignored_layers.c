@@ -1,7 +1,8 @@
 /* ignored_layers.c - see ignored_layers.h. */
 #include "ignored_layers.h"
 #include "layer.h"
-#include "renderer.h"
+#include "letters.h"
+#include "pixel.h"
 #include "frame_file.h"
 #include "replay.h"
 

@@ -3,7 +3,7 @@
 #define EXPLAIN_TRACE_H
 
 #include "diff.h"
-#include "renderer.h"
+#include "pixel.h"
 #include "heat.h"
 #include "layer.h"
 #include "octree/game.h"

@@ -6,7 +6,7 @@
 #include "describe.h"
 #include "folder.h"
 #include "image.h"
-#include "renderer.h"
+#include "pixel.h"
 
 #include <stdio.h>
 

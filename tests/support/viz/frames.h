@@ -3,7 +3,7 @@
 #ifndef FRAMES_H
 #define FRAMES_H
 
-#include "renderer.h"
+#include "pixel.h"
 #include "scenes.h"
 
 /* A renderer; the test fails, with the sentence, when there is none. */

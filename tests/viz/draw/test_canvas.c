@@ -142,9 +142,11 @@ typedef struct pen {
 } pen;
 
 static bool dot_quads(void *context, const quad *quads, size_t count, uint8_t ground, int first, int end,
-                      uint8_t *indices)
+                      uint8_t *indices, octreel_error *error)
 {
     pen *p = context;
+    if (p->fails)
+        return error_set(error, "no ink");
     p->sent += count;
     p->calls++;
     memset(indices + first * SIDE, ground, (size_t)(end - first) * SIDE);
@@ -153,7 +155,7 @@ static bool dot_quads(void *context, const quad *quads, size_t count, uint8_t gr
         assert_true(y >= first && y < end);
         indices[y * SIDE + x] = quads[i].color;
     }
-    return !p->fails;
+    return true;
 }
 
 /* Slanted: nothing that is filled. */
@@ -181,9 +183,14 @@ static void assert_drawn(const uint8_t *indices, const quad_list *list)
 static void draw_list(canvas *c, pen *p, const quad_list *list, size_t sent)
 {
     static uint8_t indices[SIDE * SIDE];
+    quad_list copy = {0}; /* which the canvas keeps */
+    octreel_error error = {""};
     memset(indices, 77, sizeof indices);
     p->sent = p->calls = 0;
-    assert_true(canvas_draw(c, list, dot_quads, p, indices));
+    for (size_t i = 0; i < list->count; i++)
+        quads_add(&copy, &list->items[i]);
+    assert_true(canvas_draw(c, &copy, dot_quads, p, indices, &error));
+    quads_release(&copy);
     assert_drawn(indices, list);
     assert_int_equal(p->sent, sent);
 }
@@ -236,7 +243,8 @@ static void many_rectangles_are_filled_between_what_is_sent(void **state)
         const quad q = slanted(i, 5);
         quads_add(&list, &q);
     }
-    assert_true(canvas_draw(&c, &list, dot_quads, &p, indices));
+    octreel_error error = {""};
+    assert_true(canvas_draw(&c, &list, dot_quads, &p, indices, &error));
     assert_int_equal(p.sent, 150 + ON_TOP);
     assert_int_equal(p.calls, 2);
     for (int i = 0; i < SIDE * SIDE; i++)
@@ -253,7 +261,9 @@ static void a_rasteriser_that_fails_is_told_of(void **state)
     quad_list list = {0};
     uint8_t indices[SIDE * SIDE];
     add_slanted(&list, 10, 3);
-    assert_false(canvas_draw(&c, &list, dot_quads, &p, indices));
+    octreel_error error = {""};
+    assert_false(canvas_draw(&c, &list, dot_quads, &p, indices, &error));
+    assert_string_equal(error.text, "no ink");
     quads_release(&list);
     canvas_release(&c);
 }

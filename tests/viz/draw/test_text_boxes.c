@@ -1,5 +1,6 @@
 /* test_text_boxes.c - text lights no pixel outside the boxes that are told of it. */
 #include "frames.h"
+#include "letters.h"
 #include "layer.h"
 
 #include <stdlib.h>
