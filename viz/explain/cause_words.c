@@ -201,28 +201,8 @@ static void print_values(FILE *out, const phrase *p, const cause_group *group, c
     fputc(')', out);
 }
 
-static void print_verb(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
-{
-    const char *places = group->change == CAUSE_OTHER ? " from " : group->change == CAUSE_MORE ? " at " : " from ";
-    fprintf(out, "%s ", p->noun);
-    print_subject(out, fact);
-    fprintf(out, " %s", verb_of(p, group->change));
-    if (fact->id == CAUSE_NO_ID)
-        return;
-    fputs(places, out);
-    print_value(out, fact->a ? fact->a : fact->b);
-    if (group->change == CAUSE_OTHER) {
-        fputs(" to ", out);
-        print_value(out, fact->b);
-    }
-}
-
 static void print_fact(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
 {
-    if (verb_of(p, group->change)) {
-        print_verb(out, p, group, fact);
-        return;
-    }
     if (strcmp(group->where, "answers") == 0) { /* asked by one side alone */
         fprintf(out, "%s%s", group->query, group->change == CAUSE_MORE ? " asked besides" : " not asked");
         return;
@@ -261,18 +241,29 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
         fprintf(out, " and %" PRIu64 " more", group->found - told);
 }
 
-/* "nodes 0/3/7, 0/3/6 and 9 more split"; "12 more edits (points 3, 4, 5 and 9 more)". */
+/* "nodes 0/3/7, 0/3/6 and 9 more split"; "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
+static void print_verb(FILE *out, const phrase *p, const cause_group *group, bool brief)
+{
+    const cause_fact *fact = &group->listed[0];
+    fprintf(out, "%s%s ", p->noun, plural(group->found));
+    print_subjects(out, group, brief);
+    fprintf(out, " %s", verb_of(p, group->change));
+    if (brief || group->found > 1 || fact->id == CAUSE_NO_ID)
+        return;
+    fputs(group->change == CAUSE_MORE ? " at " : " from ", out);
+    print_value(out, fact->a ? fact->a : fact->b);
+    if (group->change == CAUSE_OTHER) {
+        fputs(" to ", out);
+        print_value(out, fact->b);
+    }
+}
+
+/* "12 more edits (points 3, 4, 5 and 9 more)". */
 static void print_many(FILE *out, const phrase *p, const cause_group *group, bool brief)
 {
     static const char *const words[] = {
         [CAUSE_OTHER] = "other ", [CAUSE_MORE] = "more ", [CAUSE_LESS] = "fewer ", [CAUSE_ORDER] = "reordered "};
     const cause_fact *first = &group->listed[0];
-    if (verb_of(p, group->change)) {
-        fprintf(out, "%s%s ", p->noun, plural(group->found));
-        print_subjects(out, group, brief);
-        fprintf(out, " %s", verb_of(p, group->change));
-        return;
-    }
     fprintf(out, "%" PRIu64 " %s%s%s", group->found, words[group->change], p->plural ? p->plural : p->noun,
             p->plural ? "" : "s");
     print_query(out, group);
@@ -292,8 +283,11 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
 {
     const phrase p = phrase_of(group);
     const size_t told = count_told(group, brief);
-    const bool verb = verb_of(&p, group->change) != NULL;
-    if ((group->found > 1 && has_subject(&group->listed[0])) || (verb && brief)) {
+    if (verb_of(&p, group->change)) {
+        print_verb(out, &p, group, brief);
+        return;
+    }
+    if (group->found > 1 && has_subject(&group->listed[0])) {
         print_many(out, &p, group, brief);
         return;
     }

@@ -1,6 +1,7 @@
 /* recorded.c - see recorded.h. */
 #include "recorded.h"
 #include "frame_file.h"
+#include "text.h"
 #include "ticks_write.h"
 #include "who_drew.h"
 
@@ -100,21 +101,18 @@ static uint64_t scene_of(const recorded *r, uint64_t tick)
 static char *expected_line(const recorded *r, const octree_game *game, size_t *size)
 {
     const octree_tick *tick = octree_game_tick(game);
-    char name[FRAME_NAME], *text = NULL;
+    char name[FRAME_NAME], *text;
     tick_extras extras = {0};
-    FILE *stream = open_memstream(&text, size);
-    if (!stream)
-        return NULL;
+    text_stream s;
     if (tick->number % r->view.every == 0) {
         extras.frame = frame_name(tick->number, name);
         extras.scene_digest = scene_of(r, tick->number);
     }
-    tick_write(stream, tick, &extras);
-    const bool whole = !ferror(stream);
-    if (fclose(stream) == 0 && whole)
-        return text;
-    free(text);
-    return NULL;
+    if (text_stream_begin(&s))
+        tick_write(s.stream, tick, &extras);
+    const bool ok = text_stream_end(&s, &text);
+    *size = s.size;
+    return ok ? text : NULL;
 }
 
 bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *error)

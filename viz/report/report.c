@@ -14,6 +14,11 @@ static void print_line(FILE *out, const char *beginning, const char *text)
     fputc('\n', out);
 }
 
+void diff_print_summary(FILE *out, const diff_report *report)
+{
+    diff_print_verdict(out, report->result, explanation_verdict(report->why, report->result));
+}
+
 static void print_pairs(FILE *out, const diff_result *result, const explanation *why)
 {
     size_t listed = 0;
@@ -109,7 +114,7 @@ void diff_print_tolerance(FILE *out, const diff_report *report)
 
 void diff_report_text(FILE *out, const diff_report *report)
 {
-    diff_print_verdict(out, report->result, explanation_verdict(report->why, report->result));
+    diff_print_summary(out, report);
     fputc('\n', out);
     if (report->why->headline)
         print_line(out, "", report->why->headline);

@@ -38,7 +38,8 @@ bool diff_report_markdown(FILE *out, const diff_report *report);
 #define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* of PNG files; a browser holds no more with ease */
 bool diff_report_page(const diff_report *report, octreel_error *error);
 
-/* What was forgiven, in one line without its end, or that nothing was. */
+/* In one line without its end: the verdict and the counts; and what was forgiven, or that nothing was. */
+void diff_print_summary(FILE *out, const diff_report *report);
 void diff_print_tolerance(FILE *out, const diff_report *report);
 
 #endif

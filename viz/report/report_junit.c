@@ -90,7 +90,7 @@ static bool write_summary(FILE *out, const diff_report *report)
     text_stream s;
     if (!text_stream_begin(&s))
         return false;
-    diff_print_verdict(s.stream, report->result, explanation_verdict(report->why, report->result));
+    diff_print_summary(s.stream, report);
     putc('\n', s.stream);
     if (report->why->headline)
         fprintf(s.stream, "%s\n", report->why->headline);

@@ -100,7 +100,7 @@ static bool write_verdict(FILE *out, const diff_report *report)
     text_stream s;
     if (!text_stream_begin(&s))
         return false;
-    diff_print_verdict(s.stream, report->result, explanation_verdict(report->why, report->result));
+    diff_print_summary(s.stream, report);
     fputs("### octreel diff: ", out);
     bool ok = write_escaped_stream(out, &s, escape_markdown);
     fputs("\n\n", out);

@@ -97,41 +97,25 @@ static bool line_end(fact_line *line, FILE *out)
     return ok;
 }
 
-/* Print what belongs to a report, or to one pair of it. */
-typedef void printer(FILE *out, const diff_report *report, const diff_pair *pair);
-
-static void print_verdict(FILE *out, const diff_report *report, const diff_pair *pair)
-{
-    (void)pair;
-    diff_print_verdict(out, report->result, explanation_verdict(report->why, report->result));
-}
-
-static void print_tolerance(FILE *out, const diff_report *report, const diff_pair *pair)
-{
-    (void)pair;
-    diff_print_tolerance(out, report);
-}
-
-static void print_difference(FILE *out, const diff_report *report, const diff_pair *pair)
-{
-    (void)report;
-    diff_print_difference(out, pair);
-}
-
-/* A member whose text is printed. */
-static bool write_words(json_writer *w, const char *key, printer *print, const diff_report *report,
-                        const diff_pair *pair)
+/* A member whose text was printed. */
+static bool write_words(json_writer *w, const char *key, text_stream *s)
 {
     char *text;
-    text_stream s;
-    if (!text_stream_begin(&s))
-        return false;
-    print(s.stream, report, pair);
-    if (!text_stream_end(&s, &text))
+    if (!text_stream_end(s, &text))
         return false;
     json_member_text(w, key, text ? text : "");
     free(text);
     return true;
+}
+
+typedef void printer(FILE *out, const diff_report *report);
+
+static bool write_line(json_writer *w, const char *key, printer *print, const diff_report *report)
+{
+    text_stream s;
+    if (text_stream_begin(&s))
+        print(s.stream, report);
+    return write_words(w, key, &s);
 }
 
 static bool write_whole(const page *p)
@@ -140,8 +124,8 @@ static bool write_whole(const page *p)
     if (!line_begin(&line))
         return false;
     diff_json_summary(&line.writer, p->report);
-    const bool ok = write_words(&line.writer, "verdict_words", print_verdict, p->report, NULL) &&
-                    write_words(&line.writer, "tolerance_words", print_tolerance, p->report, NULL);
+    const bool ok = write_line(&line.writer, "verdict_words", diff_print_summary, p->report) &&
+                    write_line(&line.writer, "tolerance_words", diff_print_tolerance, p->report);
     json_member_integer(&line.writer, "different", p->count + p->left_out);
     json_member_integer(&line.writer, "left_out", p->left_out);
     return line_end(&line, p->out) && ok;
@@ -171,7 +155,10 @@ static bool write_pair(const page *p, size_t n)
     if (!line_begin(&line))
         return false;
     diff_json_finding(&line.writer, p->report, i);
-    const bool ok = write_words(&line.writer, "words", print_difference, p->report, pair);
+    text_stream words;
+    if (text_stream_begin(&words))
+        diff_print_difference(words.stream, pair);
+    const bool ok = write_words(&line.writer, "words", &words);
     write_files(&line.writer, p->report, i);
     json_write_key(&line.writer, "embedded");
     json_write_bool(&line.writer, p->embedded[n]);

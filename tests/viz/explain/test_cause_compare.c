@@ -1,0 +1,112 @@
+/* test_cause_compare.c - two objects of JSON are compared member by member, those that nobody has words for too. */
+#include <string.h>
+
+#include "cause_compare.h"
+#include "cause_words.h"
+#include "fixture.h"
+#include "text.h"
+
+static json_t *parsed(const char *text)
+{
+    json_error_t error;
+    json_t *object = json_loads(text, JSON_DECODE_INT_AS_REAL, &error);
+    if (!object)
+        fail_msg("%s: %s", text, error.text);
+    return object;
+}
+
+/* In what b differs from a. */
+static void assert_told(const char *a, const char *b, const char *expected)
+{
+    cause_facts facts = {0};
+    const cause_place place = {&facts, "", "", CAUSE_NO_TICK, true};
+    json_t *objects[2] = {parsed(a), parsed(b)};
+    text_stream s;
+    char *text;
+    cause_compare_members(&place, objects[0], objects[1]);
+    assert_false(facts.out_of_memory);
+    assert_true(text_stream_begin(&s));
+    cause_print_facts(s.stream, &facts, false);
+    assert_true(text_stream_end(&s, &text));
+    if (strcmp(text ? text : "", expected) != 0)
+        fail_msg("it says \"%s\" and not \"%s\"", text ? text : "", expected);
+    free(text);
+    cause_facts_release(&facts);
+    json_decref(objects[0]);
+    json_decref(objects[1]);
+}
+
+static void a_member_without_words_is_told_by_its_path(void **state)
+{
+    (void)state;
+    assert_told("{\"a\": {\"b\": 1, \"c\": 2}}", "{\"a\": {\"b\": 1, \"c\": 3}}", "another a.c (3, was 2)");
+    assert_told("{\"a\": 1}", "{\"a\": 1, \"d\": \"word\"}", "another d (word, was none)");
+    assert_told("{\"a\": true}", "{}", "another a (none, was on)");
+    assert_told("{\"a\": [1, 2, 3]}", "{\"a\": [1, 2, -0.0]}", "another a ((1, 2, -0), was (1, 2, 3))");
+    assert_told("{\"a\": [0.0]}", "{\"a\": [-0.0]}", "another a ((-0), was (0))");
+    assert_told("{\"a\": {\"min\": [0], \"max\": [1]}}", "{\"a\": {\"min\": [0], \"max\": [2]}}",
+                "another a ((0) to (2), was (0) to (1))");
+    assert_told("{\"a\": 1}", "{\"a\": 1}", "");
+}
+
+static void elements_with_keys_are_compared_by_them(void **state)
+{
+    (void)state;
+    assert_told("{\"a\": [\"x\", \"y\"]}", "{\"a\": [\"y\", \"z\"]}", "one a fewer (x), one more a (z)");
+    assert_told("{\"a\": [{\"id\": 2, \"b\": 1}]}", "{\"a\": [{\"id\": 1, \"b\": 1}, {\"id\": 2, \"b\": 3}]}",
+                "one more a (id 1, b 1), another a (id 2, b 3, was id 2, b 1)");
+    assert_told("{\"a\": [{\"id\": 2}, {\"id\": 1}]}", "{\"a\": [{\"id\": 1}, {\"id\": 2}]}",
+                "another order of the as");
+    assert_told("{}", "{\"a\": [\"x\", \"y\", \"z\"]}", "3 more as (x, y and z)");
+}
+
+/* The same point is inserted twice. */
+static void edits_of_one_point_are_compared_in_their_order(void **state)
+{
+    static const char base[] = "{\"edits\": [{\"insert\": {\"id\": 1, \"position\": [0, 0, 0]}}, {\"remove\": 1},"
+                               " {\"insert\": {\"id\": 1, \"position\": [1, 0, 0]}}]}";
+    (void)state;
+    assert_told(base,
+                "{\"edits\": [{\"insert\": {\"id\": 1, \"position\": [0, 0, 0]}}, {\"remove\": 1},"
+                " {\"insert\": {\"id\": 1, \"position\": [2, 0, 0]}}]}",
+                "another edit (insert id 1, position (2, 0, 0), was insert id 1, position (1, 0, 0))");
+    assert_told(base, "{\"edits\": [{\"insert\": {\"id\": 1, \"position\": [0, 0, 0]}}]}",
+                "2 fewer edits (points 1 and 1)");
+}
+
+static void elements_without_keys_are_compared_by_their_places(void **state)
+{
+    (void)state;
+    assert_told("{\"queries\": [{\"nearest\": \"player\"}, {\"radius\": 1, \"at\": \"player\"}]}",
+                "{\"queries\": [{\"nearest\": \"player\"}, {\"radius\": 2, \"at\": \"player\"}]}",
+                "another query at every tick (radius 2, at \"player\", was radius 1, at \"player\")");
+    assert_told("{\"queries\": [{\"nearest\": \"player\"}]}",
+                "{\"queries\": [{\"knearest\": 2, \"at\": \"player\"}, {\"nearest\": \"player\"}]}",
+                "one more query at every tick (knearest 2, at \"player\")");
+}
+
+/* The first answer is to a key; what is asked at every tick keeps its place at the end. */
+static void answers_are_about_their_queries(void **state)
+{
+    (void)state;
+    assert_told(
+        "{\"answers\": [{\"range\": {\"ids\": [1, 2, 3], \"cost\": {\"nodes\": 1}}}]}",
+        "{\"answers\": [{\"nearest\": {\"id\": 4}}, {\"range\": {\"ids\": [2, 9, 8], \"cost\": {\"nodes\": 2}}}]}",
+        "2 fewer hits in the range query (points 1 and 3), 2 more hits in the range query (points 8 and 9), the "
+        "nearest query asked besides; another cost in the range query");
+    assert_told("{\"answers\": [{\"nearest\": {\"id\": 4}}, {\"nearest\": {\"id\": 5}}]}",
+                "{\"answers\": [{\"nearest\": {\"id\": 4}}, {\"nearest\": {\"id\": null}}]}",
+                "another nearest point in query 2 (nearest) (none, was 5)");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_member_without_words_is_told_by_its_path),
+        cmocka_unit_test(elements_with_keys_are_compared_by_them),
+        cmocka_unit_test(edits_of_one_point_are_compared_in_their_order),
+        cmocka_unit_test(elements_without_keys_are_compared_by_their_places),
+        cmocka_unit_test(answers_are_about_their_queries),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
