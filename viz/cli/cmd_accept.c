@@ -1,8 +1,9 @@
 /* cmd_accept.c - octreel accept: new frames become the reference. */
 #include "command.h"
+#include "command_line.h"
 #include "accept.h"
-#include "options.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -19,22 +20,16 @@ static const char help[] =
     "          octreel accept golden frames frame_000041.png frame_000042.png\n"
     "          octreel accept frames.digests frames\n";
 
-static const struct option options[] = {{"help", no_argument, NULL, 'h'}, {NULL, 0, NULL, 0}};
-
 int cmd_accept(int argc, char **argv)
 {
+    const command_line line = {
+        .name = "accept", .help = help, .least = 2, .most = INT_MAX, .takes = "a reference and what is new"};
+    const int status = command_line_read(&line, argc, argv);
     octreel_error error;
-    optind = 1;
-    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
-        fputs(option == 'h' ? help : "octreel accept --help tells what it takes\n", option == 'h' ? stdout : stderr);
-        return option == 'h' ? EXIT_DONE : EXIT_TROUBLE;
-    }
-    if (argc - optind < 2)
-        return trouble("accept takes a reference and what is new; octreel accept --help tells more");
+    if (status != COMMAND_GO_ON)
+        return status;
     if (getenv("CI"))
         return trouble("nothing is accepted where CI is set in the environment: references change by hand alone");
-    if (!check_names("accept", argv + optind, argc - optind))
-        return EXIT_TROUBLE;
     const accept_options all = {
         .reference = argv[optind],
         .frames = argv[optind + 1],

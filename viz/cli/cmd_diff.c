@@ -1,11 +1,10 @@
 /* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
 #include "command.h"
+#include "command_line.h"
 #include "explain.h"
 #include "ignored_layers.h"
-#include "options.h"
 #include "report.h"
 
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,10 +63,8 @@ static const struct option options[] = {
     {"causes", required_argument, NULL, 'c'},
     {"background", required_argument, NULL, 'b'},
     {"output", required_argument, NULL, 'o'},
-    {"json", no_argument, NULL, 'j'},
     {"junit", required_argument, NULL, 'u'},
     {"markdown", required_argument, NULL, 'm'},
-    {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
 };
 
@@ -75,10 +72,8 @@ static bool add_rectangle(arguments *a, const char *text)
 {
     image_tolerance *t = &a->options.tolerance;
     image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
-    if (!grown) {
-        trouble("there is no memory for what is ignored");
-        return false;
-    }
+    if (!grown)
+        return refuse("there is no memory for what is ignored");
     t->ignored = a->ignored = grown;
     return read_rectangle("--ignore", text, &grown[t->ignored_count]) && ++t->ignored_count;
 }
@@ -87,17 +82,17 @@ static bool read_layers(const char *list, arguments *a)
 {
     const char *bad;
     if (!view_layers_parse(list, &a->layers, &bad))
-        return trouble("--ignore-layer takes names of layers with commas between, and \"%.*s\" is none",
-                       (int)strcspn(bad, ","), bad),
-               false;
+        return refuse("--ignore-layer takes names of layers with commas between, and \"%.*s\" is none",
+                      (int)strcspn(bad, ","), bad);
     a->options.mask = ignore_layers;
     a->options.mask_context = &a->layers;
     a->options.layers = list;
     return true;
 }
 
-static bool take_option(arguments *a, int option)
+static bool read_option(int option, void *context)
 {
+    arguments *a = context;
     switch (option) {
     case 'p':
         return read_count("--max-pixels", optarg, 0, UINT32_MAX, &a->options.tolerance.max_pixels);
@@ -119,18 +114,12 @@ static bool take_option(arguments *a, int option)
     case 'o':
         a->folder = optarg;
         return check_name("-o", optarg);
-    case 'j':
-        a->json = true;
-        return true;
     case 'u':
         a->junit = optarg;
         return check_name("--junit", optarg);
-    case 'm':
+    default:
         a->markdown = optarg;
         return check_name("--markdown", optarg);
-    default:
-        fputs("octreel diff --help tells what it takes\n", stderr);
-        return false;
     }
 }
 
@@ -160,8 +149,7 @@ static bool check_outputs(const arguments *a)
 {
     if (a->json + is_stdout(a->junit) + is_stdout(a->markdown) <= 1)
         return true;
-    trouble("standard output has room for one report: give the others a file");
-    return false;
+    return refuse("standard output has room for one report: give the others a file");
 }
 
 static bool write_report(const char *path, reporter *write, const diff_report *report, octreel_error *error)
@@ -258,21 +246,21 @@ static int compare(const arguments *a, const char *paths[2])
 int cmd_diff(int argc, char **argv)
 {
     arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
-    int status = EXIT_TROUBLE;
-    bool ok = true, asked = false;
-    optind = 1;
-    for (int option; ok && !asked && (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
-        asked = option == 'h';
-        ok = asked || take_option(&a, option);
-    }
+    const command_line line = {.name = "diff",
+                               .help = help,
+                               .short_options = "o:h",
+                               .options = options,
+                               .read = read_option,
+                               .context = &a,
+                               .json = &a.json,
+                               .least = 2,
+                               .most = 2,
+                               .takes = "a reference and what is compared with it"};
+    int status = command_line_read(&line, argc, argv);
     if (a.folder && !a.causes_said)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */
-    if (asked)
-        status = fputs(help, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
-    else if (ok && argc - optind != 2)
-        status = trouble("diff takes a reference and what is compared with it; octreel diff --help tells more");
-    else if (ok && check_names("diff", argv + optind, 2) && check_outputs(&a))
-        status = compare(&a, (const char *[]){argv[optind], argv[optind + 1]});
+    if (status == COMMAND_GO_ON)
+        status = check_outputs(&a) ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]}) : EXIT_TROUBLE;
     free(a.ignored);
     return status;
 }

@@ -132,9 +132,9 @@ static bool draw(const report *r, octreel_error *error)
     film_summary drawn = {0};
     const arguments *a = r->a;
     const tree_subject about = {.title = r->name,
-                             .node = a->node ? r->node.address : 0,
-                             .answers = r->answers.answers,
-                             .answer_count = r->answers.count};
+                                .node = a->node ? r->node.address : 0,
+                                .answers = r->answers.answers,
+                                .answer_count = r->answers.count};
     const film_options options = {.view = a->view, .renderer = a->renderer};
     if (!film_tree(r->made->tree, &about, &options, a->picture, &drawn, error))
         return false;

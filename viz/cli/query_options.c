@@ -7,14 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_NUMBERS 6
+#define MOST_NUMBERS 16
 
 /* The numbers of an option are the members of its kind of query: a box, a target, a radius, a count. */
 static const struct {
     octree_query_kind kind;
     octree_query_kind with_count; /* the kind where a count follows; the same: none may */
     const char *value, *help;     /* in --help */
-    const char *takes;            /* in the sentence about too many numbers or too few */
+    const char *takes;            /* in the sentence about what does not fit */
 } rows[] = {
     {OCTREE_QUERY_NEAREST, OCTREE_QUERY_KNEAREST, "X,Y,Z[,K]", "the point nearest to a place, or the K nearest",
      "a place, and a number of neighbours where it is not one, as in 1,2,3 or 1,2,3,8"},
@@ -45,26 +45,6 @@ void print_query_options(FILE *out)
         snprintf(option, sizeof option, "--%s %s", octree_query_name(rows[i].kind), rows[i].value);
         fprintf(out, "      %-26s print and draw %s%s\n", option, rows[i].help,
                 i == ROWS - 1 ? "; queries can be given several times" : "");
-    }
-}
-
-/* Read numbers with commas between. *count may be above MOST_NUMBERS; those beyond are not stored. */
-static bool read_numbers(const char *name, const char *text, double values[MOST_NUMBERS], size_t *count)
-{
-    const char *limit = text + strlen(text), *at = text;
-    *count = 0;
-    for (;;) {
-        const size_t length = strcspn(at, ",");
-        const char *end = at;
-        double value;
-        if (!number_parse(at, limit, &end, &value) || end != at + length)
-            return refuse("--%s: \"%.*s\" in \"%s\" is not a finite number", name, (int)length, at, text);
-        if (*count < MOST_NUMBERS)
-            values[*count] = value;
-        ++*count;
-        if (*end == 0)
-            return true;
-        at = end + 1;
     }
 }
 
@@ -103,15 +83,13 @@ bool read_query(query_options *queries, int option, const char *text)
     const char *name = octree_query_name(rows[row].kind);
     octree_query query = {.kind = rows[row].kind};
     double values[MOST_NUMBERS];
-    size_t count;
     if (queries->count == MOST_QUERIES)
         return refuse("at most %d queries can be given", MOST_QUERIES);
-    if (!read_numbers(name, text, values, &count))
-        return false;
-    if (count != numbers_of(query.kind))
+    if (!numbers_parse(text, values, numbers_of(query.kind))) {
         query.kind = rows[row].with_count;
-    if (count != numbers_of(query.kind))
-        return refuse("--%s takes %s, not \"%s\"", name, rows[row].takes, text);
+        if (!numbers_parse(text, values, numbers_of(query.kind)))
+            return refuse("--%s takes %s, not \"%s\"", name, rows[row].takes, text);
+    }
     if (!set_members(&query, values))
         return refuse("--%s: the number of neighbours is whole, from 1 to %.0f, not so in \"%s\"", name, 0x1p53 - 1,
                       text);

@@ -210,12 +210,13 @@ static void queries_that_do_not_fit_are_refused_in_one_sentence(void **state)
     static const char *const rows[][2] = {
         {"--nearest 1,2", "--nearest takes a place"},
         {"--nearest 1,2,3,4,5", "--nearest takes a place"},
-        {"--nearest=", "\"\" in \"\" is not a finite number"},
-        {"--nearest 1,,3", "is not a finite number"},
-        {"--nearest 1,2,x", "\"x\" in \"1,2,x\""},
-        {"--nearest nan,2,3", "\"nan\" in \"nan,2,3\" is not a finite number"},
-        {"--nearest 1,inf,3", "\"inf\""},
-        {"--nearest 1,2,1e999", "\"1e999\""},
+        {"--nearest=", "--nearest takes a place"},
+        {"--nearest 1,,3", "--nearest takes a place"},
+        {"--nearest 1,2,x", "--nearest takes a place, and a number of neighbours where it is not one, as in 1,2,3 or "
+                            "1,2,3,8, not \"1,2,x\""},
+        {"--nearest nan,2,3", "not \"nan,2,3\""},
+        {"--nearest 1,inf,3", "not \"1,inf,3\""},
+        {"--nearest 1,2,1e999", "not \"1,2,1e999\""},
         {"--nearest 1,2,3,0", "whole, from 1 to 9007199254740991"},
         {"--nearest 1,2,3,-2", "whole, from 1 to 9007199254740991"},
         {"--nearest 1,2,3,2.5", "whole, from 1 to 9007199254740991"},
@@ -224,11 +225,11 @@ static void queries_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--radius 1,2,3", "--radius takes a centre and a radius"},
         {"--radius 1,2,3,4,5", "--radius takes a centre and a radius"},
         {"--radius 1,2,3,-1", "must not be negative"},
-        {"--radius 1,2,3,NaN", "\"NaN\""},
+        {"--radius 1,2,3,NaN", "not \"1,2,3,NaN\""},
         {"--range 1,2,3,4,5", "--range takes two corners"},
         {"--range 1,2,3,4,5,6,7", "--range takes two corners"},
         {"--range 1,2,3,4,1,6", "the box's min is above its max in"},
-        {"--range 1,2,3,4,5,nan", "\"nan\""},
+        {"--range 1,2,3,4,5,nan", "not \"1,2,3,4,5,nan\""},
     };
     const place file = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
     file_write_text(file.path, "0 0 0\n8 8 8\n");
