@@ -1,10 +1,10 @@
-/* bulk.c - many points inserted or removed at once: what a node becomes is made from its old self and its share of the
- * points, which are sorted by Morton code. A bulk change either happens as a whole or does not.
+/* bulk.c - many points inserted or removed at once. They are sorted by Morton code, and each node that changes is made
+ * anew from its old self and its share of them; nodes that do not change are shared with the old tree. The new root
+ * takes the place of the old one at the end, so that the change either happens or does not.
  */
 #include "float_rules.h"
 #include "morton_sort.h"
 #include "tree.h"
-#include "undo_log.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,6 @@ typedef struct bulk {
     size_t count;
     bool repeated; /* some items may have the same code */
     list repetitions;
-    undo_log log;
 } bulk;
 
 static const octree_point *point_of(const bulk *b, const morton_item *item)
@@ -128,25 +127,24 @@ static unsigned share_out(const morton_item *items, size_t count, unsigned depth
 static octree_status change_many(bulk *b, octree_status (*change)(bulk *b, node *root))
 {
     octree *tree = b->tree;
-    node root;
+    const node old = tree->root;
+    node root = old;
     octree_status status = load(b);
-    b->log.store = &tree->store;
     if (status == OCTREE_OK)
         status = change(b, &root);
-    if (status == OCTREE_OK && root.count != tree->root.count) {
+    if (status == OCTREE_OK && root.count != old.count) {
         tree->root = root;
         tree->version++;
-        undo_log_commit(&b->log);
+        node_release_unshared(&tree->store, &old, &root);
     } else {
-        undo_log_abandon(&b->log);
+        node_release_unshared(&tree->store, &root, &old);
     }
     list_release(&tree->store.memory, &b->repetitions, sizeof(repetition));
     give_items(b, b->items);
     return status;
 }
 
-/* ---- Inserting
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
 /* Stored points first, then the caller's in their order: so a leaf refuses the same points as one by one. */
 static int compare_places(const void *a, const void *b)
@@ -164,7 +162,7 @@ static bool make_leaf(bulk *b, morton_item *items, size_t count, node *made)
         qsort(items, count, sizeof *items, compare_places);
         taken = capacity;
     }
-    if (!undo_log_make_leaf(&b->log, made, (uint32_t)taken))
+    if (!leaf_create(&b->tree->store, made, (uint32_t)taken))
         return false;
     for (size_t i = 0; i < taken; i++)
         prefetch(point_of(b, &items[i])); /* scattered, in the caller's order */
@@ -230,7 +228,7 @@ static size_t drop_stored(const bulk *b, const node *leaf, morton_item *items, s
 static bool add_to_leaf(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     if (old->count == 0)
-        return build(b, c, items, count, made) && undo_log_replace(&b->log, old);
+        return build(b, c, items, count, made);
     count = drop_stored(b, old, items, count);
     if (count == 0)
         return true;
@@ -240,12 +238,12 @@ static bool add_to_leaf(bulk *b, const node *old, cell c, morton_item *items, si
         return false;
     merge_items(b->tree, old, c, items, count, all);
     b->stored = leaf_points(old);
-    const bool ok = build(b, c, all, old->count + count, made) && undo_log_replace(&b->log, old);
+    const bool ok = build(b, c, all, old->count + count, made);
     arena_give(&b->tree->store.memory, all, room);
     return ok;
 }
 
-/* What a node becomes with the items added. */
+/* What a node becomes with the items added. False when there is no memory; what was made is in *made then. */
 static bool add(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     *made = *old;
@@ -259,9 +257,13 @@ static bool build_children(bulk *b, const node *old, cell c, morton_item *items,
     static const node empty = {0};
     size_t shares[8];
     const unsigned octants = share_out(items, count, c.depth, shares) | (old ? old->octants : 0u);
-    node *group = undo_log_make_group(&b->log, bits_count8(octants));
+    const size_t children = bits_count8(octants);
+    node *group = pool_take(&b->tree->store.nodes, (unsigned)children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
-    for (unsigned octant = 0; group && octant < 8; octant++) {
+    if (!group)
+        return false;
+    memset(group, 0, children * sizeof *group);
+    for (unsigned octant = 0; octant < 8; octant++) {
         if (!(octants >> octant & 1))
             continue;
         const node *before = old ? child_at(old, octant) : NULL;
@@ -271,7 +273,7 @@ static bool build_children(bulk *b, const node *old, cell c, morton_item *items,
         items += shares[octant];
         group++;
     }
-    return group && (!old || undo_log_replace(&b->log, old));
+    return true;
 }
 
 /* Keep the first of each pair among items of one code, which are in the caller's order. *kept receives how many are
@@ -348,88 +350,85 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
     return status;
 }
 
-/* ---- Removing
- * --------------------------------------------------------------------------------------------------------- */
-
-/* A leaf of the points that are not marked. */
-static bool make_rest(bulk *b, const node *old, const bool *gone, uint32_t left, node *made)
-{
-    if (!undo_log_make_leaf(&b->log, made, left))
-        return false;
-    for (uint32_t i = 0; i < old->count; i++)
-        if (!gone[i])
-            leaf_put(made, &leaf_points(old)[i]);
-    return undo_log_replace(&b->log, old);
-}
+/* ---- Removing ----------------------------------------------------------------------------------------------- */
 
 static bool take_from_leaf(bulk *b, const node *old, const morton_item *items, size_t count, node *made)
 {
-    bool *gone = arena_take(&b->tree->store.memory, old->count + 1);
-    if (!gone)
+    store *s = &b->tree->store;
+    if (!leaf_create(s, made, old->count))
         return false;
-    memset(gone, 0, old->count + 1);
-    uint32_t left = old->count;
+    node_gather(made, old, NULL);
     for (size_t i = 0; i < count; i++) {
         const octree_point *point = point_of(b, &items[i]);
-        const uint32_t index = leaf_find(old, point->position, point->id);
-        if (index == LEAF_NONE || gone[index]) {
+        const uint32_t index = leaf_find(made, point->position, point->id);
+        if (index == LEAF_NONE)
             set_status(b, &items[i], OCTREE_NOT_FOUND);
-        } else {
-            gone[index] = true;
-            left--;
-        }
+        else
+            leaf_remove(s, made, index);
     }
-    const bool ok = left == old->count || make_rest(b, old, gone, left, made);
-    arena_give(&b->tree->store.memory, gone, old->count + 1);
-    return ok;
+    if (made->count == old->count) {
+        leaf_release(s, made);
+        *made = *old;
+    }
+    return true;
 }
 
-/* An inner node of the children that are not empty, or one leaf if it fits. */
-static bool make_parent(bulk *b, const node children[8], unsigned octants, uint32_t count, node *made)
+/* One leaf of the points of a node's children. */
+static bool merge_children(bulk *b, const node *old, const node children[8], uint32_t count, node *made)
 {
-    unsigned left = 0, mask = 0;
-    for (unsigned octant = 0; octant < 8; octant++)
-        if ((octants >> octant & 1) && children[octant].count > 0)
-            mask |= 1u << octant;
-    if (mask == 0)
-        return undo_log_make_leaf(&b->log, made, 0);
-    node *group = undo_log_make_group(&b->log, bits_count8(mask));
-    if (!group)
+    if (!leaf_create(&b->tree->store, made, count))
         return false;
-    for (unsigned octant = 0; octant < 8; octant++)
-        if (mask >> octant & 1)
-            group[left++] = children[octant];
-    *made = (node){.below = group, .count = count, .octants = (uint8_t)mask};
-    return !fits_leaf(b->tree, count) || undo_log_collapse(&b->log, made);
+    for (unsigned octant = 8; octant-- > 0;)
+        if (old->octants >> octant & 1)
+            node_gather(made, &children[octant], NULL);
+    return true;
 }
 
-/* What a node of this depth becomes without the items. */
+/* An inner node of the children that are not empty. */
+static bool keep_children(bulk *b, const node *old, const node children[8], uint32_t count, node *made)
+{
+    unsigned octants = 0;
+    for (unsigned octant = 0; octant < 8; octant++)
+        if ((old->octants >> octant & 1) && children[octant].count > 0)
+            octants |= 1u << octant;
+    node *group = pool_take(&b->tree->store.nodes, bits_count8(octants));
+    *made = (node){.below = group, .count = count, .octants = (uint8_t)octants};
+    for (unsigned octant = 0; group && octant < 8; octant++)
+        if (octants >> octant & 1)
+            *group++ = children[octant];
+    return group != NULL;
+}
+
+/* What a node of this depth becomes without the items. False when there is no memory; nothing was made then. */
 static bool take(bulk *b, const node *old, unsigned depth, const morton_item *items, size_t count, node *made)
 {
     *made = *old;
-    if (count == 0)
-        return true;
     if (!old->octants)
         return take_from_leaf(b, old, items, count, made);
     node children[8];
     size_t shares[8];
     uint32_t left = old->count;
+    bool ok = true;
     share_out(items, count, depth, shares);
     for (unsigned octant = 0; octant < 8; items += shares[octant++]) {
         const node *child = child_at(old, octant);
         for (size_t i = 0; !child && i < shares[octant]; i++)
             set_status(b, &items[i], OCTREE_NOT_FOUND);
-        if (child)
-            children[octant] = *child;
-        if (!child || shares[octant] == 0)
+        if (!child)
             continue;
-        if (!take(b, child, depth + 1, items, shares[octant], &children[octant]))
-            return false;
+        children[octant] = *child;
+        if (ok && shares[octant] > 0)
+            ok = take(b, child, depth + 1, items, shares[octant], &children[octant]);
         left -= child->count - children[octant].count;
     }
-    if (left == old->count)
+    if (ok && left == old->count)
         return true;
-    return make_parent(b, children, old->octants, left, made) && undo_log_replace(&b->log, old);
+    const bool merges = fits_leaf(b->tree, left);
+    ok = ok && (merges ? merge_children : keep_children)(b, old, children, left, made);
+    for (unsigned octant = 0; (merges || !ok) && octant < 8; octant++)
+        if (old->octants >> octant & 1)
+            node_release_unshared(&b->tree->store, &children[octant], child_at(old, octant));
+    return ok;
 }
 
 static octree_status remove_items(bulk *b, node *root)

@@ -1,7 +1,7 @@
 /* check.c - the validator: every invariant of the nodes. */
 #include "exact.h"
 #include "float_rules.h"
-#include "walk.h"
+#include "tree.h"
 
 static const char *check_inner(const octree *tree, const node *n, cell c)
 {
@@ -23,11 +23,11 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
 
 /* Where the points of a leaf may lie. A cell is open at its upper planes, except at the world's maximum faces, which
  * belong to it. */
-static octree_box points_box(const stacked *leaf)
+static octree_box points_box(const octree *tree, cell c)
 {
-    octree_box box = leaf->box;
+    octree_box box = cell_bounds(tree->axes, c);
     for (int i = 0; i < 3; i++)
-        if (leaf->cell.low[i] + cell_size(leaf->cell.depth) != PLANE_GRID)
+        if (c.low[i] + cell_size(c.depth) != PLANE_GRID)
             box.max[i] = exact_step_down(box.max[i]);
     return box;
 }
@@ -44,11 +44,10 @@ static bool is_repeated(const node *n, uint32_t index)
     return false;
 }
 
-static const char *check_leaf(const octree *tree, const stacked *leaf)
+static const char *check_leaf(const octree *tree, const node *n, cell c)
 {
-    const node *n = leaf->node;
-    const octree_box box = points_box(leaf);
-    if (!fits_leaf(tree, n->count) && may_split(tree, leaf->cell))
+    const octree_box box = points_box(tree, c);
+    if (!fits_leaf(tree, n->count) && may_split(tree, c))
         return "a leaf that could split is over its capacity";
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
@@ -63,23 +62,24 @@ static const char *check_leaf(const octree *tree, const stacked *leaf)
     return NULL;
 }
 
+/* Check a node and what is below it; *where receives the first node that breaks an invariant. */
+static const char *check_below(const octree *tree, const node *n, octree_address address, cell c, octree_address *where)
+{
+    const char *broken = n->octants ? check_inner(tree, n, c) : check_leaf(tree, n, c);
+    const node *child = children_of(n);
+    if (broken && where)
+        *where = address;
+    for (unsigned octant = 0; !broken && octant < 8; octant++)
+        if (n->octants >> octant & 1)
+            broken = check_below(tree, child++, address << 3 | octant, cell_child(c, octant), where);
+    return broken;
+}
+
 const char *octree_check(const octree *tree, octree_address *where)
 {
     if (!tree)
         return "there is no tree";
     if (!float_mode_is_default())
         return octree_status_text(OCTREE_FLOAT_MODE);
-    node_stack stack;
-    stack_begin(&stack, tree);
-    while (stack.size > 0) {
-        const stacked *next = stack_pop(&stack);
-        const char *broken = next->node->octants ? check_inner(tree, next->node, next->cell) : check_leaf(tree, next);
-        if (broken && where)
-            *where = next->address;
-        if (broken)
-            return broken;
-        if (next->node->octants)
-            stack_push_children(&stack);
-    }
-    return NULL;
+    return check_below(tree, &tree->root, OCTREE_ROOT, root_cell(), where);
 }

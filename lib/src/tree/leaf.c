@@ -41,7 +41,7 @@ bool leaf_create(store *s, node *leaf, uint32_t count)
     return leaf->below != NULL;
 }
 
-void leaf_release(store *s, node *leaf)
+void leaf_release(store *s, const node *leaf)
 {
     if (!leaf->below)
         return;
@@ -49,7 +49,6 @@ void leaf_release(store *s, node *leaf)
         hashed_leaf_release(&s->memory, leaf->below);
     else
         pool_give(&s->points, leaf->below, leaf->room);
-    leaf->below = NULL;
 }
 
 static uint32_t room_of(const node *leaf)
@@ -139,13 +138,25 @@ octree_point *node_copy_points(const node *n, octree_point *to, const octree_poi
     return to;
 }
 
-void node_release(store *s, node *n)
+void node_release_unshared(store *s, const node *n, const node *other)
 {
-    const unsigned children = bits_count8(n->octants);
-    if (children == 0)
+    static const node none = {0};
+    if (!n->below || n->below == other->below)
+        return;
+    const node *child = children_of(n);
+    for (unsigned octant = 0; octant < 8; octant++) {
+        if (!(n->octants >> octant & 1))
+            continue;
+        const node *counterpart = child_at(other, octant);
+        node_release_unshared(s, child++, counterpart ? counterpart : &none);
+    }
+    if (n->octants)
+        pool_give(&s->nodes, n->below, bits_count8(n->octants));
+    else
         leaf_release(s, n);
-    for (unsigned i = 0; i < children; i++)
-        node_release(s, &children_of(n)[i]);
-    if (children > 0)
-        pool_give(&s->nodes, n->below, children);
+}
+
+void node_release(store *s, const node *n)
+{
+    node_release_unshared(s, n, &(node){0});
 }

@@ -73,7 +73,7 @@ uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id);
 
 /* An empty leaf with room for `count` points. False when there is no memory. */
 bool leaf_create(store *s, node *leaf, uint32_t count);
-void leaf_release(store *s, node *leaf);
+void leaf_release(store *s, const node *leaf);
 
 /* Append a pair that is not there yet. False when there is no memory; nothing has changed then. */
 bool leaf_append(store *s, node *leaf, const octree_point *point);
@@ -101,7 +101,10 @@ void node_gather(node *leaf, const node *from, const octree_point *except);
  * of the copies. */
 octree_point *node_copy_points(const node *n, octree_point *to, const octree_point *end);
 
-/* Free a node's children or points, and all below; the node itself is the caller's. */
-void node_release(store *s, node *n);
+/* Free the children or points of a node, and all below it; the node itself is the caller's. */
+void node_release(store *s, const node *n);
+
+/* The same, but for what it shares with another version of the node in the same cell: what has the same block. */
+void node_release_unshared(store *s, const node *n, const node *other);
 
 #endif

@@ -8,8 +8,7 @@
 /* With fewer points a chosen capacity gains nothing. */
 #define TUNE_LEAST 1024
 
-/* ---- Making and freeing
- * ----------------------------------------------------------------------------------------------- */
+/* ---- Making and freeing ------------------------------------------------------------------------------------- */
 
 static void *default_allocate(size_t size, void *context)
 {
@@ -138,8 +137,7 @@ void tune_if_due(octree *tree)
     tree->tuning.choose(tree, &tree->tuning.mix);
 }
 
-/* ---- Rebuilding
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Rebuilding --------------------------------------------------------------------------------------------- */
 
 /* Insert all into an empty tree, or say why one of them does not fit. */
 static octree_status fill(octree *tree, const octree_point *points, size_t count)
@@ -198,8 +196,7 @@ octree_status octree_compact(octree *tree)
     return tree ? rebuild(tree, &tree->def) : OCTREE_NULL_ARGUMENT;
 }
 
-/* ---- Finding
- * ---------------------------------------------------------------------------------------------------------- */
+/* ---- Finding ------------------------------------------------------------------------------------------------ */
 
 octree_status check_position(const octree *tree, const double position[3])
 {
@@ -275,27 +272,24 @@ bool octree_contains(const octree *tree, const double position[3], uint64_t id)
     return check_position(tree, position) == OCTREE_OK && find_point(tree, position, id, &found);
 }
 
-/* ---- Statuses, and the order of points
- * -------------------------------------------------------------------------------- */
+/* ---- Statuses, and the order of points ---------------------------------------------------------------------- */
+
+static const struct {
+    const char *word, *text;
+} statuses[] = {
+#define STATUS_ROW(name, word, text) {word, text},
+    OCTREE_STATUS_MAP(STATUS_ROW)
+#undef STATUS_ROW
+};
 
 const char *octree_status_text(octree_status status)
 {
-    static const char *const texts[] = {
-#define STATUS_TEXT(name, word, text) text,
-        OCTREE_STATUS_MAP(STATUS_TEXT)
-#undef STATUS_TEXT
-    };
-    return (unsigned)status < OCTREE_STATUS_COUNT ? texts[status] : "unknown status";
+    return (unsigned)status < OCTREE_STATUS_COUNT ? statuses[status].text : "unknown status";
 }
 
 const char *octree_status_name(octree_status status)
 {
-    static const char *const words[] = {
-#define STATUS_WORD(name, word, text) word,
-        OCTREE_STATUS_MAP(STATUS_WORD)
-#undef STATUS_WORD
-    };
-    return (unsigned)status < OCTREE_STATUS_COUNT ? words[status] : "unknown";
+    return (unsigned)status < OCTREE_STATUS_COUNT ? statuses[status].word : "unknown";
 }
 
 int octree_compare_points(const void *a, const void *b)

@@ -71,7 +71,7 @@ static const octree_point *target_of(const sample *s, size_t i)
     return &s->points[i * s->count / TARGETS];
 }
 
-/* ---- Trials ------------------------------------------------------------------------------------------------ */
+/* ---- Trials ------------------------------------------------------------------------------------------------- */
 
 /* The cube about a target that is as large as the ball with so many points. */
 static octree_status measure_ranges(sample *s, const octree *trial, size_t hits, octree_neighbor *room)

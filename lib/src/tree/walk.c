@@ -1,36 +1,6 @@
 #include "walk.h"
 #include "float_rules.h"
 
-/* A child's cell has the planes of its parent, and those in the middle of it. */
-static void push_child(node_stack *stack, const stacked *parent, const node *child, unsigned octant,
-                       const double middle[3])
-{
-    stacked *top = &stack->items[stack->size++];
-    *top = (stacked){child, parent->address << 3 | octant, cell_child(parent->cell, octant), parent->box};
-    for (int i = 0; i < 3; i++)
-        *(octant & (4u >> i) ? &top->box.min[i] : &top->box.max[i]) = middle[i];
-}
-
-/* A large tree does not fit the caches: what is below each child is prefetched before it is visited. Callers that ask
- * for cells read points too. */
-void stack_push_children(node_stack *stack)
-{
-    const stacked parent = stack->items[stack->size];
-    const uint32_t half = cell_size(parent.cell.depth + 1);
-    const node *child = children_of(parent.node) + bits_count8(parent.node->octants);
-    double middle[3];
-    for (int i = 0; i < 3; i++)
-        middle[i] = plane_at(&stack->tree->axes[i], parent.cell.low[i] + half);
-    for (unsigned octant = 8; octant-- > 0;)
-        if (parent.node->octants >> octant & 1) {
-            push_child(stack, &parent, --child, octant, middle);
-            if (child->octants)
-                prefetch(child->below);
-            else
-                leaf_prefetch(child);
-        }
-}
-
 static octree_node describe(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
 {
     return (octree_node){
@@ -44,23 +14,56 @@ static octree_node describe(const node *n, octree_address address, unsigned dept
     };
 }
 
+typedef struct walk {
+    const octree *tree;
+    octree_node_visitor visit;
+    void *context;
+} walk;
+
+/* A large tree does not fit the caches: what is below each child is loaded before it is visited. */
+static void prefetch_children(const node *n)
+{
+    const unsigned children = bits_count8(n->octants);
+    for (unsigned i = 0; i < children; i++) {
+        const node *child = &children_of(n)[i];
+        if (child->octants)
+            prefetch(child->below);
+        else
+            leaf_prefetch(child);
+    }
+}
+
+/* Visit a node and what is below it. False when the visitor has stopped the walk. */
+static bool walk_below(const walk *w, const node *n, octree_address address, cell c, const octree_box *box)
+{
+    const octree_node seen = describe(n, address, c.depth, box);
+    const octree_walk_order order = w->visit(&seen, w->context);
+    if (order != OCTREE_WALK_ON || !n->octants)
+        return order != OCTREE_WALK_STOP;
+    prefetch_children(n);
+    double middle[3];
+    for (int i = 0; i < 3; i++)
+        middle[i] = plane_at(&w->tree->axes[i], c.low[i] + cell_size(c.depth + 1));
+    const node *child = children_of(n);
+    for (unsigned octant = 0; octant < 8; octant++) {
+        if (!(n->octants >> octant & 1))
+            continue;
+        octree_box below = *box;
+        for (int i = 0; i < 3; i++)
+            *(octant & (4u >> i) ? &below.min[i] : &below.max[i]) = middle[i];
+        if (!walk_below(w, child++, address << 3 | octant, cell_child(c, octant), &below))
+            return false;
+    }
+    return true;
+}
+
 octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *context)
 {
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    node_stack stack;
-    stack_begin(&stack, tree);
-    while (stack.size > 0) {
-        const stacked *next = stack_pop(&stack);
-        const octree_node seen = describe(next->node, next->address, next->cell.depth, &next->box);
-        const octree_walk_order order = visit(&seen, context);
-        if (order == OCTREE_WALK_STOP)
-            break;
-        if (order == OCTREE_WALK_ON && next->node->octants)
-            stack_push_children(&stack);
-    }
+    walk_below(&(walk){tree, visit, context}, &tree->root, OCTREE_ROOT, root_cell(), &tree->def.world);
     return OCTREE_OK;
 }
 
@@ -98,8 +101,7 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
     return OCTREE_OK;
 }
 
-/* ---- Statistics
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Statistics --------------------------------------------------------------------------------------------- */
 
 void count_node(octree_stats *stats, const node *n, unsigned depth)
 {
@@ -136,8 +138,7 @@ octree_status octree_statistics(const octree *tree, octree_stats *stats)
     return OCTREE_OK;
 }
 
-/* ---- The digest
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- The digest --------------------------------------------------------------------------------------------- */
 
 uint64_t digest_node(const node *n, octree_address address)
 {

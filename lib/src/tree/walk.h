@@ -1,39 +1,9 @@
-/* walk.h - visiting all nodes: with their cells, for their number, for their digest. */
+/* walk.h - what is added up over all nodes of a tree: its statistics and its digest. */
 #ifndef OCTREE_WALK_H
 #define OCTREE_WALK_H
 
 #include "octree/digest.h"
 #include "tree.h"
-
-/* Nodes still to be visited, with their cells. */
-typedef struct stacked {
-    const node *node;
-    octree_address address;
-    cell cell;
-    octree_box box; /* cell_bounds() of the cell */
-} stacked;
-
-typedef struct node_stack {
-    const octree *tree;
-    size_t size;
-    stacked items[STACK_ROOM];
-} node_stack;
-
-/* With the root alone. */
-static inline void stack_begin(node_stack *stack, const octree *tree)
-{
-    stack->tree = tree;
-    stack->size = 1;
-    stack->items[0] = (stacked){&tree->root, OCTREE_ROOT, root_cell(), tree->def.world};
-}
-
-static inline const stacked *stack_pop(node_stack *stack)
-{
-    return &stack->items[--stack->size];
-}
-
-/* Push the children of the node that was popped last, so that they are popped in ascending order of octants. */
-void stack_push_children(node_stack *stack);
 
 /* Start loading what is below each child of an inner node. */
 static inline void prefetch_below(const node *n)
