@@ -280,23 +280,24 @@ static bool build_children(bulk *b, const node *old, cell c, morton_item *items,
  * left. False when there is no memory. */
 static bool drop_repeated(bulk *b, morton_item *items, size_t count, size_t *kept)
 {
-    arena *memory = &b->tree->store.memory;
-    octree_point *seen = hashed_leaf_create(memory, (uint32_t)count);
-    bool ok = seen != NULL;
-    *kept = 0;
+    store *st = &b->tree->store;
+    node seen;
+    bool ok = leaf_create(st, &seen, (uint32_t)count);
     for (size_t i = 0; ok && i < count; i++) {
-        const uint32_t first = hashed_leaf_append(seen, (uint32_t)*kept, point_of(b, &items[i]));
-        if (first == *kept) {
-            items[(*kept)++] = items[i];
+        const octree_point *point = point_of(b, &items[i]);
+        const uint32_t first = leaf_find(&seen, point->position, point->id);
+        if (first == LEAF_NONE) {
+            items[seen.count] = items[i];
+            leaf_put(&seen, point);
             continue;
         }
-        repetition *r = list_append(memory, &b->repetitions, sizeof *r);
+        repetition *r = list_append(&st->memory, &b->repetitions, sizeof *r);
         ok = r != NULL;
         if (ok)
             *r = (repetition){items[i].place, items[first].place};
     }
-    if (seen)
-        hashed_leaf_release(memory, seen);
+    *kept = seen.count;
+    leaf_release(st, &seen);
     return ok;
 }
 
@@ -352,25 +353,38 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
+/* A leaf of the points that are not marked as gone. */
+static bool make_rest(bulk *b, const node *old, const bool *gone, uint32_t left, node *made)
+{
+    if (!leaf_create(&b->tree->store, made, left))
+        return false;
+    for (uint32_t i = 0; i < old->count; i++)
+        if (!gone[i])
+            leaf_put(made, &leaf_points(old)[i]);
+    return true;
+}
+
 static bool take_from_leaf(bulk *b, const node *old, const morton_item *items, size_t count, node *made)
 {
-    store *s = &b->tree->store;
-    if (!leaf_create(s, made, old->count))
+    arena *memory = &b->tree->store.memory;
+    bool *gone = arena_take(memory, old->count + 1);
+    if (!gone)
         return false;
-    node_gather(made, old, NULL);
+    memset(gone, 0, old->count + 1);
+    uint32_t left = old->count;
     for (size_t i = 0; i < count; i++) {
         const octree_point *point = point_of(b, &items[i]);
-        const uint32_t index = leaf_find(made, point->position, point->id);
-        if (index == LEAF_NONE)
+        const uint32_t index = leaf_find(old, point->position, point->id);
+        if (index == LEAF_NONE || gone[index]) {
             set_status(b, &items[i], OCTREE_NOT_FOUND);
-        else
-            leaf_remove(s, made, index);
+        } else {
+            gone[index] = true;
+            left--;
+        }
     }
-    if (made->count == old->count) {
-        leaf_release(s, made);
-        *made = *old;
-    }
-    return true;
+    const bool ok = left == old->count || make_rest(b, old, gone, left, made);
+    arena_give(memory, gone, old->count + 1);
+    return ok;
 }
 
 /* One leaf of the points of a node's children. */

@@ -32,18 +32,6 @@ static octree_box points_box(const octree *tree, cell c)
     return box;
 }
 
-/* Whether a leaf's point is stored at a lower index too. */
-static bool is_repeated(const node *n, uint32_t index)
-{
-    const octree_point *points = leaf_points(n), *point = &points[index];
-    if (n->room == LEAF_HASHED)
-        return leaf_find(n, point->position, point->id) != index;
-    for (uint32_t i = 0; i < index; i++)
-        if (points[i].id == point->id && same_position(points[i].position, point->position))
-            return true;
-    return false;
-}
-
 static const char *check_leaf(const octree *tree, const node *n, cell c)
 {
     const octree_box box = points_box(tree, c);
@@ -52,11 +40,12 @@ static const char *check_leaf(const octree *tree, const node *n, cell c)
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
     for (uint32_t i = 0; i < n->count; i++) {
-        const double *position = leaf_points(n)[i].position;
+        const octree_point *point = &leaf_points(n)[i];
+        const double *position = point->position;
         if (!box_contains(&box, position))
             return box_contains(&tree->def.world, position) ? "a point is not in its leaf's cell"
                                                             : "a point is outside the world";
-        if (is_repeated(n, i))
+        if (leaf_find(n, position, point->id) != i)
             return "a pair of position and id is stored twice";
     }
     return NULL;

@@ -127,7 +127,7 @@ static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from,
  * has changed when memory runs out. */
 static octree_status split_or_grow(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth)
 {
-    cell bottom = path_cell(code, depth);
+    cell bottom = morton_cell(code, depth);
     shares s;
     const bool splits = find_split(tree, leaf, point, &bottom, &s);
     if (!splits && tree->def.full_leaf == OCTREE_REFUSE)

@@ -1,7 +1,115 @@
 #include "leaf.h"
+#include "octree/digest.h"
 #include "point.h"
 
 #include <string.h>
+
+/* ---- Hashed leaves: open addressing with linear probing; a slot holds an index + 1, or 0 -------------------- */
+
+#define HASHED_MAX_ROOM (UINT32_C(1) << 31)
+
+typedef struct hashed_header {
+    uint32_t room;
+    uint32_t mask; /* slots - 1; slots are a power of two, at least twice the room */
+    uint64_t size; /* of the whole block, in bytes */
+} hashed_header;
+
+static hashed_header *header_of(const octree_point *points)
+{
+    return (hashed_header *)(uintptr_t)points - 1;
+}
+
+static uint32_t *slots_of(const octree_point *points)
+{
+    return (uint32_t *)(uintptr_t)(points + header_of(points)->room);
+}
+
+static uint32_t home_slot(const octree_point *points, const double position[3], uint64_t id)
+{
+    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
+    for (int i = 0; i < 3; i++)
+        digest = octree_digest_double(digest, position[i]);
+    return (uint32_t)digest & header_of(points)->mask;
+}
+
+static octree_point *hashed_create(arena *memory, uint32_t room)
+{
+    if (room > HASHED_MAX_ROOM)
+        return NULL;
+    uint64_t slots = 64;
+    while (slots < 2 * (uint64_t)room)
+        slots *= 2;
+    const uint64_t size = sizeof(hashed_header) + room * (uint64_t)sizeof(octree_point) + slots * sizeof(uint32_t);
+    if (size > SIZE_MAX)
+        return NULL;
+    hashed_header *header = arena_take(memory, (size_t)size);
+    if (!header)
+        return NULL;
+    *header = (hashed_header){.room = room, .mask = (uint32_t)(slots - 1), .size = size};
+    octree_point *points = (octree_point *)(header + 1);
+    memset(slots_of(points), 0, (size_t)slots * sizeof(uint32_t));
+    return points;
+}
+
+static void hashed_release(arena *memory, octree_point *points)
+{
+    arena_give(memory, header_of(points), (size_t)header_of(points)->size);
+}
+
+/* The slot of a pair, or the empty one where the search ends. */
+static uint32_t slot_of(const octree_point *points, const double position[3], uint64_t id)
+{
+    const uint32_t *slots = slots_of(points);
+    const uint32_t mask = header_of(points)->mask;
+    uint32_t slot = home_slot(points, position, id);
+    for (; slots[slot]; slot = (slot + 1) & mask) {
+        const octree_point *point = &points[slots[slot] - 1];
+        if (point->id == id && same_position(point->position, position))
+            break;
+    }
+    return slot;
+}
+
+static uint32_t hashed_find(const octree_point *points, const double position[3], uint64_t id)
+{
+    return slots_of(points)[slot_of(points, position, id)] - 1;
+}
+
+/* Empty a slot and close the gap: later entries of the run move up unless that would put them before their home. */
+static void clear_slot(octree_point *points, uint32_t gap)
+{
+    uint32_t *slots = slots_of(points);
+    const uint32_t mask = header_of(points)->mask;
+    for (uint32_t slot = (gap + 1) & mask; slots[slot]; slot = (slot + 1) & mask) {
+        const octree_point *point = &points[slots[slot] - 1];
+        const uint32_t home = home_slot(points, point->position, point->id);
+        if (((slot - home) & mask) >= ((slot - gap) & mask)) {
+            slots[gap] = slots[slot];
+            gap = slot;
+        }
+    }
+    slots[gap] = 0;
+}
+
+static void hashed_remove(octree_point *points, uint32_t count, uint32_t index)
+{
+    clear_slot(points, slot_of(points, points[index].position, points[index].id));
+    const uint32_t last = count - 1;
+    if (index == last)
+        return;
+    const uint32_t slot = slot_of(points, points[last].position, points[last].id);
+    points[index] = points[last];
+    slots_of(points)[slot] = index + 1;
+}
+
+static void hashed_replace(octree_point *points, uint32_t index, const octree_point *point)
+{
+    clear_slot(points, slot_of(points, points[index].position, points[index].id));
+    points[index] = *point;
+    slots_of(points)[slot_of(points, point->position, point->id)] = index + 1;
+}
+
+/* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
 /* Room grows by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
 static unsigned room_for(uint32_t count)
@@ -19,7 +127,7 @@ uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id)
 {
     const octree_point *points = leaf_points(leaf);
     if (is_hashed(leaf))
-        return hashed_leaf_find(points, position, id);
+        return hashed_find(points, position, id);
     for (uint32_t i = 0; i < leaf->count; i++)
         if (points[i].id == id && same_position(points[i].position, position))
             return i;
@@ -32,7 +140,7 @@ bool leaf_create(store *s, node *leaf, uint32_t count)
     if (count == 0)
         return true;
     if (count > POOL_MAX_UNITS) {
-        leaf->below = hashed_leaf_create(&s->memory, count);
+        leaf->below = hashed_create(&s->memory, count);
         leaf->room = LEAF_HASHED;
     } else {
         leaf->room = (uint8_t)room_for(count);
@@ -46,14 +154,14 @@ void leaf_release(store *s, const node *leaf)
     if (!leaf->below)
         return;
     if (is_hashed(leaf))
-        hashed_leaf_release(&s->memory, leaf->below);
+        hashed_release(&s->memory, leaf->below);
     else
         pool_give(&s->points, leaf->below, leaf->room);
 }
 
 static uint32_t room_of(const node *leaf)
 {
-    return is_hashed(leaf) ? hashed_leaf_room(leaf->below) : leaf->room;
+    return is_hashed(leaf) ? header_of(leaf->below)->room : leaf->room;
 }
 
 static void gather_leaf(node *leaf, const node *from, const octree_point *except)
@@ -66,6 +174,13 @@ static void gather_leaf(node *leaf, const node *from, const octree_point *except
     for (uint32_t i = 0; i < from->count; i++)
         if (&leaf_points(from)[i] != except)
             leaf_put(leaf, &leaf_points(from)[i]);
+}
+
+void leaf_put_hashed(node *leaf, const octree_point *point)
+{
+    octree_point *points = leaf_points(leaf);
+    points[leaf->count] = *point;
+    slots_of(points)[slot_of(points, point->position, point->id)] = ++leaf->count;
 }
 
 /* Move the points into a block with room for `count`. */
@@ -95,9 +210,9 @@ bool leaf_append(store *s, node *leaf, const octree_point *point)
 void leaf_remove(store *s, node *leaf, uint32_t index)
 {
     if (is_hashed(leaf)) {
-        hashed_leaf_remove(leaf->below, leaf->count, index);
+        hashed_remove(leaf->below, leaf->count, index);
         leaf->count--;
-        if (leaf->count < hashed_leaf_room(leaf->below) / 4)
+        if (leaf->count < header_of(leaf->below)->room / 4)
             change_room(s, leaf, leaf->count); /* without memory it keeps its room */
         return;
     }
@@ -114,7 +229,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point)
 {
     if (is_hashed(leaf))
-        hashed_leaf_replace(leaf->below, index, point);
+        hashed_replace(leaf->below, index, point);
     else
         leaf_points(leaf)[index] = *point;
 }
@@ -143,6 +258,10 @@ void node_release_unshared(store *s, const node *n, const node *other)
     static const node none = {0};
     if (!n->below || n->below == other->below)
         return;
+    if (n->octants == 0) {
+        leaf_release(s, n);
+        return;
+    }
     const node *child = children_of(n);
     for (unsigned octant = 0; octant < 8; octant++) {
         if (!(n->octants >> octant & 1))
@@ -150,10 +269,7 @@ void node_release_unshared(store *s, const node *n, const node *other)
         const node *counterpart = child_at(other, octant);
         node_release_unshared(s, child++, counterpart ? counterpart : &none);
     }
-    if (n->octants)
-        pool_give(&s->nodes, n->below, bits_count8(n->octants));
-    else
-        leaf_release(s, n);
+    pool_give(&s->nodes, n->below, bits_count8(n->octants));
 }
 
 void node_release(store *s, const node *n)

@@ -7,7 +7,7 @@
 #define OCTREE_LEAF_H
 
 #include "bits.h"
-#include "hashed_leaf.h"
+#include "pool.h"
 
 typedef struct node {
     void *below;     /* inner: struct node[], the occupied octants' children; leaf: octree_point[]; may be null */
@@ -79,13 +79,13 @@ void leaf_release(store *s, const node *leaf);
 bool leaf_append(store *s, node *leaf, const octree_point *point);
 
 /* The same for a leaf that has room for it. */
+void leaf_put_hashed(node *leaf, const octree_point *point);
 static inline void leaf_put(node *leaf, const octree_point *point)
 {
     if (leaf->room == LEAF_HASHED)
-        hashed_leaf_append(leaf->below, leaf->count, point);
+        leaf_put_hashed(leaf, point);
     else
-        leaf_points(leaf)[leaf->count] = *point;
-    leaf->count++;
+        leaf_points(leaf)[leaf->count++] = *point;
 }
 
 /* Remove the point at an index; the last point moves into its place. Cannot fail. */

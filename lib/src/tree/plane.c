@@ -90,6 +90,14 @@ octree_box cell_bounds(const axis axes[3], cell c)
     return box;
 }
 
+cell morton_cell(uint64_t code, unsigned depth)
+{
+    cell c = root_cell();
+    while (c.depth < depth)
+        c = cell_child(c, morton_octant(code, c.depth));
+    return c;
+}
+
 bool cell_divisible(const axis axes[3], cell c)
 {
     if (c.depth >= OCTREE_MAX_DEPTH)
@@ -168,9 +176,7 @@ octree_box octree_cell_box(const octree_box *world, octree_address address)
     axis axes[3];
     for (int i = 0; i < 3; i++)
         axes[i] = axis_make(world->min[i], world->max[i]);
-    cell c = root_cell();
-    const unsigned depth = is_address(address) ? octree_address_depth(address) : 0;
-    while (c.depth < depth)
-        c = cell_child(c, octree_address_octant(address, c.depth));
-    return cell_bounds(axes, c);
+    if (!is_address(address))
+        address = OCTREE_ROOT;
+    return cell_bounds(axes, morton_cell(morton_of_address(address), octree_address_depth(address)));
 }

@@ -122,10 +122,18 @@ static inline unsigned morton_octant(uint64_t code, unsigned depth)
     return (unsigned)(code >> (3 * (OCTREE_MAX_DEPTH - 1 - depth))) & 7;
 }
 
-/* The address of the cell of this depth that a code lies in. */
+/* The cell of this depth that a code lies in, its address, and the lowest code of the cell at an address. */
+cell morton_cell(uint64_t code, unsigned depth);
+
 static inline octree_address morton_address(uint64_t code, unsigned depth)
 {
     return (UINT64_C(1) << 3 * depth) | code >> (3 * (OCTREE_MAX_DEPTH - depth));
+}
+
+static inline uint64_t morton_of_address(octree_address address)
+{
+    const unsigned depth = octree_address_depth(address);
+    return (address ^ UINT64_C(1) << 3 * depth) << 3 * (OCTREE_MAX_DEPTH - depth);
 }
 
 /* For qsort: addresses in the order in which octree_walk() visits nodes, parents first. */

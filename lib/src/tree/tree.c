@@ -227,14 +227,6 @@ path path_to(const octree *tree, uint64_t code)
     return p;
 }
 
-cell path_cell(uint64_t code, unsigned depth)
-{
-    cell c = root_cell();
-    while (c.depth < depth)
-        c = cell_child(c, morton_octant(code, c.depth));
-    return c;
-}
-
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found)
 {
     found->path = path_to(tree, morton_code(tree->axes, position));

@@ -69,9 +69,6 @@ static inline node *path_end(const path *p)
     return p->nodes[p->depth];
 }
 
-/* The cell of a depth on the path to a code. */
-cell path_cell(uint64_t code, unsigned depth);
-
 /* Where a pair (position, id) is stored. */
 typedef struct found_point {
     path path;

@@ -75,17 +75,13 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
         return OCTREE_FLOAT_MODE;
     if (!is_address(address))
         return OCTREE_NOT_FOUND;
-    const node *n = &tree->root;
-    cell c = root_cell();
-    while (c.depth < octree_address_depth(address)) {
-        const unsigned octant = octree_address_octant(address, c.depth);
-        n = child_at(n, octant);
-        if (!n)
-            return OCTREE_NOT_FOUND;
-        c = cell_child(c, octant);
-    }
-    const octree_box bounds = cell_bounds(tree->axes, c);
-    *result = describe(n, address, c.depth, &bounds);
+    const unsigned depth = octree_address_depth(address);
+    const uint64_t code = morton_of_address(address);
+    const path p = path_to(tree, code);
+    if (p.depth < depth)
+        return OCTREE_NOT_FOUND;
+    const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, depth));
+    *result = describe(p.nodes[depth], address, depth, &bounds);
     return OCTREE_OK;
 }
 
@@ -96,7 +92,7 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
         return status;
     const uint64_t code = morton_code(tree->axes, position);
     const path p = path_to(tree, code);
-    const octree_box bounds = cell_bounds(tree->axes, path_cell(code, p.depth));
+    const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, p.depth));
     *result = describe(path_end(&p), morton_address(code, p.depth), p.depth, &bounds);
     return OCTREE_OK;
 }
