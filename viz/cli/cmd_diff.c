@@ -81,6 +81,8 @@ static bool add_rectangle(arguments *a, const char *text)
 static bool read_layers(const char *list, arguments *a)
 {
     const char *bad;
+    if (a->options.mask)
+        return refuse("--ignore-layer is given once, with commas between the names of several layers");
     if (!view_layers_parse(list, &a->layers, &bad))
         return refuse("--ignore-layer takes names of layers with commas between, and \"%.*s\" is none",
                       (int)strcspn(bad, ","), bad);

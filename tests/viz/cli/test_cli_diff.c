@@ -87,6 +87,7 @@ static void trouble_is_said_and_is_status_2(void **state)
         {"--ignore 0,0,0,0", "the last two at least 1"},
         {"--ignore-layer nix", "--ignore-layer takes names of layers with commas between, and \"nix\" is none"},
         {"--ignore-layer nodes,points", "recordings alone"},
+        {"--ignore-layer text --ignore-layer nodes", "--ignore-layer is given once"},
         {"--background red", "--background takes a colour"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
