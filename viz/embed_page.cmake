@@ -1,6 +1,6 @@
 # embed_page.cmake - a page as C arrays: the HTML with its style and scripts put where it names them, cut in two where
-# facts go.  cmake -D SOURCE=viewer/index.html -D OUTPUT=viewer_page.c -P embed_page.cmake  makes viewer_page_head and
-# viewer_page_tail, which viewer_page.h declares.
+# facts go.  cmake -D SOURCE=viewer/index.html -D OUTPUT=page_html.c -P embed_page.cmake  makes page_html_head and
+# page_html_tail, which page_html.h declares.
 get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)
 file(READ ${SOURCE} page)

@@ -3,7 +3,7 @@
 #include "film.h"
 #include "frame_file.h"
 #include "naive.h"
-#include "take.h"
+#include "playback.h"
 
 #include <errno.h>
 #include <stdio.h>

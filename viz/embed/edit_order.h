@@ -7,7 +7,7 @@
 #ifndef EMBED_EDIT_ORDER_H
 #define EMBED_EDIT_ORDER_H
 
-#include "batch.h"
+#include "changes.h"
 
 typedef struct edit_order {
     octree *tree; /* under OCTREE_REFUSE the tree as it is so far; else null */

@@ -1,6 +1,6 @@
 /* live.c - see live.h. */
 #include "live.h"
-#include "reel.h"
+#include "session_filmer.h"
 
 static octreel_status begin(live *l, reel *r, batch *first)
 {

@@ -3,7 +3,7 @@
 #ifndef EMBED_QUEUE_H
 #define EMBED_QUEUE_H
 
-#include "batch.h"
+#include "changes.h"
 
 #include <pthread.h>
 

@@ -1,6 +1,6 @@
 /* ring.c - see ring.h. */
 #include "ring.h"
-#include "reel.h"
+#include "session_filmer.h"
 #include "worker.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef EMBED_RING_H
 #define EMBED_RING_H
 
-#include "batch.h"
+#include "changes.h"
 #include "folder.h"
 #include "settings.h"
 

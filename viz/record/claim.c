@@ -2,7 +2,7 @@
 #include "claim.h"
 #include "folder_files.h"
 #include "frame_file.h"
-#include "take.h"
+#include "playback.h"
 
 #include <dirent.h>
 #include <errno.h>

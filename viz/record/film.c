@@ -1,6 +1,6 @@
 /* film.c - see film.h. */
 #include "film.h"
-#include "film_jobs.h"
+#include "jobs.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

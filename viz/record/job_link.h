@@ -6,7 +6,7 @@
 #ifndef RECORD_JOB_LINK_H
 #define RECORD_JOB_LINK_H
 
-#include "take.h"
+#include "playback.h"
 
 typedef enum message_kind {
     MESSAGE_READY,

@@ -4,7 +4,7 @@
 #include "missing.h"
 #include "recording.h"
 #include "recording_file.h"
-#include "viewer.h"
+#include "page.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -3,7 +3,7 @@
 #include "claim.h"
 #include "folder_files.h"
 #include "chunks.h"
-#include "viewer.h"
+#include "page.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
 #define RECORD_RECORDING_H
 
 #include "folder_files.h"
-#include "take.h"
+#include "playback.h"
 #include "tick_log.h"
 
 typedef struct recording {

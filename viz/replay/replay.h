@@ -9,7 +9,7 @@
 #define RECORD_REPLAY_H
 
 #include "session_file.h"
-#include "take.h"
+#include "playback.h"
 
 typedef struct replay {
     session_file session;

@@ -13,7 +13,7 @@
 #include "random_session.h"
 #include "recordings.h"
 #include "recount.h"
-#include "take.h"
+#include "playback.h"
 #include "tick_lines.h"
 
 /* Counts by address, in a plain list. */

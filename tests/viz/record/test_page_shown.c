@@ -10,7 +10,7 @@
 #include "fixture.h"
 #include "recordings.h"
 #include "tick_lines.h"
-#include "viewer.h"
+#include "page.h"
 
 enum { LAST = 252 }; /* tick of the default session */
 

@@ -1,5 +1,5 @@
 /* reel.c - see reel.h. */
-#include "reel.h"
+#include "session_filmer.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* take.c - see take.h. */
-#include "take.h"
+#include "playback.h"
 #include "frame_file.h"
 #include "layer.h"
 #include "tick_scene.h"

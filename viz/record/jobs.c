@@ -1,5 +1,5 @@
 /* film_jobs.c - see film_jobs.h. */
-#include "film_jobs.h"
+#include "jobs.h"
 #include "job_link.h"
 #include "missing.h"
 

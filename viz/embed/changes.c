@@ -1,5 +1,5 @@
 /* batch.c - see batch.h. */
-#include "batch.h"
+#include "changes.h"
 
 #include <stdlib.h>
 #include <string.h>

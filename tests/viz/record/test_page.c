@@ -11,7 +11,7 @@
 #include "fixture.h"
 #include "recordings.h"
 #include "tick_lines.h"
-#include "viewer.h"
+#include "page.h"
 
 /* The user that owns nothing, for tests that run as root, whom no permission stops. */
 enum { NOBODY = 65534 };

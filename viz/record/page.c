@@ -1,7 +1,7 @@
 /* viewer.c - see viewer.h. */
-#include "viewer.h"
+#include "page.h"
 #include "json_thin.h"
-#include "viewer_page.h"
+#include "page_html.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -98,9 +98,9 @@ static bool copy_ticks(const char *folder, FILE *page, octreel_error *error)
 
 static bool write_page(const char *folder, FILE *page, octreel_error *error)
 {
-    fwrite(viewer_page_head, 1, viewer_page_head_size, page);
+    fwrite(page_html_head, 1, page_html_head_size, page);
     const bool ok = copy_recording(folder, page, error) && copy_ticks(folder, page, error);
-    fwrite(viewer_page_tail, 1, viewer_page_tail_size, page);
+    fwrite(page_html_tail, 1, page_html_tail_size, page);
     return ok;
 }
 

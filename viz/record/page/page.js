@@ -1,4 +1,4 @@
-/* viewer.js - where the viewer is, how it gets elsewhere, and what follows from that. The place is in the address:
+/* page.js - where the viewer is, how it gets elsewhere, and what follows from that. The place is in the address:
  * #t=41&filter=collided,full. */
 "use strict";
 
