@@ -1,5 +1,5 @@
 # embed_page.cmake - a page as C arrays: the HTML with its style and scripts put where it names them, cut in two where
-# facts go.  cmake -D SOURCE=viewer/index.html -D OUTPUT=page_html.c -P embed_page.cmake  makes page_html_head and
+# facts go.  cmake -D SOURCE=page/index.html -D OUTPUT=page_html.c -P embed_page.cmake  makes page_html_head and
 # page_html_tail, which page_html.h declares.
 get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)

@@ -84,19 +84,19 @@ static bool film_octreel(work *w)
 }
 
 /* One frame, and how long its parts take; the second encoding is that of pixels which somebody knows. */
-static bool film_part(work *w, take *t, const char *again, double spent[3])
+static bool film_part(work *w, playback *p, const char *again, double spent[3])
 {
     film_step step;
     octreel_error error;
     octreel_error unwritten;
     const double start = worked();
-    if (!take_tick(t, &step, &error))
+    if (!playback_tick(p, &step, &error))
         return fail(w, error.text);
     const double drawn = worked();
-    if (!frame_write(w->order->folder, &t->picture.frame, &(frame_origin){.tick = step.tick}, &error))
+    if (!frame_write(w->order->folder, &p->picture.frame, &(frame_origin){.tick = step.tick}, &error))
         return fail(w, error.text);
     const double written = worked();
-    if (!image_write_png(&t->picture.frame, again, NULL, 0, &unwritten))
+    if (!image_write_png(&p->picture.frame, again, NULL, 0, &unwritten))
         return fail(w, unwritten.text);
     spent[0] += drawn - start;
     spent[1] += written - drawn;
@@ -104,7 +104,7 @@ static bool film_part(work *w, take *t, const char *again, double spent[3])
     return true;
 }
 
-static bool film_in_parts(work *w, take *t)
+static bool film_in_parts(work *w, playback *p)
 {
     double spent[3] = {0};
     octreel_error error;
@@ -112,10 +112,10 @@ static bool film_in_parts(work *w, take *t)
     bool ok = again || fail(w, "there is no memory");
     for (uint64_t i = 0; ok && i < w->order->frames; i++) {
         const double start = worked();
-        if (i > 0 && !take_advance(t, &error))
+        if (i > 0 && !playback_advance(p, &error))
             ok = fail(w, error.text);
         spent[0] += worked() - start;
-        ok = ok && film_part(w, t, again, spent);
+        ok = ok && film_part(w, p, again, spent);
         if (i == 0)
             memset(spent, 0, sizeof spent); /* start-up */
     }
@@ -129,14 +129,16 @@ static bool film_in_parts(work *w, take *t)
 
 static bool film_parts(work *w)
 {
-    take t;
+    playback p;
     octreel_error error;
-    const film_options options = {.folder = w->order->folder, .view = filmed_view(w->order->scene), .every = 1};
+    const view v = filmed_view(w->order->scene);
+    const playback_target target = {.frames = FRAMES_SHOW, .every = 1};
     setenv("LP_NUM_THREADS", "0", 0); /* as in the processes of FILM_OCTREEL */
-    const bool open = folder_make(options.folder, &error) && take_open(&t, w->session, &options, FRAMES_SHOW, &error);
-    const bool ok = open ? film_in_parts(w, &t) : fail(w, error.text);
+    const bool open = folder_make(w->order->folder, &error) && playback_open(&p, w->session, &v, &error) &&
+                      playback_film(&p, &target, &error);
+    const bool ok = open ? film_in_parts(w, &p) : fail(w, error.text);
     if (open)
-        take_close(&t);
+        playback_close(&p);
     return ok;
 }
 

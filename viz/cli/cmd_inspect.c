@@ -1,6 +1,7 @@
 /* cmd_inspect.c - octreel inspect: the tree of a point cloud: its statistics, a picture, a node, answers to queries. */
 #include "command.h"
 #include "command_line.h"
+#include "file.h"
 #include "film.h"
 #include "inspect.h"
 #include "inspect_answers.h"

@@ -9,10 +9,12 @@
 
 static const char help[] =
     "usage: octreel join DIR [OPTION ...]\n\n"
-    "Check that all parts of a recording are there (octreel record --ticks A:B -o DIR) and fit: every frame is whole "
-    "and\n"
-    "of its tick, and every line is what the session makes of it. Then write the rest, ticks.jsonl and index.html, so\n"
-    "that DIR is the same as if it had been filmed at once. What is missing is named. Nothing is drawn.\n\n"
+    "Check that all parts of a recording are there (octreel record --ticks A:B -o DIR) and fit: every tick has its "
+    "line,\n"
+    "and every frame is whole, of its tick and of the session. Then write the rest, ticks.jsonl and index.html, so "
+    "that\n"
+    "DIR is the same as if it had been filmed at once. What is missing is named. Nothing is played or drawn: octreel\n"
+    "verify does that.\n\n"
     "      --json            print a summary as JSON on stdout\n"
     "  -h, --help\n\n"
     "Example: octreel record s.json --ticks :500 -o film & octreel record s.json --ticks 500: -o film; wait\n"
@@ -24,14 +26,14 @@ static int join_it(const char *folder, bool json)
     film_options film = {.folder = folder, .progress = watch_progress, .keep_going = watch_keep_going, .context = &w};
     film_summary summary;
     octreel_error error;
-    const bool ok = join_parts(&film, &summary, &error), whole = ok && summary.ticks == summary.total;
+    const bool ok = join_chunks(&film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&w.progress);
     if (!ok)
         trouble("%s", error.text);
     else if (!whole)
         trouble("stopped; %s is as it was", folder);
     else
-        film_report(stdout, &summary, &film, progress_seconds(&w.progress), json);
+        film_report_joined(stdout, &summary, &film, json);
     watch_end(&w);
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }

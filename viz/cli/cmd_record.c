@@ -3,9 +3,9 @@
 #include "command_line.h"
 #include "film.h"
 #include "film_report.h"
-#include "folder_files.h"
 #include "progress.h"
 #include "recording_file.h"
+#include "folder_files.h"
 
 #include <stdio.h>
 

@@ -1,8 +1,25 @@
-/* batch.h - what a program handed over in a tick, as the change since the tick before. Private to this folder. */
-#ifndef EMBED_BATCH_H
-#define EMBED_BATCH_H
+/* changes.h - how the points of a tree change from tick to tick: read and compared by id, kept as batches, and turned
+ * into a session's edits. Private to this folder. */
+#ifndef EMBED_CHANGES_H
+#define EMBED_CHANGES_H
 
-#include "points.h"
+#include "octreel/recorder.h"
+
+/* ---- Points ------------------------------------------------------------------------------------------------- */
+
+/* By ascending id, each once. A zeroed one is empty. */
+typedef struct points {
+    octree_point *items;
+    size_t count, room;
+} points;
+
+void points_release(points *p);
+
+/* Read a tree, null being one without points; `spare` is used meanwhile. *clash is the id that is too large or there
+ * twice. Errors: BAD_ID, DUPLICATE_ID, FLOAT_MODE, NO_MEMORY. Cost: O(nodes + n): ids are sorted by their digits. */
+octreel_status points_read(points *p, points *spare, const octree *tree, uint64_t *clash);
+
+/* ---- Batches ------------------------------------------------------------------------------------------------ */
 
 typedef struct change {
     octree_edit_kind kind;
@@ -10,9 +27,10 @@ typedef struct change {
     double from[3], to[3]; /* where it was and is; what does not apply is not read */
 } change;
 
+/* What a program handed over in a tick, as the change since the tick before. */
 typedef struct batch {
     struct batch *next;
-    change *changes; /* removals, then moves, then insertions, each by id */
+    change *changes; /* by id */
     size_t change_count;
     octree_query *queries;
     size_t query_count;
@@ -26,7 +44,39 @@ typedef struct batch {
 batch *batch_make(const points *before, const points *after, const octreel_tick_info *about);
 void batch_release(batch *b);
 
-/* Make the changes of a batch; `spare` is used meanwhile. False when there is no memory. */
+/* Make the changes of a batch; `spare` is used meanwhile. False when there is no memory: nothing has changed then. */
 bool batch_apply(const batch *b, points *p, points *spare);
+
+/* Batches in a row. */
+typedef struct batch_list {
+    batch *first, *last;
+    size_t count, bytes;
+} batch_list;
+
+void batch_list_add(batch_list *list, batch *b);
+batch *batch_list_take(batch_list *list); /* the first, which is the caller's; null where there is none */
+void batch_list_clear(batch_list *list);
+
+/* ---- Edits -------------------------------------------------------------------------------------------------- */
+
+/* The edits that a tick's changes become, in an order in which every one of them is accepted.
+ *
+ * Where leaves grow any order will do. Where a full leaf refuses points, one that comes must not come before one that
+ * goes: moves that find no room are tried again after the others, and what is left then (points that change places) is
+ * taken out and put back in; a player that is such a point is swept from where it is put. */
+typedef struct edit_order {
+    octree *tree; /* under OCTREE_REFUSE the tree as it is so far; else null */
+    octree_edit *edits;
+    size_t count;
+    size_t *waiting; /* changes that found no room */
+    size_t room;     /* changes that the arrays are large enough for */
+} edit_order;
+
+/* For trees of this definition, with these points so far. False when there is no memory. */
+bool edit_order_init(edit_order *o, const octree_def *def, const points *now);
+void edit_order_release(edit_order *o);
+
+/* Let o->edits be those of a batch, at a tick. False when there is no memory. */
+bool edit_order_make(edit_order *o, const batch *b, uint64_t tick);
 
 #endif

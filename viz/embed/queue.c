@@ -1,4 +1,4 @@
-/* queue.c - see queue.h. */
+/* queue.c - ticks on their way from the program's thread to the one that films. */
 #include "queue.h"
 
 bool queue_init(queue *q, size_t most, size_t most_bytes)
@@ -15,13 +15,9 @@ bool queue_init(queue *q, size_t most, size_t most_bytes)
 /* The caller holds the lock, or is the last who has the queue. */
 static void drop_all(queue *q)
 {
-    while (q->first) {
-        batch *b = q->first;
-        q->first = b->next;
-        batch_release(b);
-    }
-    q->last = NULL;
-    q->count = q->bytes = 0;
+    if (!q->borrowed)
+        batch_list_clear(&q->list);
+    q->list = (batch_list){0};
 }
 
 void queue_release(queue *q)
@@ -31,22 +27,23 @@ void queue_release(queue *q)
     pthread_mutex_destroy(&q->lock);
 }
 
-static bool has_room(const queue *q, const batch *b)
+static void let_go(const queue *q, batch *b)
 {
-    return q->count == 0 || (q->count < q->most && q->bytes <= q->most_bytes && b->bytes <= q->most_bytes - q->bytes);
+    if (!q->borrowed)
+        batch_release(b);
 }
 
-static void append(queue *q, batch *b)
+static void change_and_unlock(queue *q)
 {
-    b->next = NULL;
-    if (q->last)
-        q->last->next = b;
-    else
-        q->first = b;
-    q->last = b;
-    q->count++;
-    q->bytes += b->bytes;
     pthread_cond_broadcast(&q->changed);
+    pthread_mutex_unlock(&q->lock);
+}
+
+static bool has_room(const queue *q, const batch *b)
+{
+    const batch_list *list = &q->list;
+    return list->count == 0 ||
+           (list->count < q->most && list->bytes <= q->most_bytes && b->bytes <= q->most_bytes - list->bytes);
 }
 
 octreel_status queue_put(queue *q, batch *b, bool wait)
@@ -60,42 +57,35 @@ octreel_status queue_put(queue *q, batch *b, bool wait)
     else if (!has_room(q, b))
         status = OCTREEL_BUSY;
     else
-        append(q, b);
-    pthread_mutex_unlock(&q->lock);
+        batch_list_add(&q->list, b);
+    change_and_unlock(q);
     return status;
 }
 
 batch *queue_take(queue *q)
 {
     pthread_mutex_lock(&q->lock);
-    while (!q->first && !q->ended && !q->broken)
+    while (!q->list.first && !q->ended && !q->broken)
         pthread_cond_wait(&q->changed, &q->lock);
-    batch *b = q->first;
-    if (b) {
-        q->first = b->next;
-        q->last = q->first ? q->last : NULL;
-        q->count--;
-        q->bytes -= b->bytes;
-        pthread_cond_broadcast(&q->changed);
-    }
-    pthread_mutex_unlock(&q->lock);
+    batch *b = batch_list_take(&q->list);
+    change_and_unlock(q);
     return b;
 }
 
-void queue_done(queue *q)
+void queue_done(queue *q, batch *b)
 {
+    let_go(q, b);
     pthread_mutex_lock(&q->lock);
-    q->taken++;
-    pthread_cond_broadcast(&q->changed);
-    pthread_mutex_unlock(&q->lock);
+    q->done++;
+    change_and_unlock(q);
 }
 
-bool queue_wait_done(queue *q, uint64_t count)
+bool queue_wait_done(queue *q)
 {
     pthread_mutex_lock(&q->lock);
-    while (q->taken < count && !q->broken)
+    while (q->done == 0 && !q->broken)
         pthread_cond_wait(&q->changed, &q->lock);
-    const bool done = q->taken >= count;
+    const bool done = q->done > 0;
     pthread_mutex_unlock(&q->lock);
     return done;
 }
@@ -104,15 +94,14 @@ void queue_end(queue *q)
 {
     pthread_mutex_lock(&q->lock);
     q->ended = true;
-    pthread_cond_broadcast(&q->changed);
-    pthread_mutex_unlock(&q->lock);
+    change_and_unlock(q);
 }
 
-void queue_break(queue *q)
+void queue_break(queue *q, batch *b)
 {
+    let_go(q, b);
     pthread_mutex_lock(&q->lock);
     q->broken = true;
     drop_all(q);
-    pthread_cond_broadcast(&q->changed);
-    pthread_mutex_unlock(&q->lock);
+    change_and_unlock(q);
 }

@@ -1,5 +1,5 @@
-/* queue.h - ticks on their way from the program's thread to the worker: bounded in number and in bytes. Private to this
- * folder. */
+/* queue.h - ticks on their way from the program's thread to the one that films: bounded in number and in bytes. Private
+ * to this folder. */
 #ifndef EMBED_QUEUE_H
 #define EMBED_QUEUE_H
 
@@ -10,12 +10,12 @@
 typedef struct queue {
     pthread_mutex_t lock;
     pthread_cond_t changed;
-    batch *first, *last;
-    size_t count, bytes;
+    batch_list list;
     size_t most, most_bytes;
-    bool ended;     /* nothing more is put */
-    bool broken;    /* nothing more is taken */
-    uint64_t taken; /* batches that are done with */
+    bool borrowed; /* the batches stay those of who put them into the list */
+    bool ended;    /* nothing more is put */
+    bool broken;   /* nothing more is taken */
+    uint64_t done; /* batches that were filmed */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
@@ -27,18 +27,18 @@ void queue_release(queue *q);
  * any more. On failure the batch stays the caller's. */
 octreel_status queue_put(queue *q, batch *b, bool wait);
 
-/* The next batch, which is the caller's, when there is one; null when the queue has ended. */
+/* The next batch, when there is one; null when the queue has ended. */
 batch *queue_take(queue *q);
 
-/* Tell that the batch that was taken last is done with. */
-void queue_done(queue *q);
+/* Let go of the batch that was taken last: it was filmed. */
+void queue_done(queue *q, batch *b);
 
-/* Wait until so many are, or the queue is broken. False then. */
-bool queue_wait_done(queue *q, uint64_t count);
+/* Wait until a batch was filmed, or the queue is broken. False then. */
+bool queue_wait_done(queue *q);
 
 void queue_end(queue *q);
 
-/* Drop what is in the queue, and all that comes. */
-void queue_break(queue *q);
+/* Drop what is in the queue, the batch that was taken last, and all that comes. */
+void queue_break(queue *q, batch *b);
 
 #endif

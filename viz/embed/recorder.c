@@ -1,23 +1,31 @@
-/* recorder.c - see octreel/recorder.h: ticks are compared with those before them, checked, and handed on. */
+/* recorder.c - ticks are checked, compared with those before them, and handed on to the ring or to what films them. */
 #include "octreel/recorder.h"
-#include "live.h"
+#include "error.h"
+#include "folder.h"
+#include "layer.h"
 #include "ring.h"
+#include "session_file.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct octreel_recorder {
-    settings settings;
-    char *folder; /* of a recorder without a ring */
+    filmer_settings settings;
     bool never_wait, closed;
     points now, next, spare; /* at the last tick that was taken, and while one is being read */
     bool had_tree;
-    ring ring; /* most is 0 where ticks are filmed as they come */
-    live live;
+    ring ring; /* most is 0 where ticks are filmed as they come: */
+    char *folder;
+    queue queue;
+    session_filmer filmer;
+    uint64_t put; /* ticks that were put into the queue */
     octreel_error error;
 };
+
+/* ---- Sentences ---------------------------------------------------------------------------------------------- */
 
 const char *octreel_status_text(octreel_status status)
 {
@@ -31,6 +39,24 @@ const char *octreel_recorder_error(const octreel_recorder *recorder)
 {
     return recorder ? recorder->error.text : "";
 }
+
+/* Write a sentence for a status, and return it. */
+static octreel_status refuse(octreel_recorder *r, octreel_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(r->error.text, sizeof r->error.text, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+/* The same with the status's own. */
+static octreel_status fail(octreel_recorder *r, octreel_status status)
+{
+    return refuse(r, status, "%s", octreel_status_text(status));
+}
+
+/* ---- The definition ----------------------------------------------------------------------------------------- */
 
 octreel_recorder_def octreel_recorder_def_default(void)
 {
@@ -52,33 +78,132 @@ octreel_recorder_def octreel_recorder_def_default(void)
                                   .queue_bytes = (size_t)64 << 20};
 }
 
-/* ---- Opening ------------------------------------------------------------------------------------------------ */
-
-static octreel_status open_folder(octreel_recorder *r, const octreel_recorder_def *def)
+static octreel_status set_tree(octreel_recorder *r, const octree_def *def)
 {
-    r->ring.most = def->ring;
-    if (def->ring > 0)
-        return OCTREEL_OK;
-    if (!def->folder) {
-        error_set(&r->error, "folder: there is none, and no ring");
-        return OCTREEL_NULL_ARGUMENT;
-    }
-    r->folder = strdup(def->folder);
-    if (!r->folder)
-        return OCTREEL_NO_MEMORY;
-    return folder_prepare(r->folder, &r->error) ? OCTREEL_OK : OCTREEL_BAD_FOLDER;
+    octree *tree;
+    r->settings.tree = *def;
+    r->settings.tree.allocator = (octree_allocator){0}; /* the program's may not be used from another thread */
+    if (def->leaf_capacity == OCTREE_AUTO)
+        return refuse(r, OCTREEL_BAD_OPTION,
+                      "tree: give the capacity in force, which is that of octree_definition(tree)");
+    const octree_status status = octree_create(&r->settings.tree, &tree);
+    if (status != OCTREE_OK)
+        return refuse(r, status == OCTREE_NO_MEMORY ? OCTREEL_NO_MEMORY : OCTREEL_BAD_OPTION, "tree: %s",
+                      octree_status_text(status));
+    r->settings.tree = octree_definition(tree);
+    octree_destroy(tree);
+    return OCTREEL_OK;
 }
 
-static octreel_status start(octreel_recorder *r, const octreel_recorder_def *def)
+static octreel_status set_player(octreel_recorder *r, const octree_player *player)
 {
-    octreel_status status = settings_make(&r->settings, def, &r->error);
+    r->settings.player = (octree_player){.kind = player->kind};
+    if (player->kind == OCTREE_PLAYER_NONE)
+        return OCTREEL_OK;
+    if (player->kind != OCTREE_PLAYER_BODY)
+        return refuse(r, OCTREEL_BAD_OPTION,
+                      "player: it is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; keys are the program's own matter");
+    if (!(player->box_size >= 0) || isinf(player->box_size))
+        return refuse(r, OCTREEL_BAD_OPTION, "player: box_size must be finite and not negative");
+    if (player->id >= SESSION_ID_LIMIT)
+        return refuse(r, OCTREEL_BAD_ID, "player: %s: %" PRIu64, octreel_status_text(OCTREEL_BAD_ID), player->id);
+    r->settings.player.id = player->id;
+    r->settings.player.box_size = player->box_size;
+    r->settings.player.sweep = player->sweep;
+    return OCTREEL_OK;
+}
+
+static octreel_status set_names(octreel_recorder *r, const octreel_recorder_def *def)
+{
+    view *v = &r->settings.film.view;
+    const char *option = NULL, *name = NULL;
+    if (!view_camera_parse(def->camera, &v->camera))
+        option = "camera", name = def->camera;
+    else if (!view_layers_parse(def->layers, &v->layers, &name))
+        option = "layers";
+    else if (!view_coloring_parse(def->color_by, &v->coloring))
+        option = "color_by", name = def->color_by;
+    else if (!view_diagram_parse(def->diagram, &v->diagram))
+        option = "diagram", name = def->diagram;
+    else if (!draw_context_parse(def->context, &r->settings.film.renderer.context))
+        option = "context", name = def->context;
+    return option ? refuse(r, OCTREEL_BAD_OPTION, "%s: there is no \"%s\"; octreel record --help lists what there is",
+                           option, name)
+                  : OCTREEL_OK;
+}
+
+static octreel_status set_picture(octreel_recorder *r, const octreel_recorder_def *def)
+{
+    view *v = &r->settings.film.view;
+    const int aa = def->aa, longest = aa >= 1 ? VIEW_MAX_SIDE / aa : VIEW_MAX_SIDE;
+    v->width = def->width;
+    v->height = def->height;
+    v->labels = def->labels;
+    v->lod = def->lod;
+    v->budget = def->budget;
+    v->aa = aa;
+    if (aa != 1 && aa != 2 && aa != 4)
+        return refuse(r, OCTREEL_BAD_OPTION, "aa: there is no anti-aliasing by %d; there are 1, 2 and 4", aa);
+    if (v->width < 1 || v->height < 1 || v->width > longest || v->height > longest)
+        return refuse(r, OCTREEL_BAD_OPTION, "a frame of %d x %d pixels cannot be drawn: a side must be 1 to %d",
+                      v->width, v->height, longest);
+    if (!(v->lod >= 0 && v->lod <= VIEW_MAX_SIDE))
+        return refuse(r, OCTREEL_BAD_OPTION, "lod: it must be 0 to %d pixels", VIEW_MAX_SIDE);
+    if (v->budget >= SESSION_ID_LIMIT)
+        return refuse(r, OCTREEL_BAD_OPTION, "budget: it must be below 2^53; 0 is none");
+    return OCTREEL_OK;
+}
+
+static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *def)
+{
+    film_options *film = &r->settings.film;
+    film->every = def->every;
+    film->renderer.any_renderer = def->any_renderer;
+    if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
+        return refuse(r, OCTREEL_BAD_OPTION, "any_renderer: it goes with the context \"egl\" alone");
+    if (def->every < 1 || def->every > SESSION_LAST_TICK)
+        return refuse(r, OCTREEL_BAD_OPTION, "every: it must be 1 to %d", SESSION_LAST_TICK);
+    if (def->queue_ticks < 1)
+        return refuse(r, OCTREEL_BAD_OPTION, "queue_ticks: the queue must hold at least one tick");
+    return OCTREEL_OK;
+}
+
+static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *def)
+{
+    r->settings.film.view = view_default();
+    r->never_wait = def->never_wait;
+    r->ring.most = def->ring;
+    if (!def->camera || !def->layers || !def->color_by || !def->diagram || !def->context)
+        return refuse(r, OCTREEL_NULL_ARGUMENT,
+                      "a name in the definition is null; start from octreel_recorder_def_default()");
+    octreel_status status = set_tree(r, &def->tree);
     if (status == OCTREEL_OK)
-        status = open_folder(r, def);
-    if (status == OCTREEL_OK && r->ring.most == 0)
-        status = live_start(&r->live, &r->settings, r->folder, def);
-    if (status == OCTREEL_NO_MEMORY)
-        error_set(&r->error, "%s", octreel_status_text(status));
-    return status;
+        status = set_player(r, &def->player);
+    if (status == OCTREEL_OK)
+        status = set_names(r, def);
+    if (status == OCTREEL_OK)
+        status = set_picture(r, def);
+    return status == OCTREEL_OK ? set_film(r, def) : status;
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------------------ */
+
+static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
+{
+    if (!def->folder)
+        return refuse(r, OCTREEL_NULL_ARGUMENT, "folder: there is none, and no ring");
+    r->folder = strdup(def->folder);
+    if (!r->folder)
+        return fail(r, OCTREEL_NO_MEMORY);
+    if (!folder_prepare(r->folder, &r->error))
+        return OCTREEL_BAD_FOLDER;
+    if (!queue_init(&r->queue, def->queue_ticks, def->queue_bytes))
+        return fail(r, OCTREEL_NO_MEMORY);
+    r->filmer = (session_filmer){.settings = &r->settings, .folder = r->folder, .queue = &r->queue};
+    if (session_filmer_start(&r->filmer) == OCTREEL_OK)
+        return OCTREEL_OK;
+    queue_release(&r->queue);
+    return fail(r, OCTREEL_NO_MEMORY);
 }
 
 static void release(octreel_recorder *r)
@@ -91,42 +216,32 @@ static void release(octreel_recorder *r)
     free(r);
 }
 
-/* Say why there is no recorder. */
-static octreel_status explain(octreel_status status, const char *sentence, octreel_error *error)
-{
-    if (error)
-        snprintf(error->text, sizeof error->text, "%s", *sentence ? sentence : octreel_status_text(status));
-    return status;
-}
-
 octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder, octreel_error *error)
 {
+    octreel_recorder *r = NULL, none = {.closed = false};
+    octreel_status status = OCTREEL_OK;
     if (recorder)
         *recorder = NULL;
     if (!def || !recorder)
-        return explain(OCTREEL_NULL_ARGUMENT, "", error);
-    octreel_recorder *r = calloc(1, sizeof *r);
-    if (!r)
-        return explain(OCTREEL_NO_MEMORY, "", error);
-    r->never_wait = def->never_wait;
-    const octreel_status status = start(r, def);
+        status = fail(&none, OCTREEL_NULL_ARGUMENT);
+    else if (!(r = calloc(1, sizeof *r)))
+        status = fail(&none, OCTREEL_NO_MEMORY);
+    else
+        status = set_all(r, def);
+    if (status == OCTREEL_OK && r->ring.most == 0)
+        status = start_filming(r, def);
     if (status == OCTREEL_OK) {
         *recorder = r;
         return status;
     }
-    explain(status, r->error.text, error);
-    release(r);
+    if (error)
+        *error = r ? r->error : none.error;
+    if (r)
+        release(r);
     return status;
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
-
-/* Write the sentence of a status, and return it. */
-static octreel_status fail(octreel_recorder *r, octreel_status status)
-{
-    error_set(&r->error, "%s", octreel_status_text(status));
-    return status;
-}
 
 /* JSON has no infinities, which a box may have in a tree. */
 static bool is_finite(const octree_query *query)
@@ -137,40 +252,39 @@ static bool is_finite(const octree_query *query)
     return true;
 }
 
-static octreel_status check_queries(octreel_recorder *r, const octreel_tick_info *about)
-{
-    for (size_t i = 0; i < about->query_count; i++) {
-        const octree_input one = {.queries = &about->queries[i], .query_count = 1};
-        const octree_status status = is_finite(&about->queries[i]) ? octree_input_check(&one) : OCTREE_NOT_FINITE;
-        if (status == OCTREE_OK)
-            continue;
-        error_set(&r->error, "queries[%zu]: %s", i, octree_status_text(status));
-        return OCTREEL_BAD_QUERY;
-    }
-    return OCTREEL_OK;
-}
-
-static octreel_status check_shapes(octreel_recorder *r, const octreel_tick_info *about)
-{
-    for (size_t i = 0; i < about->shape_count; i++) {
-        const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};
-        const octree_status status = octree_input_check(&one);
-        if (status == OCTREE_OK)
-            continue;
-        error_set(&r->error, "shapes[%zu]: %s", i, octree_status_text(status));
-        return OCTREEL_BAD_SHAPE;
-    }
-    return OCTREEL_OK;
-}
-
+/* One by one, so that the sentence can say which. */
 static octreel_status check_about(octreel_recorder *r, const octreel_tick_info *about)
 {
     if (!about)
         return OCTREEL_OK;
     if ((!about->queries && about->query_count) || (!about->shapes && about->shape_count))
         return fail(r, OCTREEL_NULL_ARGUMENT);
-    const octreel_status status = check_queries(r, about);
-    return status == OCTREEL_OK ? check_shapes(r, about) : status;
+    for (size_t i = 0; i < about->query_count; i++) {
+        const octree_input one = {.queries = &about->queries[i], .query_count = 1};
+        const octree_status status = is_finite(&about->queries[i]) ? octree_input_check(&one) : OCTREE_NOT_FINITE;
+        if (status != OCTREE_OK)
+            return refuse(r, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, octree_status_text(status));
+    }
+    for (size_t i = 0; i < about->shape_count; i++) {
+        const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};
+        const octree_status status = octree_input_check(&one);
+        if (status != OCTREE_OK)
+            return refuse(r, OCTREEL_BAD_SHAPE, "shapes[%zu]: %s", i, octree_status_text(status));
+    }
+    return OCTREEL_OK;
+}
+
+/* Whether a tree has the world and the options of the definition; null has any. */
+static bool is_of_definition(const filmer_settings *s, const octree *tree)
+{
+    if (!tree)
+        return true;
+    const octree_def def = octree_definition(tree);
+    for (int i = 0; i < 3; i++)
+        if (def.world.min[i] != s->tree.world.min[i] || def.world.max[i] != s->tree.world.max[i])
+            return false;
+    return def.leaf_capacity == s->tree.leaf_capacity && def.max_depth == s->tree.max_depth &&
+           def.full_leaf == s->tree.full_leaf;
 }
 
 static octreel_status read_tree(octreel_recorder *r, const octree *tree)
@@ -178,39 +292,39 @@ static octreel_status read_tree(octreel_recorder *r, const octree *tree)
     uint64_t clash = 0;
     if (!tree && r->had_tree)
         return fail(r, OCTREEL_NULL_ARGUMENT);
-    if (!settings_fit(&r->settings, tree))
+    if (!is_of_definition(&r->settings, tree))
         return fail(r, OCTREEL_OTHER_TREE);
     const octreel_status status = points_read(&r->next, &r->spare, tree, &clash);
     if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
-        error_set(&r->error, "%s: %" PRIu64, octreel_status_text(status), clash);
-    else if (status != OCTREEL_OK)
-        fail(r, status);
-    return status;
+        return refuse(r, status, "%s: %" PRIu64, octreel_status_text(status), clash);
+    return status == OCTREEL_OK ? status : fail(r, status);
+}
+
+/* Hand a batch to the thread that films, and wait for the first to be filmed. On failure the batch stays the
+ * caller's. */
+static octreel_status film_batch(octreel_recorder *r, batch *b, bool *taken)
+{
+    const octreel_status status = queue_put(&r->queue, b, !r->never_wait);
+    *taken = status == OCTREEL_OK;
+    if (status == OCTREEL_BUSY)
+        return fail(r, status);
+    if (*taken && (r->put++ > 0 || queue_wait_done(&r->queue)))
+        return OCTREEL_OK;
+    r->error = r->filmer.error;
+    return r->filmer.status;
 }
 
 static octreel_status hand_on(octreel_recorder *r, batch *b)
 {
-    if (r->ring.most > 0) {
-        if (ring_put(&r->ring, b))
-            return OCTREEL_OK;
+    octreel_status status = OCTREEL_OK;
+    bool taken = true;
+    if (r->ring.most == 0)
+        status = film_batch(r, b, &taken);
+    else if (!(taken = ring_put(&r->ring, b)))
+        status = fail(r, OCTREEL_NO_MEMORY);
+    if (!taken)
         batch_release(b);
-        return fail(r, OCTREEL_NO_MEMORY);
-    }
-    const octreel_status status = live_put(&r->live, b, !r->never_wait);
-    if (status == OCTREEL_BUSY)
-        return fail(r, status);
-    if (status != OCTREEL_OK)
-        r->error = r->live.error;
     return status;
-}
-
-/* Ticks are compared with the last one that was taken. */
-static void keep(octreel_recorder *r, const octree *tree)
-{
-    const points old = r->now;
-    r->now = r->next;
-    r->next = old;
-    r->had_tree |= tree != NULL;
 }
 
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about)
@@ -226,12 +340,14 @@ octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *t
     if (status != OCTREEL_OK)
         return status;
     batch *b = batch_make(&r->now, &r->next, about);
-    if (!b)
-        return fail(r, OCTREEL_NO_MEMORY);
-    status = hand_on(r, b);
-    if (status == OCTREEL_OK)
-        keep(r, tree);
-    return status;
+    status = b ? hand_on(r, b) : fail(r, OCTREEL_NO_MEMORY);
+    if (status != OCTREEL_OK)
+        return status;
+    const points old = r->now; /* the next tick is compared with the last one that was taken */
+    r->now = r->next;
+    r->next = old;
+    r->had_tree |= tree != NULL;
+    return OCTREEL_OK;
 }
 
 /* ---- The end ------------------------------------------------------------------------------------------------ */
@@ -247,7 +363,7 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
         return fail(r, OCTREEL_CLOSED);
     if (r->ring.most == 0)
         return fail(r, OCTREEL_NO_RING);
-    if (r->ring.count == 0)
+    if (r->ring.list.count == 0)
         return fail(r, OCTREEL_NOTHING);
     if (!folder_prepare(folder, &r->error))
         return OCTREEL_BAD_FOLDER;
@@ -266,10 +382,12 @@ octreel_status octreel_recorder_close(octreel_recorder *recorder)
     r->closed = true;
     if (r->ring.most > 0)
         return OCTREEL_OK;
-    const octreel_status status = live_end(&r->live);
+    queue_end(&r->queue);
+    const octreel_status status = session_filmer_join(&r->filmer);
+    queue_release(&r->queue);
     if (status != OCTREEL_OK)
-        r->error = r->live.error;
-    return status == OCTREEL_OK && r->live.ticks == 0 ? fail(r, OCTREEL_NOTHING) : status;
+        r->error = r->filmer.error;
+    return status == OCTREEL_OK && r->put == 0 ? fail(r, OCTREEL_NOTHING) : status;
 }
 
 void octreel_recorder_destroy(octreel_recorder *recorder)

@@ -1,17 +1,12 @@
-/* ring.c - see ring.h. */
+/* ring.c - the last ticks, as they were handed over. */
 #include "ring.h"
-#include "session_filmer.h"
-#include "worker.h"
+#include "error.h"
 
 #include <stdlib.h>
 
 void ring_release(ring *r)
 {
-    while (r->first) {
-        batch *b = r->first;
-        r->first = b->next;
-        batch_release(b);
-    }
+    batch_list_clear(&r->list);
     points_release(&r->start);
     points_release(&r->spare);
     *r = (ring){0};
@@ -28,64 +23,37 @@ static bool start_at(ring *r, batch *b)
     return true;
 }
 
-static void drop_first(ring *r)
-{
-    batch *b = r->first;
-    r->first = b->next;
-    r->last = r->first ? r->last : NULL;
-    r->count--;
-    r->dropped++;
-    batch_release(b);
-}
-
 bool ring_put(ring *r, batch *b)
 {
-    const bool full = r->count == r->most;
-    batch *second = r->first && r->first->next ? r->first->next : b;
-    b->next = NULL;
-    if ((full || r->count == 0) && !start_at(r, second))
+    const bool full = r->list.count == r->most;
+    batch *first = r->list.first, *second = first && first->next ? first->next : b;
+    if ((full || !first) && !start_at(r, second))
         return false;
-    if (full)
-        drop_first(r);
-    if (r->last)
-        r->last->next = b;
-    else
-        r->first = b;
-    r->last = b;
-    r->count++;
+    if (full) {
+        batch_release(batch_list_take(&r->list));
+        r->dropped++;
+    }
+    batch_list_add(&r->list, b);
     return true;
 }
 
-typedef struct writing {
-    ring *ring;
-    const settings *settings;
-    const char *folder;
-    octreel_status status;
-    octreel_error *error;
-} writing;
-
-static void film_all(void *context)
+octreel_status ring_write(ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
 {
-    writing *w = context;
-    reel r;
-    octreel_error late;
-    w->status = reel_begin(&r, w->settings, w->folder, &w->ring->start, w->ring->first, w->error);
-    if (w->status != OCTREEL_OK)
-        return;
-    for (batch *b = w->ring->first->next; b && w->status == OCTREEL_OK; b = b->next)
-        w->status = reel_tick(&r, b, w->error);
-    const octreel_status ended = reel_end(&r, w->status == OCTREEL_OK ? w->error : &late);
-    w->status = w->status == OCTREEL_OK ? ended : w->status;
-}
-
-octreel_status ring_write(ring *r, const settings *s, const char *folder, octreel_error *error)
-{
-    writing w = {.ring = r, .settings = s, .folder = folder, .error = error};
-    worker thread;
-    if (!worker_start(&thread, film_all, &w)) {
-        error_set(error, "a thread cannot be started");
+    queue ticks;
+    session_filmer f = {.settings = s, .folder = folder, .start = &r->start, .queue = &ticks};
+    if (!queue_init(&ticks, 0, 0)) {
+        error_no_memory(error);
         return OCTREEL_NO_MEMORY;
     }
-    worker_join(&thread);
-    return w.status;
+    ticks.list = r->list;
+    ticks.borrowed = ticks.ended = true;
+    octreel_status status = session_filmer_start(&f);
+    if (status == OCTREEL_OK)
+        status = session_filmer_join(&f);
+    else
+        error_set(&f.error, "a thread cannot be started");
+    queue_release(&ticks);
+    if (status != OCTREEL_OK)
+        *error = f.error;
+    return status;
 }

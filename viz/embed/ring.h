@@ -3,15 +3,13 @@
 #ifndef EMBED_RING_H
 #define EMBED_RING_H
 
-#include "changes.h"
-#include "folder.h"
-#include "settings.h"
+#include "session_filmer.h"
 
 typedef struct ring {
-    size_t most, count;
+    size_t most;
+    batch_list list;
     points start, spare; /* at the first tick; its batch has no changes */
-    batch *first, *last;
-    uint64_t dropped; /* ticks that are no longer in it */
+    uint64_t dropped;    /* ticks that are no longer in it */
 } ring;
 
 void ring_release(ring *r);
@@ -20,7 +18,7 @@ void ring_release(ring *r);
  * the batch stays the caller's. Cost: O(points), once a tick is dropped. */
 bool ring_put(ring *r, batch *b);
 
-/* Film it all into a folder, in a thread. Errors: those of a reel. */
-octreel_status ring_write(ring *r, const settings *s, const char *folder, octreel_error *error);
+/* Film it all into a folder, in a thread. Errors: those of session_filmer_join(). */
+octreel_status ring_write(ring *r, const filmer_settings *s, const char *folder, octreel_error *error);
 
 #endif

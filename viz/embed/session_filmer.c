@@ -1,10 +1,15 @@
-/* reel.c - see reel.h. */
+/* session_filmer.c - a thread that films ticks as a program handed them over. */
 #include "session_filmer.h"
+#include "error.h"
 
+#include <fenv.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The ticks that the program has given are its own matter. */
+/* ---- Ticks -------------------------------------------------------------------------------------------------- */
+
+/* The numbers of the ticks that the program has given are its own matter. */
 static void number_tick(batch *b, uint64_t tick)
 {
     for (size_t i = 0; i < b->query_count; i++)
@@ -23,25 +28,22 @@ static octree_body *make_bodies(const points *start)
     return bodies;
 }
 
-static octreel_status fail_memory(octreel_error *error, octreel_status status)
+static octreel_status fail_memory(session_filmer *f, octreel_status status)
 {
-    error_no_memory(error);
+    error_no_memory(&f->error);
     return status;
 }
 
-octreel_status reel_begin(reel *r, const settings *s, const char *folder, const points *start, batch *first,
-                          octreel_error *error)
+/* Film tick 0: these points, and the queries and shapes of a batch. */
+static octreel_status film_first(session_filmer *f, const points *start, const batch *first)
 {
-    bool drawn = true;
+    const filmer_settings *s = f->settings;
     film_options film = s->film;
     octree_body *bodies = make_bodies(start);
-    *r = (reel){0};
-    if (!bodies || !edit_order_init(&r->order, &s->tree, start)) {
+    if (!bodies || !edit_order_init(&f->order, &s->tree, start)) {
         free(bodies);
-        edit_order_release(&r->order);
-        return fail_memory(error, OCTREEL_NO_MEMORY);
+        return fail_memory(f, OCTREEL_NO_MEMORY);
     }
-    number_tick(first, 0);
     const octree_session session = {.tree = s->tree,
                                     .player = s->player,
                                     .bodies = bodies,
@@ -50,34 +52,81 @@ octreel_status reel_begin(reel *r, const settings *s, const char *folder, const 
                                     .query_count = first->query_count,
                                     .shapes = first->shapes,
                                     .shape_count = first->shape_count};
-    film.folder = folder;
-    r->film = film_live_open(&session, &film, &drawn, error);
+    film.folder = f->folder;
+    f->live = live_open(&session, &film, &f->error);
     free(bodies);
-    if (r->film)
-        return OCTREEL_OK;
-    edit_order_release(&r->order);
-    return drawn ? OCTREEL_BAD_FOLDER : OCTREEL_CANNOT_DRAW;
+    if (!f->live)
+        return OCTREEL_CANNOT_DRAW;
+    return live_begin(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BAD_FOLDER;
 }
 
-octreel_status reel_tick(reel *r, batch *b, octreel_error *error)
+static octreel_status begin(session_filmer *f, const batch *first)
 {
-    number_tick(b, ++r->tick);
-    if (!edit_order_make(&r->order, b, r->tick))
-        return fail_memory(error, OCTREEL_BROKEN);
+    points start = {0}, spare = {0};
+    if (f->start)
+        return film_first(f, f->start, first);
+    const octreel_status status =
+        batch_apply(first, &start, &spare) ? film_first(f, &start, first) : fail_memory(f, OCTREEL_NO_MEMORY);
+    points_release(&start);
+    points_release(&spare);
+    return status;
+}
+
+static octreel_status film_next(session_filmer *f, const batch *b)
+{
+    if (!edit_order_make(&f->order, b, f->tick))
+        return fail_memory(f, OCTREEL_BROKEN);
     const octree_input input = {.key = '.',
-                                .edits = r->order.edits,
-                                .edit_count = r->order.count,
+                                .edits = f->order.edits,
+                                .edit_count = f->order.count,
                                 .queries = b->queries,
                                 .query_count = b->query_count,
                                 .shapes = b->shapes,
                                 .shape_count = b->shape_count};
-    return film_live_tick(r->film, &input, error) ? OCTREEL_OK : OCTREEL_BROKEN;
+    return live_tick(f->live, &input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
-octreel_status reel_end(reel *r, octreel_error *error)
+/* ---- The thread --------------------------------------------------------------------------------------------- */
+
+/* Tick after tick, until there are no more or one fails. A program that waits for a tick is told after f->status is
+ * set; after a failure it need not wait for the files that come last. */
+static void film_queue(session_filmer *f)
 {
-    edit_order_release(&r->order);
-    const bool ok = film_live_close(r->film, error);
-    r->film = NULL;
-    return ok ? OCTREEL_OK : OCTREEL_BROKEN;
+    batch *b;
+    while (f->status == OCTREEL_OK && (b = queue_take(f->queue))) {
+        number_tick(b, f->tick);
+        f->status = f->tick == 0 ? begin(f, b) : film_next(f, b);
+        f->tick++;
+        (f->status == OCTREEL_OK ? queue_done : queue_break)(f->queue, b);
+    }
+}
+
+static void *run(void *context)
+{
+    session_filmer *f = context;
+    octreel_error late;
+    fesetenv(FE_DFL_ENV); /* a thread begins with the mode of the one that started it */
+    film_queue(f);
+    edit_order_release(&f->order);
+    const bool whole = f->status == OCTREEL_OK;
+    if (f->live && !live_close(f->live, whole ? &f->error : &late) && whole)
+        f->status = OCTREEL_BROKEN;
+    return NULL;
+}
+
+octreel_status session_filmer_start(session_filmer *f)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0) /* a thread begins with that of its maker, too */
+        return OCTREEL_NO_MEMORY;
+    const bool started = pthread_create(&f->thread, NULL, run, f) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return started ? OCTREEL_OK : OCTREEL_NO_MEMORY;
+}
+
+octreel_status session_filmer_join(session_filmer *f)
+{
+    pthread_join(f->thread, NULL);
+    return f->status;
 }

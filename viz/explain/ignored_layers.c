@@ -40,7 +40,7 @@ static void add_box(const draw_box *box, void *context)
 
 static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
 {
-    const scene *s = &w->replay.take.scene;
+    const scene *s = &w->replay.playback.scene;
     const renderer_choice any = {0};
     if (w->layers & ~TEXT_ALONE) {
         renderer *drawing = replay_renderer(&w->replay, &any, error);
@@ -64,7 +64,7 @@ static bool add_mask(masking *w, diff_pair *pair, const diff_frame *frame, octre
 {
     if (!replay_to(&w->replay, tick_of(frame), error) || !replay_scene(&w->replay, error))
         return false;
-    const view *v = &w->replay.take.scene.view;
+    const view *v = &w->replay.playback.scene.view;
     frame_mask m = {calloc((size_t)v->width, (size_t)v->height), v->width, v->height};
     bool ok = m.bytes || error_no_memory(error);
     ok = ok && draw_mask(w, &m, error) && (mask_add(&pair->mask, m.bytes, m.width, m.height) || error_no_memory(error));

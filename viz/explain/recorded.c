@@ -3,7 +3,7 @@
 #include "frame_file.h"
 #include "text.h"
 #include "ticks_write.h"
-#include "who_drew.h"
+#include "folder_files.h"
 
 #include <inttypes.h>
 #include <stdarg.h>

@@ -40,13 +40,4 @@ bool folder_sweep(const char *folder, octreel_error *error);
 /* Write a whole file of the folder so. */
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error);
 
-/* The same where several processes have these bytes to write, at the same time perhaps: what is there already stays,
- * and *same says whether it has these bytes. `writer` is a word that no other of them has. */
-bool folder_write_once(const char *folder, const char *name, const char *writer, const char *bytes, size_t size,
-                       bool *same, octreel_error *error);
-
-/* The same without writing: what is not there is the same. */
-bool folder_compare(const char *folder, const char *name, const char *bytes, size_t size, bool *same,
-                    octreel_error *error);
-
 #endif

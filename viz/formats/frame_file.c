@@ -9,7 +9,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char tick_keyword[] = "octreel-tick", session_keyword[] = "octreel-session",
                   scene_keyword[] = FRAME_SCENE_KEYWORD, pixels_keyword[] = FRAME_PIXELS_KEYWORD,
@@ -177,21 +176,6 @@ bool frame_check(const char *folder, frame_origin *origin, octreel_error *error)
 {
     char *path = frame_path(folder, origin->tick, error);
     const bool ok = path && frame_check_file(path, origin, error);
-    free(path);
-    return ok;
-}
-
-bool frame_claim(const char *folder, const frame_origin *origin, octreel_error *error)
-{
-    char tick[NUMBER_SIZE], *path = frame_path(folder, origin->tick, error);
-    if (!path)
-        return false;
-    snprintf(tick, sizeof tick, "%" PRIu64, origin->tick);
-    bool ok = access(path, F_OK) != 0;
-    ok = ok || (says(path, tick_keyword, tick) && says_digest(path, scene_keyword, origin->scene) &&
-                (says_digest(path, session_keyword, origin->session) || says_digest(path, session_keyword, 0)));
-    if (!ok)
-        error_set(error, "%s: is no frame of this session and view: remove it, or choose another folder", path);
     free(path);
     return ok;
 }

@@ -52,10 +52,6 @@ bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octr
  * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
 bool frame_check(const char *folder, frame_origin *origin, octreel_error *error);
 
-/* The same by its texts alone, in a folder that may be somebody else's: true also where there is no frame, and of one
- * whose session was not known yet when it was drawn. */
-bool frame_claim(const char *folder, const frame_origin *origin, octreel_error *error);
-
 /* frame_check() for a file of any name. */
 bool frame_check_file(const char *path, frame_origin *origin, octreel_error *error);
 

@@ -1,37 +1,18 @@
-/* film.c - see film.h. */
+/* film.c - a session, or one tree, becomes pictures in files. */
 #include "film.h"
+#include "cores.h"
+#include "frame_file.h"
+#include "image_digest.h"
 #include "jobs.h"
+#include "png_write.h"
+#include "recording.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 /* A process takes as long to start as some ten small frames take to be filmed. */
 #define FRAMES_WORTH_A_JOB 16
 
-static bool is_stopped(const film_options *options)
-{
-    return options->keep_going && !options->keep_going(options->context);
-}
-
-static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)
-{
-    return tick >= share->first && (share->count == 0 || tick / every % share->count == share->index);
-}
-
-bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context, octreel_error *error)
-{
-    for (;;) {
-        const uint64_t tick = octree_game_tick(t->game)->number;
-        film_step step;
-        if (has_tick(share, tick, t->options->every) && !(take_tick(t, &step, error) && sink(context, &step, error)))
-            return false;
-        if (tick + 1 >= share->last || is_stopped(t->options))
-            return true;
-        if (!take_advance(t, error))
-            return false;
-    }
-}
+/* ---- A session ---------------------------------------------------------------------------------------------- */
 
 static bool find_share(const octree_session *session, const film_options *options, film_share *share,
                        octreel_error *error)
@@ -44,7 +25,7 @@ static bool find_share(const octree_session *session, const film_options *option
                      share->first, total - 1);
 }
 
-/* Those that a share is cut into: one that began before it counts too, for the sake of the ticks behind it. */
+/* The frames by which a share is divided among jobs: one before its first tick counts too, for the ticks after it. */
 static uint64_t count_frames(const film_share *share, uint64_t every)
 {
     return (share->last - 1) / every - share->first / every + 1;
@@ -56,39 +37,27 @@ unsigned film_default_jobs(const octree_session *session, const film_options *op
     octreel_error ignored;
     if (!find_share(session, options, &share, &ignored))
         return 1;
-    const uint64_t worth = count_frames(&share, options->every) / FRAMES_WORTH_A_JOB;
-#ifdef _SC_NPROCESSORS_ONLN
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-#else
-    const long cores = 1;
-#endif
-    const uint64_t jobs = cores > 0 && (uint64_t)cores < worth ? (uint64_t)cores : worth;
+    const uint64_t worth = count_frames(&share, options->every) / FRAMES_WORTH_A_JOB, cores = count_cores();
+    const uint64_t jobs = cores < worth ? cores : worth;
     return jobs < 1 ? 1 : jobs > FILM_MOST_JOBS ? FILM_MOST_JOBS : (unsigned)jobs;
 }
 
-static bool begin(take *t, recording *r, octreel_error *error)
+static bool keeps_going(void *context)
 {
-    if (!take_open(t, r->session, r->options, r->options->resume ? FRAMES_KEEP : FRAMES_DRAW, error) ||
-        !recording_prepare(r, error))
-        return false;
-    const renderer_info info = renderer_about(t->picture.renderer);
-    t->session_digest = r->written.digest;
-    return recording_begin(r, &t->view, &info, error);
+    const film_options *options = ((const recording *)context)->options;
+    return !options->keep_going || options->keep_going(options->context);
 }
 
-static bool film_alone(recording *r, octreel_error *error)
+static bool film_alone(recording *r, playback *p, octreel_error *error)
 {
-    take t;
-    bool ok = begin(&t, r, error);
-    if (ok)
-        ok = recording_end(r, film_ticks(&t, &r->share, recording_add, r, error), error);
-    take_close(&t);
-    return ok;
+    return recording_film(r, p, error) && recording_begin(r, p, error) &&
+           recording_end(r, playback_run(p, &r->share, recording_add, keeps_going, r, error), error);
 }
 
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   octreel_error *error)
 {
+    playback p;
     recording r = {.options = options, .summary = summary, .session = session};
     *summary = (film_summary){0};
     if (!find_share(session, options, &r.share, error))
@@ -96,7 +65,39 @@ bool film_session(const octree_session *session, const film_options *options, fi
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = count_frames(&r.share, options->every);
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
-    const bool ok = jobs > 1 ? film_by_jobs(&r, jobs, error) : film_alone(&r, error);
-    free(r.written.bytes);
+    bool ok = playback_open(&p, session, &options->view, error);
+    ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_alone(&r, &p, error));
+    playback_close(&p);
+    return ok;
+}
+
+/* ---- One tree ----------------------------------------------------------------------------------------------- */
+
+static bool write_picture(const picture *p, const scene *s, const char *path, octreel_error *error)
+{
+    char digests[2][DIGEST_TEXT];
+    const image_text texts[] = {
+        {FRAME_SCENE_KEYWORD, digest_print(scene_digest(s), digests[0])},
+        {FRAME_PIXELS_KEYWORD, digest_print(image_digest(&p->frame), digests[1])},
+    };
+    return image_write_png(&p->frame, path, texts, sizeof texts / sizeof texts[0], error);
+}
+
+bool film_tree(const octree *tree, const tree_subject *about, const film_options *options, const char *path,
+               film_summary *summary, octreel_error *error)
+{
+    picture p;
+    scene s = {0};
+    view v = options->view;
+    *summary = (film_summary){0};
+    if (!picture_fit(&v, tree, error) || !picture_open(&p, &v, &options->renderer, error))
+        return false;
+    bool ok = tree_scene_build(&s, &v, tree, about) || error_set(error, "there is no memory for a scene");
+    ok = ok && picture_draw(&p, &s, error) && write_picture(&p, &s, path, error);
+    if (ok)
+        *summary = (film_summary){
+            .frames = 1, .left_out = renderer_left_out(p.renderer), .over_budget = s.tally.beyond || s.tally.thinned};
+    scene_release(&s);
+    picture_close(&p);
     return ok;
 }

@@ -1,45 +1,12 @@
-/* film_report.c - see film_report.h. */
+/* film_report.c - what was filmed, said when it is done. */
 #include "film_report.h"
-#include "film_commands.h"
 #include "json_write.h"
 #include "text.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-static double rate_of(const film_summary *summary, double seconds)
-{
-    return seconds > 0 ? (double)summary->frames / seconds : 0;
-}
-
-static void report_json(FILE *out, const film_summary *summary, const char *folder, double seconds)
-{
-    json_writer writer = {.out = out}, *w = &writer;
-    json_write_begin_object(w);
-    json_write_key(w, "folder");
-    json_write_string(w, folder);
-    json_write_key(w, "ticks");
-    json_write_integer(w, summary->ticks);
-    json_write_key(w, "frames");
-    json_write_integer(w, summary->frames);
-    json_write_key(w, "left_out");
-    json_write_integer(w, summary->left_out);
-    json_write_key(w, "over_budget");
-    json_write_integer(w, summary->over_budget);
-    json_write_key(w, "seconds");
-    json_write_number(w, seconds);
-    json_write_key(w, "frames_per_second");
-    json_write_number(w, rate_of(summary, seconds));
-    json_write_key(w, "events");
-    json_write_begin_object(w);
-    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
-        json_write_key(w, octree_event_name(1u << i));
-        json_write_integer(w, summary->events[i]);
-    }
-    json_write_end_object(w);
-    json_write_end_object(w);
-    json_write_end_line(w);
-}
+/* ---- Commands ----------------------------------------------------------------------------------------------- */
 
 /* A word as a shell reads it. */
 static void put_word(FILE *out, const char *text)
@@ -55,6 +22,132 @@ static void put_word(FILE *out, const char *text)
     putc('\'', out);
 }
 
+/* A command of ffmpeg's that is run in the folder, so that it reads no name but its own. Frames are found by a pattern:
+ * a numbered sequence would end at the first gap. With "./" cd does not look elsewhere. */
+static void put_command(FILE *out, const char *folder, const char *arguments)
+{
+    fputs(folder[0] == '/' ? "    (cd " : "    (cd ./", out);
+    put_word(out, folder);
+    fprintf(out, " && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' %s)\n", arguments);
+}
+
+/* A film (yuv420p, which every player shows, has even sides), an animated PNG, and a sheet of up to 25 frames. */
+static void put_commands(FILE *out, const char *folder, uint64_t frames)
+{
+    enum { COLUMNS = 5, TILES = COLUMNS * COLUMNS };
+    char sheet[160];
+    const uint64_t step = (frames + TILES - 1) / TILES, tiles = (frames + step - 1) / step;
+    const uint64_t columns = tiles < COLUMNS ? tiles : COLUMNS;
+    snprintf(sheet, sizeof sheet,
+             "-vf \"select='not(mod(n,%" PRIu64 "))',scale='min(iw,320)':-1,tile=%" PRIu64 "x%" PRIu64
+             "\" -frames:v 1 -update 1 film_sheet.png",
+             step, columns, (tiles + columns - 1) / columns);
+    put_command(out, folder, "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p film.mp4");
+    put_command(out, folder, "-plays 0 film.apng");
+    put_command(out, folder, sheet);
+}
+
+static void put_uses(FILE *out, const film_summary *summary, const char *folder)
+{
+    fputs("\nIts index.html shows it in a browser. ffmpeg, where it is installed, makes of it a film, an animated PNG "
+          "and "
+          "a contact sheet:\n",
+          out);
+    put_commands(out, folder, summary->frames);
+}
+
+/* ---- Filmed ------------------------------------------------------------------------------------------------- */
+
+static double rate_of(const film_summary *summary, double seconds)
+{
+    return seconds > 0 ? (double)summary->frames / seconds : 0;
+}
+
+/* The members that both reports have. */
+static void begin_json(json_writer *w, const film_summary *summary, const char *folder)
+{
+    json_write_begin_object(w);
+    json_member_text(w, "folder", folder);
+    json_member_integer(w, "ticks", summary->ticks);
+    json_member_integer(w, "frames", summary->frames);
+    json_member_integer(w, "left_out", summary->left_out);
+}
+
+static void report_json(FILE *out, const film_summary *summary, const char *folder, double seconds)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    begin_json(w, summary, folder);
+    json_member_integer(w, "over_budget", summary->over_budget);
+    json_write_key(w, "seconds");
+    json_write_number(w, seconds);
+    json_write_key(w, "frames_per_second");
+    json_write_number(w, rate_of(summary, seconds));
+    json_write_key(w, "events");
+    json_write_begin_object(w);
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        json_member_integer(w, octree_event_name(1u << i), summary->events[i]);
+    json_write_end_object(w);
+    json_write_end_object(w);
+    json_write_end_line(w);
+}
+
+static void report_counts(FILE *out, const film_summary *summary, const char *folder)
+{
+    fprintf(out, "%s: %" PRIu64 " tick%s, %" PRIu64 " frame%s", folder, summary->ticks, plural(summary->ticks),
+            summary->frames, plural(summary->frames));
+}
+
+static void report_left_out(FILE *out, const film_summary *summary)
+{
+    if (summary->left_out)
+        fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n",
+                summary->left_out);
+    if (summary->over_budget)
+        fprintf(out, "%" PRIu64 " frames leave out what is beyond --budget\n", summary->over_budget);
+}
+
+static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
+{
+    fprintf(out, "a part, from tick %" PRIu64 " to %" PRIu64 "; when all parts are there: octreel join ",
+            options->first, options->first + summary->ticks - 1);
+    put_word(out, options->folder);
+    putc('\n', out);
+}
+
+void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json)
+{
+    if (json) {
+        report_json(out, summary, options->folder, seconds);
+        return;
+    }
+    report_counts(out, summary, options->folder);
+    fprintf(out, ", %.1f s, %.0f frames a second\n", seconds, rate_of(summary, seconds));
+    report_left_out(out, summary);
+    fputs("ticks that", out);
+    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
+        fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
+    putc('\n', out);
+    if (options->last != 0)
+        report_chunk(out, summary, options);
+    else
+        put_uses(out, summary, options->folder);
+}
+
+void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json)
+{
+    if (json) {
+        json_writer w = {.out = out};
+        begin_json(&w, summary, options->folder);
+        json_write_end_object(&w);
+        json_write_end_line(&w);
+        return;
+    }
+    report_counts(out, summary, options->folder);
+    putc('\n', out);
+    report_left_out(out, summary);
+    put_uses(out, summary, options->folder);
+}
+
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options)
 {
     if (summary->ticks == 0) {
@@ -68,38 +161,4 @@ void film_report_stopped(FILE *out, const film_summary *summary, const film_opti
     fputs(" -o ", out);
     put_word(out, options->folder);
     putc('\n', out);
-}
-
-static void report_part(FILE *out, const film_summary *summary, const film_options *options)
-{
-    fprintf(out, "a part, from tick %" PRIu64 " to %" PRIu64 "; when all parts are there: octreel join ",
-            options->first, options->first + summary->ticks - 1);
-    put_word(out, options->folder);
-    putc('\n', out);
-}
-
-void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json)
-{
-    const char *folder = options->folder;
-    if (json) {
-        report_json(out, summary, folder, seconds);
-        return;
-    }
-    fprintf(out, "%s: %" PRIu64 " tick%s, %" PRIu64 " frame%s, %.1f s, %.0f frames a second\n", folder, summary->ticks,
-            plural(summary->ticks), summary->frames, plural(summary->frames), seconds, rate_of(summary, seconds));
-    if (summary->left_out)
-        fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n",
-                summary->left_out);
-    if (summary->over_budget)
-        fprintf(out, "%" PRIu64 " frames leave out what is beyond --budget\n", summary->over_budget);
-    fputs("ticks that", out);
-    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
-    if (options->last != 0) {
-        putc('\n', out);
-        report_part(out, summary, options);
-        return;
-    }
-    fputs("\n\nIts index.html shows it in a browser. ffmpeg, where it is installed, makes of it\n", out);
-    film_commands(out, options, summary->frames);
 }

@@ -2,12 +2,15 @@
 #ifndef RECORD_FILM_REPORT_H
 #define RECORD_FILM_REPORT_H
 
-#include "film.h"
+#include "film_options.h"
 
 #include <stdio.h>
 
-/* A few lines for people, what to do with the recording among them, or one JSON object on one line. */
+/* A few lines for people, with the commands by which ffmpeg makes films of it, or one JSON object on one line. */
 void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json);
+
+/* The same of a recording that was joined from its chunks, of which less is known. */
+void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json);
 
 /* One sentence: how far it came, and the command that goes on. */
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options);

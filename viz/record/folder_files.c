@@ -1,15 +1,87 @@
-/* folder_files.c - see folder_files.h. */
+/* folder_files.c - the files of a recording that are written once, and whose they are. */
 #include "folder_files.h"
+#include "frame_file.h"
 #include "png_write.h"
 #include "json_write.h"
 #include "octree/digest.h"
 #include "recording_file.h"
-#include "file.h"
+#include "text.h"
 
+#include <dirent.h>
 #include <errno.h>
-#include <stdio.h>
+#include <jansson.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+/* ---- Once --------------------------------------------------------------------------------------------------- */
+
+/* Whether the file has these bytes. */
+static bool compare(const char *path, const char *bytes, size_t size, bool *same, octreel_error *error)
+{
+    char reason[FILE_REASON], *there;
+    size_t there_size;
+    if (!file_read_whole(path, &there, &there_size, reason))
+        return error_set(error, "%s: %s", path, reason);
+    *same = there_size == size && memcmp(there, bytes, size) == 0;
+    free(there);
+    return true;
+}
+
+/* A link, unlike a rename, does not replace a file that is there. Where a file system has no links the last writer
+ * wins, whole all the same. */
+static bool put_in_place(const char *own, const char *path, octreel_error *error)
+{
+    if (link(own, path) == 0 || errno == EEXIST) {
+        remove(own);
+        return true;
+    }
+    if (rename(own, path) == 0)
+        return true;
+    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    remove(own);
+    return false;
+}
+
+/* By way of a file that has the writer's word in its name. */
+static bool write_once(const folder_place *place, const char *name, const char *path, const char *bytes, size_t size,
+                       octreel_error *error)
+{
+    char own_name[NAME_MAX + 1];
+    snprintf(own_name, sizeof own_name, "%s.%s", name, place->writer);
+    char *own = path_join(place->folder, own_name);
+    bool ok = own ? folder_write(place->folder, own_name, bytes, size, error) : error_no_memory(error);
+    ok = ok && put_in_place(own, path, error);
+    free(own);
+    return ok;
+}
+
+/* Where the folder may be that of a recording already. `unlike` is said of a file that is there with other bytes; null:
+ * those are as good. */
+static bool put_shared(const folder_place *place, const char *name, const char *bytes, size_t size, const char *unlike,
+                       octreel_error *error)
+{
+    bool same = true;
+    char *path = path_join(place->folder, name);
+    if (!path)
+        return error_no_memory(error);
+    const bool there = access(path, F_OK) == 0;
+    bool ok = there || place->dry_run || write_once(place, name, path, bytes, size, error);
+    ok = ok && ((!there && place->dry_run) || compare(path, bytes, size, &same, error)) &&
+         (same || !unlike || error_set(error, "%s: %s", path, unlike));
+    free(path);
+    return ok;
+}
+
+static bool put_file(const folder_place *place, const char *name, const char *bytes, size_t size, const char *unlike,
+                     octreel_error *error)
+{
+    return place->writer || place->dry_run ? put_shared(place, name, bytes, size, unlike, error)
+                                           : folder_write(place->folder, name, bytes, size, error);
+}
+
+/* ---- Written ------------------------------------------------------------------------------------------------ */
 
 /* A stream into memory that becomes a file of the folder. */
 typedef struct memory_file {
@@ -35,29 +107,6 @@ static bool close_file(memory_file *file, const char *name, octreel_error *error
     return error_set(error, "there is no memory for %s", name);
 }
 
-/* `unlike` is said of a file that is there with other bytes; null: those are as good. */
-static bool put_file(const char *bytes, size_t size, const folder_place *place, const char *name, const char *unlike,
-                     octreel_error *error)
-{
-    bool same;
-    if (!place->writer && !place->look)
-        return folder_write(place->folder, name, bytes, size, error);
-    if (!(place->look ? folder_compare(place->folder, name, bytes, size, &same, error)
-                      : folder_write_once(place->folder, name, place->writer, bytes, size, &same, error)))
-        return false;
-    return same || !unlike || error_set(error, "%s/%s: %s", place->folder, name, unlike);
-}
-
-static bool end_file(memory_file *file, const folder_place *place, const char *name, const char *unlike,
-                     octreel_error *error)
-{
-    if (!close_file(file, name, error))
-        return false;
-    const bool ok = put_file(file->bytes, file->size, place, name, unlike, error);
-    free(file->bytes);
-    return ok;
-}
-
 bool make_session_bytes(const octree_session *session, session_bytes *made, octreel_error *error)
 {
     memory_file file;
@@ -72,92 +121,19 @@ bool make_session_bytes(const octree_session *session, session_bytes *made, octr
 
 bool write_session_file(const folder_place *place, const session_bytes *session, octreel_error *error)
 {
-    return put_file(session->bytes, session->size, place, "session.json", "is another session, or was changed by hand",
+    return put_file(place, "session.json", session->bytes, session->size, "is another session, or was changed by hand",
                     error);
 }
 
-/* That of octree_digest_bytes(), in pieces of whole words: a session may be large. */
-static uint64_t digest_stream(FILE *in)
+/* False, and nothing is left of it, where there is no memory. */
+static bool end_file(memory_file *file, const folder_place *place, const char *name, const char *unlike,
+                     octreel_error *error)
 {
-    unsigned char bytes[1 << 13];
-    uint64_t digest = OCTREE_DIGEST_START, size = 0;
-    size_t got;
-    while ((got = fread(bytes, 1, sizeof bytes, in)) > 0) {
-        size += got;
-        digest = octree_digest_words(digest, bytes, got);
-    }
-    return octree_digest_word(digest, size);
-}
-
-bool digest_session_file(const char *path, uint64_t *digest, octreel_error *error)
-{
-    FILE *in = fopen(path, "rb");
-    if (!in)
-        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
-    *digest = digest_stream(in);
-    const bool ok = !ferror(in);
-    fclose(in);
-    return ok || error_set(error, "%s: cannot be read", path);
-}
-
-/* The text of a session in a folder, and where it is, for messages. The caller frees both. */
-typedef struct session_text {
-    char *path, *bytes;
-    size_t size;
-} session_text;
-
-static bool read_text(const char *folder, const char *name, session_text *text, octreel_error *error)
-{
-    char reason[FILE_REASON];
-    text->path = path_join(folder, name);
-    if (!text->path)
-        return error_no_memory(error);
-    if (file_read_whole(text->path, &text->bytes, &text->size, reason))
-        return true;
-    error_set(error, "%s: %s", text->path, reason);
-    free(text->path);
-    return false;
-}
-
-static bool parse_text(session_text *text, const char *folder, session_file *file, octreel_error *error)
-{
-    octreel_error unread;
-    const bool ok = session_parse(text->path, folder, text->bytes, text->size, file, &unread);
-    free(text->bytes);
-    free(text->path);
-    return ok || error_set(error, "%s", unread.text);
-}
-
-bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error)
-{
-    session_text text;
-    if (!read_text(folder, "session.json", &text, error))
+    if (!close_file(file, name, error))
         return false;
-    *digest = octree_digest_bytes(OCTREE_DIGEST_START, text.bytes, text.size);
-    return parse_text(&text, folder, file, error);
-}
-
-bool read_live_session(const char *folder, session_file *file, octreel_error *error)
-{
-    session_text text;
-    if (!read_text(folder, "session.json.live", &text, error))
-        return false;
-    while (text.size > 0 && text.bytes[text.size - 1] != '\n')
-        text.size--;
-    return parse_text(&text, folder, file, error);
-}
-
-static void write_text(json_writer *w, const char *key, const char *text)
-{
-    json_write_newline(w);
-    json_member_text(w, key, text);
-}
-
-static void end_object(json_writer *w)
-{
-    json_write_newline(w);
-    json_write_end_object(w);
-    json_write_end_line(w);
+    const bool ok = put_file(place, name, file->bytes, file->size, unlike, error);
+    free(file->bytes);
+    return ok;
 }
 
 bool write_recording_file(const folder_place *place, const view *v, uint64_t every, octreel_error *error)
@@ -167,6 +143,12 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
         return false;
     recording_write(file.stream, v, every);
     return end_file(&file, place, "recording.json", "tells of another view (size, camera, layers, every ...)", error);
+}
+
+static void write_text(json_writer *w, const char *key, const char *text)
+{
+    json_write_newline(w);
+    json_member_text(w, key, text);
 }
 
 bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error)
@@ -182,6 +164,137 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
     write_text(w, "renderer", info->renderer);
     write_text(w, "version", info->version);
     write_text(w, "png", image_library(library));
-    end_object(w);
+    json_write_newline(w);
+    json_write_end_object(w);
+    json_write_end_line(w);
     return end_file(&file, place, "renderer.json", NULL, error);
+}
+
+/* ---- Read --------------------------------------------------------------------------------------------------- */
+
+/* `live`: a last line that is torn is left out. */
+static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
+                         octreel_error *error)
+{
+    char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, name);
+    size_t size;
+    if (!path)
+        return error_no_memory(error);
+    bool ok = file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason);
+    while (ok && live && size > 0 && bytes[size - 1] != '\n')
+        size--;
+    if (ok)
+        *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
+    ok = ok && session_parse(path, folder, bytes, size, file, error);
+    free(bytes);
+    free(path);
+    return ok;
+}
+
+bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error)
+{
+    return read_session(folder, "session.json", false, file, digest, error);
+}
+
+bool read_live_session(const char *folder, session_file *file, octreel_error *error)
+{
+    uint64_t ignored;
+    return read_session(folder, "session.json.live", true, file, &ignored, error);
+}
+
+char *who_draws(const renderer_info *info, char *text, size_t size)
+{
+    enum { LONGEST = 100 }; /* of each of the strings */
+    const char *const words[] = {info->context, info->renderer, info->version};
+    size_t length = 0;
+    snprintf(text, size, "an unknown renderer");
+    for (size_t i = 0; i < sizeof words / sizeof words[0] && length < size; i++)
+        if (words[i])
+            length += (size_t)snprintf(text + length, size - length, "%s%.*s", length ? ", " : "", LONGEST, words[i]);
+    return make_printable(text);
+}
+
+static const char *text_of(const json_t *object, const char *key)
+{
+    return json_string_value(json_object_get(object, key));
+}
+
+char *who_drew(const char *folder, char *text, size_t size)
+{
+    char *path = path_join(folder, "renderer.json");
+    json_t *object = path ? json_load_file(path, 0, NULL) : NULL;
+    const renderer_info info = {.context = text_of(object, "context"),
+                                .renderer = text_of(object, "renderer"),
+                                .version = text_of(object, "version")};
+    who_draws(&info, text, size);
+    json_decref(object);
+    free(path);
+    return text;
+}
+
+/* ---- Whose folder it is ------------------------------------------------------------------------------------- */
+
+static bool is_empty(const char *folder, const char *name)
+{
+    struct stat status;
+    char *path = path_join(folder, name);
+    const bool empty = path && stat(path, &status) == 0 && S_ISREG(status.st_mode) && status.st_size == 0;
+    free(path);
+    return empty;
+}
+
+/* Whether it is a file of a recording that is beyond its first moments: what one leaves that is killed before is at
+ * most recording.json, session.json and an empty ticks.jsonl. */
+static bool is_past_beginning(const char *folder, const char *name)
+{
+    return folder_is_name(name) && !folder_is_unfinished(name) && strcmp(name, "recording.json") != 0 &&
+           strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty(folder, name));
+}
+
+/* Whether a program died while it made this session. */
+static bool check_live_session(const char *folder, uint64_t session_digest, octreel_error *error)
+{
+    session_file file;
+    session_bytes made = {0};
+    if (!read_live_session(folder, &file, error))
+        return false;
+    bool ok = make_session_bytes(&file.session, &made, error);
+    ok = ok && (made.digest == session_digest || error_set(error, "%s/session.json.live: is another session", folder));
+    free(made.bytes);
+    session_release(&file);
+    return ok;
+}
+
+/* The files are looked for after the folder was read: a recording has them before it has anything else, so that what
+ * another process is filming into the folder at the same time is not refused. */
+static bool check_known(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
+{
+    const bool view = folder_has(folder, "recording.json"), session = folder_has(folder, "session.json");
+    if (view && !session && folder_has(folder, "session.json.live"))
+        return check_live_session(folder, session_digest, error);
+    return (view && session) ||
+           error_set(error,
+                     "%s: holds %s, and no recording that could be completed (%s is missing): choose another folder",
+                     folder, past, view ? "session.json" : "recording.json");
+}
+
+bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error)
+{
+    char past[NAME_MAX + 1] = ""; /* the first by name of the files that are past the beginning */
+    DIR *entries = opendir(folder);
+    if (!entries)
+        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(entries));) {
+        const char *name = entry->d_name;
+        if (!is_past_beginning(folder, name))
+            continue;
+        if (!*past || strcmp(name, past) < 0)
+            snprintf(past, sizeof past, "%s", name);
+        if (strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, ticks, every))
+            ok = error_set(error, "%s/%s: is no frame of this recording: remove it, or choose another folder", folder,
+                           name);
+    }
+    closedir(entries);
+    return ok && (!*past || check_known(folder, past, session_digest, error));
 }

@@ -1,239 +1,235 @@
-/* film_jobs.c - see film_jobs.h. */
+/* jobs.c - a recording by several processes. */
 #include "jobs.h"
-#include "job_link.h"
-#include "missing.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define PATIENCE 50 /* milliseconds between two looks at whether to keep going */
+/* ---- Pipes -------------------------------------------------------------------------------------------------- */
+
+/* No signal where nobody reads: a job may have died, and so may who started it. */
+static bool pipe_write(int pipe, const void *bytes, size_t size)
+{
+    for (const char *at = bytes; size > 0;) {
+        const ssize_t written = send(pipe, at, size, MSG_NOSIGNAL);
+        if (written < 0 && errno != EINTR)
+            return false;
+        at += written > 0 ? written : 0;
+        size -= written > 0 ? (size_t)written : 0;
+    }
+    return true;
+}
+
+/* Exactly so many bytes. False when the other end has closed. */
+static bool pipe_read(int pipe, void *bytes, size_t size)
+{
+    for (char *at = bytes; size > 0;) {
+        const ssize_t got = read(pipe, at, size);
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return false;
+        at += got > 0 ? got : 0;
+        size -= got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+/* Whether within so many milliseconds there is something to read, or the other end has closed. */
+static bool pipe_poll(int pipe, int milliseconds)
+{
+    struct pollfd asked = {.fd = pipe, .events = POLLIN};
+    return poll(&asked, 1, milliseconds) > 0;
+}
+
+/* What a job writes: after each tick its step, followed by the bytes of its line. A job that fails writes a step that
+ * says so, followed by an octreel_error. */
+typedef struct message {
+    film_step step;
+    bool failed;
+    size_t size; /* of the bytes */
+} message;
+
+static bool write_message(int pipe, message m, const void *bytes, size_t size)
+{
+    m.size = size;
+    return pipe_write(pipe, &m, sizeof m) && pipe_write(pipe, bytes, size);
+}
 
 /* ---- A job -------------------------------------------------------------------------------------------------- */
 
 typedef struct job {
     pid_t pid;
-    int link; /* in the job its own end, in the process that started it the other */
+    int pipe; /* both ways: in the job its own end, in the process that started it the other */
     const film_options *options;
 } job;
 
-/* Until its own caller says so, or the process that started it, which may also have died. */
+/* Until the caller of the recording says so, or the process that started the job stops it or dies. */
 static bool job_keeps_going(void *context)
 {
     const job *self = context;
     const film_options *options = self->options;
-    return (!options->keep_going || options->keep_going(options->context)) && !link_stirs(self->link, 0);
+    return (!options->keep_going || options->keep_going(options->context)) && !pipe_poll(self->pipe, 0);
 }
 
-static bool say_step(void *context, const film_step *step, octreel_error *error)
+static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
     const job *self = context;
-    return link_tell_message(self->link, MESSAGE_STEP, step, step->line, step->size) ||
+    return write_message(self->pipe, (message){.step = *step}, step->line, step->size) ||
            error_set(error, "nobody collects the ticks");
 }
 
-static void say_ready(const job *self, const take *t)
+/* All that a job does. It leaves by _exit(): its memory goes with it, and what stdio has buffered is not its own. */
+static _Noreturn void run_job(job *self, const recording *r, playback *p, const film_share *share)
 {
-    const renderer_info info = renderer_about(t->picture.renderer);
-    job_ready ready = {.view = t->view};
-    snprintf(ready.context, sizeof ready.context, "%s", info.context);
-    snprintf(ready.vendor, sizeof ready.vendor, "%s", info.vendor);
-    snprintf(ready.renderer, sizeof ready.renderer, "%s", info.renderer);
-    snprintf(ready.version, sizeof ready.version, "%s", info.version);
-    link_tell_message(self->link, MESSAGE_READY, NULL, &ready, sizeof ready);
-}
-
-/* All that a job does. Its memory goes with it, and what is buffered is not its own. */
-static _Noreturn void do_job(job *self, const octree_session *session, const film_share *share)
-{
-    take t;
     octreel_error error;
-    film_options own = *self->options;
-    own.keep_going = job_keeps_going;
-    own.context = self;
     setenv("LP_NUM_THREADS", "0", 0); /* the other cores have jobs of their own */
-    bool ok = take_open(&t, session, &own, own.resume ? FRAMES_KEEP : FRAMES_DRAW, &error);
-    if (ok && share->index == 0)
-        say_ready(self, &t);
-    if (ok && !link_hear(self->link, &t.session_digest, sizeof t.session_digest))
+    bool ok = recording_film(r, p, &error);
+    if (ok && !pipe_read(self->pipe, &p->session_digest, sizeof p->session_digest))
         _exit(EXIT_SUCCESS);
-    ok = ok && film_ticks(&t, share, say_step, self, &error);
+    ok = ok && playback_run(p, share, write_step, job_keeps_going, self, &error);
     if (!ok)
-        link_tell_message(self->link, MESSAGE_ERROR, NULL, &error, sizeof error);
+        write_message(self->pipe, (message){.failed = true}, &error, sizeof error);
     _exit(ok ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
-/* ---- Those who film together -------------------------------------------------------------------------------- */
+/* ---- Jobs that film together -------------------------------------------------------------------------------- */
 
-typedef struct crew {
+typedef struct job_pool {
     recording *recording;
     job *jobs;
     unsigned wanted, count; /* how many there are to be, and are */
-    bool dismissed;         /* nobody is to begin another frame */
-    message message;
-} crew;
+    bool stopped;           /* no job is to begin another frame */
+    char *bytes;            /* of the last message */
+} job_pool;
 
-/* In a job, the ends of the others' links: a link ends when nobody has the other end. */
-static void close_others(const crew *c)
-{
-    for (unsigned i = 0; i < c->count; i++)
-        close(c->jobs[i].link);
-}
-
-static bool start_job(crew *c, octreel_error *error)
+static bool start_job(job_pool *pool, playback *p, octreel_error *error)
 {
     int ends[2];
-    const film_options *options = c->recording->options;
-    film_share share = c->recording->share;
-    if (!link_open(ends, error))
-        return false;
+    recording *r = pool->recording;
+    film_share share = r->share;
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
+        return error_set(error, "a pipe to another process cannot be made: %s", strerror(errno));
     const pid_t pid = fork();
     if (pid == 0) {
         close(ends[0]);
-        close_others(c);
-        share.index = c->count;
-        share.count = c->wanted;
-        do_job(&(job){0, ends[1], options}, c->recording->session, &share);
+        for (unsigned i = 0; i < pool->count; i++)
+            close(pool->jobs[i].pipe); /* a pipe ends when nobody has its other end */
+        share.index = pool->count;
+        share.count = pool->wanted;
+        run_job(&(job){0, ends[1], r->options}, r, p, &share);
     }
     const int reason = errno;
     close(ends[1]);
     if (pid > 0) {
-        c->jobs[c->count++] = (job){pid, ends[0], options};
+        pool->jobs[pool->count++] = (job){pid, ends[0], r->options};
         return true;
     }
     close(ends[0]);
     return error_set(error, "a process cannot be started: %s", strerror(reason));
 }
 
-static void dismiss(crew *c)
+/* Let each job finish the frame in hand. */
+static void stop_jobs(job_pool *pool)
 {
-    for (unsigned i = 0; i < c->count && !c->dismissed; i++)
-        link_end(c->jobs[i].link);
-    c->dismissed = true;
+    for (unsigned i = 0; i < pool->count && !pool->stopped; i++)
+        shutdown(pool->jobs[i].pipe, SHUT_WR);
+    pool->stopped = true;
 }
 
-/* The next message of a job. Meanwhile the caller may want to stop: then what is in hand is finished. */
-static void hear(crew *c, const job *j)
+/* Read the next message of a job. Meanwhile the caller may want to stop. */
+static bool read_message(job_pool *pool, const job *j, message *m)
 {
-    const film_options *options = c->recording->options;
-    while (!c->dismissed) {
+    enum { PATIENCE = 50 }; /* milliseconds */
+    const film_options *options = pool->recording->options;
+    while (!pool->stopped) {
         if (options->keep_going && !options->keep_going(options->context))
-            dismiss(c);
-        else if (link_stirs(j->link, PATIENCE))
+            stop_jobs(pool);
+        else if (pipe_poll(j->pipe, PATIENCE))
             break;
     }
-    link_hear_message(j->link, &c->message);
+    free(pool->bytes);
+    pool->bytes = NULL;
+    return pipe_read(j->pipe, m, sizeof *m) && (pool->bytes = malloc(m->size + 1)) &&
+           pipe_read(j->pipe, pool->bytes, m->size);
 }
 
-/* How a job ended before its time. True when it was stopped, as one may. */
-static bool explain_end(crew *c, unsigned i, octreel_error *error)
+/* How a job ended before its time. True when it was stopped. */
+static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
 {
     int status = 0;
     pid_t ended;
-    while ((ended = waitpid(c->jobs[i].pid, &status, 0)) < 0 && errno == EINTR)
+    while ((ended = waitpid(pool->jobs[i].pid, &status, 0)) < 0 && errno == EINTR)
         continue;
-    c->jobs[i].pid = 0;
+    pool->jobs[i].pid = 0;
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
         return true;
     if (ended > 0 && WIFSIGNALED(status))
-        return error_set(error, "job %u of %u was killed by signal %d (%s)", i + 1, c->count, WTERMSIG(status),
-                         strsignal(WTERMSIG(status)));
-    return error_set(error, "job %u of %u ended early, with status %d", i + 1, c->count, WEXITSTATUS(status));
+        return error_set(error, "job %u of %u was killed by signal %d (%s); --resume films what is missing", i + 1,
+                         pool->count, WTERMSIG(status), strsignal(WTERMSIG(status)));
+    return error_set(error, "job %u of %u ended early, with status %d; --resume films what is missing", i + 1,
+                     pool->count, WEXITSTATUS(status));
 }
 
-/* Hear a message of this kind from a job. False when there is another: then *ok tells whether it just was stopped. */
-static bool expect(crew *c, unsigned i, message_kind kind, bool *ok, octreel_error *error)
+/* Take each tick from the job that films it, until all are there or the recording is stopped. */
+static bool collect(job_pool *pool, octreel_error *error)
 {
-    hear(c, &c->jobs[i]);
-    if (c->message.kind == kind)
-        return true;
-    *ok = false;
-    if (c->message.kind == MESSAGE_ERROR)
-        memcpy(error, c->message.bytes, sizeof *error);
-    else
-        *ok = explain_end(c, i, error);
-    return false;
-}
-
-/* Take each tick from the job that films it. */
-static bool collect(crew *c, octreel_error *error)
-{
-    recording *r = c->recording;
-    bool ok = true;
-    for (uint64_t tick = r->share.first; ok && tick < r->share.last; tick++) {
-        if (!expect(c, (unsigned)(tick / r->options->every % c->count), MESSAGE_STEP, &ok, error))
-            return ok;
-        ok = recording_add(r, &c->message.step, error);
+    recording *r = pool->recording;
+    for (uint64_t tick = r->share.first; tick < r->share.last; tick++) {
+        message m;
+        const unsigned i = (unsigned)(tick / r->options->every % pool->count);
+        if (!read_message(pool, &pool->jobs[i], &m))
+            return explain_end(pool, i, error);
+        if (m.failed) {
+            memcpy(error, pool->bytes, sizeof *error);
+            return false;
+        }
+        m.step.line = pool->bytes;
+        if (!recording_add(r, &m.step, error))
+            return false;
     }
-    return ok;
-}
-
-static bool begin(crew *c, octreel_error *error)
-{
-    recording *r = c->recording;
-    const job_ready *ready = (const job_ready *)(const void *)c->message.bytes;
-    const renderer_info info = {
-        .context = ready->context, .vendor = ready->vendor, .renderer = ready->renderer, .version = ready->version};
-    if (!recording_begin(r, &ready->view, &info, error))
-        return false;
-    for (unsigned i = 0; i < c->count && !c->dismissed; i++)
-        link_tell(c->jobs[i].link, &r->written.digest,
-                  sizeof r->written.digest); /* a job that has died is found by its silence */
     return true;
 }
 
-/* Let every job finish what it has in hand, and wait for its end. */
-static void end_jobs(crew *c)
+/* Stop the jobs, and wait until they have ended: what they still write must be read, or they would wait. */
+static void end_jobs(job_pool *pool)
 {
-    dismiss(c);
-    for (unsigned i = 0; i < c->count; i++) {
-        do
-            link_hear_message(c->jobs[i].link, &c->message);
-        while (c->message.kind != MESSAGE_NONE);
-        close(c->jobs[i].link);
-        while (c->jobs[i].pid > 0 && waitpid(c->jobs[i].pid, NULL, 0) < 0 && errno == EINTR)
+    char ignored;
+    stop_jobs(pool);
+    for (unsigned i = 0; i < pool->count; i++) {
+        while (pipe_read(pool->jobs[i].pipe, &ignored, 1))
+            continue;
+        close(pool->jobs[i].pipe);
+        while (pool->jobs[i].pid > 0 && waitpid(pool->jobs[i].pid, NULL, 0) < 0 && errno == EINTR)
             continue;
     }
-    free(c->message.bytes);
-    free(c->jobs);
+    free(pool->bytes);
+    free(pool->jobs);
 }
 
-/* What is lost by a job that died. */
-static bool name_missing(const recording *r, octreel_error *error)
+/* While the jobs open what draws, this process writes the files that come first. It draws nothing itself. */
+static bool begin(job_pool *pool, playback *p, octreel_error *error)
 {
-    char text[MISSING_TEXT];
-    const octreel_error why = *error;
-    const film_share *share = &r->share;
-    const uint64_t count = missing_frames(r->options->folder, share->first, share->last, r->options->every, text);
-    return count == 0
-               ? false
-               : error_set(error, "%s; %s %s missing, which --resume films", why.text, text, count > 1 ? "are" : "is");
-}
-
-/* While the jobs set up the game and what draws it, what is played is put into words. */
-static bool film(crew *c, bool *begun, octreel_error *error)
-{
-    bool ok;
-    while (c->count < c->wanted)
-        if (!start_job(c, error))
+    while (pool->count < pool->wanted)
+        if (!start_job(pool, p, error))
             return false;
-    if (!recording_prepare(c->recording, error))
-        return false;
-    if (!expect(c, 0, MESSAGE_READY, &ok, error))
-        return ok;
-    *begun = begin(c, error);
-    return *begun && collect(c, error);
+    const bool begun = recording_film(pool->recording, p, error) && recording_begin(pool->recording, p, error);
+    picture_close(&p->picture);
+    for (unsigned i = 0; begun && i < pool->count; i++)
+        pipe_write(pool->jobs[i].pipe, &p->session_digest,
+                   sizeof p->session_digest); /* that a job has died shows when it is read */
+    return begun;
 }
 
-bool film_by_jobs(recording *r, unsigned jobs, octreel_error *error)
+bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error)
 {
-    crew c = {.recording = r, .wanted = jobs, .jobs = calloc(jobs, sizeof *c.jobs)};
-    bool begun = false;
-    bool ok = c.jobs ? film(&c, &begun, error) : error_no_memory(error);
-    const bool died = !ok && begun && c.message.kind == MESSAGE_NONE;
-    end_jobs(&c);
-    ok = begun ? recording_end(r, ok, error) : ok;
-    return died ? name_missing(r, error) : ok;
+    job_pool pool = {.recording = r, .wanted = jobs, .jobs = calloc(jobs, sizeof *pool.jobs)};
+    if (!pool.jobs)
+        return error_no_memory(error);
+    const bool begun = begin(&pool, p, error);
+    const bool ok = begun && collect(&pool, error);
+    end_jobs(&pool);
+    return begun ? recording_end(r, ok, error) : false;
 }

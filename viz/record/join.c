@@ -1,140 +1,194 @@
-/* join.c - see join.h. */
+/* join.c - a recording that was filmed in chunks becomes whole. */
 #include "join.h"
 #include "folder_files.h"
-#include "missing.h"
-#include "recording.h"
-#include "recording_file.h"
+#include "frame_file.h"
 #include "page.h"
+#include "recording_file.h"
+#include "ticks_write.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-/* A recording while its parts are joined. */
+/* A file with lines of a recording: the ticks [first, last), as far as it got. */
+typedef struct chunk {
+    uint64_t first, last;
+    char name[CHUNK_NAME];
+} chunk;
+
+/* A recording while its chunks are joined. */
 typedef struct joining {
     const film_options *options;
-    film_summary *summary;
-    chunk_list parts;
-    FILE **streams;    /* of the parts that have the tick at hand; of the others null */
+    film_summary *summary;   /* the ticks that are joined so far, and all that there are to be */
+    uint64_t session_digest; /* of session.json */
+    chunk *chunks;           /* by their first tick */
+    size_t count;
     file_writer ticks; /* ticks.jsonl, as it will be */
-    char *line;        /* of a part */
-    size_t line_size;  /* room for it */
+    char *line;        /* of a chunk */
+    size_t line_room;
 } joining;
 
-static bool fail_to_read(const joining *j, size_t i, octreel_error *error)
-{
-    return error_set(error, "%s/%s: cannot be read: %s", j->options->folder, j->parts.parts[i].name, strerror(errno));
-}
+/* ---- Chunks ------------------------------------------------------------------------------------------------- */
 
-static bool open_part(joining *j, size_t i, octreel_error *error)
+static bool add_chunk(joining *j, chunk c, octreel_error *error)
 {
-    char *path = path_join(j->options->folder, j->parts.parts[i].name);
-    j->streams[i] = path ? fopen(path, "rb") : NULL;
-    free(path);
-    return j->streams[i] || fail_to_read(j, i, error);
-}
-
-static bool make_room(joining *j, size_t size, octreel_error *error)
-{
-    if (size <= j->line_size)
-        return true;
-    char *more = realloc(j->line, size);
+    if (c.last > j->summary->total)
+        return error_set(error, "%s/%s: is no part of this session, whose last tick is %" PRIu64, j->options->folder,
+                         c.name, j->summary->total - 1);
+    chunk *more = realloc(j->chunks, (j->count + 1) * sizeof *more);
     if (!more)
-        return error_set(error, "there is no memory for a line");
-    j->line = more;
-    j->line_size = size;
+        return error_no_memory(error);
+    j->chunks = more;
+    j->chunks[j->count++] = c;
     return true;
 }
 
-/* The next line of a part is this tick's. */
-static bool compare_line(joining *j, size_t i, const film_step *step, octreel_error *error)
+/* A ticks.jsonl is a chunk of all ticks. */
+static bool add_entry(joining *j, const char *name, octreel_error *error)
 {
-    if (!make_room(j, step->size, error))
-        return false;
-    const size_t size = fread(j->line, 1, step->size, j->streams[i]);
-    if (size < step->size && ferror(j->streams[i]))
-        return fail_to_read(j, i, error);
-    if (size == step->size && memcmp(j->line, step->line, size) == 0)
+    uint64_t tick;
+    chunk c = {.last = j->summary->total};
+    if (frame_parse_name(name, &tick) && !frame_is_name(name, j->summary->total, j->options->every))
+        return error_set(error, "%s/%s: is no frame of this recording", j->options->folder, name);
+    if (!chunk_parse_name(name, &c.first, &c.last) && strcmp(name, "ticks.jsonl") != 0)
         return true;
-    return error_set(error,
-                     "%s/%s: tick %" PRIu64 " is not what the session makes of it: the part is of another session, "
-                     "view or version of octreel",
-                     j->options->folder, j->parts.parts[i].name, step->tick);
+    snprintf(c.name, sizeof c.name, "%.*s", CHUNK_NAME - 1, name);
+    return add_chunk(j, c, error);
 }
 
-/* Compare the tick with each part that has it; files are open only where their ticks are. */
-static bool compare_parts(joining *j, const film_step *step, octreel_error *error)
+static int compare_chunks(const void *a, const void *b)
 {
-    for (size_t i = 0; i < j->parts.count && j->parts.parts[i].first <= step->tick; i++) {
-        const part *p = &j->parts.parts[i];
-        if (step->tick >= p->first + p->lines)
-            continue;
-        if ((step->tick == p->first && !open_part(j, i, error)) || !compare_line(j, i, step, error))
-            return false;
-        if (step->tick + 1 == p->first + p->lines) {
-            fclose(j->streams[i]);
-            j->streams[i] = NULL;
-        }
-    }
+    const chunk *p = a, *q = b;
+    return p->first < q->first ? -1 : p->first > q->first;
+}
+
+static bool find_chunks(joining *j, octreel_error *error)
+{
+    DIR *entries = opendir(j->options->folder);
+    if (!entries)
+        return error_set(error, "%s: the folder cannot be read: %s", j->options->folder, strerror(errno));
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(entries));)
+        ok = add_entry(j, entry->d_name, error);
+    closedir(entries);
+    if (ok && j->count > 1)
+        qsort(j->chunks, j->count, sizeof *j->chunks, compare_chunks);
+    return ok;
+}
+
+/* ---- Ticks -------------------------------------------------------------------------------------------------- */
+
+/* What the line of a tick ends with: its frame, and the digest of the scene that the frame shows. */
+static bool read_scene(const char *line, size_t size, uint64_t tick, uint64_t *scene)
+{
+    char name[FRAME_NAME], expected[FRAME_NAME + DIGEST_TEXT + 32];
+    const size_t tail = strlen("0123456789abcdef\"}\n");
+    if (size < tail)
+        return false;
+    *scene = strtoull(line + size - tail, NULL, 16);
+    const int length = snprintf(expected, sizeof expected, "\"frame\": \"%s\", \"scene\": \"%016" PRIx64 "\"}\n",
+                                frame_name(tick, name), *scene);
+    return size > (size_t)length && strcmp(line + size - length, expected) == 0;
+}
+
+static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
+{
+    frame_origin origin = {.tick = j->summary->ticks, .session = j->session_digest, .scene = scene};
+    octreel_error why;
+    char name[FRAME_NAME];
+    if (!folder_has(j->options->folder, frame_name(origin.tick, name)))
+        return error_set(error, "%s: %s is missing; octreel record --resume films what is missing", j->options->folder,
+                         name);
+    if (!frame_check(j->options->folder, &origin, &why))
+        return error_set(error, "%s", why.text);
+    j->summary->frames++;
+    j->summary->left_out += origin.left_out;
     return true;
 }
 
-static bool join_tick(void *context, const film_step *step, octreel_error *error)
+/* Check that j->line is that of the next tick, and copy it. */
+static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *error)
 {
-    joining *j = context;
-    if (!compare_parts(j, step, error))
+    char begin[48];
+    uint64_t scene;
+    const uint64_t tick = j->summary->ticks;
+    const bool filmed = tick % j->options->every == 0;
+    const int length = snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
+    if (strncmp(j->line, begin, (size_t)length) != 0 || read_scene(j->line, size, tick, &scene) != filmed)
+        return error_set(error, "%s/%s: has no line of tick %" PRIu64 " where it should be", j->options->folder,
+                         c->name, tick);
+    if (filmed && !check_frame(j, scene, error))
         return false;
-    fwrite(step->line, 1, step->size, j->ticks.stream); /* file_writer_close tells */
-    summary_add(j->summary, step);
+    fwrite(j->line, 1, size, j->ticks.stream); /* file_writer_close tells */
+    j->summary->ticks++;
     if (j->options->progress)
         j->options->progress(j->summary->ticks, j->summary->total, j->options->context);
     return true;
 }
 
-/* Not so where it was stopped. */
-static bool is_whole(const joining *j)
+static bool is_stopped(const joining *j)
 {
-    return j->summary->ticks == j->summary->total;
+    return j->options->keep_going && !j->options->keep_going(j->options->context);
 }
 
-static bool check_and_write(joining *j, take *t, octreel_error *error)
+/* Take what other chunks have not had. A last line that is torn is none. */
+static bool join_lines(joining *j, const chunk *c, FILE *stream, bool *stopped, octreel_error *error)
+{
+    ssize_t size;
+    for (uint64_t tick = c->first; !*stopped && (size = getline(&j->line, &j->line_room, stream)) > 0; tick++) {
+        if (j->line[size - 1] != '\n')
+            break;
+        if (tick >= c->last)
+            return error_set(error, "%s/%s: has more lines than ticks", j->options->folder, c->name);
+        if (tick < j->summary->ticks)
+            continue;
+        if (!join_line(j, c, (size_t)size, error))
+            return false;
+        *stopped = j->summary->ticks < j->summary->total && is_stopped(j);
+    }
+    return !ferror(stream) ||
+           error_set(error, "%s/%s: cannot be read: %s", j->options->folder, c->name, strerror(errno));
+}
+
+static bool join_chunk(joining *j, const chunk *c, bool *stopped, octreel_error *error)
+{
+    char *path = path_join(j->options->folder, c->name);
+    FILE *stream = path ? fopen(path, "rb") : NULL;
+    free(path);
+    if (!stream)
+        return error_set(error, "%s/%s: cannot be read: %s", j->options->folder, c->name, strerror(errno));
+    const bool ok = join_lines(j, c, stream, stopped, error);
+    fclose(stream);
+    return ok;
+}
+
+/* Chunk after chunk, until there is a gap. */
+static bool join_all(joining *j, bool *stopped, octreel_error *error)
+{
+    for (size_t i = 0; i < j->count && !*stopped && j->chunks[i].first <= j->summary->ticks; i++)
+        if (!join_chunk(j, &j->chunks[i], stopped, error))
+            return false;
+    return *stopped || j->summary->ticks == j->summary->total ||
+           error_set(error, "%s: no part has tick %" PRIu64 "; octreel record --resume films what is missing",
+                     j->options->folder, j->summary->ticks);
+}
+
+/* ---- All of it ---------------------------------------------------------------------------------------------- */
+
+static bool write_ticks(joining *j, octreel_error *error)
 {
     char *path = path_join(j->options->folder, "ticks.jsonl");
-    const film_share all = {.last = j->summary->total};
-    bool ok = path ? file_writer_open(&j->ticks, path, error) : error_no_memory(error);
+    bool stopped = false, ok = path ? file_writer_open(&j->ticks, path, error) : error_no_memory(error);
     if (ok) {
-        ok = film_ticks(t, &all, join_tick, j, error);
-        if (ok && is_whole(j))
+        ok = join_all(j, &stopped, error);
+        if (ok && !stopped)
             ok = file_writer_close(&j->ticks, error);
         else
             file_writer_abandon(&j->ticks);
     }
     free(path);
-    return ok;
-}
-
-static void release(joining *j)
-{
-    for (size_t i = 0; j->streams && i < j->parts.count; i++)
-        if (j->streams[i])
-            fclose(j->streams[i]);
-    free(j->streams);
-    free(j->line);
-    chunks_release(&j->parts);
-}
-
-static bool join_lines(joining *j, const octree_session *session, uint64_t session_digest, octreel_error *error)
-{
-    take t;
-    j->streams = calloc(j->parts.count + 1, sizeof *j->streams);
-    if (!j->streams)
-        return error_no_memory(error);
-    bool ok = take_open(&t, session, j->options, FRAMES_CHECK, error);
-    t.session_digest = session_digest;
-    ok = ok && check_and_write(j, &t, error);
-    take_close(&t);
     return ok;
 }
 
@@ -144,29 +198,20 @@ static bool check_renderer_file(const char *folder, octreel_error *error)
            error_set(error, "%s: renderer.json is missing; octreel record --resume writes it", folder);
 }
 
-static bool join_session(joining *j, const octree_session *session, uint64_t digest, octreel_error *error)
-{
-    const char *folder = j->options->folder;
-    j->summary->total = octree_session_length(session) + 1;
-    bool ok = chunks_find(folder, j->summary->total, &j->parts, error) &&
-              missing_nothing(folder, &j->parts, j->summary->total, j->options->every, error) &&
-              check_renderer_file(folder, error) && join_lines(j, session, digest, error);
-    if (ok && is_whole(j))
-        ok = viewer_write(folder, error) && folder_sweep(folder, error);
-    release(j);
-    return ok;
-}
-
-bool join_parts(film_options *options, film_summary *summary, octreel_error *error)
+bool join_chunks(film_options *options, film_summary *summary, octreel_error *error)
 {
     joining j = {.options = options, .summary = summary};
     session_file file;
-    uint64_t digest;
     *summary = (film_summary){0};
     if (!recording_read(options->folder, &options->view, &options->every, error) ||
-        !read_session_file(options->folder, &file, &digest, error))
+        !read_session_file(options->folder, &file, &j.session_digest, error))
         return false;
-    const bool ok = join_session(&j, &file.session, digest, error);
+    summary->total = octree_session_length(&file.session) + 1;
     session_release(&file);
+    bool ok = check_renderer_file(options->folder, error) && find_chunks(&j, error) && write_ticks(&j, error);
+    if (ok && summary->ticks == summary->total)
+        ok = page_write(options->folder, error) && folder_sweep(options->folder, error);
+    free(j.chunks);
+    free(j.line);
     return ok;
 }

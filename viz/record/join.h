@@ -1,18 +1,17 @@
-/* join.h - a recording that was filmed in parts becomes whole.
+/* join.h - a recording that was filmed in chunks becomes whole.
  *
- * The session is played once more. Every frame must be there, whole and the one of its tick, and each line of each part
- * must be what the session makes of it; so parts of another session, view or version are found, and parts may overlap
- * where they agree. Then ticks.jsonl and index.html are written, the lines of the parts are removed, and the folder is
- * the same as if one process had filmed it. Nothing is drawn: no renderer is needed.
- */
+ * Each tick must have its line in a chunk, and each frame must be there, whole, and of its tick, of the scene that the
+ * line names and of the folder's session; so chunks of another session, view or version are found. Then ticks.jsonl and
+ * index.html are written, the lines of the chunks are removed, and the folder is the same as if one process had filmed
+ * it. Nothing is played or drawn: that the lines are what the session makes of them is for octreel verify to say. */
 #ifndef RECORD_JOIN_H
 #define RECORD_JOIN_H
 
-#include "film.h"
+#include "film_options.h"
 
-/* Join the parts in options->folder, and read the rest of the options from there; progress, keep_going and context are
- * the caller's. Stopped, it changes nothing, and summary->ticks is below its total. False where anything is missing,
- * which the sentence names, or wrong. */
-bool join_parts(film_options *options, film_summary *summary, octreel_error *error);
+/* Join the chunks in options->folder, and read the view from there; progress, keep_going and context are the caller's.
+ * Chunks may overlap. Of the summary only ticks, frames, left_out and total are set. Stopped, it changes nothing, and
+ * summary->ticks is below its total. False where anything is missing, which the sentence names, or wrong. */
+bool join_chunks(film_options *options, film_summary *summary, octreel_error *error);
 
 #endif

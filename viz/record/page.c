@@ -1,110 +1,149 @@
-/* viewer.c - see viewer.h. */
+/* page.c - index.html: a recording as a page to scrub through. */
 #include "page.h"
-#include "json_thin.h"
+#include "file.h"
 #include "page_html.h"
 
 #include <errno.h>
+#include <jansson.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 
-/* A file of the recording while it is read. */
-typedef struct source {
-    char *path;
-    FILE *stream;
-    off_t end;      /* of its last whole line */
-    uintmax_t line; /* counted from 1 */
-} source;
+/* ---- Long lists --------------------------------------------------------------------------------------------- */
 
-/* A line that was torn when a recording broke off is not a tick. */
-static off_t end_of_lines(FILE *stream)
+#define DEPTH 64 /* of lists and objects in each other */
+
+/* A text of JSON while it is copied without the entries that are too many. */
+typedef struct cutter {
+    FILE *out;
+    unsigned depth;
+    unsigned cut;         /* the depth of the list whose entries are being left out; 0: none is */
+    bool lists[DEPTH];    /* whether a list or an object is open at each depth */
+    size_t commas[DEPTH]; /* in it */
+    bool quoted, escaped;
+} cutter;
+
+/* Whether the character belongs to a string, its quotes included. */
+static bool pass_string(cutter *c, char at)
 {
-    char block[16384];
-    off_t at = 0, end = 0;
-    for (size_t size; (size = fread(block, 1, sizeof block, stream)) > 0; at += (off_t)size)
-        for (size_t i = size; i > 0; i--)
-            if (block[i - 1] == '\n') {
-                end = at + (off_t)i;
-                break;
-            }
-    return end;
+    const bool was = c->quoted;
+    if (!c->escaped && at == '"')
+        c->quoted = !c->quoted;
+    c->escaped = was && !c->escaped && at == '\\';
+    return was || c->quoted;
 }
 
-static bool fail_to_read(const source *s, octreel_error *error)
+static bool pass_bracket(cutter *c, char at)
 {
-    return error_set(error, "%s: cannot be read: %s", s->path, strerror(errno));
-}
-
-static bool open_source(source *s, const char *folder, const char *name, octreel_error *error)
-{
-    *s = (source){.path = path_join(folder, name), .line = 1};
-    if (!s->path)
-        return error_no_memory(error);
-    s->stream = fopen(s->path, "rb");
-    if (!s->stream)
-        return fail_to_read(s, error);
-    s->end = end_of_lines(s->stream);
-    return (!ferror(s->stream) && fseeko(s->stream, 0, SEEK_SET) == 0) || fail_to_read(s, error);
-}
-
-static void close_source(source *s)
-{
-    if (s->stream)
-        fclose(s->stream);
-    free(s->path);
-}
-
-static bool ends_line(FILE *stream)
-{
-    int c;
-    do
-        c = getc(stream);
-    while (c == ' ' || c == '\t' || c == '\r');
-    return c == '\n';
-}
-
-/* An object and the end of its line, as one line of the page. */
-static bool copy_object(source *s, FILE *page, octreel_error *error)
-{
-    const bool opens = ungetc(getc(s->stream), s->stream) == '{';
-    if (opens && json_thin(s->stream, page, VIEWER_LIST) && ends_line(s->stream)) {
-        putc('\n', page);
-        s->line++;
-        return true;
+    if (at == '[' || at == '{') {
+        if (++c->depth == DEPTH)
+            return false;
+        c->lists[c->depth] = at == '[';
+        c->commas[c->depth] = 0;
+    } else if (at == ']' || at == '}') {
+        if (c->depth == 0)
+            return false;
+        if (c->cut == c->depth) {
+            fprintf(c->out, ",{\"more\":%zu}", c->commas[c->depth] - PAGE_LIST + 1);
+            c->cut = 0;
+        }
+        c->depth--;
+    } else if (at == ',' && ++c->commas[c->depth] == PAGE_LIST && c->lists[c->depth] && !c->cut) {
+        c->cut = c->depth;
     }
-    if (ferror(s->stream))
-        return fail_to_read(s, error);
-    return error_set(error, "%s:%ju: is no JSON object, so index.html cannot be written", s->path, s->line);
+    return true;
 }
 
-static bool copy_recording(const char *folder, FILE *page, octreel_error *error)
+/* Copy a text with at most PAGE_LIST entries of each list, so that what is parsed is small: a tick may have refused a
+ * million points. The caller frees the copy. Null where there is no memory, or brackets do not match. */
+static char *cut_lists(const char *text, size_t size, size_t *left)
 {
-    source s;
-    const bool ok = open_source(&s, folder, "recording.json", error) && copy_object(&s, page, error);
-    close_source(&s);
+    char *copy = NULL;
+    cutter c = {.out = open_memstream(&copy, left)};
+    bool ok = c.out != NULL;
+    for (size_t i = 0; ok && i < size; i++) {
+        ok = pass_string(&c, text[i]) || pass_bracket(&c, text[i]);
+        if (!c.cut)
+            putc(text[i], c.out);
+    }
+    if (c.out && fclose(c.out) == 0 && ok)
+        return copy;
+    free(copy);
+    return NULL;
+}
+
+/* ---- Facts -------------------------------------------------------------------------------------------------- */
+
+/* An object as one line of ASCII that ends nothing in a script element: '<' can only be in a string. */
+static bool write_object(const json_t *object, FILE *page)
+{
+    char *text = json_dumps(object, JSON_COMPACT | JSON_ENSURE_ASCII);
+    for (const char *at = text; at && *at; at++)
+        if (*at == '<')
+            fputs("\\u003c", page);
+        else
+            putc(*at, page);
+    putc('\n', page);
+    free(text);
+    return text != NULL;
+}
+
+/* `path` and `line` say where the text is from. */
+static bool write_facts(const char *text, size_t size, FILE *page, const char *path, uintmax_t line,
+                        octreel_error *error)
+{
+    size_t left;
+    char *cut = cut_lists(text, size, &left);
+    json_t *object = cut ? json_loadb(cut, left, 0, NULL) : NULL;
+    const bool ok = json_is_object(object) && write_object(object, page);
+    json_decref(object);
+    free(cut);
+    return ok || error_set(error, "%s:%ju: is no JSON object, so index.html cannot be written", path, line);
+}
+
+static bool write_about(const char *path, FILE *page, octreel_error *error)
+{
+    char reason[FILE_REASON], *text;
+    size_t size;
+    if (!file_read_whole(path, &text, &size, reason))
+        return error_set(error, "%s: %s", path, reason);
+    const bool ok = write_facts(text, size, page, path, 1, error);
+    free(text);
     return ok;
 }
 
-static bool copy_ticks(const char *folder, FILE *page, octreel_error *error)
+/* A last line that was torn when the recording broke off is not a tick. */
+static bool write_ticks(const char *path, FILE *page, octreel_error *error)
 {
-    source s;
-    bool ok = open_source(&s, folder, "ticks.jsonl", error);
-    while (ok && ftello(s.stream) < s.end)
-        ok = copy_object(&s, page, error);
-    close_source(&s);
+    char *line = NULL;
+    size_t room = 0;
+    ssize_t size;
+    bool ok = true;
+    FILE *ticks = fopen(path, "rb");
+    for (uintmax_t number = 1; ticks && ok && (size = getline(&line, &room, ticks)) > 0 && line[size - 1] == '\n';)
+        ok = write_facts(line, (size_t)size, page, path, number++, error);
+    if (!ticks || ferror(ticks))
+        ok = error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+    if (ticks)
+        fclose(ticks);
+    free(line);
     return ok;
 }
 
 static bool write_page(const char *folder, FILE *page, octreel_error *error)
 {
+    char *about = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl");
     fwrite(page_html_head, 1, page_html_head_size, page);
-    const bool ok = copy_recording(folder, page, error) && copy_ticks(folder, page, error);
+    const bool ok =
+        about && ticks ? write_about(about, page, error) && write_ticks(ticks, page, error) : error_no_memory(error);
     fwrite(page_html_tail, 1, page_html_tail_size, page);
+    free(about);
+    free(ticks);
     return ok;
 }
 
-bool viewer_write(const char *folder, octreel_error *error)
+bool page_write(const char *folder, octreel_error *error)
 {
     char *path = path_join(folder, "index.html");
     file_writer file;

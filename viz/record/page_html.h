@@ -1,7 +1,7 @@
-/* page_html.h - the page of viewer/index.html, its style and scripts inside, as CMake made bytes of it: what comes
- * before a recording's facts, and what behind them. */
-#ifndef RECORD_VIEWER_PAGE_H
-#define RECORD_VIEWER_PAGE_H
+/* page_html.h - the page of page/index.html, its style and scripts inside, as CMake makes bytes of it: what comes
+ * before a recording's facts, and what comes after them. */
+#ifndef RECORD_PAGE_HTML_H
+#define RECORD_PAGE_HTML_H
 
 #include <stddef.h>
 

@@ -1,4 +1,4 @@
-/* take.c - see take.h. */
+/* playback.c - a session played: each of its ticks becomes a scene, a frame and a line of ticks.jsonl. */
 #include "playback.h"
 #include "frame_file.h"
 #include "layer.h"
@@ -7,116 +7,129 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-/* Add the tick that was played last. */
-static bool grow_hot(take *t, octreel_error *error)
+/* ---- Played ------------------------------------------------------------------------------------------------- */
+
+static bool add_heat(playback *p, octreel_error *error)
 {
-    return !(t->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&t->heat, t->game) ||
+    return !(p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) ||
            error_set(error, "there is no memory for the heat of the nodes");
 }
 
-bool take_open(take *t, const octree_session *session, const film_options *options, take_frames frames,
-               octreel_error *error)
+bool playback_open(playback *p, const octree_session *session, const view *v, octreel_error *error)
 {
-    *t = (take){.options = options, .view = options->view, .frames = frames};
-    const octree_status status = octree_game_create(session, &t->game);
+    *p = (playback){.view = *v};
+    const octree_status status = octree_game_create(session, &p->game);
     if (status != OCTREE_OK)
         return error_set(error, "the session cannot be played: %s", octree_status_text(status));
-    return grow_hot(t, error) && picture_fit(&t->view, octree_game_tree(t->game), error) &&
-           (frames == FRAMES_CHECK || frames == FRAMES_CLAIM ||
-            picture_open(&t->picture, &t->view, &options->renderer, error));
+    return add_heat(p, error) && picture_fit(&p->view, octree_game_tree(p->game), error);
 }
 
-void take_close(take *t)
+void playback_close(playback *p)
 {
-    octree_game_destroy(t->game);
-    heat_release(&t->heat);
-    picture_close(&t->picture);
-    scene_release(&t->scene);
-    free(t->line);
-    *t = (take){0};
+    octree_game_destroy(p->game);
+    heat_release(&p->heat);
+    picture_close(&p->picture);
+    scene_release(&p->scene);
+    free(p->line);
+    *p = (playback){0};
 }
 
-static bool draw_frame(take *t, frame_origin *origin, octreel_error *error)
+static bool end_tick(playback *p, octree_status status, octreel_error *error)
 {
-    if (!picture_draw(&t->picture, &t->scene, error))
-        return false;
-    origin->left_out = renderer_left_out(t->picture.renderer);
-    return t->frames == FRAMES_SHOW || frame_write(t->options->folder, &t->picture.frame, origin, error);
+    if (status != OCTREE_OK)
+        return error_set(error, "tick %" PRIu64 " cannot be played: %s", octree_game_tick(p->game)->number,
+                         octree_status_text(status));
+    return add_heat(p, error);
 }
 
-bool take_scene(take *t, octreel_error *error)
+bool playback_advance(playback *p, octreel_error *error)
 {
-    return tick_scene_build(&t->scene, &t->view, t->game, &t->heat) ||
+    return end_tick(p, octree_game_advance(p->game), error);
+}
+
+bool playback_play(playback *p, const octree_input *input, octreel_error *error)
+{
+    return end_tick(p, octree_game_play(p->game, input), error);
+}
+
+/* ---- Filmed ------------------------------------------------------------------------------------------------- */
+
+bool playback_film(playback *p, const playback_target *target, octreel_error *error)
+{
+    p->target = *target;
+    return picture_open(&p->picture, &p->view, &target->renderer, error);
+}
+
+bool playback_scene(playback *p, octreel_error *error)
+{
+    return tick_scene_build(&p->scene, &p->view, p->game, &p->heat) ||
            error_set(error, "there is no memory for a scene");
 }
 
-static bool make_frame(take *t, frame_origin *origin, octreel_error *error)
+static bool draw_frame(playback *p, frame_origin *origin, octreel_error *error)
 {
-    const char *folder = t->options->folder;
     octreel_error unlike;
-    switch (t->frames) {
-    case FRAMES_CHECK:
-        return frame_check(folder, origin, error);
-    case FRAMES_CLAIM:
-        return frame_claim(folder, origin, error);
-    case FRAMES_KEEP:
-        return frame_check(folder, origin, &unlike) || draw_frame(t, origin, error);
-    default:
-        return draw_frame(t, origin, error);
-    }
+    const playback_target *target = &p->target;
+    if (target->frames == FRAMES_KEEP && frame_check(target->folder, origin, &unlike))
+        return true;
+    if (!picture_draw(&p->picture, &p->scene, error))
+        return false;
+    origin->left_out = renderer_left_out(p->picture.renderer);
+    return target->frames == FRAMES_SHOW || frame_write(target->folder, &p->picture.frame, origin, error);
 }
 
-static bool take_frame(take *t, film_step *step, octreel_error *error)
+static bool film_frame(playback *p, film_step *step, octreel_error *error)
 {
-    if (!take_scene(t, error))
+    if (!playback_scene(p, error))
         return false;
-    t->extras.scene_digest = scene_digest(&t->scene);
-    frame_origin origin = {.tick = step->tick, .session = t->session_digest, .scene = t->extras.scene_digest};
-    const bool done = make_frame(t, &origin, error);
+    p->extras.scene_digest = scene_digest(&p->scene);
+    frame_origin origin = {.tick = step->tick, .session = p->session_digest, .scene = p->extras.scene_digest};
+    const bool done = draw_frame(p, &origin, error);
     step->left_out = origin.left_out;
-    step->over_budget = t->scene.tally.beyond || t->scene.tally.thinned;
+    step->over_budget = p->scene.tally.beyond || p->scene.tally.thinned;
     return done;
 }
 
 /* In memory: a line is written in one piece, and may be sent or compared instead. */
-static bool take_line(take *t, film_step *step, octreel_error *error)
+static bool make_line(playback *p, film_step *step, octreel_error *error)
 {
-    free(t->line);
-    t->line = NULL;
-    FILE *stream = open_memstream(&t->line, &step->size);
+    free(p->line);
+    p->line = NULL;
+    FILE *stream = open_memstream(&p->line, &step->size);
     if (stream)
-        tick_write(stream, octree_game_tick(t->game), &t->extras);
+        tick_write(stream, octree_game_tick(p->game), &p->extras);
     const bool whole = stream && !ferror(stream);
     if ((stream && fclose(stream) != 0) || !whole)
         return error_set(error, "there is no memory for the line of tick %" PRIu64, step->tick);
-    step->line = t->line;
+    step->line = p->line;
     return true;
 }
 
-bool take_tick(take *t, film_step *step, octreel_error *error)
+bool playback_tick(playback *p, film_step *step, octreel_error *error)
 {
-    const octree_tick *tick = octree_game_tick(t->game);
+    const octree_tick *tick = octree_game_tick(p->game);
     char name[FRAME_NAME];
-    *step = (film_step){.tick = tick->number, .events = tick->events, .filmed = tick->number % t->options->every == 0};
-    t->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
-    return (!step->filmed || take_frame(t, step, error)) && take_line(t, step, error);
+    *step = (film_step){.tick = tick->number, .events = tick->events, .filmed = tick->number % p->target.every == 0};
+    p->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
+    return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);
 }
 
-/* What becomes of a tick that was played, or was not. */
-static bool finish_step(take *t, octree_status status, octreel_error *error)
+static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)
 {
-    if (status != OCTREE_OK)
-        return error_set(error, "tick %" PRIu64 " cannot be played: %s", octree_game_tick(t->game)->number,
-                         octree_status_text(status));
-    return grow_hot(t, error);
+    return tick >= share->first && (share->count == 0 || tick / every % share->count == share->index);
 }
 
-bool take_advance(take *t, octreel_error *error)
+bool playback_run(playback *p, const film_share *share, film_sink *sink, bool (*keep_going)(void *context),
+                  void *context, octreel_error *error)
 {
-    return finish_step(t, octree_game_advance(t->game), error);
-}
-
-bool take_play(take *t, const octree_input *input, octreel_error *error)
-{
-    return finish_step(t, octree_game_play(t->game, input), error);
+    for (;;) {
+        const uint64_t tick = octree_game_tick(p->game)->number;
+        film_step step;
+        if (has_tick(share, tick, p->target.every) && !(playback_tick(p, &step, error) && sink(context, &step, error)))
+            return false;
+        if (tick + 1 >= share->last || (keep_going && !keep_going(context)))
+            return true;
+        if (!playback_advance(p, error))
+            return false;
+    }
 }

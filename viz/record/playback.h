@@ -1,73 +1,88 @@
-/* take.h - a session played, and what a recording has of each tick: its frame and its line. What plays a recording
- * again, see replay.h, has one too. */
-#ifndef RECORD_TAKE_H
-#define RECORD_TAKE_H
+/* playback.h - a session played: each of its ticks becomes a scene, a frame and a line of ticks.jsonl.
+ *
+ *   playback p;
+ *   bool ok = playback_open(&p, session, &view, &error) && playback_film(&p, &target, &error) &&
+ *             playback_run(&p, &(film_share){.last = ticks}, sink, NULL, context, &error);
+ *   playback_close(&p);
+ *
+ * This is the only way from a tick to a frame: of a recording by one process or by several, of a program that records
+ * itself, and of a recording that is verified. Without playback_film() ticks are played and nothing is drawn. */
+#ifndef RECORD_PLAYBACK_H
+#define RECORD_PLAYBACK_H
 
-#include "film.h"
 #include "heat.h"
 #include "picture.h"
+#include "scene.h"
 #include "ticks_write.h"
 
-/* What becomes of the frame of a tick. */
-typedef enum take_frames {
-    FRAMES_DRAW,  /* it is drawn */
-    FRAMES_KEEP,  /* it is drawn, unless it is there already, whole and right */
-    FRAMES_CHECK, /* it must be there, whole and right; there is no renderer */
-    FRAMES_CLAIM, /* where it is there it must say that it is this one, see frame_claim(); there is no renderer */
-    FRAMES_SHOW,  /* it is drawn, and stays in take.picture */
-} take_frames;
+typedef enum playback_frames {
+    FRAMES_SHOW,  /* a frame is drawn into playback.picture */
+    FRAMES_WRITE, /* and written into the folder */
+    FRAMES_KEEP,  /* the same, unless the file is there already, whole and of this tick */
+} playback_frames;
 
-typedef struct take {
-    const film_options *options;
-    view view; /* that of the options, fitted to tick 0 */
-    take_frames frames;
-    uint64_t session_digest; /* of session.json; to be set before the first tick is taken */
+/* What becomes of the ticks that are filmed. */
+typedef struct playback_target {
+    playback_frames frames;
+    const char *folder; /* not read by FRAMES_SHOW */
+    uint64_t every;     /* ticks 0, every, 2 * every ... have a frame; at least 1 */
+    renderer_choice renderer;
+} playback_target;
+
+typedef struct playback {
+    view view; /* fitted to tick 0 */
     octree_game *game;
-    heat heat; /* of all ticks that were played, whether they are taken or not; where the view shows it */
-    picture picture;
+    heat heat; /* of all ticks that were played, filmed or not; where the view shows it */
     scene scene;
+    playback_target target;
+    uint64_t session_digest; /* of session.json, for the frames that are written; set by the caller */
+    picture picture;
     tick_extras extras;
     char *line;
-} take;
+} playback;
 
-/* A tick that was taken. */
+/* A tick that was filmed. */
 typedef struct film_step {
     uint64_t tick;
     unsigned events;  /* bits of octree_event */
     bool filmed;      /* it has a frame */
     bool over_budget; /* which leaves out what is beyond the view's budget */
     uint64_t left_out;
-    const char *line; /* of ticks.jsonl, its newline included; until the next tick is taken */
+    const char *line; /* of ticks.jsonl, its newline included; until the next tick is filmed */
     size_t size;
 } film_step;
 
-/* Start a session and open what draws it. Every session and view that cannot be filmed is refused here, before any file
- * is touched. */
-bool take_open(take *t, const octree_session *session, const film_options *options, take_frames frames,
-               octreel_error *error);
-void take_close(take *t);
+/* Play tick 0. Sessions and views that cannot be filmed are refused here, before any file is touched. `p` is set in any
+ * case, to be closed. */
+bool playback_open(playback *p, const octree_session *session, const view *v, octreel_error *error);
+void playback_close(playback *p);
 
-/* Make take.scene of the tick at which the game is, as the view shows it. */
-bool take_scene(take *t, octreel_error *error);
+/* Open what draws the ticks to be filmed. */
+bool playback_film(playback *p, const playback_target *target, octreel_error *error);
 
-/* Take that tick: its scene and its frame, where it has one, and its line. */
-bool take_tick(take *t, film_step *step, octreel_error *error);
+/* Play the next tick of the session, or one that is not in it. */
+bool playback_advance(playback *p, octreel_error *error);
+bool playback_play(playback *p, const octree_input *input, octreel_error *error);
 
-/* Play the next tick; and one that is not in the session. */
-bool take_advance(take *t, octreel_error *error);
-bool take_play(take *t, const octree_input *input, octreel_error *error);
+/* Fill playback.scene with the tick that was played last. */
+bool playback_scene(playback *p, octreel_error *error);
 
-/* The ticks [first, last) of a session; where a count is given, of each `count` frames, with the ticks up to the next
- * one, only that of this index. */
+/* Film that tick: its scene and its frame, where it has one, and its line. */
+bool playback_tick(playback *p, film_step *step, octreel_error *error);
+
+/* The ticks [first, last) of a session. With a count, of each `count` frames only that of this index, with the ticks
+ * up to the next frame. */
 typedef struct film_share {
     uint64_t first, last;
     uint64_t index, count;
 } film_share;
 
-/* What is done with each tick of a share, in their order. */
+/* What is done with each tick of a share, in order. False ends the run. */
 typedef bool film_sink(void *context, const film_step *step, octreel_error *error);
 
-/* Play on to the end of a share and take its ticks. Ends early, and true, where options->keep_going says so. */
-bool film_ticks(take *t, const film_share *share, film_sink *sink, void *context, octreel_error *error);
+/* Play on to the end of a share and film its ticks. Ends early, and true, where keep_going() says so, which is asked
+ * after each tick; it may be null. */
+bool playback_run(playback *p, const film_share *share, film_sink *sink, bool (*keep_going)(void *context),
+                  void *context, octreel_error *error);
 
 #endif

@@ -1,49 +1,68 @@
-/* recording.c - see recording.h. */
+/* recording.c - a recording while it is made, by one process or several. */
 #include "recording.h"
-#include "claim.h"
-#include "folder_files.h"
-#include "chunks.h"
 #include "page.h"
+#include "folder_files.h"
 
 #include <stdlib.h>
 
-static bool is_part(const recording *r)
+/* ---- Begun -------------------------------------------------------------------------------------------------- */
+
+static bool is_chunk(const recording *r)
 {
     return r->options->last != 0;
 }
 
-static bool write_files(const recording *r, const folder_place *place, const view *v, const renderer_info *info,
-                        octreel_error *error)
+bool recording_film(const recording *r, playback *p, octreel_error *error)
 {
-    return write_recording_file(place, v, r->options->every, error) &&
-           (!r->session || write_session_file(place, &r->written, error)) && write_renderer_file(place, info, error);
+    const film_options *o = r->options;
+    const playback_target target = {
+        .frames = o->resume ? FRAMES_KEEP : FRAMES_WRITE,
+        .folder = o->folder,
+        .every = o->every,
+        .renderer = o->renderer,
+    };
+    return playback_film(p, &target, error);
+}
+
+/* What is known of a recording before its first tick. */
+typedef struct beginning {
+    const view *view;
+    renderer_info info;
+    session_bytes session; /* no bytes: it is not known yet */
+} beginning;
+
+static bool write_files(const recording *r, const folder_place *place, const beginning *b, octreel_error *error)
+{
+    return write_recording_file(place, b->view, r->options->every, error) &&
+           (!b->session.bytes || write_session_file(place, &b->session, error)) &&
+           write_renderer_file(place, &b->info, error);
 }
 
 static bool open_log(recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME] = "ticks.jsonl";
-    if (is_part(r))
+    if (is_chunk(r))
         chunk_name(r->share.first, r->share.last, name);
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
 
-/* A folder of its own. The log comes first: who opened it has the folder. */
-static bool begin_alone(recording *r, const view *v, const renderer_info *info, octreel_error *error)
+/* Into a new folder. The log comes first: who has opened it has the folder. */
+static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
     octreel_error late;
     if (!folder_prepare(folder, error) || !open_log(r, error))
         return false;
     const folder_place place = {.folder = folder};
-    if (write_files(r, &place, v, info, error))
+    if (write_files(r, &place, b, error))
         return true;
     tick_log_close(&r->log, false, &late);
     folder_abandon(folder);
     return false;
 }
 
-/* Without being told so, nothing is filmed twice. */
-static bool check_new_part(const recording *r, octreel_error *error)
+/* A chunk is not filmed twice unless that is asked for. */
+static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
     return !folder_has(r->options->folder, chunk_name(r->share.first, r->share.last, name)) ||
@@ -51,33 +70,36 @@ static bool check_new_part(const recording *r, octreel_error *error)
                      r->options->folder, name);
 }
 
-/* A folder that may be that of this recording already, and that others may be filming into. The log comes last: what is
- * there stays unless the recording is this one. */
-static bool begin_shared(recording *r, const view *v, const renderer_info *info, octreel_error *error)
+/* Into a folder that may hold some of this recording, and that others may be filming into. The log comes last: nothing
+ * is changed in a folder that holds another recording. */
+static bool begin_shared(recording *r, const beginning *b, octreel_error *error)
 {
     char writer[CHUNK_NAME];
     const film_options *o = r->options;
-    const folder_place look = {.folder = o->folder, .look = true},
+    const uint64_t ticks = octree_session_length(r->session) + 1;
+    const folder_place dry_run = {.folder = o->folder, .dry_run = true},
                        place = {.folder = o->folder, .writer = chunk_name(r->share.first, r->share.last, writer)};
-    return folder_make(o->folder, error) && (o->resume || check_new_part(r, error)) &&
-           write_files(r, &look, v, info, error) && claim_folder(r->session, r->written.digest, o, error) &&
-           write_files(r, &place, v, info, error) && open_log(r, error);
+    return folder_make(o->folder, error) && (o->resume || check_new_chunk(r, error)) &&
+           write_files(r, &dry_run, b, error) &&
+           check_resumable(o->folder, b->session.digest, ticks, o->every, error) && write_files(r, &place, b, error) &&
+           open_log(r, error);
 }
 
-bool recording_prepare(recording *r, octreel_error *error)
+bool recording_begin(recording *r, playback *p, octreel_error *error)
 {
-    return make_session_bytes(r->session, &r->written, error);
-}
-
-bool recording_begin(recording *r, const view *v, const renderer_info *info, octreel_error *error)
-{
-    const bool begun = (is_part(r) || r->options->resume ? begin_shared : begin_alone)(r, v, info, error);
-    free(r->written.bytes);
-    r->written.bytes = NULL;
+    beginning b = {.view = &p->view};
+    if (r->session && !make_session_bytes(r->session, &b.session, error))
+        return false;
+    b.info = renderer_about(p->picture.renderer);
+    p->session_digest = b.session.digest;
+    const bool begun = (is_chunk(r) || r->options->resume ? begin_shared : begin_alone)(r, &b, error);
+    free(b.session.bytes);
     return begun;
 }
 
-void summary_add(film_summary *summary, const film_step *step)
+/* ---- Tick by tick ------------------------------------------------------------------------------------------- */
+
+static void add_to_summary(film_summary *summary, const film_step *step)
 {
     summary->ticks++;
     summary->frames += step->filmed;
@@ -92,7 +114,7 @@ bool recording_add(void *context, const film_step *step, octreel_error *error)
     recording *r = context;
     if (!tick_log_add(&r->log, step->line, step->size, error))
         return false;
-    summary_add(r->summary, step);
+    add_to_summary(r->summary, step);
     if (r->options->progress)
         r->options->progress(r->summary->ticks, r->summary->total, r->options->context);
     return true;
@@ -104,7 +126,7 @@ bool recording_end(recording *r, bool ok, octreel_error *error)
     const char *folder = r->options->folder;
     const bool whole = ok && r->summary->ticks == r->summary->total;
     ok = tick_log_close(&r->log, whole, ok ? error : &late) && ok;
-    if (!ok || is_part(r))
+    if (!ok || is_chunk(r))
         return ok;
-    return viewer_write(folder, error) && (!whole || !r->options->resume || folder_sweep(folder, error));
+    return page_write(folder, error) && (!whole || !r->options->resume || folder_sweep(folder, error));
 }

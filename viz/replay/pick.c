@@ -57,7 +57,7 @@ static bool remake(pick *p, replay *r, const char *folder, octreel_error *error)
                          p->path, p->tick, r->ticks - 1);
     if (!replay_to(r, p->tick, error) || !replay_scene(r, error))
         return false;
-    frame_origin origin = {.tick = p->tick, .session = r->session_digest, .scene = scene_digest(&r->take.scene)};
+    frame_origin origin = {.tick = p->tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
     return frame_check_file(p->path, &origin, error);
 }
 
@@ -111,7 +111,7 @@ static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *er
 
 static bool name_elements(pick *p, renderer *r, const replay *from, octreel_error *error)
 {
-    const scene *s = &from->take.scene;
+    const scene *s = &from->playback.scene;
     draw_touches touches = {0};
     bool ok = renderer_pixel(r, s, p->pixel[0], p->pixel[1], &touches, error);
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
@@ -122,7 +122,7 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
             .touch = touches.items[i],
             .kind = element.kind,
             .layer = view_layer_name((view_layer)scene_style_of(s, element).layer),
-            .subject = describe_element(from->take.game, &from->take.heat, s, element),
+            .subject = describe_element(from->playback.game, &from->playback.heat, s, element),
         };
     }
     draw_touches_release(&touches);
@@ -131,14 +131,14 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
 
 static bool pick_pixel(pick *p, replay *from, const pick_options *options, octreel_error *error)
 {
-    const int samples = view_samples(&from->take.view);
+    const int samples = view_samples(&from->playback.view);
     renderer *r = replay_renderer(from, &options->renderer, error);
     p->samples = samples * samples;
     if (!r || !name_elements(p, r, from, error))
         return false;
     if (p->count || p->radius == 0)
         return true;
-    return seek_nearest(p, r, &from->take.scene, error) && name_elements(p, r, from, error);
+    return seek_nearest(p, r, &from->playback.scene, error) && name_elements(p, r, from, error);
 }
 
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error)

@@ -36,7 +36,7 @@ bool replay_read(replay *r, const char *folder, octreel_error *error)
 /* No renderer is opened: many callers need no pixels. */
 static bool start(replay *r, octreel_error *error)
 {
-    return take_open(&r->take, &r->session.session, &r->film, FRAMES_CHECK, error);
+    return playback_open(&r->playback, &r->session.session, &r->film.view, error);
 }
 
 bool replay_open(replay *r, const char *folder, octreel_error *error)
@@ -46,22 +46,22 @@ bool replay_open(replay *r, const char *folder, octreel_error *error)
 
 void replay_close(replay *r)
 {
-    take_close(&r->take);
+    playback_close(&r->playback);
     session_release(&r->session);
 }
 
 static uint64_t tick_of(const replay *r)
 {
-    return octree_game_tick(r->take.game)->number;
+    return octree_game_tick(r->playback.game)->number;
 }
 
 static bool start_again(replay *r, octreel_error *error)
 {
-    picture drawing = r->take.picture; /* the view stays the same, so the renderer does */
-    r->take.picture = (picture){0};
-    take_close(&r->take);
+    picture drawing = r->playback.picture; /* the view stays the same, so the renderer does */
+    r->playback.picture = (picture){0};
+    playback_close(&r->playback);
     const bool ok = start(r, error);
-    r->take.picture = drawing;
+    r->playback.picture = drawing;
     return ok;
 }
 
@@ -73,18 +73,18 @@ bool replay_to(replay *r, uint64_t tick, octreel_error *error)
     if (tick < tick_of(r) && !start_again(r, error))
         return false;
     while (tick_of(r) < tick)
-        if (!take_advance(&r->take, error))
+        if (!playback_advance(&r->playback, error))
             return false;
     return true;
 }
 
 bool replay_scene(replay *r, octreel_error *error)
 {
-    return take_scene(&r->take, error);
+    return playback_scene(&r->playback, error);
 }
 
 renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error)
 {
-    picture *drawing = &r->take.picture;
-    return drawing->renderer || picture_open(drawing, &r->take.view, choice, error) ? drawing->renderer : NULL;
+    picture *drawing = &r->playback.picture;
+    return drawing->renderer || picture_open(drawing, &r->playback.view, choice, error) ? drawing->renderer : NULL;
 }

@@ -2,13 +2,14 @@
  *
  *   replay r;
  *   if (replay_open(&r, "frames", &error) && replay_to(&r, 41, &error) && replay_scene(&r, &error))
- *       ... octree_game_tick(r.take.game), r.take.scene ...
+ *       ... octree_game_tick(r.playback.game), r.playback.scene ...
  *   replay_close(&r);
  */
 #ifndef RECORD_REPLAY_H
 #define RECORD_REPLAY_H
 
 #include "session_file.h"
+#include "film_options.h"
 #include "playback.h"
 
 typedef struct replay {
@@ -16,7 +17,7 @@ typedef struct replay {
     uint64_t session_digest; /* of the bytes of session.json */
     uint64_t ticks;          /* of the session, tick 0 included */
     film_options film;       /* the folder, and the view and `every` of recording.json */
-    take take;               /* after replay_open(): the game, the scene, and the renderer once it is opened */
+    playback playback;       /* after replay_open(): the game, the scene, and the renderer once it is opened */
 } replay;
 
 /* Read session.json and recording.json of a folder, and play nothing yet. Close `r` in any case. */
@@ -30,7 +31,7 @@ void replay_close(replay *r);
  * session has no such tick. */
 bool replay_to(replay *r, uint64_t tick, octreel_error *error);
 
-/* Make the scene of the tick that was played last in the recording's view: r->take.scene. */
+/* Make the scene of the tick that was played last in the recording's view: r->playback.scene. */
 bool replay_scene(replay *r, octreel_error *error);
 
 /* The renderer of such scenes, opened at the first call and closed by replay_close(). Null with a sentence. */

@@ -2,10 +2,10 @@
 #include "verify.h"
 #include "frame_file.h"
 #include "json_write.h"
-#include "text.h"
+#include "folder_files.h"
 #include "replay.h"
+#include "text.h"
 #include "verify_line.h"
-#include "who_drew.h"
 #include "image_compare.h"
 #include "image_digest.h"
 #include "png_read.h"
@@ -138,7 +138,7 @@ static void find_pixels(verifying *v, const char *path, verify_finding *finding)
     octreel_error ignored;
     image frame;
     if (image_read_png(path, &frame, &ignored)) {
-        unlike = image_compare(&frame, &v->replay.take.picture.frame).unlike;
+        unlike = image_compare(&frame, &v->replay.playback.picture.frame).unlike;
         image_release(&frame);
     }
     v->report->pixels = unlike.pixels;
@@ -170,7 +170,7 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
 {
     char name[FRAME_NAME], *path = path_join(v->folder, frame_name(step->tick, name));
     frame_origin origin = {
-        .tick = step->tick, .session = v->filmed_session, .scene = v->replay.take.extras.scene_digest};
+        .tick = step->tick, .session = v->filmed_session, .scene = v->replay.playback.extras.scene_digest};
     octreel_error unlike;
     if (!path)
         return error_no_memory(error);
@@ -184,7 +184,7 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
         v->stopped = ok = false;
     else if (!frame_check(v->folder, &origin, &unlike))
         find_frame(v, unlike.text, step->tick);
-    else if (origin.pixels != image_digest(&v->replay.take.picture.frame))
+    else if (origin.pixels != image_digest(&v->replay.playback.picture.frame))
         find_pixels(v, path, find(v, VERIFY_PIXELS, step->tick));
     else
         v->stopped = false;
@@ -254,11 +254,13 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
 static bool play_again(verifying *v, octreel_error *error)
 {
     const film_share all = {.last = v->replay.ticks};
-    if (!take_open(&v->replay.take, &v->replay.session.session, &v->replay.film, FRAMES_SHOW, error))
+    const playback_target target = {FRAMES_SHOW, v->folder, v->replay.film.every, v->options->renderer};
+    if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.film.view, error) ||
+        !playback_film(&v->replay.playback, &target, error))
         return false;
-    const renderer_info info = renderer_about(v->replay.take.picture.renderer);
+    const renderer_info info = renderer_about(v->replay.playback.picture.renderer);
     who_draws(&info, v->report->drawn_now, sizeof v->report->drawn_now);
-    if (!film_ticks(&v->replay.take, &all, check_tick, v, error))
+    if (!playback_run(&v->replay.playback, &all, check_tick, NULL, v, error))
         return v->stopped;
     check_end_of_lines(v);
     return true;
@@ -268,7 +270,6 @@ static bool verify_all(verifying *v, octreel_error *error)
 {
     if (!replay_read(&v->replay, v->folder, error) || !open_lines(v, error))
         return false;
-    v->replay.film.renderer = v->options->renderer;
     who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
     return check_first_frame(v, error) && (v->stopped || play_again(v, error)) && check_extra_frames(v, error);
 }

@@ -28,7 +28,7 @@ octree_session short_session(const char *keys)
     return session;
 }
 
-film_options part_of(film_options options, uint64_t first, uint64_t last)
+film_options chunk_of(film_options options, uint64_t first, uint64_t last)
 {
     options.first = first;
     options.last = last;

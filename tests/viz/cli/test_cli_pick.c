@@ -33,7 +33,7 @@ static void show(shown *what, const temp_folder *own, const char *arguments, uin
     if (!replay_open(&what->replay, what->folder.path, &error) || !replay_to(&what->replay, tick, &error) ||
         !replay_scene(&what->replay, &error))
         fail_msg("%s", error.text);
-    what->scene = &what->replay.take.scene;
+    what->scene = &what->replay.playback.scene;
 }
 
 static json_t *pick_json(const shown *what, int x, int y, int radius)

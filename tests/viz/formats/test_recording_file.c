@@ -7,9 +7,9 @@
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
-#include "folder_files.h"
 #include "layer.h"
 #include "recording_file.h"
+#include "folder_files.h"
 
 static octree_box random_box(uint64_t *random)
 {

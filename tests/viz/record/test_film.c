@@ -193,7 +193,7 @@ static void every_beyond_the_end_films_tick_0_alone(void **state)
     const place folder = place_in(*state, "film");
     const octree_session session = octree_session_default();
     film_options options = small_film(folder.path);
-    options.every = UINT64_MAX;
+    options.every = INT64_MAX;
     const film_summary summary = assert_filmed(&session, &options);
     assert_int_equal(summary.frames, 1);
     assert_int_equal(summary.ticks, DEFAULT_TICKS);

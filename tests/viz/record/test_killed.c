@@ -187,7 +187,7 @@ static void resumed_film_that_is_killed_at_any_call_is_resumed_again(void **stat
     file_write_text(place_below(film.path, "ticks_0_1.jsonl").path, "{}\n");
     file_write_text(place_below(film.path, "session.json.part").path, "{");
     file_write_text(place_below(film.path, "ticks.jsonl").path, "{\"tick\": 0}\n{\"ti");
-    remove(place_below(film.path, "recording.json").path);
+    remove(place_below(film.path, "renderer.json").path);
     const remains r = remains_of(state, FILM " --resume -o", "film");
     assert_true(r.count > 10);
     assert_same_folders(whole.path, r.folder.path, NULL);
@@ -207,7 +207,7 @@ static void joining_that_is_killed_at_any_call_is_done_again(void **state)
     const place whole = film_whole(state), film = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
     for (uint64_t i = 0; i < 3; i++) {
-        const film_options part = part_of(tiny_film(film.path), i, i + 1);
+        const film_options part = chunk_of(tiny_film(film.path), i, i + 1);
         assert_filmed(&session, &part);
     }
     const remains r = remains_of(state, "join", "film");
@@ -220,7 +220,7 @@ static void joining_that_is_killed_at_any_call_is_done_again(void **state)
         octreel_error error = {""};
         options.folder = left.path;
         assert_all_whole(left.path);
-        if (!join_parts(&options, &summary, &error))
+        if (!join_chunks(&options, &summary, &error))
             fail_msg("%s", error.text);
         assert_same_folders(whole.path, left.path, NULL);
     }

@@ -1,5 +1,5 @@
-/* test_viewer.c - index.html of a recording: the facts of ticks.jsonl, safe within a page that needs nothing else;
- * there whole or not at all. What the page does with them is test_viewer_page.c. */
+/* test_page.c - index.html of a recording: the facts of ticks.jsonl, safe within a page that needs nothing else;
+ * there whole or not at all. What the page does with them is test_page_shown.c. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,18 +29,18 @@ static place recording_of(void **state, const char *ticks)
     return folder;
 }
 
-static void assert_viewer_written(const char *folder)
+static void assert_page_written(const char *folder)
 {
     octreel_error error = {""};
-    if (!viewer_write(folder, &error))
+    if (!page_write(folder, &error))
         fail_msg("%s", error.text);
 }
 
 /* The sentence holds both parts, and no page is there, nor a part of one. */
-static void assert_no_viewer(const char *folder, const char *part, const char *reason)
+static void assert_no_page(const char *folder, const char *part, const char *reason)
 {
     octreel_error error = {""};
-    assert_false(viewer_write(folder, &error));
+    assert_false(page_write(folder, &error));
     if (strstr(error.text, part) == NULL || strstr(error.text, reason) == NULL)
         fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, part, reason);
     assert_false(file_exists(place_below(folder, "index.html").path));
@@ -109,7 +109,7 @@ static void page_can_be_written_again_later(void **state)
     assert_filmed(&session, &options);
     char *first = page_of(folder.path);
     file_write_text(place_below(folder.path, "index.html").path, "something else");
-    assert_viewer_written(folder.path);
+    assert_page_written(folder.path);
     char *second = page_of(folder.path);
     assert_string_equal(first, second);
     free(first);
@@ -121,7 +121,7 @@ static void page_needs_nothing_from_anywhere(void **state)
 {
     static const char *const foreign[] = {"http:", "https:", "//cdn", "src=\"", "@import", "url(", "import(", "fetch("};
     const place folder = recording_of(state, TICK);
-    assert_viewer_written(folder.path);
+    assert_page_written(folder.path);
     char *page = page_of(folder.path);
     for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++)
         if (strstr(page, foreign[i]) != NULL)
@@ -136,7 +136,7 @@ static void nothing_in_a_tick_ends_the_facts(void **state)
 {
     const place folder = recording_of(state, "{\"tick\": 0, \"key\": \"</script><script>alert(1)</script>\"}\n"
                                              "{\"tick\": 1, \"key\": \"<!--\xe2\x80\xa8\"}\n");
-    assert_viewer_written(folder.path);
+    assert_page_written(folder.path);
     char *facts = facts_of(folder.path), *at = facts;
     next_line(&at);
     json_t *first = json_read(next_line(&at)), *second = json_read(next_line(&at));
@@ -154,7 +154,7 @@ static void torn_last_line_is_no_tick(void **state)
     char ticks[256];
     snprintf(ticks, sizeof ticks, "%s{\"tick\": 1, \"key\": \"w", TICK);
     const place folder = recording_of(state, ticks);
-    assert_viewer_written(folder.path);
+    assert_page_written(folder.path);
     char *facts = facts_of(folder.path), *at = facts;
     next_line(&at);
     json_decref(json_read(next_line(&at)));
@@ -165,7 +165,7 @@ static void torn_last_line_is_no_tick(void **state)
 static void recording_without_ticks_has_a_page(void **state)
 {
     const place folder = recording_of(state, "{\"tick\": 0");
-    assert_viewer_written(folder.path);
+    assert_page_written(folder.path);
     char *facts = facts_of(folder.path), *at = facts;
     next_line(&at);
     assert_string_equal(at, "");
@@ -183,7 +183,7 @@ static void a_million_refusals_are_counted_and_not_embedded(void **state)
         fprintf(ticks, "%s{\"id\": %d, \"position\": [1, 2, 3]}", i > 0 ? ", " : "", i);
     fprintf(ticks, "]}\n%s", TICK);
     assert_int_equal(fclose(ticks), 0);
-    assert_viewer_written(folder.path);
+    assert_page_written(folder.path);
     struct stat status;
     assert_int_equal(stat(place_below(folder.path, "index.html").path, &status), 0);
     assert_true(status.st_size < 100000);
@@ -191,9 +191,9 @@ static void a_million_refusals_are_counted_and_not_embedded(void **state)
     next_line(&at);
     json_t *tick = json_read(next_line(&at));
     const json_t *refusals = json_member(tick, "refusals");
-    assert_int_equal(json_array_size(refusals), VIEWER_LIST + 1);
-    assert_whole_number(json_member(json_array_get(refusals, VIEWER_LIST - 1), "id"), VIEWER_LIST - 1);
-    assert_whole_number(json_member(json_array_get(refusals, VIEWER_LIST), "more"), COUNT - VIEWER_LIST);
+    assert_int_equal(json_array_size(refusals), PAGE_LIST + 1);
+    assert_whole_number(json_member(json_array_get(refusals, PAGE_LIST - 1), "id"), PAGE_LIST - 1);
+    assert_whole_number(json_member(json_array_get(refusals, PAGE_LIST), "more"), COUNT - PAGE_LIST);
     json_decref(tick);
     free(facts);
 }
@@ -212,17 +212,17 @@ static void recording_that_cannot_be_read_gets_no_page(void **state)
     const place lines = place_below(folder.path, "ticks.jsonl"), about = place_below(folder.path, "recording.json");
     for (size_t i = 0; i < sizeof ticks / sizeof ticks[0]; i++) {
         file_write_text(lines.path, ticks[i][0]);
-        assert_no_viewer(folder.path, ticks[i][1], "is no JSON object");
+        assert_no_page(folder.path, ticks[i][1], "is no JSON object");
     }
     remove(lines.path);
-    assert_no_viewer(folder.path, lines.path, "No such file or directory");
+    assert_no_page(folder.path, lines.path, "No such file or directory");
     assert_int_equal(mkdir(lines.path, 0777), 0);
-    assert_no_viewer(folder.path, lines.path, "Is a directory");
+    assert_no_page(folder.path, lines.path, "Is a directory");
     file_write_text(about.path, "");
-    assert_no_viewer(folder.path, about.path, "is no JSON object");
+    assert_no_page(folder.path, about.path, "is no JSON object");
     remove(about.path);
-    assert_no_viewer(folder.path, about.path, "No such file or directory");
-    assert_no_viewer(place_in(*state, "nowhere").path, "nowhere/index.html", "No such file or directory");
+    assert_no_page(folder.path, about.path, "No such file or directory");
+    assert_no_page(place_in(*state, "nowhere").path, "nowhere/index.html", "No such file or directory");
 }
 
 /* The .part is a device that is always full. */
@@ -233,7 +233,7 @@ static void page_that_cannot_be_written_leaves_the_one_before(void **state)
     const place part = place_below(folder.path, "index.html.part");
     file_write_text(page.path, "mine");
     assert_int_equal(symlink("/dev/full", part.path), 0);
-    assert_false(viewer_write(folder.path, &error));
+    assert_false(page_write(folder.path, &error));
     assert_non_null(strstr(error.text, page.path));
     assert_non_null(strstr(error.text, "No space left on device"));
     assert_false(file_exists(part.path));
@@ -252,7 +252,7 @@ static void folder_that_cannot_be_written_is_named(void **state)
     if (root && seteuid(NOBODY) != 0)
         skip(); /* root of a container that has no other user */
     octreel_error error = {""};
-    const bool written = viewer_write(folder.path, &error);
+    const bool written = page_write(folder.path, &error);
     if (root)
         assert_int_equal(seteuid(0), 0);
     assert_int_equal(chmod(folder.path, 0755), 0);

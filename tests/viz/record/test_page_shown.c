@@ -1,4 +1,4 @@
-/* test_viewer_page.c - index.html in headless Chromium: it opens from the disk, steps, plays and filters, and shows
+/* test_page_shown.c - index.html in headless Chromium: it opens from the disk, steps, plays and filters, and shows
  * what ticks.jsonl says. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -300,7 +300,7 @@ static place recording_by_hand(const driven *d, const char *name, const char *ti
     assert_int_equal(mkdir(folder.path, 0777), 0);
     file_write_text(place_below(folder.path, "recording.json").path, "{\"width\": 160, \"height\": 90}\n");
     file_write_text(place_below(folder.path, "ticks.jsonl").path, ticks);
-    if (!viewer_write(folder.path, &error))
+    if (!page_write(folder.path, &error))
         fail_msg("%s", error.text);
     return place_below(folder.path, "index.html");
 }
@@ -311,15 +311,15 @@ static void page_takes_what_it_does_not_expect(void **state)
     need_browser();
     const driven *d = *state;
     char ticks[1024] = "{\"tick\": 0, \"key\": \"</script><script>document.title = 'mine'</script>\", \"hits\": [0";
-    for (int i = 1; i < VIEWER_LIST + 8; i++)
+    for (int i = 1; i < PAGE_LIST + 8; i++)
         snprintf(ticks + strlen(ticks), sizeof ticks - strlen(ticks), ", %d", i);
-    strcat(ticks, "], \"unheard_of\": {\"weight\": -0, \"of\": [true, \"x\"]}, \"frame\": \"frame_000000.png\"}\n");
+    strcat(ticks, "], \"unheard_of\": {\"weight\": -0.5, \"of\": [true, \"x\"]}, \"frame\": \"frame_000000.png\"}\n");
     char *page = browser_open(d->folder, recording_by_hand(d, "a #%41?b", ticks).path, "t=0");
     assert_has(page, "<title>a #%41?b \xe2\x80\x93 Octreel</title>");
     assert_has(page, "&lt;/script&gt;&lt;script&gt;document.title");
     assert_has(page, "30, 31<p class=\"more\">\xe2\x80\xa6 and 8 more, in ticks.jsonl</p></dd>");
     assert_has(page, "<span class=\"count\">40</span>");
-    assert_has(page, "<dd data-fact=\"unheard_of.weight\">-0</dd>");
+    assert_has(page, "<dd data-fact=\"unheard_of.weight\">-0.5</dd>");
     assert_has(page, "<dd data-fact=\"unheard_of.of\">true, x</dd>");
     assert_has(page, "frame_000000.png is not beside this page");
     free(page);

@@ -17,7 +17,7 @@ static picture write_picture(int samples, const char *path)
     s.view.aa = samples;
     const image_text text = {"octreel-tick", "30"};
     if (!picture_open(&p, &s.view, &(renderer_choice){0}, &error) || !picture_draw(&p, &s, &error) ||
-        !picture_write(&p, path, &text, 1, &error))
+        !image_write_png(&p.frame, path, &text, 1, &error))
         fail_msg("%s", error.text);
     scene_release(&s);
     return p;

@@ -21,8 +21,8 @@ static void check_scene(replay *r, const place *folder, uint64_t tick)
     octreel_error error = {""};
     if (!replay_to(r, tick, &error) || !replay_scene(r, &error))
         fail_msg("%s", error.text);
-    assert_int_equal(octree_game_tick(r->take.game)->number, tick);
-    frame_origin origin = {.tick = tick, .session = r->session_digest, .scene = scene_digest(&r->take.scene)};
+    assert_int_equal(octree_game_tick(r->playback.game)->number, tick);
+    frame_origin origin = {.tick = tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
     if (!frame_check(folder->path, &origin, &error))
         fail_msg("%s", error.text);
 }
@@ -63,15 +63,15 @@ static void renderer_is_opened_once_and_draws_the_frame(void **state)
     octreel_error error = {""};
     replay r;
     open_it(&r, &folder);
-    assert_null(r.take.picture.renderer);
+    assert_null(r.playback.picture.renderer);
     renderer *first = replay_renderer(&r, &any, &error);
     assert_non_null(first);
     check_scene(&r, &folder, 6);
     check_scene(&r, &folder, 3); /* from the start again */
     assert_ptr_equal(replay_renderer(&r, &any, &error), first);
-    assert_true(picture_draw(&r.take.picture, &r.take.scene, &error));
+    assert_true(picture_draw(&r.playback.picture, &r.playback.scene, &error));
     image frame = assert_whole_frame(frame_place(folder.path, 3).path, SMALL_WIDTH, SMALL_HEIGHT);
-    assert_int_equal(image_digest(&r.take.picture.frame), image_digest(&frame));
+    assert_int_equal(image_digest(&r.playback.picture.frame), image_digest(&frame));
     image_release(&frame);
     replay_close(&r);
 }

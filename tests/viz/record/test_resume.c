@@ -77,8 +77,8 @@ static void part_that_stops_resumes_as_that_part(void **state)
     const place folder = place_in(*state, "film"), other = place_in(*state, "other");
     const octree_session session = short_session(KEYS);
     uint64_t ticks = 3;
-    film_options options = part_of(small_film(folder.path), 2, 9);
-    const film_options stopped = stopped_after(options, &ticks), whole = part_of(small_film(other.path), 2, 9);
+    film_options options = chunk_of(small_film(folder.path), 2, 9);
+    const film_options stopped = stopped_after(options, &ticks), whole = chunk_of(small_film(other.path), 2, 9);
     assert_int_equal(assert_filmed(&session, &stopped).total, 7);
     options.resume = true;
     assert_int_equal(assert_filmed(&session, &options).ticks, 7);

@@ -89,27 +89,18 @@ static void same_words_again_resume_what_has_just_begun(void **state)
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
-static void frames_of_another_view_are_not_replaced(void **state)
+/* Nothing says whose frames they are, whatever the command line says. */
+static void frames_without_a_view_or_a_session_are_not_replaced(void **state)
 {
-    static const char *const views[] = {"--size 80x48", "--size 64x48 --camera orbit", "--size 64x48 --labels",
-                                        "--size 64x48 --every 3"};
-    const place blind = recorded(state, "film");
-    remove(place_below(blind.path, "recording.json").path);
-    for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
-        char words[100];
-        snprintf(words, sizeof words, "--resume %s", views[i]);
-        assert_refused(state, words, blind.path,
-                       i < 3 ? "is no frame of this session and view" : "is no frame of this");
+    static const char *const names[] = {"recording.json", "session.json"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char sentence[64];
+        const place film = recorded(state, names[i]);
+        remove(place_below(film.path, names[i]).path);
+        snprintf(sentence, sizeof sentence, "could be completed (%s is missing)", names[i]);
+        assert_refused(state, "--resume " SMALL, film.path, sentence);
+        assert_refused(state, "--ticks 0:2 " SMALL, film.path, sentence);
     }
-}
-
-static void frames_of_another_session_are_not_replaced(void **state)
-{
-    const place whole = recorded(state, "whole"), mute = copy_of(state, whole.path, "film");
-    remove(place_below(mute.path, "session.json").path);
-    assert_refused(state, "--resume --size 64x48", mute.path, "is no frame of this session and view");
-    record("--resume " SMALL, mute.path);
-    assert_same_folders(whole.path, mute.path, NULL);
 }
 
 static void another_session_is_refused_before_a_file_is_written(void **state)
@@ -165,8 +156,7 @@ int main(void)
         IN_FOLDER(folder_that_does_not_say_what_it_is_of_is_not_resumed),
         IN_FOLDER(folder_that_is_not_there_is_not_resumed),
         IN_FOLDER(same_words_again_resume_what_has_just_begun),
-        IN_FOLDER(frames_of_another_view_are_not_replaced),
-        IN_FOLDER(frames_of_another_session_are_not_replaced),
+        IN_FOLDER(frames_without_a_view_or_a_session_are_not_replaced),
         IN_FOLDER(another_session_is_refused_before_a_file_is_written),
         IN_FOLDER(surplus_frame_is_refused),
         IN_FOLDER(files_of_somebody_else_are_not_replaced),

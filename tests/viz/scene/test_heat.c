@@ -288,10 +288,11 @@ static void a_part_of_a_film_begins_with_the_heat_of_what_came_before(void **sta
     for (int parted = 0; parted < 2; parted++) {
         const film_share share = {.first = parted ? 200 : 0, .last = 201};
         octreel_error error;
-        take t;
-        assert_true(take_open(&t, &session, &options, FRAMES_SHOW, &error));
-        assert_true(film_ticks(&t, &share, keep_digest, parted ? part : whole, &error));
-        take_close(&t);
+        playback p;
+        assert_true(playback_open(&p, &session, &options.view, &error));
+        assert_true(playback_film(&p, &(playback_target){.frames = FRAMES_SHOW, .every = 1}, &error));
+        assert_true(playback_run(&p, &share, keep_digest, NULL, parted ? part : whole, &error));
+        playback_close(&p);
     }
     assert_string_equal(whole, part);
 }

@@ -1,0 +1,14 @@
+/* cores.c - how many processors this machine has. */
+#include "cores.h"
+
+#include <unistd.h>
+
+unsigned count_cores(void)
+{
+#ifdef _SC_NPROCESSORS_ONLN
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores > 1 ? (unsigned)cores : 1;
+#else
+    return 1;
+#endif
+}

@@ -1,0 +1,37 @@
+/* film_options.h - how a session is filmed, and what came of it. */
+#ifndef RECORD_FILM_OPTIONS_H
+#define RECORD_FILM_OPTIONS_H
+
+#include "renderer.h"
+#include "octree/game.h"
+#include "view.h"
+
+#define FILM_MOST_JOBS 256
+
+typedef struct film_options {
+    const char *folder;
+    view view;
+    renderer_choice renderer;
+    uint64_t every; /* film ticks 0, every, 2 * every ...; at least 1. ticks.jsonl has all ticks */
+    /* A chunk: the ticks [first, last) alone; last 0 is all of them, and beyond the end is the end. Chunks of one
+     * recording go into one folder, in any order or at the same time; see join.h for what makes it whole. */
+    uint64_t first, last;
+    /* Processes that film; 0 or 1 is this one alone, and the bytes are the same. More are started by fork(), which a
+     * process may only ask for that has drawn nothing yet and has no threads. */
+    unsigned jobs; /* at most FILM_MOST_JOBS, and one a frame */
+    bool resume;   /* complete what the folder holds of this recording: frames that are there and right are kept */
+    void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
+    bool (*keep_going)(void *context); /* asked between ticks: false stops after the last one; may be null */
+    void *context;
+} film_options;
+
+typedef struct film_summary {
+    uint64_t ticks; /* tick 0 included; of a chunk, its own */
+    uint64_t frames;
+    uint64_t left_out;    /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
+    uint64_t over_budget; /* frames that leave out what is beyond the view's budget */
+    uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
+    uint64_t total;                      /* ticks that were to be filmed: more than `ticks` where it was stopped */
+} film_summary;
+
+#endif

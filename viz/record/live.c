@@ -1,0 +1,237 @@
+/* live.c - a session in the making becomes a recording. */
+#include "live.h"
+#include "frame_file.h"
+#include "octree/digest.h"
+#include "recording.h"
+#include "session_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+struct live_recording {
+    film_options options;
+    char *folder;
+    session_file start;
+    playback playback;
+    film_summary summary;
+    recording recording;
+    uint64_t ticks;    /* of the session, after tick 0 */
+    FILE *stream;      /* session.json.live, open for the whole time; null: it is not there */
+    char *path;        /* of that */
+    off_t head, whole; /* where its ticks begin, and where its last whole one ends */
+    bool begun;        /* tick 0 was filmed */
+    bool broken;       /* a tick failed */
+};
+
+/* ---- session.json.live -------------------------------------------------------------------------------------- */
+
+static bool fail_to_write(const live_recording *live, octreel_error *error)
+{
+    return error_set(error, "%s: cannot be written: %s", live->path, strerror(errno));
+}
+
+/* What was written is there for good, even where the process dies. */
+static bool flush(live_recording *live, octreel_error *error)
+{
+    if (fflush(live->stream) != 0 || ferror(live->stream))
+        return fail_to_write(live, error);
+    live->whole = ftello(live->stream);
+    return true;
+}
+
+/* What tick 0 asks and shows; what is so at every tick stands in the header. */
+static octree_input first_tick(const octree_session *session)
+{
+    octree_input input = {.queries = session->queries, .shapes = session->shapes};
+    while (input.query_count < session->query_count && session->queries[input.query_count].tick == 0)
+        input.query_count++;
+    while (input.shape_count < session->shape_count && session->shapes[input.shape_count].tick == 0)
+        input.shape_count++;
+    return input;
+}
+
+static bool begin_session(live_recording *live, octreel_error *error)
+{
+    octree_session header = live->start.session;
+    header.ticks = SESSION_ENDLESS;
+    live->path = path_join(live->folder, "session.json.live");
+    if (!live->path)
+        return error_no_memory(error);
+    live->stream = fopen(live->path, "w+b");
+    if (!live->stream)
+        return fail_to_write(live, error);
+    session_write_header(&header, live->stream);
+    if (!flush(live, error))
+        return false;
+    live->head = live->whole;
+    const octree_input input = first_tick(&header);
+    session_write_tick(0, &input, live->stream);
+    return flush(live, error);
+}
+
+static bool add_to_session(live_recording *live, const octree_input *input, octreel_error *error)
+{
+    if (live->ticks == SESSION_LAST_TICK)
+        return error_set(error, "a recording has at most %d ticks", SESSION_LAST_TICK);
+    session_write_tick(live->ticks + 1, input, live->stream);
+    if (!flush(live, error))
+        return false;
+    live->ticks++;
+    return true;
+}
+
+static void remove_live_file(live_recording *live)
+{
+    if (!live->stream)
+        return;
+    fclose(live->stream);
+    live->stream = NULL;
+    remove(live->path);
+}
+
+/* ---- session.json ------------------------------------------------------------------------------------------- */
+
+/* Copy the ticks after a header that knows how many there are. */
+static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
+{
+    char buffer[1 << 16];
+    off_t left = live->whole - live->head;
+    clearerr(live->stream);
+    if (fseeko(live->stream, live->head, SEEK_SET) != 0)
+        return fail_to_write(live, error);
+    while (left > 0) {
+        const size_t wanted = left < (off_t)sizeof buffer ? (size_t)left : sizeof buffer;
+        if (fread(buffer, 1, wanted, live->stream) != wanted)
+            return error_set(error, "%s: cannot be read", live->path);
+        fwrite(buffer, 1, wanted, out); /* file_writer_close tells */
+        left -= (off_t)wanted;
+    }
+    return true;
+}
+
+static bool write_session(live_recording *live, const char *path, octreel_error *error)
+{
+    file_writer file;
+    octree_session header = live->start.session;
+    header.ticks = live->ticks;
+    if (!file_writer_open(&file, path, error))
+        return false;
+    session_write_header(&header, file.stream);
+    return copy_ticks(live, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
+}
+
+/* As octree_digest_bytes(), in pieces of whole words: a session may be large. */
+static bool digest_file(const char *path, uint64_t *digest, octreel_error *error)
+{
+    unsigned char bytes[1 << 13];
+    uint64_t size = 0;
+    FILE *in = fopen(path, "rb");
+    if (!in)
+        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+    *digest = OCTREE_DIGEST_START;
+    for (size_t got; (got = fread(bytes, 1, sizeof bytes, in)) > 0; size += got)
+        *digest = octree_digest_words(*digest, bytes, got);
+    *digest = octree_digest_word(*digest, size);
+    const bool ok = !ferror(in);
+    fclose(in);
+    return ok || error_set(error, "%s: cannot be read", path);
+}
+
+/* Only now it is known of what session the frames are. */
+static bool sign_frames(const live_recording *live, uint64_t digest, octreel_error *error)
+{
+    for (uint64_t tick = 0; tick < live->summary.ticks; tick += live->options.every)
+        if (!frame_set_session(live->folder, tick, digest, error))
+            return false;
+    return true;
+}
+
+static bool end_session(live_recording *live, octreel_error *error)
+{
+    uint64_t digest;
+    char *path = path_join(live->folder, "session.json");
+    bool ok = path ? write_session(live, path, error) : error_no_memory(error);
+    ok = ok && digest_file(path, &digest, error);
+    if (ok)
+        remove_live_file(live);
+    ok = ok && sign_frames(live, digest, error);
+    free(path);
+    return ok;
+}
+
+/* ---- The recording ------------------------------------------------------------------------------------------ */
+
+static void release(live_recording *live)
+{
+    playback_close(&live->playback);
+    if (live->stream)
+        fclose(live->stream);
+    session_release(&live->start);
+    free(live->path);
+    free(live->folder);
+    free(live);
+}
+
+live_recording *live_open(const octree_session *start, const film_options *options, octreel_error *error)
+{
+    live_recording *live = calloc(1, sizeof *live);
+    octreel_error ignored;
+    if (!live || !(live->folder = strdup(options->folder)) || !session_copy(start, &live->start, &ignored)) {
+        error_no_memory(error);
+        if (live)
+            release(live);
+        return NULL;
+    }
+    live->options = *options;
+    live->options.folder = live->folder;
+    live->options.first = live->options.last = 0;
+    live->options.resume = false;
+    live->recording = (recording){.options = &live->options, .summary = &live->summary};
+    if (playback_open(&live->playback, &live->start.session, &live->options.view, error) &&
+        recording_film(&live->recording, &live->playback, error))
+        return live;
+    release(live);
+    return NULL;
+}
+
+static bool film_tick(live_recording *live, octreel_error *error)
+{
+    film_step step;
+    return playback_tick(&live->playback, &step, error) && recording_add(&live->recording, &step, error);
+}
+
+bool live_begin(live_recording *live, octreel_error *error)
+{
+    octreel_error late;
+    if (!recording_begin(&live->recording, &live->playback, error))
+        return false;
+    live->begun = begin_session(live, error) && film_tick(live, error);
+    if (live->begun)
+        return true;
+    tick_log_close(&live->recording.log, false, &late);
+    remove_live_file(live);
+    folder_abandon(live->folder);
+    return false;
+}
+
+bool live_tick(live_recording *live, const octree_input *input, octreel_error *error)
+{
+    live->broken = live->broken || !add_to_session(live, input, error) ||
+                   !playback_play(&live->playback, input, error) || !film_tick(live, error);
+    return !live->broken;
+}
+
+bool live_close(live_recording *live, octreel_error *error)
+{
+    octreel_error late;
+    bool ok = true;
+    if (live->begun) {
+        const bool whole = end_session(live, error);
+        live->summary.total = live->summary.ticks;
+        ok = (recording_end(&live->recording, whole && !live->broken, whole ? error : &late) || live->broken) && whole;
+    }
+    release(live);
+    return ok;
+}

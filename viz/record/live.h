@@ -1,0 +1,31 @@
+/* live.h - a session in the making becomes a recording: each tick is drawn and written when it comes, and the session
+ * is written last. The recording is that of film_session() with the session that came out.
+ *
+ * While it goes on, what is known of the session is in session.json.live, a session file too: when the process dies,
+ * nothing but the tick in hand is lost, and octreel record --resume makes a recording of the others. One thread films,
+ * from open to close.
+ */
+#ifndef RECORD_LIVE_H
+#define RECORD_LIVE_H
+
+#include "film_options.h"
+
+typedef struct live_recording live_recording;
+
+/* Play tick 0 and open what draws it: of the session its start, and what it asks and shows at tick 0 or at every tick;
+ * it has no keys and no edits. All that is given is copied. Of the options, chunk, jobs and resume are not read. Null,
+ * and a sentence, on failure. */
+live_recording *live_open(const octree_session *start, const film_options *options, octreel_error *error);
+
+/* Make the folder and film tick 0. Where it fails no files are left, and only live_close() is. */
+bool live_begin(live_recording *live, octreel_error *error);
+
+/* Film the next tick. After a failure only live_close() is left. */
+bool live_tick(live_recording *live, const octree_input *input, octreel_error *error);
+
+/* Write what comes last, and free all memory: session.json with all ticks that were taken, and the page. Where a tick
+ * failed, the files are those of a recording that broke off, which --resume completes. False, and a sentence, when that
+ * cannot be written. */
+bool live_close(live_recording *live, octreel_error *error);
+
+#endif
