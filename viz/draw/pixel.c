@@ -426,7 +426,7 @@ static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, oc
     return bits;
 }
 
-/* Each sample of an edge may be another box's. Those that merely share it come behind. */
+/* Each sample of an edge may be another box's. Those that merely share it come last. */
 static void add_edge(probe *p, const quad *q, unsigned bits)
 {
     const edge *e = paint_edge_at(&p->painter, q->index);

@@ -143,18 +143,38 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
         add_pixel(&difference->counted, x, r->first + y, c);
 }
 
-/* Of `count` pixels from (x, y) on. */
+/* How many pixels are stored alike before the first that is not. */
+static int run_alike(const uint8_t *a, const uint8_t *b, int count, size_t pixel_size)
+{
+    const size_t size = (size_t)count * pixel_size;
+    size_t at = 0;
+    while (at + 8 <= size && memcmp(a + at, b + at, 8) == 0)
+        at += 8;
+    while (at < size && a[at] == b[at])
+        at++;
+    return (int)(at / pixel_size);
+}
+
+/* Of `count` pixels from (x, y) on. Where equal bytes mean equal colours, only pixels of unlike bytes are read. */
 static void count_span(image_comparison *c, const rows *r, int x, int y, int count)
 {
     const size_t n = (size_t)y * (size_t)r->a->width + (size_t)x, size = image_pixel_size(r->a);
-    if (c->stored_alike && memcmp(r->a->pixels + n * size, r->b->pixels + n * size, (size_t)count * size) == 0)
+    const uint8_t *at_a = r->a->pixels + n * size, *at_b = r->b->pixels + n * image_pixel_size(r->b);
+    if (c->stored_alike && memcmp(at_a, at_b, (size_t)count * size) == 0)
         return;
     pixel_samples a[SPAN], b[SPAN];
-    samples_read(r->a, n, count, c->difference.channel_range, a);
-    samples_read(r->b, n, count, c->difference.channel_range, b);
-    for (int i = 0; i < count; i++)
-        if (!samples_equal(&a[i], &b[i]))
-            count_pixel(c, r, x + i, y, &a[i], &b[i]);
+    for (int i = 0, some; i < count; i += some) {
+        some = count - i;
+        if (c->stored_alike) {
+            i += run_alike(at_a + (size_t)i * size, at_b + (size_t)i * size, some, size);
+            some = i < count;
+        }
+        samples_read(r->a, n + (size_t)i, some, c->difference.channel_range, a);
+        samples_read(r->b, n + (size_t)i, some, c->difference.channel_range, b);
+        for (int j = 0; j < some; j++)
+            if (!samples_equal(&a[j], &b[j])) /* a palette may have a colour twice */
+                count_pixel(c, r, x + i + j, y, &a[j], &b[j]);
+    }
 }
 
 image_comparison image_comparison_begin(const image *a, const image *b, const image_tolerance *tolerance)
