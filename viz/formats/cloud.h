@@ -9,8 +9,8 @@
  * The contents decide which of them a file is, and the ending .ply or .pcd where the contents do not. A file that is
  * cut off or whose counts do not fit what it holds is an error: no point is lost in silence.
  */
-#ifndef RECORD_CLOUD_H
-#define RECORD_CLOUD_H
+#ifndef FORMATS_CLOUD_H
+#define FORMATS_CLOUD_H
 
 #include "error.h"
 
@@ -36,6 +36,10 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
 
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error);
+
+/* The names of the formats, for people: "x y z text, PLY and PCD". Returns `text`. */
+#define CLOUD_FORMAT_NAMES 128
+char *cloud_format_names(char text[CLOUD_FORMAT_NAMES]);
 
 /* Free the positions and empty the cloud; a zeroed cloud is allowed. */
 void cloud_release(cloud *cloud);

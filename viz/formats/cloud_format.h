@@ -1,8 +1,11 @@
-/* cloud_format.h - what the readers of the point-cloud formats share: the file in memory, its lines and words, its
- * binary scalars, the growing result and the sentence of an error. Nobody else includes this.
+/* cloud_format.h - the formats of point clouds, and what their readers share: the file in memory, its lines and words,
+ * its binary numbers, the growing result and the sentence of an error. Private to cloud*.c.
+ *
+ * To add a format: a row of CLOUD_FORMAT_MAP, a file cloud_NAME.c that defines `const cloud_format cloud_NAME`, and its
+ * test.
  */
-#ifndef RECORD_CLOUD_FORMAT_H
-#define RECORD_CLOUD_FORMAT_H
+#ifndef FORMATS_CLOUD_FORMAT_H
+#define FORMATS_CLOUD_FORMAT_H
 
 #include "cloud.h"
 
@@ -16,16 +19,24 @@ typedef struct cloud_file {
     cloud *out;
     octreel_error *error;
     const cloud_watch *watch; /* may be null */
+    size_t room;              /* of out->positions */
 } cloud_file;
 
-/* The formats: each reads the whole file into file->out. False with the error written. */
-bool cloud_parse_text(cloud_file *file);
-bool cloud_parse_ply(cloud_file *file);
-bool cloud_parse_pcd(cloud_file *file);
+/* Each format, in the order in which they are tried; the last is what no other is. */
+#define CLOUD_FORMAT_MAP(X)                                                                                            \
+    X(pcd)                                                                                                             \
+    X(ply)                                                                                                             \
+    X(text)
 
-/* True when the contents say that this is the format. */
-bool cloud_is_ply(const cloud_file *file);
-bool cloud_is_pcd(const cloud_file *file);
+typedef struct cloud_format {
+    const char *name, *ending;                 /* "PLY", ".ply"; the ending may be null */
+    bool (*recognise)(const cloud_file *file); /* whether the contents say that it is this format; may be null */
+    bool (*parse)(cloud_file *file);           /* read the whole file into file->out; false with the error written */
+} cloud_format;
+
+#define CLOUD_FORMAT_EXTERN(name) extern const cloud_format cloud_##name;
+CLOUD_FORMAT_MAP(CLOUD_FORMAT_EXTERN)
+#undef CLOUD_FORMAT_EXTERN
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
@@ -83,6 +94,9 @@ bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word,
 
 /* A word fit for an error's sentence: printable, in quotes, and cut when it is long. Returns `text`. */
 const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE]);
+
+/* Write the error "'word' reason" for a line, and return false. */
+bool cloud_fail_word(const cloud_file *file, size_t line, cloud_span word, const char *reason);
 
 /* False with an error when the file holds a NUL byte: it is then no text. */
 bool cloud_check_text(const cloud_file *file);

@@ -42,8 +42,7 @@ typedef struct pcd_reader {
 
 static bool fail_header(const pcd_reader *reader, const char *reason, cloud_span word)
 {
-    char quote[CLOUD_QUOTE];
-    return cloud_fail_line(reader->file, reader->lines.number, "%s %s", cloud_quote(word, quote), reason);
+    return cloud_fail_word(reader->file, reader->lines.number, word, reason);
 }
 
 static bool read_version(pcd_reader *reader, cloud_span rest)
@@ -118,47 +117,11 @@ static bool read_each(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field
     return !cloud_next_word(&rest, &word) || fail_header(reader, "is more than there are fields before it", word);
 }
 
-static bool read_sizes(pcd_reader *reader, cloud_span rest)
-{
-    return read_each(reader, rest, set_size, "is not the size of a field: 1, 2, 4 or 8");
-}
-
-static bool read_types(pcd_reader *reader, cloud_span rest)
-{
-    return read_each(reader, rest, set_type, "is not the type of a field: I, U or F");
-}
-
-static bool read_counts(pcd_reader *reader, cloud_span rest)
-{
-    return read_each(reader, rest, set_count, "is not the count of a field: 1 to 4294967295");
-}
-
 static bool read_number(const pcd_reader *reader, cloud_span rest, uint64_t *number)
 {
     cloud_span word;
     cloud_next_word(&rest, &word);
     return cloud_word_count(word, number) || fail_header(reader, "is not a number of points", word);
-}
-
-static bool read_width(pcd_reader *reader, cloud_span rest)
-{
-    return read_number(reader, rest, &reader->width);
-}
-
-static bool read_height(pcd_reader *reader, cloud_span rest)
-{
-    return read_number(reader, rest, &reader->height);
-}
-
-static bool read_points(pcd_reader *reader, cloud_span rest)
-{
-    return read_number(reader, rest, &reader->points);
-}
-
-static bool skip_line(pcd_reader *reader, cloud_span rest)
-{
-    (void)reader, (void)rest;
-    return true;
 }
 
 static bool read_encoding(pcd_reader *reader, cloud_span rest)
@@ -190,18 +153,27 @@ typedef enum pcd_key {
     KEYS
 } pcd_key;
 
+/* A line of the header, read by one of three ways; one with none of them is skipped. */
 typedef struct pcd_keyword {
     const char *name;
-    bool (*read)(pcd_reader *reader, cloud_span rest);
     bool required;
+    bool (*read)(pcd_reader *reader, cloud_span rest);
+    bool (*set)(pcd_field *field, cloud_span word); /* a word for each field */
+    const char *reason;                             /* why a word is none */
+    size_t number;                                  /* of points: where it is in the reader */
 } pcd_keyword;
 
 static const pcd_keyword keywords[KEYS] = {
-    [KEY_VERSION] = {"VERSION", read_version, false}, [KEY_FIELDS] = {"FIELDS", read_fields, true},
-    [KEY_SIZE] = {"SIZE", read_sizes, true},          [KEY_TYPE] = {"TYPE", read_types, true},
-    [KEY_COUNT] = {"COUNT", read_counts, false},      [KEY_WIDTH] = {"WIDTH", read_width, false},
-    [KEY_HEIGHT] = {"HEIGHT", read_height, false},    [KEY_VIEWPOINT] = {"VIEWPOINT", skip_line, false},
-    [KEY_POINTS] = {"POINTS", read_points, false},    [KEY_DATA] = {"DATA", read_encoding, true},
+    [KEY_VERSION] = {"VERSION", .read = read_version},
+    [KEY_FIELDS] = {"FIELDS", true, .read = read_fields},
+    [KEY_SIZE] = {"SIZE", true, .set = set_size, .reason = "is not the size of a field: 1, 2, 4 or 8"},
+    [KEY_TYPE] = {"TYPE", true, .set = set_type, .reason = "is not the type of a field: I, U or F"},
+    [KEY_COUNT] = {"COUNT", .set = set_count, .reason = "is not the count of a field: 1 to 4294967295"},
+    [KEY_WIDTH] = {"WIDTH", .number = offsetof(pcd_reader, width)},
+    [KEY_HEIGHT] = {"HEIGHT", .number = offsetof(pcd_reader, height)},
+    [KEY_VIEWPOINT] = {"VIEWPOINT", .required = false},
+    [KEY_POINTS] = {"POINTS", .number = offsetof(pcd_reader, points)},
+    [KEY_DATA] = {"DATA", true, .read = read_encoding},
 };
 
 static bool has_seen(const pcd_reader *reader, pcd_key key)
@@ -217,7 +189,11 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
         if (has_seen(reader, (pcd_key)i))
             return fail_header(reader, "is there twice", word);
         reader->seen |= 1U << i;
-        return keywords[i].read(reader, rest);
+        if (keywords[i].read)
+            return keywords[i].read(reader, rest);
+        if (keywords[i].set)
+            return read_each(reader, rest, keywords[i].set, keywords[i].reason);
+        return !keywords[i].number || read_number(reader, rest, (uint64_t *)((char *)reader + keywords[i].number));
     }
     return fail_header(reader, "does not belong in a PCD header", word);
 }
@@ -231,7 +207,7 @@ static bool next_header_line(cloud_lines *lines, cloud_span *word, cloud_span *r
     return false;
 }
 
-bool cloud_is_pcd(const cloud_file *file)
+static bool is_pcd(const cloud_file *file)
 {
     cloud_lines lines = cloud_lines_of(file);
     cloud_span word, rest;
@@ -410,7 +386,7 @@ static bool read_compressed(pcd_reader *reader, size_t offset)
     return size == 0 || (unpack(reader, offset, packed, size) && cloud_check_padding(file, offset + packed));
 }
 
-bool cloud_parse_pcd(cloud_file *file)
+static bool parse_pcd(cloud_file *file)
 {
     pcd_reader reader = {.file = file, .lines = cloud_lines_of(file)};
     if (!read_header(&reader))
@@ -426,3 +402,5 @@ bool cloud_parse_pcd(cloud_file *file)
     }
     return read_compressed(&reader, offset);
 }
+
+const cloud_format cloud_pcd = {"PCD", ".pcd", is_pcd, parse_pcd};

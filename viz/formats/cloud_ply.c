@@ -34,7 +34,7 @@ typedef struct ply_reader {
     size_t property_count;
 } ply_reader;
 
-bool cloud_is_ply(const cloud_file *file)
+static bool is_ply(const cloud_file *file)
 {
     cloud_lines lines = cloud_lines_of(file);
     cloud_span line, word, more;
@@ -69,8 +69,7 @@ static bool find_type(cloud_span word, cloud_scalar *scalar)
 
 static bool fail_header(const ply_reader *reader, const char *reason, cloud_span word)
 {
-    char quote[CLOUD_QUOTE];
-    return cloud_fail_line(reader->file, reader->lines.number, "%s %s", cloud_quote(word, quote), reason);
+    return cloud_fail_word(reader->file, reader->lines.number, word, reason);
 }
 
 static bool read_format(ply_reader *reader, cloud_span rest)
@@ -302,10 +301,10 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
     return true;
 }
 
-bool cloud_parse_ply(cloud_file *file)
+static bool parse_ply(cloud_file *file)
 {
     ply_reader reader = {.file = file, .lines = cloud_lines_of(file)};
-    if (!cloud_is_ply(file))
+    if (!is_ply(file))
         return cloud_fail_line(file, 1, "is not a PLY file: its first line is not \"ply\"");
     if (!read_header(&reader))
         return false;
@@ -318,3 +317,5 @@ bool cloud_parse_ply(cloud_file *file)
             return false;
     return ascii ? cloud_check_no_lines(file, &reader.lines) : cloud_check_padding(file, reader.offset);
 }
+
+const cloud_format cloud_ply = {"PLY", ".ply", is_ply, parse_ply};

@@ -86,7 +86,6 @@ static bool check_header(const cloud_file *file, size_t number, cloud_span line)
 /* Say why there is no coordinate at the front of a line. */
 static bool fail_coordinate(const cloud_file *file, size_t number, cloud_span line, int axis)
 {
-    char quote[CLOUD_QUOTE];
     const char *end;
     double ignored;
     cloud_span column = line;
@@ -96,10 +95,10 @@ static bool fail_coordinate(const cloud_file *file, size_t number, cloud_span li
         return cloud_fail_line(file, number, "has nothing in column %d", axis + 1);
     next_column(&line, &column);
     if (number_parse_nonfinite(column.begin, column.limit, &end) && end == column.limit)
-        return cloud_fail_line(file, number, "%s is not a finite number", cloud_quote(column, quote));
+        return cloud_fail_word(file, number, column, "is not a finite number");
     if (!number_parse(column.begin, column.limit, &end, &ignored) && end == column.limit)
-        return cloud_fail_line(file, number, "%s is beyond the largest double", cloud_quote(column, quote));
-    return cloud_fail_line(file, number, "%s is not a number", cloud_quote(column, quote));
+        return cloud_fail_word(file, number, column, "is beyond the largest double");
+    return cloud_fail_word(file, number, column, "is not a number");
 }
 
 /* Read one point. The separator behind each coordinate must be like the first: decimal commas, as in "1,5;2,5;3,5"
@@ -132,7 +131,7 @@ static bool parse_point(const cloud_file *file, size_t number, cloud_span line, 
     return true;
 }
 
-bool cloud_parse_text(cloud_file *file)
+static bool parse_text(cloud_file *file)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
     cloud_lines lines = cloud_lines_of(file);
@@ -158,3 +157,5 @@ bool cloud_parse_text(cloud_file *file)
     }
     return true;
 }
+
+const cloud_format cloud_text = {"x y z text", NULL, NULL, parse_text};

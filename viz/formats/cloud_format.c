@@ -1,0 +1,273 @@
+#include "cloud_format.h"
+#include "array.h"
+#include "number.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- Result and errors -------------------------------------------------------------------------------------- */
+
+bool cloud_add(cloud_file *file, const double position[3])
+{
+    cloud *points = file->out;
+    if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
+        points->skipped++;
+        return true;
+    }
+    void *grown = array_reserve(points->positions, points->count + 1, &file->room, sizeof *points->positions);
+    if (!grown)
+        return cloud_fail(file, "out of memory after %zu points", points->count);
+    points->positions = grown;
+    memcpy(points->positions[points->count++], position, sizeof *points->positions);
+    return true;
+}
+
+void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total)
+{
+    if (file->watch && times % 65536 == 0)
+        file->watch->step((double)done / (double)total, file->watch->context);
+}
+
+static void write_error(const cloud_file *file, const char *place, const char *format, va_list arguments)
+{
+    char reason[256];
+    vsnprintf(reason, sizeof reason, format, arguments);
+    error_set(file->error, "%s:%s %s", file->name, place, reason);
+}
+
+bool cloud_fail(const cloud_file *file, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    write_error(file, "", format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+bool cloud_fail_line(const cloud_file *file, size_t line, const char *format, ...)
+{
+    char place[32];
+    va_list arguments;
+    snprintf(place, sizeof place, "%zu:", line);
+    va_start(arguments, format);
+    write_error(file, place, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, ...)
+{
+    char place[32];
+    va_list arguments;
+    snprintf(place, sizeof place, "byte %zu:", offset);
+    va_start(arguments, format);
+    write_error(file, place, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+/* ---- Lines and words ---------------------------------------------------------------------------------------- */
+
+/* Lines that end in \r alone have no other end: in binary data a \n may follow the header's last one. */
+static char find_terminator(const char *at, const char *limit)
+{
+    while (at < limit && *at != '\n' && *at != '\r')
+        at++;
+    bool alone = at < limit && *at == '\r' && !(at + 1 < limit && at[1] == '\n');
+    return alone ? '\r' : '\n';
+}
+
+cloud_lines cloud_lines_of(const cloud_file *file)
+{
+    const char *begin = (const char *)file->bytes;
+    const char *limit = begin + file->size;
+    return (cloud_lines){begin, limit, find_terminator(begin, limit), 0};
+}
+
+bool cloud_next_line(cloud_lines *lines, cloud_span *line)
+{
+    if (lines->at == lines->limit)
+        return false;
+    const char *stop = memchr(lines->at, lines->terminator, (size_t)(lines->limit - lines->at));
+    *line = (cloud_span){lines->at, stop ? stop : lines->limit};
+    lines->at = stop ? stop + 1 : lines->limit;
+    lines->number++;
+    if (line->limit > line->begin && line->limit[-1] == '\r')
+        line->limit--;
+    return true;
+}
+
+bool cloud_next_filled_line(cloud_lines *lines, cloud_span *line)
+{
+    while (cloud_next_line(lines, line)) {
+        cloud_span rest = *line, word;
+        if (cloud_next_word(&rest, &word))
+            return true;
+    }
+    return false;
+}
+
+bool cloud_is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+bool cloud_next_word(cloud_span *line, cloud_span *word)
+{
+    while (line->begin < line->limit && cloud_is_blank(*line->begin))
+        line->begin++;
+    word->begin = line->begin;
+    while (line->begin < line->limit && !cloud_is_blank(*line->begin))
+        line->begin++;
+    word->limit = line->begin;
+    return word->begin < word->limit;
+}
+
+bool cloud_word_is(cloud_span word, const char *text)
+{
+    size_t length = (size_t)(word.limit - word.begin);
+    return length == strlen(text) && memcmp(word.begin, text, length) == 0;
+}
+
+int cloud_word_axis(cloud_span word)
+{
+    bool single = word.limit - word.begin == 1;
+    return single && *word.begin >= 'x' && *word.begin <= 'z' ? *word.begin - 'x' : -1;
+}
+
+bool cloud_word_count(cloud_span word, uint64_t *count)
+{
+    *count = 0;
+    for (const char *at = word.begin; at < word.limit; at++) {
+        if (*at < '0' || *at > '9')
+            return false;
+        uint64_t digit = (uint64_t)(*at - '0');
+        if (*count > (UINT64_MAX - digit) / 10)
+            return false;
+        *count = *count * 10 + digit;
+    }
+    return word.begin < word.limit;
+}
+
+bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word, double *coordinate)
+{
+    const char *end;
+    bool finite = number_parse(word.begin, word.limit, &end, coordinate);
+    if (end == word.limit && finite)
+        return true;
+    if (end == word.limit)
+        return cloud_fail_word(file, line, word, "is beyond the largest double");
+    if (!number_parse_nonfinite(word.begin, word.limit, &end) || end != word.limit)
+        return cloud_fail_word(file, line, word, "is not a number");
+    *coordinate = NAN;
+    return true;
+}
+
+const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE])
+{
+    static const char digits[] = "0123456789abcdef";
+    static const char ending[] = "...'";
+    size_t length = 0;
+    text[length++] = '\'';
+    for (const char *at = word.begin; at < word.limit; at++) {
+        unsigned char c = (unsigned char)*at;
+        if (length + 4 + sizeof ending > CLOUD_QUOTE) {
+            memcpy(text + length, ending, sizeof ending);
+            return text;
+        }
+        if (c >= ' ' && c <= '~') {
+            text[length++] = (char)c;
+            continue;
+        }
+        text[length++] = '\\';
+        text[length++] = 'x';
+        text[length++] = digits[c >> 4];
+        text[length++] = digits[c & 15];
+    }
+    text[length++] = '\'';
+    text[length] = '\0';
+    return text;
+}
+
+bool cloud_fail_word(const cloud_file *file, size_t line, cloud_span word, const char *reason)
+{
+    char quote[CLOUD_QUOTE];
+    return cloud_fail_line(file, line, "%s %s", cloud_quote(word, quote), reason);
+}
+
+bool cloud_check_text(const cloud_file *file)
+{
+    const char *nul = memchr(file->bytes, '\0', file->size);
+    cloud_lines lines = cloud_lines_of(file);
+    cloud_span line;
+    char names[CLOUD_FORMAT_NAMES];
+    if (!nul)
+        return true;
+    while (lines.at <= nul)
+        cloud_next_line(&lines, &line);
+    return cloud_fail_line(file, lines.number, "holds a NUL byte, so it is no text; known are %s",
+                           cloud_format_names(names));
+}
+
+bool cloud_check_no_lines(const cloud_file *file, cloud_lines *lines)
+{
+    cloud_span line;
+    if (cloud_next_filled_line(lines, &line))
+        return cloud_fail_line(file, lines->number, "more lines follow than the header counts");
+    return true;
+}
+
+/* ---- Binary data -------------------------------------------------------------------------------------------- */
+
+static uint64_t read_bits(unsigned size, bool big_endian, const unsigned char *bytes)
+{
+    uint64_t bits = 0;
+    for (unsigned i = 0; i < size; i++)
+        bits = bits << 8 | bytes[big_endian ? i : size - 1 - i];
+    return bits;
+}
+
+static double float_of_bits(unsigned size, uint64_t bits)
+{
+    if (size == 8) {
+        double wide;
+        memcpy(&wide, &bits, sizeof wide);
+        return wide;
+    }
+    uint32_t low = (uint32_t)bits;
+    float narrow;
+    memcpy(&narrow, &low, sizeof narrow);
+    return (double)narrow;
+}
+
+/* Two's complement: the sign bit counts as minus its value. */
+static double signed_of_bits(unsigned size, uint64_t bits)
+{
+    uint64_t sign = UINT64_C(1) << (8 * size - 1);
+    uint64_t low = bits & (sign - 1);
+    return bits & sign ? -(double)(sign - low) : (double)low;
+}
+
+double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char *bytes)
+{
+    uint64_t bits = read_bits(type.size, big_endian, bytes);
+    switch (type.kind) {
+    case CLOUD_FLOAT:
+        return float_of_bits(type.size, bits);
+    case CLOUD_SIGNED:
+        return signed_of_bits(type.size, bits);
+    case CLOUD_UNSIGNED:
+        break;
+    }
+    return (double)bits;
+}
+
+bool cloud_check_padding(const cloud_file *file, size_t offset)
+{
+    for (size_t i = offset; i < file->size; i++)
+        if (file->bytes[i] != 0)
+            return cloud_fail_byte(file, i, "more data follows than the header counts");
+    return true;
+}
