@@ -313,10 +313,12 @@ octree_status game_list_movers(octree_game *game)
     const bodies *all = &game->bodies;
     for (size_t i = 0; all->movers && i < all->items.count; i++) {
         const moving_body *body = &bodies_items(all)[i];
+        if (!is_moving(body->velocity))
+            continue;
         octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
-        if (!is_moving(now.velocity))
-            continue;                                              /* at rest, or so fast that it stays where it is */
         memcpy(now.position, body->position, sizeof now.position); /* a full leaf may have refused the move */
+        if (!is_moving(now.velocity))
+            continue; /* it is so fast that it stays where it is */
         if (!list_push(&game->memory, &game->movers, &now, sizeof now))
             return OCTREE_NO_MEMORY;
     }
