@@ -1,4 +1,4 @@
-/* accept.c - see accept.h. */
+/* accept.c - references are compared with new frames, and replaced by them. */
 #include "accept.h"
 #include "file.h"
 #include "digest_file.h"
@@ -33,7 +33,7 @@ static bool is_there(const char *path)
     return stat(path, &status) == 0;
 }
 
-/* A reference that is to be made is an empty one of the kind that fits. */
+/* A reference that does not exist yet starts as an empty side of the same kind. */
 static bool open_sides(accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
@@ -113,7 +113,7 @@ static bool decide(accepting *a, octreel_error *error)
     return true;
 }
 
-/* Where not one reference has a frame, a wrong folder was given: its pictures are not to be lost. */
+/* If no reference has a frame, the wrong folder was given: do not delete its pictures. */
 static bool check_overlap(const accepting *a, octreel_error *error)
 {
     const size_t references = a->reference.count;
@@ -174,7 +174,7 @@ static bool write_pictures(const accepting *a, octreel_error *error)
     return true;
 }
 
-/* The references that there are now, kept ones with the digests that they had. */
+/* All references as they are now; those that stay keep their digests. */
 static bool write_digests(const accepting *a, octreel_error *error)
 {
     diff_side now = {.path = a->reference.path, .kind = DIFF_DIGESTS, .background = a->reference.background};
@@ -205,7 +205,7 @@ static bool copy_fact(const accepting *a, const char *name, octreel_error *error
     return ok;
 }
 
-/* What else is in a recording tells of its frames, and these tell of their session, though their pixels be the same. */
+/* The other files of a recording describe its frames, and frames of the same pixels may name another session. */
 static bool write_facts(const accepting *a, octreel_error *error)
 {
     bool ok = true;

@@ -1,4 +1,4 @@
-/* compare.c - see compare.h. */
+/* compare.c - one pair of frames. */
 #include "compare.h"
 #include "digest_file.h"
 #include "file.h"
@@ -14,7 +14,7 @@ bool compare_bytes(diff_pair *pair)
     frame_digest about = {0};
     if (!pair->a->path || !pair->b->path || !same_bytes(pair->a->path, pair->b->path) ||
         !image_png_size(pair->a->path, &about.width, &about.height))
-        return false; /* two equal halves of a picture are no picture: its reader shall tell */
+        return false; /* equal, and cut short: let the PNG reader say what is wrong */
     pair->about[0] = pair->about[1] = about;
     pair->finding = FOUND_SAME_BYTES;
     return true;
@@ -23,12 +23,12 @@ bool compare_bytes(diff_pair *pair)
 static void find_unreadable(diff_pair *pair, const octreel_error *error)
 {
     pair->finding = FOUND_UNREADABLE;
-    pair->trouble = strdup(error->text); /* without memory there is no sentence: reports can do without */
+    pair->trouble = strdup(error->text); /* null without memory: reports say so */
 }
 
 /* ---- Pictures, a band of rows at a time ---------------------------------------------------------------------- */
 
-/* A picture that is read. */
+/* A picture while it is read in bands of rows. */
 typedef struct reading {
     image_source *source; /* null: it cannot be read */
     uint8_t *room;        /* of a band, where the source has not all rows at hand */
@@ -36,7 +36,7 @@ typedef struct reading {
     octreel_error error;
 } reading;
 
-/* What anti-aliasing explains is seen in the rows above and below: then the picture is held whole. */
+/* Judging anti-aliasing looks at the rows above and below, so the picture is then held whole. */
 static void open_reading(reading *r, const char *path, const diff_options *options)
 {
     r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
@@ -69,8 +69,8 @@ static bool next_rows(reading *r, image *band)
     return r->source && image_source_next(r->source, r->rows, r->room, band);
 }
 
-/* Both are read to their ends, compared or not: only then are they known to be pictures. Where the first cannot be
- * read, the other one does not matter any more. */
+/* Both are read to their ends even when they are not compared, since an error may come late. An error of the first is
+ * the one that is reported, so it ends the loop. */
 static image_difference compare_rows(reading of[2], const image_tolerance *tolerance)
 {
     const bool opened = of[0].source && of[1].source;

@@ -1,4 +1,4 @@
-/* diff.c - see diff.h. */
+/* diff.c - frames are paired by name, and the pairs compared on all cores. */
 #include "diff.h"
 #include "compare.h"
 #include "parallel.h"
@@ -81,7 +81,7 @@ static bool same_color(image_color a, image_color b)
     return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
-/* A picture, or digests that may be those of one: then a name does not matter. */
+/* One picture, or the digest of one: its name does not matter. */
 static bool is_one(const diff_side *side)
 {
     return side->kind == DIFF_PICTURE || (side->kind == DIFF_DIGESTS && side->count == 1);
@@ -114,7 +114,7 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     return true;
 }
 
-/* What is single is a pair whatever the names. */
+/* Two single pictures are a pair whatever their names. */
 static int order_of(const diff_side *a, size_t i, const diff_side *b, size_t j)
 {
     if (i == a->count || j == b->count)
@@ -139,7 +139,7 @@ static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *resu
 
 /* ---- Comparing them ------------------------------------------------------------------------------------------ */
 
-/* The pairs of a result that still have to be looked at. */
+/* The pairs that have no finding yet. */
 typedef struct pending {
     diff_pair **pairs;
     size_t count;

@@ -1,4 +1,4 @@
-/* diff_words.c - see diff_words.h. */
+/* diff_words.c - findings in lines for people. */
 #include "diff_words.h"
 #include "text.h"
 
@@ -29,7 +29,7 @@ static void print_forgiven(FILE *out, const image_difference *d)
         fprintf(out, ", %" PRIu64 " more in what is ignored", d->ignored);
 }
 
-/* Where and how bad: of what counts, or, where all of it is forgiven, of that. */
+/* Where and how bad: of the pixels that count, or, if all are forgiven, of those. */
 static void print_worst(FILE *out, const image_difference *d)
 {
     const image_tally *tally = d->counted.pixels ? &d->counted : &d->unlike;

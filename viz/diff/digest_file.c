@@ -1,4 +1,4 @@
-/* digest_file.c - see digest_file.h. */
+/* digest_file.c - files of digests, read and written. */
 #include "digest_file.h"
 #include "parallel.h"
 #include "text.h"

@@ -1,4 +1,4 @@
-/* mask.c - see mask.h. */
+/* mask.c - masks as run lengths. */
 #include "mask.h"
 #include "array.h"
 

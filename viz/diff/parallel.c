@@ -1,4 +1,4 @@
-/* parallel.c - see parallel.h. */
+/* parallel.c - a loop over threads. */
 #include "parallel.h"
 
 #include <pthread.h>

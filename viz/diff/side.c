@@ -1,4 +1,4 @@
-/* side.c - see side.h. */
+/* side.c - what a path stands for, and its frames. */
 #include "side.h"
 #include "array.h"
 #include "digest_file.h"
@@ -82,7 +82,7 @@ static bool read_folder(diff_side *side, octreel_error *error)
     return ok;
 }
 
-/* By their first bytes: a damaged picture is one still, and its reader tells what is wrong with it. */
+/* Told by the first bytes, so that a damaged picture is reported by the PNG reader. */
 static bool read_file(diff_side *side, octreel_error *error)
 {
     char first[sizeof DIGEST_FILE_BEGINNING] = "";
@@ -138,7 +138,7 @@ static bool fact_spared(const diff_side *side, const char *name, const output_fi
     return ok;
 }
 
-/* What is not there yet takes the place of nothing: a folder may have many frames to ask. */
+/* An output that does not exist yet replaces nothing; asking first spares a stat for each frame. */
 bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error)
 {
     struct stat status;

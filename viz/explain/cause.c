@@ -1,4 +1,4 @@
-/* cause.c - see cause.h. */
+/* cause.c - two sessions played tick by tick. */
 #include "cause.h"
 #include "array.h"
 #include "layer.h"
@@ -75,7 +75,7 @@ static void note(cause *c, uint64_t tick)
     c->last = tick;
 }
 
-/* Trees are taken apart only where somebody wants to know. */
+/* The trees are compared node by node only for ticks that are told in detail. */
 static bool look_at(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};

@@ -11,7 +11,7 @@ static void add(const cause_place *place, const char *where, cause_change change
     cause_add(place->facts, where, place->query, change, (cause_fact){place->tick, id, a, b});
 }
 
-/* Numbers are doubles in both; as text a zero has its sign. */
+/* json_equal() takes 0 and -0 for equal; as text they differ. */
 static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
 {
     if (!a || !b || !place->exact)
@@ -103,7 +103,7 @@ static void compare_keyed(const cause_place *place, const char *where, json_t *a
 
 /* ---- Lists whose elements have a place ----------------------------------------------------------------------- */
 
-/* What is left of a list. */
+/* The elements [first, end) of a list. */
 typedef struct span {
     json_t *list;
     size_t first, end;
@@ -157,7 +157,7 @@ static void name_query(json_t *list, size_t i, char text[32])
         snprintf(text, 32, "query %zu (%s)", i + 1, kind);
 }
 
-/* Answers are about a query; others speak for themselves. */
+/* Facts about an answer name its query. */
 static cause_place place_of(const cause_place *place, const char *where, const span *in, size_t i, char text[32])
 {
     cause_place named = *place;
@@ -179,8 +179,8 @@ static void add_rest(const cause_place *place, const char *where, const span *re
     }
 }
 
-/* Of what is not the same at both ends those of one kind are compared from the end on, for what a key asks comes first,
- * and then from the beginning. */
+/* Equal elements at both ends are skipped. The rest is paired by kind from the end, since the query of a key comes
+ * first and may be extra, then from the beginning. */
 static void compare_sequence(const cause_place *place, const char *where, json_t *a, json_t *b)
 {
     span x = {a, 0, json_array_size(a)}, y = {b, 0, json_array_size(b)};
@@ -203,7 +203,7 @@ static void compare_sequence(const cause_place *place, const char *where, json_t
 
 /* ---- Values -------------------------------------------------------------------------------------------------- */
 
-/* What is compared as one: a box, and what a question cost. */
+/* Objects that are compared as one value: boxes and costs. */
 static bool is_value(const char *where, const json_t *value)
 {
     const size_t length = strlen(where);
@@ -211,7 +211,7 @@ static bool is_value(const char *where, const json_t *value)
            (length >= 4 && strcmp(where + length - 4, "cost") == 0);
 }
 
-/* Lists of numbers that are ids, where others are places and ranges. */
+/* These lists of numbers hold ids; others are positions or ranges. */
 static bool lists_ids(const char *where)
 {
     return strcmp(where, "hits") == 0 || strcmp(where, "answers.ids") == 0;
@@ -234,7 +234,7 @@ static void compare_lists(const cause_place *place, const char *where, json_t *a
         compare_sequence(place, where, a, b);
 }
 
-/* The kind of an answer is in its query's name already. */
+/* The path of an answer's member leaves out the kind, which the query's name has. */
 static void compare_values(const cause_place *place, const char *where, json_t *a, json_t *b)
 {
     cause_place within = *place;

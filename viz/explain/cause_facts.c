@@ -1,4 +1,4 @@
-/* cause_facts.c - see cause_facts.h. */
+/* cause_facts.c - facts, grouped by where they are and how they changed. */
 #include "cause_facts.h"
 #include "array.h"
 

@@ -1,4 +1,4 @@
-/* cause_json.c - see cause_json.h. */
+/* cause_json.c - an explanation as JSON. */
 #include "cause_json.h"
 #include "text.h"
 

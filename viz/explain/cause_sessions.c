@@ -1,5 +1,4 @@
-/* cause_sessions.c - in what two sessions differ, and two views of them: as the files differ that are written of them.
- * See cause_compare.h. */
+/* cause_sessions.c - sessions and views, compared as the files that are written of them. See cause_compare.h. */
 #include "cause_compare.h"
 #include "session_file.h"
 #include "text.h"
@@ -21,7 +20,7 @@ static json_t *vector(const double *numbers)
     return json_pack("[fff]", numbers[0], numbers[1], numbers[2]);
 }
 
-/* Add a fact, and let go of its values. */
+/* Add a fact, and release its values. */
 static void add(cause_facts *facts, const char *where, cause_change change, cause_fact fact)
 {
     cause_add(facts, where, "", change, fact);
@@ -88,7 +87,8 @@ static bool same_ids(const octree_session *a, const octree_session *b)
     return true;
 }
 
-/* There may be a million: they are compared as they are in memory. A leaf that refuses takes those that come first. */
+/* There may be a million points, so no JSON is made of them. Their order counts, since a full leaf refuses those that
+ * come later. */
 static void compare_bodies(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     if (a->body_count == b->body_count &&
@@ -109,7 +109,7 @@ static char key_at(const octree_session *session, size_t length, uint64_t i)
     return i < length ? session->keys[i] : '.';
 }
 
-/* Of the ticks that both have; what is missing is a wait. */
+/* Of the ticks that both have. A missing key is a wait. */
 static void compare_keys(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const uint64_t lengths[2] = {octree_session_length(a), octree_session_length(b)};
@@ -124,7 +124,7 @@ static void compare_keys(const octree_session *a, const octree_session *b, cause
 
 /* ---- The rest, as it is written ------------------------------------------------------------------------------- */
 
-/* The text of a session without its points and keys, with its length. */
+/* A session file without points and keys, which are compared elsewhere. "ticks" is the length in force. */
 static char *write_session(const octree_session *session)
 {
     octree_session rest = *session;
@@ -155,7 +155,7 @@ static const char *player_kind(const json_t *player)
     return json_is_null(player) ? "none" : json_object_get(player, "body") ? "body" : "keys";
 }
 
-/* The kind is a member of its own, and no sweep is said so. */
+/* Give the player the member "kind", also where there is none, and "sweep" where it is left out. */
 static json_t *name_kind(json_t *header)
 {
     json_t *player = json_object_get(header, "player");
@@ -176,7 +176,7 @@ static void drop_missing(json_t *from, const json_t *other)
     json_object_foreach_safe(from, next, key, value) if (!json_object_get(other, key)) json_object_del(from, key);
 }
 
-/* What is not read by the kinds of both players is not compared. */
+/* Members that only one kind of player has are not compared. */
 static void compare_headers(const cause_place *place, json_t *a, json_t *b)
 {
     json_t *const players[2] = {name_kind(a), name_kind(b)};
@@ -185,9 +185,9 @@ static void compare_headers(const cause_place *place, json_t *a, json_t *b)
     cause_compare_members(place, a, b);
 }
 
-/* Behind the header, a line for each tick that has anything. */
+/* After the header comes a line for each tick that has edits, queries or shapes. */
 typedef struct tick_line {
-    uint64_t tick; /* UINT64_MAX: there is none any more */
+    uint64_t tick; /* UINT64_MAX: no line is left */
     size_t size;
 } tick_line;
 
@@ -199,7 +199,7 @@ static tick_line line_at(const char *at)
     return (tick_line){strtoull(at + sizeof start - 1, NULL, 10), strcspn(at, "\n")};
 }
 
-/* A line that is the same in both is not parsed: a session may have many. */
+/* Equal lines are not parsed: a session may have many. */
 static void compare_lines(cause_place place, const char *x, const char *y)
 {
     for (tick_line a = line_at(x), b = line_at(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;

@@ -1,5 +1,5 @@
-/* cause_ticks.c - in what two ticks of one number differ, and their trees: as their lines differ in ticks.jsonl, and
- * what is in no line. See cause_compare.h. */
+/* cause_ticks.c - two ticks of the same number, compared as their lines in ticks.jsonl, and their trees. See
+ * cause_compare.h. */
 #include "cause_compare.h"
 #include "text.h"
 #include "ticks_write.h"
@@ -16,7 +16,7 @@ static void add(cause_facts *facts, const char *where, cause_change change, json
 
 /* ---- Nodes --------------------------------------------------------------------------------------------------- */
 
-/* The nodes of one tree beside another. */
+/* A walk over the nodes of one tree, each looked up in the other. */
 typedef struct walking {
     const octree *other;
     bool is_a; /* those of the reference are walked */
@@ -29,7 +29,7 @@ static void add_node(const walking *w, const char *where, octree_address node)
     add(w->facts, where, CAUSE_MORE, json_string(octree_address_format(node, text)));
 }
 
-/* A node that the other tree does not have, or has as a leaf, takes what is below it along. */
+/* Below a node that the other tree lacks, or has as a leaf, nothing more is told. */
 static octree_walk_order look_at(const octree_node *node, void *context)
 {
     const walking *w = context;
@@ -45,7 +45,7 @@ static octree_walk_order look_at(const octree_node *node, void *context)
 
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
-/* All but the one of the id, where there is one. */
+/* All points but that of an id, which may be null. */
 static cause_points sort_points(const octree *tree, const uint64_t *but)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -62,7 +62,7 @@ static cause_points sort_points(const octree *tree, const uint64_t *but)
     return sorted;
 }
 
-/* Whom the ticks tell of, and so not the trees; null where it is not one and the same. */
+/* The id of the player that both have: the tick tells where it is. Null where they have none, or two. */
 static const uint64_t *player_of_both(const octree_game *a, const octree_game *b)
 {
     const uint64_t *ids[2] = {&octree_game_session(a)->player.id, &octree_game_session(b)->player.id};
@@ -82,7 +82,7 @@ static void compare_points(const octree_game *a, const octree_game *b, cause_fac
     free(bs.points);
 }
 
-/* Nodes of unlike worlds have nothing to do with each other. */
+/* Nodes are not compared across different worlds. */
 static bool same_world(const octree *a, const octree *b)
 {
     const octree_box x = octree_definition(a).world, y = octree_definition(b).world;
@@ -104,7 +104,7 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* Without the tree's digest, which knows of options too. */
+/* Without the tree's digest, which depends on the options too. */
 static char *write_line(const octree_game *game)
 {
     octree_tick tick = *octree_game_tick(game);
@@ -123,7 +123,7 @@ static bool is_inner(const octree_game *game, octree_address address)
     return octree_node_at(octree_game_tree(game), address, &node) == OCTREE_OK && !node.leaf;
 }
 
-/* Where the trees differ in a node itself it is told already. */
+/* Leave out nodes in which the trees differ: they are told already. */
 static void drop_told(const octree_game *a, const octree_game *b, json_t *nodes)
 {
     for (size_t i = json_array_size(nodes); i-- > 0;) {
@@ -138,7 +138,7 @@ static json_t *read_line(const octree_game *a, const octree_game *b, const char 
 {
     json_error_t error;
     json_t *line = json_loads(text, JSON_DECODE_INT_AS_REAL, &error);
-    json_object_del(line, "tree"); /* what it counts is told one by one */
+    json_object_del(line, "tree"); /* counts of what the trees tell one by one */
     drop_told(a, b, json_object_get(line, "splits"));
     drop_told(a, b, json_object_get(line, "merges"));
     return line;
@@ -176,7 +176,7 @@ static bool same_visits(const octree_tick *a, const octree_tick *b)
     return true;
 }
 
-/* Where what a swept test hit came from. */
+/* Where the points that a swept test hit came from. */
 static bool same_hit_ways(const octree_tick *a, const octree_tick *b)
 {
     for (size_t i = 0; a->hit_from && b->hit_from && a->hit_count == b->hit_count && i < a->hit_count; i++)

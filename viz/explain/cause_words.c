@@ -1,4 +1,4 @@
-/* cause_words.c - see cause_words.h. */
+/* cause_words.c - sentences from facts, by a table of phrases. */
 #include "cause_words.h"
 #include "number.h"
 #include "text.h"
@@ -23,7 +23,7 @@ typedef struct phrase {
 #define EVERY .every = true
 #define MINOR .minor = true
 
-/* What is not here is told by its path. */
+/* A place without a row is told by its path. */
 static const phrase phrases[] = {
     /* Sessions. */
     {"world", "world", OPTION},
@@ -79,7 +79,7 @@ static const phrase phrases[] = {
     {"heat", "heat of the ticks before", MINOR},
 };
 
-/* Of answers what was asked and where it was found is minor. */
+/* Of answers, members without a row (positions, distances, costs) are minor. */
 static phrase phrase_of(const cause_group *group)
 {
     const size_t count = sizeof phrases / sizeof *phrases;
@@ -222,7 +222,7 @@ static void print_fact(FILE *out, const phrase *p, const cause_group *group, con
 
 enum { BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
-/* Of so many that are listed. "and 1 more" would be no shorter than naming it. */
+/* How many subjects are named. "and 1 more" is never printed: naming it is as short. */
 static size_t count_told(const cause_group *group, bool brief)
 {
     const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_listed(group);
@@ -272,7 +272,7 @@ static void print_many(FILE *out, const phrase *p, const cause_group *group, boo
     fputc(')', out);
 }
 
-/* What has no short name is told one by one. */
+/* Facts without an id or a word to name them by are told one by one. */
 static bool has_subject(const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -309,7 +309,7 @@ static unsigned count_groups(const cause_facts *facts, bool minor)
     return count;
 }
 
-/* Those that matter, or those that do not. */
+/* The major facts, or the minor ones. */
 static void print_half(FILE *out, const cause_facts *facts, bool minor, bool brief)
 {
     unsigned told = 0;

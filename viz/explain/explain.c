@@ -1,4 +1,4 @@
-/* explain.c - see explain.h. */
+/* explain.c - two sides are explained pair by pair; recordings are played for it. */
 #include "explain.h"
 #include "cause_words.h"
 #include "file.h"
@@ -47,7 +47,7 @@ typedef struct wanted_pair {
     const diff_pair *pair;
 } wanted_pair;
 
-/* What is looked at while both are played. */
+/* State while both recordings are played. */
 typedef struct watching {
     explanation *e;
     const diff_options *options;
@@ -55,7 +55,7 @@ typedef struct watching {
     size_t count, next;
 } watching;
 
-/* Lines that are the same, of ticks that are the same, are both right or both wrong. */
+/* Equal lines of equal ticks need no check: they are both right or both wrong. */
 static bool check_lines(explanation *e, const octree_game *const games[2], bool differs, octreel_error *error)
 {
     recorded *const sides[2] = {&e->sides[0], &e->sides[1]};
@@ -164,7 +164,7 @@ static bool any_warning(const explanation *e)
     return e->sides[0].warning_count + e->sides[1].warning_count > 0;
 }
 
-/* What nobody changed comes from who drew it, and what files say is warned of before it is believed. */
+/* Warnings about files come first; without a difference of sessions and views, rendering is the cause. */
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
     const bool known = (e->cause.session.count > 0) || (e->cause.view.count > 0);
@@ -191,7 +191,7 @@ static bool say(explanation *e, const diff_result *result, octreel_error *error)
 
 /* ---- Both kinds of sides ------------------------------------------------------------------------------------- */
 
-/* Whether a file is in one of them alone, or not the same in both. */
+/* Whether only one side has the file, or both have it with other bytes. */
 static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
 {
     char *paths[2] = {path_join(a->path, name), path_join(b->path, name)};

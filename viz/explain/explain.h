@@ -1,7 +1,6 @@
 /* explain.h - why two sides differ: a sentence for each pair, and a headline.
  *
- * Of two recordings it is told from their sessions, which are played side by side; of other frames from what they say
- * of themselves.
+ * Two recordings are explained by their sessions, which are played side by side; other frames by their text chunks.
  *
  * Who prints what of it:
  *   different: 5 of 5 frames                                        report.c
@@ -28,10 +27,10 @@ typedef struct pair_cause {
 /* A zeroed one explains nothing. */
 typedef struct explanation {
     char *headline;    /* one line: why the sides differ; null where none is known; owned */
-    char *trouble;     /* the sentence of why nobody can say; owned */
+    char *trouble;     /* why it could not be explained; owned */
     pair_cause *pairs; /* one a pair of the result; null where nothing is explained; owned */
     size_t count;
-    bool recordings; /* both sides are; the rest is known of recordings alone */
+    bool recordings; /* both sides are recordings; the rest is about them */
     recorded sides[2];
     cause cause;
     tracer tracer;
@@ -49,7 +48,7 @@ void explanation_release(explanation *e);
 /* The sentence of the i-th pair, or null. */
 const char *explanation_cause(const explanation *e, size_t i);
 
-/* The result's, or trouble where nobody can say why. */
+/* The verdict of the result, or trouble where explaining failed. */
 diff_verdict explanation_verdict(const explanation *e, const diff_result *result);
 
 /* Whether a pair has something to explain. */

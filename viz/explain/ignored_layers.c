@@ -1,4 +1,4 @@
-/* ignored_layers.c - see ignored_layers.h. */
+/* ignored_layers.c - masks of layers, from the scenes of both recordings. */
 #include "ignored_layers.h"
 #include "layer.h"
 #include "letters.h"
@@ -28,7 +28,7 @@ static int within(int value, int limit)
     return value < 0 ? 0 : value > limit ? limit : value;
 }
 
-/* What is left of a box within the frame. */
+/* Add a box, clipped to the frame. */
 static void add_box(const draw_box *box, void *context)
 {
     frame_mask *m = context;

@@ -1,4 +1,4 @@
-/* recorded.c - see recorded.h. */
+/* recorded.c - the files of a recording that is explained. */
 #include "recorded.h"
 #include "frame_file.h"
 #include "text.h"
@@ -83,7 +83,8 @@ bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error)
     return r->reading || warn(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
 }
 
-/* The digest of the scene, which is what the frame says or else what the line says itself: scenes are not made here. */
+/* The scene digest to expect in a line: that in the frame, else that in the line itself, since no scene is built here.
+ */
 static uint64_t scene_of(const recorded *r, uint64_t tick)
 {
     static const char before[] = "\"scene\": \"";

@@ -1,4 +1,4 @@
-/* recorded.h - a recording that is asked why it differs: what it was made from, and whether its files agree. */
+/* recorded.h - a recording that is explained: its session and view, and whether its files agree with them. */
 #ifndef EXPLAIN_RECORDED_H
 #define EXPLAIN_RECORDED_H
 
@@ -17,7 +17,7 @@ typedef struct recorded {
     line_reader lines;
     bool reading;                      /* nothing is wrong with the lines so far */
     char drawn_by[RECORDED_WHO];       /* as renderer.json tells */
-    char *warnings[RECORDED_WARNINGS]; /* sentences: what its session does not give; owned */
+    char *warnings[RECORDED_WARNINGS]; /* sentences about files that do not fit its session; owned */
     size_t warning_count;
 } recorded;
 
@@ -29,7 +29,7 @@ void recorded_close(recorded *r);
 /* Read the line of the next tick, whether it is right or not. False when there is none, and then there is a warning. */
 bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error);
 
-/* Hold the line that was read last against the tick at which a game of its session is: a warning where they differ. */
+/* Compare the line that was read last with the tick of a game of its session; a warning where they differ. */
 bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* sentence.c - see sentence.h. */
+/* sentence.c - the cause of one pair, from what is known of both recordings or of the two frames alone. */
 #include "sentence.h"
 #include "cause_words.h"
 #include "frame_file.h"
@@ -91,7 +91,7 @@ static void print_tick(FILE *out, const explanation *e, uint64_t tick)
     }
 }
 
-/* Frames that nothing is known of but what they say. */
+/* Frames without recordings: only their text chunks tell something. */
 static void print_origins(FILE *out, const origins *o)
 {
     const frame_origin *a = &o->of[0], *b = &o->of[1];

@@ -6,10 +6,11 @@
 
 #include <stdio.h>
 
-/* Of a pair that is unlike. Its text is null where frames are all that there is and say nothing of themselves. */
+/* Find the cause of a pair that differs. Its text is null where neither recordings nor text chunks in the frames tell
+ * one. */
 bool sentence_of(const explanation *e, const diff_pair *pair, pair_cause *cause, octreel_error *error);
 
-/* What is said where the drawing alone differs: by whom, where that is known. */
+/* The sentence for frames of the same scene: rendering differs, and who drew them, where that is known. */
 void sentence_print_rendering(FILE *out, const explanation *e);
 
 #endif

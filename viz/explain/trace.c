@@ -1,4 +1,4 @@
-/* trace.c - see trace.h. */
+/* trace.c - which elements are drawn at the pixels that differ. */
 #include "trace.h"
 #include "array.h"
 #include "frame_file.h"
@@ -71,7 +71,7 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
     return part;
 }
 
-/* Of what both sides show the one on top: the layers' order is that of covering, and the background is below all. */
+/* The upper one of what the two sides show: layers are in painter's order, the background is below all. */
 static trace_part upper(trace_part a, trace_part b)
 {
     if (a.layer == TRACE_BACKGROUND || b.layer == TRACE_BACKGROUND)
@@ -195,7 +195,7 @@ static bool add_trace(tracer *t, const octree_game *const games[2], const diff_p
 
 /* ---- A pair -------------------------------------------------------------------------------------------------- */
 
-/* Where nothing draws, that is said once. */
+/* Without a renderer nothing is traced; the reason is kept once. */
 static bool pick(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
@@ -210,7 +210,7 @@ static bool pick(tracer *t, const scene *s, uint32_t *numbers)
     return false;
 }
 
-/* Both frames, where they are those of the scenes that are at hand. */
+/* Read both frames; false where one does not show the scene of its tick. */
 static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
 {
     const diff_frame *const files[2] = {pair->a, pair->b};
@@ -292,7 +292,7 @@ void trace_print(FILE *out, const trace *t)
     const size_t most = t->count < TRACE_TOLD ? t->count : TRACE_TOLD;
     uint64_t told = 0;
     fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural(t->pixels));
-    for (int text = 0; text < 2; text++) /* what is written says what is drawn: it comes last */
+    for (int text = 0; text < 2; text++) /* text changes with everything else, so it comes last */
         for (size_t i = 0; i < most; i++) {
             if ((t->parts[i].layer == LAYER_TEXT) != text)
                 continue;

@@ -40,7 +40,7 @@ typedef struct tracer {
 
 void tracer_close(tracer *t);
 
-/* To be called at each tick, for layers that show what ticks have left. */
+/* To be called at each tick: heat adds up over ticks. */
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error);
 
 /* Trace the pair, compared with these options, of the tick at which the games are. Nothing is added where a frame does

@@ -1,4 +1,4 @@
-/* evidence.c - see evidence.h. */
+/* evidence.c - the folder of evidence, and the pictures in it. */
 #include "evidence.h"
 #include "file.h"
 #include "folder.h"
@@ -15,7 +15,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-/* What tells our folders from those of others, and people what they may do in them. */
+/* A file that marks a folder as evidence, and tells people what will be removed. */
 #define MARKER "evidence.txt"
 static const char marker_beginning[] = "octreel evidence 1\n";
 static const char marker_text[] = "octreel evidence 1\n"
@@ -42,10 +42,10 @@ static size_t stem_length(const char *name)
     return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
 }
 
-/* What is appended to a stem at most, also while it is written. */
+/* The longest ending of a name, that of an unfinished file included. */
 #define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
 
-/* How much of a stem fits into the name of a file, whole letters of UTF-8. */
+/* How many bytes of a stem fit into a file's name, without cutting a UTF-8 character. */
 static size_t fitting_length(const char *stem)
 {
     size_t length = NAME_MAX - (sizeof LONGEST_ENDING - 1);
@@ -131,7 +131,7 @@ static bool remove_entry(const char *folder, const char *name, octreel_error *er
     return ok;
 }
 
-/* What does not belong to evidence stays in our folder, and keeps any other from becoming ours. */
+/* In a folder of evidence other files stay; a folder without the marker must be empty. */
 static bool visit_entry(const char *folder, const char *name, bool marked, octreel_error *error)
 {
     if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
@@ -164,7 +164,7 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */
 
-/* What is no regular file is no picture: that is said as the pair's trouble. */
+/* Only regular files are copied; others are told as trouble of their pair. */
 static bool has_file(const diff_frame *frame)
 {
     struct stat status;

@@ -1,4 +1,4 @@
-/* report.c - a comparison for people. See report.h. */
+/* report.c - a comparison as text for people. */
 #include "report.h"
 #include "diff_words.h"
 #include "text.h"
@@ -6,7 +6,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* Names and what is quoted may hold anything; a line stays one. */
+/* File names may hold line ends; the output must stay on one line. */
 static void print_line(FILE *out, const char *beginning, const char *text)
 {
     fputs(beginning, out);
@@ -64,7 +64,7 @@ static void separate(FILE *out, bool *first)
     *first = false;
 }
 
-/* A rectangle that forgives nothing is a slip of the pen, most likely. */
+/* A rectangle outside all frames is most likely a mistake. */
 static bool is_outside(const image_rectangle *r, const diff_result *result)
 {
     bool compared = false;

@@ -1,4 +1,4 @@
-/* report_json.c - a comparison for programs. See report.h and report_json.h. */
+/* report_json.c - a comparison as JSON. */
 #include "report_json.h"
 #include "cause_json.h"
 #include "diff_words.h"

@@ -24,7 +24,7 @@ typedef struct page {
 
 /* ---- What is in it ------------------------------------------------------------------------------------------- */
 
-/* What cannot be read shall not be tried by a browser either. */
+/* Pictures that cannot be read are not given to a browser. */
 static bool is_embedded(const diff_report *report, size_t i, evidence_picture picture)
 {
     return (report->evidence->pictures[i] & 1u << picture) && report->result->pairs[i].finding != FOUND_UNREADABLE;
@@ -81,7 +81,7 @@ static bool line_begin(fact_line *line)
     return true;
 }
 
-/* In JSON a < stands in strings alone. */
+/* In JSON, < occurs only in strings. */
 static bool line_end(fact_line *line, FILE *out)
 {
     char *text;
@@ -131,7 +131,7 @@ static bool write_whole(const page *p)
     return line_end(&line, p->out) && ok;
 }
 
-/* The files' names, as they lie beside the page. */
+/* Names of the files beside the page. */
 static void write_files(json_writer *w, const diff_report *report, size_t i)
 {
     json_write_key(w, "files");
@@ -197,7 +197,7 @@ static bool write_picture(const page *p, size_t n, evidence_picture picture, oct
     return ok;
 }
 
-/* What is in a template is not decoded before the page takes it out. */
+/* A browser decodes pictures in a template only when the page takes them out. */
 static bool write_pictures(const page *p, octreel_error *error)
 {
     bool ok = true;
