@@ -1,6 +1,7 @@
 /* diff.c - frames are paired by name, and the pairs compared on all cores. */
 #include "diff.h"
 #include "compare.h"
+#include "cores.h"
 #include "parallel.h"
 #include "png_read.h"
 
@@ -169,7 +170,7 @@ static void keep_undecided(pending *p)
 
 static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octreel_error *error)
 {
-    const unsigned cores = parallel_cores();
+    const unsigned cores = count_cores();
     parallel_for(p->count, cores, try_bytes, p);
     keep_undecided(p);
     if (p->options->mask && !p->options->mask(p->options->mask_context, a, b, p->pairs, p->count, error))

@@ -1,5 +1,6 @@
 /* digest_file.c - files of digests, read and written. */
 #include "digest_file.h"
+#include "cores.h"
 #include "parallel.h"
 #include "text.h"
 #include "file.h"
@@ -171,7 +172,7 @@ bool digest_all(diff_side *side, image_color background, octreel_error *error)
     if (!d.errors)
         return error_set(error, "there is no memory for the frames of %s", side->path);
     side->background = background;
-    parallel_for(side->count, parallel_cores(), digest_one, &d);
+    parallel_for(side->count, count_cores(), digest_one, &d);
     bool ok = true;
     for (size_t i = 0; ok && i < side->count; i++)
         if (side->frames[i].digest.width == 0)

@@ -3,7 +3,6 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-#include <unistd.h>
 
 enum { MOST_THREADS = 64 };
 
@@ -21,12 +20,6 @@ static void *run_worker(void *shared)
     for (size_t i; (i = atomic_fetch_add(&w->next, 1)) < w->count;)
         w->task(i, w->context);
     return NULL;
-}
-
-unsigned parallel_cores(void)
-{
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    return cores > 1 ? (unsigned)cores : 1;
 }
 
 void parallel_for(size_t count, unsigned workers, parallel_task *task, void *context)
