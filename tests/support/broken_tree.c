@@ -1,4 +1,3 @@
-/* broken_tree.c - see broken_tree.h. */
 #include "broken_tree.h"
 
 #include <string.h>

@@ -1,4 +1,3 @@
-/* brute.c - see brute.h. */
 #include "brute.h"
 
 #include <math.h>

@@ -1,4 +1,3 @@
-/* counting_allocator.c - see counting_allocator.h. */
 #include "counting_allocator.h"
 
 #include <stdlib.h>

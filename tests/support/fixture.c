@@ -1,4 +1,3 @@
-/* fixture.c - see fixture.h. */
 #include "fixture.h"
 
 #include <float.h>

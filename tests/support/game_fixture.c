@@ -1,4 +1,3 @@
-/* game_fixture.c - see game_fixture.h. */
 #include "game_fixture.h"
 
 #include "fixture.h"

@@ -1,4 +1,3 @@
-/* inner_nodes.c - see inner_nodes.h. */
 #include "inner_nodes.h"
 
 #include <stdlib.h>

@@ -1,4 +1,3 @@
-/* paper_game.c - see paper_game.h. */
 #include "paper_game.h"
 
 #include <string.h>

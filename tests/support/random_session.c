@@ -1,4 +1,3 @@
-/* random_session.c - see random_session.h. */
 #include "random_session.h"
 
 #include "fixture.h"

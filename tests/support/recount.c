@@ -1,4 +1,3 @@
-/* recount.c - see recount.h. */
 #include "recount.h"
 
 #include <stdlib.h>

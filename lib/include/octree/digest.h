@@ -1,4 +1,4 @@
-/* digest.h - one 64-bit digest for trees, scenes and pixels: the same on every machine, not meant against malice.
+/* digest.h - one 64-bit digest for trees, scenes and pixels: the same on every machine, not for cryptography.
  *
  * Start with OCTREE_DIGEST_START and feed words or bytes; the order counts.
  */
@@ -11,7 +11,7 @@
 
 #define OCTREE_DIGEST_START UINT64_C(0x6f637472656c0001)
 
-/* Stir one word in: the finalizer of splitmix64 over the running state. */
+/* Add one word: the finalizer of splitmix64 over the running state. */
 static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
 {
     uint64_t x = (digest ^ word) + UINT64_C(0x9e3779b97f4a7c15);
@@ -20,7 +20,7 @@ static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
     return x ^ (x >> 31);
 }
 
-/* Stir a double in by its value: -0.0 and +0.0 are one value. */
+/* Add a double by its value: -0.0 and +0.0 count as equal. */
 static inline uint64_t octree_digest_double(uint64_t digest, double value)
 {
     uint64_t bits;
@@ -29,7 +29,7 @@ static inline uint64_t octree_digest_double(uint64_t digest, double value)
     return octree_digest_word(digest, bits);
 }
 
-/* Stir bytes in, eight at a time in little-endian order; those left at the end are a word with zeros above them. */
+/* Add bytes, eight at a time as little-endian words; the last word is padded with zeros. */
 static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, size_t size)
 {
     const unsigned char *at = (const unsigned char *)bytes;
@@ -42,7 +42,7 @@ static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, s
     return digest;
 }
 
-/* Stir bytes in as words, then their number. */
+/* Add bytes as words, then their number. */
 static inline uint64_t octree_digest_bytes(uint64_t digest, const void *bytes, size_t size)
 {
     return octree_digest_word(octree_digest_words(digest, bytes, size), size);

@@ -186,9 +186,9 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
  * would be outside), FULL (a point would be refused), NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_reworld(octree *tree, const octree_box *world);
 
-/* Lay the tree out anew, as a bulk build does, and give the rest of its memory back. After many changes the leaves are
- * scattered, and what was removed is kept for what comes: then this halves the memory or makes queries faster. The
- * nodes and every answer stay. Errors: NULL_ARGUMENT, NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
+/* Rebuild the tree as a bulk build does, and return its unused memory to the allocator. After many changes the leaves
+ * are scattered, and freed memory is kept for later insertions: then this halves the memory or makes queries faster.
+ * Nodes and answers stay the same. Errors: NULL_ARGUMENT, NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_compact(octree *tree);
 
 /* ---- Ask ---------------------------------------------------------------------------------------------------- */

@@ -243,12 +243,12 @@ void node_gather(node *leaf, const node *from, const octree_point *except)
         gather_leaf(leaf, from, except);
 }
 
-octree_point *node_copy_points(const node *n, octree_point *to, const octree_point *end)
+octree_point *node_copy_points(const node *n, octree_point *to)
 {
     const unsigned children = bits_count8(n->octants);
     for (unsigned i = 0; i < children; i++)
-        to = node_copy_points(&children_of(n)[i], to, end);
-    for (uint32_t i = 0; children == 0 && i < n->count && to < end; i++)
+        to = node_copy_points(&children_of(n)[i], to);
+    for (uint32_t i = 0; children == 0 && i < n->count; i++)
         *to++ = leaf_points(n)[i];
     return to;
 }

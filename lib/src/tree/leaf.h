@@ -97,9 +97,8 @@ void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 /* Append all points in and below a node, except for one (may be null), to a leaf that has room for them. */
 void node_gather(node *leaf, const node *from, const octree_point *except);
 
-/* Copy the points in and below a node, in the order of their leaves, to [to, end), as far as they fit. Returns the end
- * of the copies. */
-octree_point *node_copy_points(const node *n, octree_point *to, const octree_point *end);
+/* Copy the points in and below a node, in the order of their leaves. Returns the end of the copies. */
+octree_point *node_copy_points(const node *n, octree_point *to);
 
 /* Free the children or points of a node, and all below it; the node itself is the caller's. */
 void node_release(store *s, const node *n);

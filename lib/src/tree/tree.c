@@ -172,7 +172,7 @@ octree_status rebuild(octree *tree, const octree_def *def)
     octree_point *points = arena_take(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
-        node_copy_points(&tree->root, points, points + count);
+        node_copy_points(&tree->root, points);
         status = fill(other, points, count);
     }
     arena_give(&other->store.memory, points, size);

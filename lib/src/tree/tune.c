@@ -37,21 +37,33 @@ typedef struct sample {
     double extents[TARGETS]; /* half the side of each target's range */
 } sample;
 
+static bool add_point(const octree_point *point, void *context)
+{
+    sample *s = context;
+    if (s->count < s->room)
+        s->points[s->count++] = *point;
+    return s->count < s->room;
+}
+
 /* Which cells are copied: of a tree with more points than there is room for, about every `step`-th point's. */
 typedef struct picking {
+    sample *sample;
+    const octree *tree;
     size_t cell; /* points that a cell has at most */
     size_t met, step;
 } picking;
 
-static void pick_cells(sample *s, picking *p, const node *n)
+/* A cell is copied with the points on its upper faces, which belong to its neighbours. */
+static octree_walk_order pick_cell(const octree_node *seen, void *context)
 {
-    const unsigned children = n->count > p->cell ? bits_count8(n->octants) : 0;
-    for (unsigned i = 0; i < children; i++)
-        pick_cells(s, p, &children_of(n)[i]);
+    picking *p = context;
+    if (!seen->leaf && seen->count > p->cell)
+        return OCTREE_WALK_ON;
     const size_t before = p->met;
-    p->met += children ? 0 : n->count;
+    p->met += seen->count;
     if (before / p->step != p->met / p->step)
-        s->count = (size_t)(node_copy_points(n, s->points + s->count, s->points + s->room) - s->points);
+        octree_range(p->tree, &seen->box, add_point, p->sample);
+    return OCTREE_WALK_SKIP;
 }
 
 static bool take_sample(sample *s, octree *tree, const octree_mix *mix)
@@ -61,7 +73,7 @@ static bool take_sample(sample *s, octree *tree, const octree_mix *mix)
     s->points = arena_take(&tree->store.memory, s->room * sizeof *s->points);
     if (!s->points)
         return false;
-    pick_cells(s, &(picking){cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)}, &tree->root);
+    octree_walk(tree, pick_cell, &(picking){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
     qsort(s->points, s->count, sizeof *s->points, octree_compare_points); /* whatever order the tree holds them in */
     return true;
 }

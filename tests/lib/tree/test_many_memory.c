@@ -47,7 +47,7 @@ static const attempt attempts[] = {
     {"reworld an empty tree", 2, 21, OCTREE_REFUSE, 0, REWORLD, 0, 0, false},
 };
 
-/* Every third at one of two crowded places, every tenth a repetition, the others spread. */
+/* Every third at one of two positions, every tenth a repetition, the others spread. */
 static void make_rows(octree_point points[rows])
 {
     uint64_t random = 5;
@@ -308,7 +308,7 @@ static void refused_points_take_no_memory(void **state)
     free(points);
 }
 
-static void a_small_batch_into_a_crowd_takes_memory_for_the_crowd_alone(void **state)
+static void a_small_batch_into_a_hashed_leaf_takes_memory_for_that_leaf_alone(void **state)
 {
     (void)state;
     octree_point *points = make_points(fifth);
@@ -342,7 +342,7 @@ int main(void)
         cmocka_unit_test(a_million_equal_points_are_one_leaf_or_refused),
         cmocka_unit_test(a_million_times_the_same_pair_is_one_point),
         cmocka_unit_test(refused_points_take_no_memory),
-        cmocka_unit_test(a_small_batch_into_a_crowd_takes_memory_for_the_crowd_alone),
+        cmocka_unit_test(a_small_batch_into_a_hashed_leaf_takes_memory_for_that_leaf_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

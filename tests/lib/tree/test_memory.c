@@ -124,7 +124,7 @@ static void changes_survive_the_failure_of_each_allocation(void **state)
     assert_true(survived > 0);
 }
 
-static void a_crowd_of_equal_points_survives_failures_as_well(void **state)
+static void a_hashed_leaf_of_equal_points_survives_failures_as_well(void **state)
 {
     (void)state;
     counting_allocator counts = {0};
@@ -266,7 +266,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(create_survives_the_failure_of_each_allocation),
         cmocka_unit_test(changes_survive_the_failure_of_each_allocation),
-        cmocka_unit_test(a_crowd_of_equal_points_survives_failures_as_well),
+        cmocka_unit_test(a_hashed_leaf_of_equal_points_survives_failures_as_well),
         cmocka_unit_test(a_tree_without_any_more_memory_still_answers),
         cmocka_unit_test(clear_gives_the_memory_back),
         cmocka_unit_test(churn_does_not_grow_the_memory),

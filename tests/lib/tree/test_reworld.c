@@ -297,7 +297,7 @@ static void a_custom_allocator_keeps_its_balance(void **state)
     uint64_t random = 4;
     for (int i = 0; i < 200; i++) {
         change(tree, &random);
-        for (uint64_t id = 100; i % 50 == 0 && id < 200; id++) /* a crowd */
+        for (uint64_t id = 100; i % 50 == 0 && id < 200; id++) /* a hashed leaf */
             octree_insert(tree, (double[3]){0.25, 0.25, 0.25}, id);
         assert_balanced(tree, &counts);
         octree_reworld(tree, &worlds[i % (sizeof worlds / sizeof worlds[0])]);
