@@ -41,14 +41,6 @@ static bool check_session(recorded *r, octreel_error *error)
     return warn(r, error, "%s/session.json is not the session that was filmed", r->side->path);
 }
 
-static bool open_lines(recorded *r, octreel_error *error)
-{
-    char *path = path_join(r->side->path, "ticks.jsonl");
-    r->reading = path ? lines_open(&r->lines, path, error) : error_no_memory(error);
-    free(path);
-    return r->reading;
-}
-
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
 {
     *r = (recorded){.side = side};
@@ -56,7 +48,8 @@ bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
     if (!replay_read(&r->replay, side->path, error))
         return false;
     r->view = (cause_view){r->replay.film.view, r->replay.film.every};
-    return check_session(r, error) && open_lines(r, error);
+    r->reading = check_session(r, error) && lines_open(&r->lines, side->path, error);
+    return r->reading;
 }
 
 void recorded_close(recorded *r)

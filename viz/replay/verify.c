@@ -36,41 +36,28 @@ typedef struct verifying {
 } verifying;
 
 /* Add a finding about a tick. */
-static verify_finding *find(verifying *v, verify_kind kind, uint64_t tick)
+static verify_finding *add_finding(verifying *v, verify_kind kind, uint64_t tick, const char *format, ...)
 {
     verify_finding *finding = &v->report->findings[v->report->count++];
-    *finding = (verify_finding){.kind = kind, .has_tick = true, .tick = tick};
-    return finding;
-}
-
-static void say(verify_finding *finding, const char *format, ...)
-{
     va_list arguments;
+    *finding = (verify_finding){.kind = kind, .has_tick = true, .tick = tick};
     va_start(arguments, format);
     vsnprintf(finding->text, sizeof finding->text, format, arguments);
     va_end(arguments);
+    return finding;
 }
 
 /* ---- Before the first tick ---------------------------------------------------------------------------------- */
-
-static bool open_lines(verifying *v, octreel_error *error)
-{
-    char *path = path_join(v->folder, "ticks.jsonl");
-    const bool ok = path ? lines_open(&v->lines, path, error) : error_no_memory(error);
-    free(path);
-    return ok;
-}
 
 static void check_session(verifying *v)
 {
     if (!frame_session(v->folder, 0, &v->filmed_session) || v->filmed_session == v->replay.session_digest)
         return;
-    verify_finding *finding = find(v, VERIFY_SESSION, 0);
-    finding->has_tick = false;
-    say(finding,
-        "session.json is not the session that was filmed: its digest is %016" PRIx64
-        ", and the first frame is of %016" PRIx64,
-        v->replay.session_digest, v->filmed_session);
+    add_finding(v, VERIFY_SESSION, 0,
+                "session.json is not the session that was filmed: its digest is %016" PRIx64
+                ", and the first frame is of %016" PRIx64,
+                v->replay.session_digest, v->filmed_session)
+        ->has_tick = false;
 }
 
 static void check_size(verifying *v, const char *path)
@@ -81,8 +68,8 @@ static void check_size(verifying *v, const char *path)
     if (!image_read_png(path, &frame, &ignored))
         return;
     if (frame.width != wanted->width || frame.height != wanted->height) {
-        say(find(v, VERIFY_VIEW, 0), "recording.json says %d x %d pixels, and the first frame has %d x %d",
-            wanted->width, wanted->height, frame.width, frame.height);
+        add_finding(v, VERIFY_VIEW, 0, "recording.json says %d x %d pixels, and the first frame has %d x %d",
+                    wanted->width, wanted->height, frame.width, frame.height);
         v->stopped = true;
     }
     image_release(&frame);
@@ -115,24 +102,26 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
 {
     const line_state state = lines_next(&v->lines, LINE_FACTOR * step->size + LINE_SLACK);
-    verify_finding finding = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
+    verify_finding differs = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
     if (state == LINE_TROUBLE)
         return error_set(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
-    if (state == LINE_WHOLE && line_same(&v->lines, step->line, step->size, step->tick, &finding))
+    if (state == LINE_WHOLE && line_same(&v->lines, step->line, step->size, step->tick, &differs))
         return true;
-    if (state == LINE_NONE)
-        say(&finding, "ticks.jsonl ends before it: %" PRIu64 " of %" PRIu64 " lines are missing",
-            v->replay.ticks - step->tick, v->replay.ticks);
-    else if (state == LINE_TORN)
-        say(&finding, "its line in ticks.jsonl is torn: the file ends within it");
-    else if (state == LINE_LONG)
-        say(&finding, "its line in ticks.jsonl does not end where it should");
-    v->report->findings[v->report->count++] = finding;
+    if (state == LINE_WHOLE)
+        v->report->findings[v->report->count++] = differs;
+    else if (state == LINE_NONE)
+        add_finding(v, VERIFY_LINES, step->tick,
+                    "ticks.jsonl ends before it: %" PRIu64 " of %" PRIu64 " lines are missing",
+                    v->replay.ticks - step->tick, v->replay.ticks);
+    else
+        add_finding(v, VERIFY_LINES, step->tick,
+                    state == LINE_TORN ? "its line in ticks.jsonl is torn: the file ends within it"
+                                       : "its line in ticks.jsonl does not end where it should");
     v->stopped = true;
     return true;
 }
 
-static void find_pixels(verifying *v, const char *path, verify_finding *finding)
+static void find_pixels(verifying *v, const char *path, uint64_t tick)
 {
     image_tally unlike = {0};
     octreel_error ignored;
@@ -144,16 +133,16 @@ static void find_pixels(verifying *v, const char *path, verify_finding *finding)
     v->report->pixels = unlike.pixels;
     const verify_report *r = v->report;
     const bool same = strcmp(r->drawn_by, r->drawn_now) == 0;
-    say(finding, "%" PRIu64 " pixels from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s", unlike.pixels,
-        unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y, r->drawn_by,
-        same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
+    add_finding(v, VERIFY_PIXELS, tick, "%" PRIu64 " pixels from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s",
+                unlike.pixels, unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y, r->drawn_by,
+                same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
 static void find_frame(verifying *v, const char *sentence, uint64_t tick)
 {
     const size_t length = strlen(v->folder);
     const bool inside = strncmp(sentence, v->folder, length) == 0 && sentence[length] == '/';
-    say(find(v, VERIFY_FRAME, tick), "%s", inside ? sentence + length + 1 : sentence);
+    add_finding(v, VERIFY_FRAME, tick, "%s", inside ? sentence + length + 1 : sentence);
 }
 
 /* A file that cannot be read for its permissions or the disk is trouble, not a difference. */
@@ -177,15 +166,15 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     bool ok = true;
     v->stopped = true;
     if (access(path, F_OK) != 0)
-        say(find(v, VERIFY_FRAME, step->tick), "%s is missing", name);
+        add_finding(v, VERIFY_FRAME, step->tick, "%s is missing", name);
     else if (!is_file(path))
-        say(find(v, VERIFY_FRAME, step->tick), "%s is not a regular file", name);
+        add_finding(v, VERIFY_FRAME, step->tick, "%s is not a regular file", name);
     else if (!check_readable(path, error))
         v->stopped = ok = false;
     else if (!frame_check(v->folder, &origin, &unlike))
         find_frame(v, unlike.text, step->tick);
     else if (origin.pixels != image_digest(&v->replay.playback.picture.frame))
-        find_pixels(v, path, find(v, VERIFY_PIXELS, step->tick));
+        find_pixels(v, path, step->tick);
     else
         v->stopped = false;
     free(path);
@@ -213,8 +202,8 @@ static void check_end_of_lines(verifying *v)
 {
     if (lines_next(&v->lines, 0) == LINE_NONE)
         return;
-    say(find(v, VERIFY_LINES, v->replay.ticks), "ticks.jsonl has lines beyond the session, which has %" PRIu64 " ticks",
-        v->replay.ticks);
+    add_finding(v, VERIFY_LINES, v->replay.ticks,
+                "ticks.jsonl has lines beyond the session, which has %" PRIu64 " ticks", v->replay.ticks);
 }
 
 /* Whether a file is named as a frame and is none of this recording. */
@@ -240,12 +229,11 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
     closedir(entries);
     if (count == 0)
         return true;
-    verify_finding *finding = find(v, VERIFY_FRAME, 0);
     uint64_t tick;
-    finding->has_tick = frame_parse_name(first, &tick);
-    finding->tick = finding->has_tick ? tick : 0;
-    say(finding, "%s is no frame of this recording%s", make_printable(first),
-        count > 1 ? ", nor are others beside it" : "");
+    const bool has_tick = frame_parse_name(first, &tick);
+    verify_finding *finding = add_finding(v, VERIFY_FRAME, has_tick ? tick : 0, "%s is no frame of this recording%s",
+                                          make_printable(first), count > 1 ? ", nor are others beside it" : "");
+    finding->has_tick = has_tick;
     return true;
 }
 
@@ -268,7 +256,7 @@ static bool play_again(verifying *v, octreel_error *error)
 
 static bool verify_all(verifying *v, octreel_error *error)
 {
-    if (!replay_read(&v->replay, v->folder, error) || !open_lines(v, error))
+    if (!replay_read(&v->replay, v->folder, error) || !lines_open(&v->lines, v->folder, error))
         return false;
     who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
     return check_first_frame(v, error) && (v->stopped || play_again(v, error)) && check_extra_frames(v, error);

@@ -1,4 +1,5 @@
 #include "verify_line.h"
+#include "file.h"
 #include "json_read.h"
 
 #include <errno.h>
@@ -10,15 +11,20 @@
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
-bool lines_open(line_reader *reader, const char *path, octreel_error *error)
+bool lines_open(line_reader *reader, const char *folder, octreel_error *error)
 {
     struct stat status;
+    char *path = path_join(folder, "ticks.jsonl");
     *reader = (line_reader){0};
+    if (!path)
+        return error_no_memory(error);
     /* Opening a pipe would wait for its other end. */
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return error_set(error, "%s: is not a regular file", path);
-    reader->stream = fopen(path, "rb");
-    return reader->stream || error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+        error_set(error, "%s: is not a regular file", path);
+    else if (!(reader->stream = fopen(path, "rb")))
+        error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+    free(path);
+    return reader->stream;
 }
 
 void lines_close(line_reader *reader)

@@ -18,8 +18,8 @@ typedef enum line_state {
     LINE_TROUBLE, /* it cannot be read, or there is no memory */
 } line_state;
 
-/* Open a regular file. */
-bool lines_open(line_reader *reader, const char *path, octreel_error *error);
+/* Open the ticks.jsonl of a folder, which must be a regular file. */
+bool lines_open(line_reader *reader, const char *folder, octreel_error *error);
 void lines_close(line_reader *reader);
 
 /* Read the next line, of `limit` bytes at most. */
