@@ -85,6 +85,13 @@ bool json_read_elements(json_reader *r, json_t *list, const json_place *at, cons
     return true;
 }
 
+json_counted json_counted_at(const void *from)
+{
+    json_counted list;
+    memcpy(&list, from, sizeof list);
+    return list;
+}
+
 /* ---- Kinds and choices -------------------------------------------------------------------------------------- */
 
 /* {"range": ...}, {"nearest": ...} or {"radius": ...} */

@@ -57,6 +57,13 @@ int json_read_kind(json_reader *r, json_t *object, const json_place *at, json_na
 /* The number of a name, -1 when it is none of them; `name` may be null. */
 int json_find_name(json_name *names, const char *name);
 
+/* An array in a structure whose next member is its count. */
+typedef struct json_counted {
+    const void *items;
+    size_t count;
+} json_counted;
+json_counted json_counted_at(const void *from);
+
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 
 /* A whole number that is no member. */

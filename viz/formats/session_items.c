@@ -243,29 +243,13 @@ static bool read_items(json_reader *r, json_t *value, const json_place *at, void
     return json_read_elements(r, value, at, type->words, read_item, (void *)type);
 }
 
-/* In octree_input an array is followed by its count. */
-typedef struct counted {
-    const char *items;
-    size_t count;
-} counted;
-_Static_assert(offsetof(octree_input, edit_count) == offsetof(octree_input, edits) + offsetof(counted, count), "edits");
-_Static_assert(offsetof(octree_input, query_count) == offsetof(octree_input, queries) + offsetof(counted, count), "");
-_Static_assert(offsetof(octree_input, shape_count) == offsetof(octree_input, shapes) + offsetof(counted, count), "");
-
-static counted counted_at(const void *from)
-{
-    counted list;
-    memcpy(&list, from, sizeof list);
-    return list;
-}
-
 static void write_items(json_writer *w, const void *from)
 {
     const session_items *type = w->row->about;
-    const counted list = counted_at(from);
+    const json_counted list = json_counted_at(from);
     json_write_begin_array(w);
     for (size_t i = 0; i < list.count; i++) {
-        const char *item = list.items + i * type->size;
+        const char *item = (const char *)list.items + i * type->size;
         json_member table[MOST_OF_A_KIND] = {0};
         int kind;
         memcpy(&kind, item + type->kind, sizeof kind);
@@ -277,7 +261,7 @@ static void write_items(json_writer *w, const void *from)
 
 static bool has_items(const void *from)
 {
-    return counted_at(from).count > 0;
+    return json_counted_at(from).count > 0;
 }
 
 const json_codec session_items_codec = {read_items, write_items, has_items};

@@ -1,6 +1,5 @@
-/* ticks_write.c - see ticks_write.h. */
 #include "ticks_write.h"
-#include "json_write.h"
+#include "json_table.h"
 
 #include <inttypes.h>
 
@@ -10,27 +9,116 @@ char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
     return text;
 }
 
-static void write_digest(json_writer *w, const char *key, uint64_t digest)
+/* ---- Values ------------------------------------------------------------------------------------------------- */
+
+static void write_uint64(json_writer *w, const void *from)
+{
+    json_write_integer(w, *(const uint64_t *)from);
+}
+
+static void write_size(json_writer *w, const void *from)
+{
+    json_write_integer(w, *(const size_t *)from);
+}
+
+static void write_unsigned(json_writer *w, const void *from)
+{
+    json_write_integer(w, *(const unsigned *)from);
+}
+
+static void write_digest(json_writer *w, const void *from)
 {
     char text[DIGEST_TEXT];
-    json_write_key(w, key);
-    json_write_string(w, digest_print(digest, text));
+    json_write_string(w, digest_print(*(const uint64_t *)from, text));
 }
 
-/* A place of the player, or null where there is none. */
-static void write_place(json_writer *w, const char *key, const octree_tick *tick, const double place[3])
+static void write_point_ids(json_writer *w, const octree_point *points, size_t count)
 {
-    if (tick->has_player) {
-        json_member_vector(w, key, place);
-        return;
-    }
-    json_write_key(w, key);
-    json_write_null(w);
+    json_write_begin_array(w);
+    for (size_t i = 0; i < count; i++)
+        json_write_integer(w, points[i].id);
+    json_write_end_array(w);
 }
 
-static void write_events(json_writer *w, unsigned events)
+static void write_ids(json_writer *w, const void *from)
 {
-    json_write_key(w, "events");
+    const json_counted points = json_counted_at(from);
+    write_point_ids(w, points.items, points.count);
+}
+
+static void write_addresses(json_writer *w, const void *from)
+{
+    const json_counted addresses = json_counted_at(from);
+    char text[OCTREE_ADDRESS_TEXT];
+    json_write_begin_array(w);
+    for (size_t i = 0; i < addresses.count; i++)
+        json_write_string(w, octree_address_format(((const octree_address *)addresses.items)[i], text));
+    json_write_end_array(w);
+}
+
+static const json_codec uint64_codec = {NULL, write_uint64, NULL}, size_codec = {NULL, write_size, NULL},
+                        digest_codec = {NULL, write_digest, NULL};
+
+static const json_member cost_members[] = {
+    {"nodes", &uint64_codec, .offset = offsetof(octree_cost, nodes)},
+    {"leaves", &uint64_codec, .offset = offsetof(octree_cost, leaves)},
+    {"points", &uint64_codec, .offset = offsetof(octree_cost, points)},
+    {"pruned", &uint64_codec, .offset = offsetof(octree_cost, pruned)},
+    {0},
+};
+
+static const json_member neighbor_members[] = {
+    {"id", &uint64_codec, .offset = offsetof(octree_neighbor, point.id)},
+    {"position", &json_vector, .offset = offsetof(octree_neighbor, point.position)},
+    {"distance", &json_number, .offset = offsetof(octree_neighbor, distance)},
+    {0},
+};
+
+/* ---- Members that look at the whole tick -------------------------------------------------------------------- */
+
+static void write_key(json_writer *w, const void *from)
+{
+    const char key[2] = {*(const char *)from, 0};
+    if (key[0])
+        json_write_string(w, key);
+    else
+        json_write_null(w);
+}
+
+/* Places of the player are null where there is none. */
+static void write_place(json_writer *w, const octree_tick *tick, const double place[3])
+{
+    if (tick->has_player)
+        json_write_numbers(w, place, 3);
+    else
+        json_write_null(w);
+}
+
+static void write_player(json_writer *w, const void *from)
+{
+    const octree_tick *tick = from;
+    write_place(w, tick, tick->player);
+}
+
+static void write_attempt(json_writer *w, const void *from)
+{
+    const octree_tick *tick = from;
+    write_place(w, tick, tick->attempt);
+}
+
+static void write_from(json_writer *w, const void *from)
+{
+    json_write_numbers(w, ((const octree_tick *)from)->from, 3);
+}
+
+static bool is_swept(const void *from)
+{
+    return ((const octree_tick *)from)->swept;
+}
+
+static void write_events(json_writer *w, const void *from)
+{
+    const unsigned events = *(const unsigned *)from;
     json_write_begin_array(w);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         if (events >> i & 1)
@@ -38,179 +126,128 @@ static void write_events(json_writer *w, unsigned events)
     json_write_end_array(w);
 }
 
-static void write_ids(json_writer *w, const char *key, const octree_point *points, size_t count)
+static void write_refusals(json_writer *w, const void *from)
 {
-    json_write_key(w, key);
-    json_write_begin_array(w);
-    for (size_t i = 0; i < count; i++)
-        json_write_integer(w, points[i].id);
-    json_write_end_array(w);
-}
-
-static void write_addresses(json_writer *w, const char *key, const octree_address *addresses, size_t count)
-{
-    char text[OCTREE_ADDRESS_TEXT];
-    json_write_key(w, key);
-    json_write_begin_array(w);
-    for (size_t i = 0; i < count; i++)
-        json_write_string(w, octree_address_format(addresses[i], text));
-    json_write_end_array(w);
-}
-
-static void write_refusals(json_writer *w, const octree_tick *tick)
-{
-    json_write_key(w, "refusals");
+    const octree_tick *tick = from;
     json_write_begin_array(w);
     for (size_t i = 0; i < tick->refusal_count; i++) {
         json_write_begin_object(w);
-        json_write_key(w, "id");
-        json_write_integer(w, tick->refusals[i].id);
-        json_write_key(w, "why");
-        json_write_string(w, octree_status_name(tick->refusals[i].why));
+        json_member_integer(w, "id", tick->refusals[i].id);
+        json_member_text(w, "why", octree_status_name(tick->refusals[i].why));
         json_member_vector(w, "position", tick->refusals[i].position);
         json_write_end_object(w);
     }
     json_write_end_array(w);
 }
 
-/* The members of an object that tell a neighbour. */
-static void write_neighbor(json_writer *w, const octree_neighbor *neighbor)
-{
-    json_write_key(w, "id");
-    json_write_integer(w, neighbor->point.id);
-    json_member_vector(w, "position", neighbor->point.position);
-    json_write_key(w, "distance");
-    json_write_number(w, neighbor->distance);
-}
+/* ---- Answers ------------------------------------------------------------------------------------------------ */
 
-static void write_nearest(json_writer *w, const octree_answer *answer)
+/* One neighbour or none stands among the members of its answer, and several in a list. */
+static void write_neighbors(json_writer *w, const octree_answer *answer, bool several)
 {
-    json_member_vector(w, "target", answer->target);
-    if (answer->count) {
-        write_neighbor(w, answer->neighbors);
-    } else {
-        json_write_key(w, "id");
+    if (!several && answer->count > 0) {
+        json_write_members(w, neighbor_members, answer->neighbors);
+        return;
+    }
+    json_write_key(w, several ? "neighbors" : "id");
+    if (!several) {
         json_write_null(w);
+        return;
     }
-}
-
-static void write_knearest(json_writer *w, const octree_answer *answer)
-{
-    json_member_vector(w, "target", answer->target);
-    json_write_key(w, "k");
-    json_write_integer(w, answer->k);
-    json_write_key(w, "neighbors");
     json_write_begin_array(w);
-    for (size_t i = 0; i < answer->count; i++) {
-        json_write_begin_object(w);
-        write_neighbor(w, &answer->neighbors[i]);
-        json_write_end_object(w);
-    }
+    for (size_t i = 0; i < answer->count; i++)
+        json_write_object(w, neighbor_members, &answer->neighbors[i]);
     json_write_end_array(w);
 }
 
-static void write_range(json_writer *w, const octree_answer *answer)
+/* What was asked, by the members that the kind reads; and what was found. */
+static void write_answer(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
-    json_member_vector(w, "min", answer->box.min);
-    json_member_vector(w, "max", answer->box.max);
-    write_ids(w, "ids", answer->points, answer->count);
+    if (about->members & OCTREE_QUERY_HAS_BOX) {
+        json_member_vector(w, "min", answer->box.min);
+        json_member_vector(w, "max", answer->box.max);
+    }
+    if (about->members & OCTREE_QUERY_HAS_TARGET)
+        json_member_vector(w, about->members & OCTREE_QUERY_HAS_RADIUS ? "center" : "target", answer->target);
+    if (about->members & OCTREE_QUERY_HAS_K)
+        json_member_integer(w, "k", answer->k);
+    if (about->members & OCTREE_QUERY_HAS_RADIUS) {
+        json_write_key(w, "radius");
+        json_write_number(w, answer->radius);
+    }
+    if (about->neighbors) {
+        write_neighbors(w, answer, about->members & OCTREE_QUERY_HAS_K);
+    } else {
+        json_write_key(w, "ids");
+        write_point_ids(w, answer->points, answer->count);
+    }
+    json_write_key(w, "cost");
+    json_write_object(w, cost_members, &answer->cost);
 }
 
-static void write_radius(json_writer *w, const octree_answer *answer)
+static void write_answers(json_writer *w, const void *from)
 {
-    json_member_vector(w, "center", answer->target);
-    json_write_key(w, "radius");
-    json_write_number(w, answer->radius);
-    write_ids(w, "ids", answer->points, answer->count);
-}
-
-static void write_cost(json_writer *w, const char *key, const octree_cost *cost)
-{
-    json_write_key(w, key);
-    json_write_begin_object(w);
-    json_member_integer(w, "nodes", cost->nodes);
-    json_member_integer(w, "leaves", cost->leaves);
-    json_member_integer(w, "points", cost->points);
-    json_member_integer(w, "pruned", cost->pruned);
-    json_write_end_object(w);
-}
-
-static void write_answers(json_writer *w, const octree_tick *tick)
-{
-    static void (*const writers[OCTREE_QUERY_KINDS])(json_writer *, const octree_answer *) = {
-        [OCTREE_QUERY_RANGE] = write_range,
-        [OCTREE_QUERY_NEAREST] = write_nearest,
-        [OCTREE_QUERY_KNEAREST] = write_knearest,
-        [OCTREE_QUERY_RADIUS] = write_radius,
-    };
-    json_write_key(w, "answers");
+    const octree_tick *tick = from;
     json_write_begin_array(w);
     for (size_t i = 0; i < tick->answer_count; i++) {
-        const octree_answer *answer = &tick->answers[i];
+        const octree_query_traits *about = octree_query_about(tick->answers[i].kind);
         json_write_begin_object(w);
-        json_write_key(w, octree_query_name(answer->kind));
+        json_write_key(w, about->name);
         json_write_begin_object(w);
-        writers[answer->kind](w, answer);
-        write_cost(w, "cost", &answer->cost);
+        write_answer(w, &tick->answers[i], about);
         json_write_end_object(w);
         json_write_end_object(w);
     }
     json_write_end_array(w);
 }
 
-/* How many nodes all questions of the tick met in each way, and how many leaves hold what was found. */
-static void write_visits(json_writer *w, const octree_tick *tick)
-{
-    json_write_key(w, "visits");
-    json_write_begin_object(w);
-    json_member_integer(w, "visited", tick->touched[OCTREE_TOUCH_VISITED]);
-    json_member_integer(w, "taken", tick->touched[OCTREE_TOUCH_TAKEN]);
-    json_member_integer(w, "pruned", tick->touched[OCTREE_TOUCH_PRUNED]);
-    json_member_integer(w, "hit", tick->hit_leaf_count);
-    json_write_end_object(w);
-}
+/* ---- The line ----------------------------------------------------------------------------------------------- */
 
-static void write_tree(json_writer *w, const octree_tick *tick)
-{
-    json_write_key(w, "tree");
-    json_write_begin_object(w);
-    json_member_integer(w, "points", tick->stats.points);
-    json_member_integer(w, "nodes", tick->stats.nodes);
-    json_member_integer(w, "leaves", tick->stats.leaves);
-    json_member_integer(w, "depth", tick->stats.depth);
-    write_digest(w, "digest", tick->tree_digest);
-    json_write_end_object(w);
-}
+/* How many nodes all questions of the tick met in each way, and how many leaves hold what was found. */
+static const json_member visit_members[] = {
+    {"visited", &size_codec, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_VISITED])},
+    {"taken", &size_codec, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_TAKEN])},
+    {"pruned", &size_codec, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_PRUNED])},
+    {"hit", &size_codec, .offset = offsetof(octree_tick, hit_leaf_count)},
+    {0},
+};
+
+static const json_member tree_members[] = {
+    {"points", &size_codec, .offset = offsetof(octree_tick, stats.points)},
+    {"nodes", &size_codec, .offset = offsetof(octree_tick, stats.nodes)},
+    {"leaves", &size_codec, .offset = offsetof(octree_tick, stats.leaves)},
+    {"depth", JSON_CODEC(NULL, write_unsigned, NULL), .offset = offsetof(octree_tick, stats.depth)},
+    {"digest", &digest_codec, .offset = offsetof(octree_tick, tree_digest)},
+    {0},
+};
+
+static const json_member line_members[] = {
+    {"tick", &uint64_codec, .offset = offsetof(octree_tick, number)},
+    {"key", JSON_CODEC(NULL, write_key, NULL), .offset = offsetof(octree_tick, key)},
+    {"player", JSON_CODEC(NULL, write_player, NULL), .offset = 0},
+    {"events", JSON_CODEC(NULL, write_events, NULL), .offset = offsetof(octree_tick, events)},
+    {"from", JSON_CODEC(NULL, write_from, is_swept), .offset = 0},
+    {"attempt", JSON_CODEC(NULL, write_attempt, NULL), .offset = 0},
+    {"hits", JSON_CODEC(NULL, write_ids, NULL), .offset = offsetof(octree_tick, hits)},
+    {"hit_cost", &json_structure, .offset = offsetof(octree_tick, hit_cost), .members = cost_members},
+    {"answers", JSON_CODEC(NULL, write_answers, NULL), .offset = 0},
+    {"visits", &json_structure, .offset = 0, .members = visit_members},
+    {"refusals", JSON_CODEC(NULL, write_refusals, NULL), .offset = 0},
+    {"splits", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, splits)},
+    {"merges", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, merges)},
+    {"tree", &json_structure, .offset = 0, .members = tree_members},
+    {0},
+};
 
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
 {
     json_writer writer = {.out = out}, *w = &writer;
-    const char key[2] = {tick->key, 0};
+    char digest[DIGEST_TEXT];
     json_write_begin_object(w);
-    json_write_key(w, "tick");
-    json_write_integer(w, tick->number);
-    json_write_key(w, "key");
-    if (tick->key)
-        json_write_string(w, key);
-    else
-        json_write_null(w);
-    write_place(w, "player", tick, tick->player);
-    write_events(w, tick->events);
-    if (tick->swept)
-        json_member_vector(w, "from", tick->from);
-    write_place(w, "attempt", tick, tick->attempt);
-    write_ids(w, "hits", tick->hits, tick->hit_count);
-    write_cost(w, "hit_cost", &tick->hit_cost);
-    write_answers(w, tick);
-    write_visits(w, tick);
-    write_refusals(w, tick);
-    write_addresses(w, "splits", tick->splits, tick->split_count);
-    write_addresses(w, "merges", tick->merges, tick->merge_count);
-    write_tree(w, tick);
+    json_write_members(w, line_members, tick);
     if (extras->frame) {
-        json_write_key(w, "frame");
-        json_write_string(w, extras->frame);
-        write_digest(w, "scene", extras->scene_digest);
+        json_member_text(w, "frame", extras->frame);
+        json_member_text(w, "scene", digest_print(extras->scene_digest, digest));
     }
     json_write_end_object(w);
     json_write_end_line(w);

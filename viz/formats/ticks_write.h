@@ -1,6 +1,7 @@
-/* ticks_write.h - a tick as one line of ticks.jsonl. */
-#ifndef RECORD_TICKS_WRITE_H
-#define RECORD_TICKS_WRITE_H
+/* ticks_write.h - a tick as one line of ticks.jsonl. Each fact is a row of line_members in ticks_write.c, and by what
+ * is written ticks are verified and compared: a new one needs nothing else. */
+#ifndef FORMATS_TICKS_WRITE_H
+#define FORMATS_TICKS_WRITE_H
 
 #include "octree/game.h"
 
