@@ -23,25 +23,6 @@ static uint64_t part_id(size_t place, size_t part)
     return (uint64_t)place << 32 | (uint64_t)part;
 }
 
-/* Where keys play it is known what will be asked: the session's queries, and the nearest point by a key. What else a
- * session will ask is not: then it is what has been asked so far. */
-static bool applies(const layer_source *in, view_layer own)
-{
-    for (size_t i = 0; i < in->answer_count; i++)
-        if (layer_of_query(in->answers[i].kind) == own)
-            return true;
-    if (!in->game)
-        return false;
-    const bool known = in->session->player.kind == OCTREE_PLAYER_KEYS;
-    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
-        if ((in->tick->asked >> kind & 1) && layer_of_query((octree_query_kind)kind) == own)
-            return true;
-    for (size_t i = 0; known && i < in->session->query_count; i++)
-        if (layer_of_query(in->session->queries[i].kind) == own)
-            return true;
-    return known && own == LAYER_NEAREST;
-}
-
 /* Smaller where there are many: they would hide each other, and what they lie on. `half` is half their size. */
 static void mark_points(scene *s, const octree_answer *answer, view_layer own, scene_shape shape, unsigned half)
 {
@@ -64,12 +45,6 @@ static const octree_answer *say_query(description *d, const char *what, uint64_t
 static void say_found(description *d, const octree_answer *answer)
 {
     say(d, ", %zu point%s found", answer->count, plural(answer->count));
-}
-
-static void describe_mark(description *d, const described *element)
-{
-    say_point(d, element->id, element->at);
-    say(d, ", found by a %s query", view_layer_name((view_layer)element->style.layer));
 }
 
 static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
@@ -100,10 +75,6 @@ static void write_range(pen *p, const octree_answer *answer)
 
 static void describe_range(description *d, const described *element)
 {
-    if (element->kind == SCENE_MARKER) {
-        describe_mark(d, element);
-        return;
-    }
     const octree_answer *answer = say_query(d, "box", element->id);
     say(d, ": ");
     say_box(d, &element->box);
@@ -111,8 +82,7 @@ static void describe_range(description *d, const described *element)
         say_found(d, answer);
 }
 
-const layer_type layer_RANGE = {.applies = applies,
-                                .add_answer = add_range,
+const layer_type layer_RANGE = {.add_answer = add_range,
                                 .write_answer = write_range,
                                 .legend_place = 150,
                                 .sign = SIGN_DASHES,
@@ -159,10 +129,6 @@ static void write_radius(pen *p, const octree_answer *answer)
 
 static void describe_radius(description *d, const described *element)
 {
-    if (element->kind == SCENE_MARKER) {
-        describe_mark(d, element);
-        return;
-    }
     const octree_answer *answer = say_query(d, "ball", element->id >> 32);
     if (!answer)
         return;
@@ -173,8 +139,7 @@ static void describe_radius(description *d, const described *element)
     say_found(d, answer);
 }
 
-const layer_type layer_RADIUS = {.applies = applies,
-                                 .add_answer = add_ball,
+const layer_type layer_RADIUS = {.add_answer = add_ball,
                                  .write_answer = write_radius,
                                  .legend_place = 160,
                                  .sign = SIGN_LINE,
@@ -242,8 +207,7 @@ static void describe_knearest(description *d, const described *element)
         describe_neighbor(d, element->id >> 32, element->id & UINT32_MAX);
 }
 
-const layer_type layer_KNEAREST = {.applies = applies,
-                                   .add_answer = add_knearest,
+const layer_type layer_KNEAREST = {.add_answer = add_knearest,
                                    .write_answer = write_knearest,
                                    .legend_place = 170,
                                    .sign = SIGN_LINE,
@@ -279,14 +243,10 @@ static void write_nearest(pen *p, const octree_answer *answer)
 
 static void describe_nearest(description *d, const described *element)
 {
-    if (element->kind == SCENE_MARKER)
-        describe_mark(d, element);
-    else
-        describe_neighbor(d, element->id, 0);
+    describe_neighbor(d, element->id, 0);
 }
 
-const layer_type layer_NEAREST = {.applies = applies,
-                                  .add_answer = add_nearest,
+const layer_type layer_NEAREST = {.add_answer = add_nearest,
                                   .write_answer = write_nearest,
                                   .legend_place = 180,
                                   .sign = SIGN_DASHES,

@@ -4,9 +4,8 @@
 
 #define MARK 12 /* half units: half the size of the mark on a node that appears small */
 
-static bool applies(const layer_source *in, view_layer own)
+static bool applies(const layer_source *in)
 {
-    (void)own;
     return in->asked != 0;
 }
 
@@ -24,10 +23,9 @@ static void add(scene *s, const layer_source *in, view_layer own)
     scene_add_mark(s, in->asked, middle, SHAPE_LOZENGE, layer_style(own, STROKE_SOLID, MARK));
 }
 
-static void add_legend(legend *l, const layer_source *in, view_layer own)
+static void add_legend(legend *l, const layer_source *in)
 {
     char address[OCTREE_ADDRESS_TEXT];
-    (void)own;
     legend_add(l, SIGN_BOLD, "node %.42s", octree_address_format(in->asked, address));
 }
 

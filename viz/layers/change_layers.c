@@ -46,12 +46,12 @@ static void add_changes(scene *s, const layer_source *in, view_layer own)
 }
 
 /* "2 split .. 7/7/0", with the address of the last where there is room for all of it. */
-static void add_change_legend(legend *l, const layer_source *in, view_layer own)
+static void add_change_legend(legend *l, const layer_source *in)
 {
     char last[OCTREE_ADDRESS_TEXT];
     size_t count;
-    const bool split = own == LAYER_SPLITS;
-    const octree_address *nodes = nodes_of(in->tick, own, &count);
+    const bool split = l->next.layer == LAYER_SPLITS;
+    const octree_address *nodes = nodes_of(in->tick, l->next.layer, &count);
     legend_line *line =
         legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu %s", count, split ? "split" : "merged");
     if (count == 0)

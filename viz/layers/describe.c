@@ -82,12 +82,15 @@ void say_point(description *d, uint64_t id, const double position[3])
 static void describe(description *d, const described *element)
 {
     const layer_type *type = layer_types[element->style.layer];
-    if (type->describe)
+    const bool found = type->add_answer && element->kind == SCENE_MARKER;
+    if (type->describe && !found)
         type->describe(d, element);
     else if (element->kind == SCENE_BOX)
         say_node(d, element->id);
     else if (element->kind == SCENE_MARKER)
         say_point(d, element->id, element->at);
+    if (found)
+        say(d, ", found by a %s query", view_layer_name((view_layer)element->style.layer));
 }
 
 element_subject describe_element(const octree_game *game, const heat *h, const scene *s, scene_element element)

@@ -50,6 +50,7 @@ typedef struct diagram {
     double left, width; /* of the slots */
     double top, pitch;  /* of the rows */
     unsigned rows;
+    uint64_t next_label;
     bool words;                       /* there is room for them */
     octree_address path;              /* the node to which the path from the root is shown; 0 for none */
     octree_node end;                  /* that node */
@@ -111,12 +112,8 @@ static stop stop_at(const diagram *d, unsigned depth, double middle, double heig
 static void fill_box(const diagram *d, uint64_t id, double x, double y, double width, double height, unsigned role)
 {
     const int across = width < 1 ? 1 : (int)width, along = height < 1 ? 1 : (int)height;
-    scene_add_panel(d->scene, (scene_panel){.id = id,
-                                            .x = (int)floor(x - across / 2.0 + 0.5),
-                                            .y = (int)floor(y - along / 2.0 + 0.5),
-                                            .width = across,
-                                            .height = along,
-                                            .style = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role}});
+    scene_add_rectangle(d->scene, id, (int[]){(int)floor(x - across / 2.0 + 0.5), (int)floor(y - along / 2.0 + 0.5)},
+                        (int[]){across, along}, LAYER_DIAGRAM, role);
 }
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
@@ -313,57 +310,51 @@ static void add_bars(diagram *d)
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
-typedef struct writing {
-    const diagram *d;
-    uint64_t next_id;
-} writing;
-
-static void write_words(writing *w, double x, double y, theme_role role, const char *format, ...)
+static void write_words(diagram *d, double x, double y, theme_role role, const char *format, ...)
 {
-    scene_label label = {.id = w->next_id++,
+    scene_label label = {.id = d->next_label++,
                          .at = {floor(x), floor(y)},
                          .style = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role, .width = 1}};
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(label.text, sizeof label.text, format, arguments);
     va_end(arguments);
-    scene_add_label(w->d->scene, label);
+    scene_add_label(d->scene, label);
 }
 
-static void write_count(writing *w, double x, double y, size_t count)
+static void write_count(diagram *d, double x, double y, size_t count)
 {
     char text[NUMBER_TEXT];
     if (count <= MOST_DIGITS)
         snprintf(text, sizeof text, "%zu", count);
     else
         number_text((double)count, 3, text);
-    write_words(w, x, y, ROLE_TEXT, "%s", text);
+    write_words(d, x, y, ROLE_TEXT, "%s", text);
 }
 
-static void write_rows(writing *w)
+static void write_rows(diagram *d)
 {
-    const diagram *d = w->d;
     const int unit = d->scene->unit;
-    const double left = w->d->window.x + EDGE * unit, right = d->left + d->width + EDGE * unit;
+    const double left = d->window.x + EDGE * unit, right = d->left + d->width + EDGE * unit;
     const unsigned each = (unsigned)ceil(TEXT_HEIGHT * unit / d->pitch); /* rows that are too low have words but now and
                                                                             then */
-    write_words(w, left, w->d->window.y + EDGE * unit, ROLE_FAINT, "depth");
-    write_words(w, right, w->d->window.y + EDGE * unit, ROLE_FAINT, "nodes");
+    write_words(d, left, d->window.y + EDGE * unit, ROLE_FAINT, "depth");
+    write_words(d, right, d->window.y + EDGE * unit, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth < d->rows; depth += each) {
         const double y = row_at(d, depth) - 4 * unit;
-        write_words(w, left, y, ROLE_FAINT, "%u", depth);
+        write_words(d, left, y, ROLE_FAINT, "%u", depth);
         if (d->slots.stats.nodes_at_depth[depth])
-            write_count(w, right, y, d->slots.stats.nodes_at_depth[depth]);
+            write_count(d, right, y, d->slots.stats.nodes_at_depth[depth]);
     }
 }
 
 /* Where the path leads to. An address that is too long is cut: the diagram shows all of it. */
-static void write_end(writing *w)
+static void write_end(diagram *d)
 {
-    const octree_node *end = &w->d->end;
-    const int unit = w->d->scene->unit;
-    const size_t letters = (size_t)((w->d->window.width - 2 * EDGE * unit) / (TEXT_LETTER * unit));
-    const double foot = w->d->window.y + w->d->window.height - (WORDS_BELOW - 6) * unit;
+    const octree_node *end = &d->end;
+    const int unit = d->scene->unit;
+    const size_t letters = (size_t)((d->window.width - 2 * EDGE * unit) / (TEXT_LETTER * unit));
+    const double foot = d->window.y + d->window.height - (WORDS_BELOW - 6) * unit;
     char address[OCTREE_ADDRESS_TEXT], text[SCENE_TEXT * 2];
     const size_t length =
         (size_t)snprintf(text, sizeof text, "%s of %zu point%s: %s", end->leaf ? "leaf" : "node", end->count,
@@ -371,22 +362,10 @@ static void write_end(writing *w)
     const size_t room = letters < SCENE_TEXT ? letters : SCENE_TEXT - 1;
     if (length > room)
         memcpy(text + room - 3, "...", 4);
-    write_words(w, w->d->window.x + EDGE * unit, foot, ROLE_PLAYER, "%s", text);
+    write_words(d, d->window.x + EDGE * unit, foot, ROLE_PLAYER, "%s", text);
 }
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
-
-/* What the space view may have drawn beyond its area is covered. */
-static void add_ground(const diagram *d)
-{
-    const camera_window w = d->window;
-    scene_add_panel(d->scene, (scene_panel){.id = GROUND_ID,
-                                            .x = (int)w.x,
-                                            .y = (int)w.y,
-                                            .width = (int)w.width,
-                                            .height = (int)w.height,
-                                            .style = {.layer = LAYER_DIAGRAM, .role = ROLE_BACKGROUND}});
-}
 
 /* The path leads to the player's leaf; in a tree alone to the node that is asked for. */
 static void find_path(diagram *d)
@@ -403,7 +382,9 @@ static void add(scene *s, const layer_source *in, view_layer own)
     diagram d = {.scene = s, .in = in, .window = layout_diagram(&s->view)};
     if (!view_shows(&s->view, own))
         return;
-    add_ground(&d);
+    /* What the space view may have drawn beyond its area is covered. */
+    scene_add_rectangle(s, GROUND_ID, (int[]){(int)d.window.x, (int)d.window.y},
+                        (int[]){(int)d.window.width, (int)d.window.height}, own, ROLE_BACKGROUND);
     if (!arrange(&d))
         return;
     find_path(&d);
@@ -413,19 +394,17 @@ static void add(scene *s, const layer_source *in, view_layer own)
     if (d.path)
         add_path(&d);
     if (d.words) {
-        writing w = {.d = &d};
-        write_rows(&w);
+        write_rows(&d);
         if (d.path)
-            write_end(&w);
+            write_end(&d);
     }
     diagram_slots_release(&d.slots);
 }
 
-static void add_legend(legend *l, const layer_source *in, view_layer own)
+static void add_legend(legend *l, const layer_source *in)
 {
     const scene_tally *tally = &l->scene->tally;
     (void)in;
-    (void)own;
     if (tally->drawn)
         legend_add(l, SIGN_NODES, "inner node, leaf")->role = ROLE_NODE_PLAIN;
     if (tally->path)

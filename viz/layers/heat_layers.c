@@ -66,11 +66,11 @@ static void add(scene *s, const layer_source *in, view_layer own)
         octree_walk(in->tree, add_leaf, &w);
 }
 
-static void add_legend(legend *l, const layer_source *in, view_layer own)
+static void add_legend(legend *l, const layer_source *in)
 {
-    const bool visits = own == LAYER_VISIT_HEAT;
+    const bool visits = l->next.layer == LAYER_VISIT_HEAT;
     (void)in;
-    legend_add(l, SIGN_GROWING_RAMP, "%s 1-%" PRIu64 "+ %s", visits ? "[]" : "<>", HEAT_LAST(shift_of(own)),
+    legend_add(l, SIGN_GROWING_RAMP, "%s 1-%" PRIu64 "+ %s", visits ? "[]" : "<>", HEAT_LAST(shift_of(l->next.layer)),
                visits ? "visits" : "points");
 }
 

@@ -30,9 +30,9 @@ typedef struct layer_source {
 
 /* Members that are null or 0 are what a layer does not have. `own` is the layer itself, for files with several. */
 typedef struct layer_type {
-    /* Whether the layer can have something in it, in this frame or others of its recording: always, where this is null.
-     * It is listed in the legend then. */
-    bool (*applies)(const layer_source *in, view_layer own);
+    /* Whether the layer can have something in it, in this frame or others of its recording; then it is listed in the
+     * legend. Null: always, or where there are answers in it or will be. */
+    bool (*applies)(const layer_source *in);
 
     /* Add the layer's elements; of a layer of answers, those of one. Layers that are not shown need no test: a scene
      * leaves their elements out. */
@@ -47,9 +47,10 @@ typedef struct layer_type {
     legend_sign sign;
     legend_worth worth;
     const char *text;
-    void (*legend)(legend *l, const layer_source *in, view_layer own);
+    void (*legend)(legend *l, const layer_source *in);
 
-    /* Say what an element is about. Where this is null: boxes are of nodes, markers on points, by their ids. */
+    /* Say what an element is about. Where this is null: boxes are of nodes, markers on points, by their ids; and so are
+     * the markers of answers. */
     void (*describe)(description *d, const described *element);
 } layer_type;
 
@@ -60,7 +61,9 @@ LAYER_MAP(LAYER_TYPE_DECLARE)
 extern const layer_type *const layer_types[LAYER_COUNT + 1];
 
 /* applies() of layers that only games have. */
-bool layer_in_games(const layer_source *in, view_layer own);
+bool layer_in_games(const layer_source *in);
+
+bool layer_applies(const layer_source *in, view_layer layer);
 
 /* The layer of the answers to queries of a kind has the kind's name. */
 view_layer layer_of_query(octree_query_kind kind);

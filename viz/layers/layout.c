@@ -80,11 +80,8 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
 void text_add_on_ground(scene *s, const scene_label *label, theme_role ground)
 {
     const int unit = s->unit, letters = (int)strlen(label->text);
-    scene_add_panel(s, (scene_panel){.id = label->id,
-                                     .x = (int)label->at[0] - unit,
-                                     .y = (int)label->at[1] - unit,
-                                     .width = (letters * TEXT_LETTER + 1) * unit,
-                                     .height = (TEXT_HEIGHT + 1) * unit,
-                                     .style = {.layer = label->style.layer, .role = (uint8_t)ground}});
+    scene_add_rectangle(s, label->id, (int[]){(int)label->at[0] - unit, (int)label->at[1] - unit},
+                        (int[]){(letters * TEXT_LETTER + 1) * unit, (TEXT_HEIGHT + 1) * unit}, label->style.layer,
+                        ground);
     scene_add_label(s, *label);
 }

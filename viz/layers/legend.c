@@ -48,14 +48,13 @@ static void list_layer(legend *l, const layer_source *in, view_layer layer)
     const layer_type *type = layer_types[layer];
     const scene *s = l->scene;
     const bool in_diagram = is_in_diagram(s, layer);
-    if (!in_diagram &&
-        (layer == LAYER_DIAGRAM || !view_shows(&s->view, layer) || (type->applies && !type->applies(in, layer))))
+    if (!in_diagram && (layer == LAYER_DIAGRAM || !view_shows(&s->view, layer) || !layer_applies(in, layer)))
         return;
     l->next = (legend_line){.layer = layer,
                             .worth = in_diagram || is_in_frame(s, layer) ? type->worth : WORTH_ABSENT,
                             .role = (theme_role)layer_rows[layer].role};
     if (type->legend)
-        type->legend(l, in, layer);
+        type->legend(l, in);
     else
         legend_add(l, type->sign, "%s", type->text);
 }

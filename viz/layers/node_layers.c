@@ -225,10 +225,9 @@ static void add(scene *s, const layer_source *in, view_layer own)
         add_labels(s);
 }
 
-static void add_legend(legend *l, const layer_source *in, view_layer own)
+static void add_legend(legend *l, const layer_source *in)
 {
     const size_t depths = octree_definition(in->tree).max_depth + 1;
-    (void)own;
     if (l->scene->view.coloring == COLORING_DEPTH)
         legend_add(l, SIGN_RAMP, "node, shallow to deep")->steps =
             depths < THEME_NODE_DEPTHS ? (int)depths : THEME_NODE_DEPTHS;

@@ -44,9 +44,9 @@ static void write_statistics(pen *p, const octree *tree, const octree_stats *sta
 }
 
 /* Whether there is somebody whom keys move. */
-static bool has_keys(const octree_game *game)
+static bool has_keys(const layer_source *in)
 {
-    return octree_game_session(game)->player.kind == OCTREE_PLAYER_KEYS;
+    return in->session->player.kind == OCTREE_PLAYER_KEYS;
 }
 
 static const char *key_meaning(char key)
@@ -59,18 +59,17 @@ static const char *key_meaning(char key)
 }
 
 /* What is said of a tick without events. */
-static const char *quiet_word(const octree_game *game)
+static const char *quiet_word(const layer_source *in)
 {
-    const octree_tick *tick = octree_game_tick(game);
-    if (tick->key == 'n')
+    if (in->tick->key == 'n')
         return "asked";
-    return !tick->number ? "start" : has_keys(game) ? "waited" : "no event";
+    return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
 }
 
 /* What the tick did, in words; the most urgent gives the colour. */
-static void write_events(pen *p, const octree_game *game)
+static void write_events(pen *p, const layer_source *in)
 {
-    const octree_tick *tick = octree_game_tick(game);
+    const octree_tick *tick = in->tick;
     char words[SCENE_TEXT] = "";
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
         if (tick->events >> i & 1) {
@@ -80,16 +79,16 @@ static void write_events(pen *p, const octree_game *game)
     }
     const bool stopped = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL);
     const theme_role role = tick->hit_count ? ROLE_COLLISION : stopped ? ROLE_WARNING : ROLE_TEXT;
-    write_line(p, MARGIN, role, words[0] ? words : quiet_word(game));
+    write_line(p, MARGIN, role, words[0] ? words : quiet_word(in));
 }
 
 /* In the colours of what is drawn of them. */
-static void write_answers(pen *p, const octree_answer *answers, size_t count)
+static void write_answers(pen *p, const layer_source *in)
 {
-    for (size_t i = 0; i < count; i++) {
-        const view_layer layer = layer_of_query(answers[i].kind);
+    for (size_t i = 0; i < in->answer_count; i++) {
+        const view_layer layer = layer_of_query(in->answers[i].kind);
         p->name = view_shows(&p->scene->view, layer) ? (theme_role)layer_rows[layer].role : ROLE_FAINT;
-        layer_types[layer]->write_answer(p, &answers[i]);
+        layer_types[layer]->write_answer(p, &in->answers[i]);
     }
     p->name = ROLE_FAINT;
 }
@@ -104,16 +103,15 @@ static void write_refusals(pen *p, const octree_tick *tick)
 }
 
 /* A few keys before and after this tick's, which stands in brackets. */
-static void write_keys(pen *p, const octree_game *game)
+static void write_keys(pen *p, const layer_source *in)
 {
-    const octree_session *session = octree_game_session(game);
-    const uint64_t now = octree_game_tick(game)->number;
-    const size_t count = session->keys ? strlen(session->keys) : 0;
+    const uint64_t now = in->tick->number;
+    const char *keys = in->session->keys ? in->session->keys : "";
+    const size_t count = strlen(keys);
     char text[SCENE_TEXT];
     size_t used = 0;
     for (uint64_t tick = now > 5 ? now - 5 : 1; tick <= now + 6 && tick <= count; tick++)
-        used +=
-            (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ", session->keys[tick - 1]);
+        used += (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ", keys[tick - 1]);
     if (used) {
         text[used - 1] = 0; /* the last blank */
         write_line(p, MARGIN, ROLE_FAINT, text);
@@ -180,69 +178,46 @@ static void write_filter(pen *p, const view_filter *f)
         write_region_axis(p, axis ? "" : "region", &f->region, axis);
 }
 
-/* A value that is not to be passed over. */
-static void write_warning(pen *p, const char *name, const char *value)
-{
-    write_text(p, MARGIN, ROLE_FAINT, 1, name);
-    write_line(p, VALUE, ROLE_WARNING, value);
-}
-
 static void write_budget(pen *p, const scene_tally *tally)
 {
-    char text[SCENE_TEXT];
-    if (tally->beyond) {
-        snprintf(text, sizeof text, tally->deepest < 0 ? "no nodes" : "nodes to depth %d", tally->deepest);
-        write_warning(p, "budget", text);
-    }
-    if (tally->thinned) {
-        snprintf(text, sizeof text, "1 point in %" PRIu64, tally->one_in);
-        write_warning(p, tally->beyond ? "" : "budget", text);
-    }
-    if (tally->arrows.thinned) {
-        snprintf(text, sizeof text, "1 arrow in %" PRIu64, tally->arrows.one_in);
-        write_warning(p, tally->beyond || tally->thinned ? "" : "budget", text);
-    }
+    const bool nodes = tally->beyond > 0, points = tally->thinned > 0;
+    if (nodes && tally->deepest < 0)
+        write_row(p, "budget", "no nodes");
+    else if (nodes)
+        write_row(p, "budget", "nodes to depth %d", tally->deepest);
+    if (points)
+        write_row(p, nodes ? "" : "budget", "1 point in %" PRIu64, tally->one_in);
+    if (tally->arrows.thinned)
+        write_row(p, nodes || points ? "" : "budget", "1 arrow in %" PRIu64, tally->arrows.one_in);
 }
 
 static void write_folded(pen *p, const scene_tally *tally)
 {
-    char text[SCENE_TEXT];
-    snprintf(text, sizeof text, tally->folded_from == tally->folded_to ? "depth %u" : "depths %u to %u",
-             tally->folded_from, tally->folded_to);
-    write_warning(p, "folded", text);
+    if (tally->folded && tally->folded_from == tally->folded_to)
+        write_row(p, "folded", "depth %u", tally->folded_from);
+    else if (tally->folded)
+        write_row(p, "folded", "depths %u to %u", tally->folded_from, tally->folded_to);
 }
 
-/* Whether "12 met < 2 px" has. */
-static bool has_room(size_t count, const char *what, const char *lod)
-{
-    char number[SCENE_TEXT];
-    snprintf(number, sizeof number, "%zu", count);
-    return strlen(number) + strlen(what) + strlen(" < ") + strlen(lod) + strlen(" px") <= text_room(VALUE, 1);
-}
-
-/* "lod    12 below 2 px", and what follows in words that fit. */
+/* "12 below 2 px"; what is no node in words that fit, "12 met < 2 px", or on a line of its own, "and 12 met". */
 static void write_small(pen *p, const scene_tally *tally)
 {
-    const struct {
-        size_t count;
-        const char *what;
-    } kinds[] = {{tally->small, ""},
-                 {tally->small_met, " met"},
-                 {tally->arrows.small, tally->arrows.small == 1 ? " arrow" : " arrows"}};
-    char lod[NUMBER_TEXT];
-    bool first = true;
+    const size_t counts[] = {tally->small, tally->small_met, tally->arrows.small};
+    const char *const words[] = {"", " met", tally->arrows.small == 1 ? " arrow" : " arrows"};
+    char lod[NUMBER_TEXT], text[SCENE_TEXT * 2];
+    const char *name = "lod";
     number_text(p->scene->view.lod, 3, lod);
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-        if (!kinds[i].count)
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        if (!counts[i])
             continue;
-        if (i == 0)
-            write_row(p, "lod", "%zu below %s px", kinds[i].count, lod);
-        else if (first)
-            write_row(p, "lod", "%zu%s < %s%s", kinds[i].count, kinds[i].what, lod,
-                      has_room(kinds[i].count, kinds[i].what, lod) ? " px" : "");
+        if (*name)
+            snprintf(text, sizeof text, i ? "%zu%s < %s px" : "%zu%s below %s px", counts[i], words[i], lod);
         else
-            write_row(p, "", "and %zu%s", kinds[i].count, kinds[i].what);
-        first = false;
+            snprintf(text, sizeof text, "and %zu%s", counts[i], words[i]);
+        if (i && *name && strlen(text) > text_room(VALUE, 1))
+            text[strlen(text) - strlen(" px")] = 0;
+        write_row(p, name, "%s", text);
+        name = "";
     }
 }
 
@@ -266,11 +241,14 @@ static void write_left_out(pen *p)
     const int before = p->y;
     p->y += LINE / 2;
     const int begin = p->y;
-    if (tally->folded)
-        write_folded(p, tally);
+    p->value = ROLE_WARNING;
+    write_folded(p, tally);
+    p->value = ROLE_TEXT;
     write_shown(p, tally);
     write_small(p, tally);
+    p->value = ROLE_WARNING;
     write_budget(p, tally);
+    p->value = ROLE_TEXT;
     if (p->scene->view.labels && tally->labels < tally->nodes)
         write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
     p->y = p->y == begin ? before : p->y; /* all is there */
@@ -305,22 +283,21 @@ static void end_rows(pen *p)
 }
 
 /* Where there may be one. */
-static void write_player(pen *p, const octree_game *game)
+static void write_player(pen *p, const layer_source *in)
 {
-    const octree_tick *tick = octree_game_tick(game);
-    if (tick->has_player)
-        write_position(p, "player", tick->player);
-    else if (octree_game_session(game)->player.kind != OCTREE_PLAYER_NONE)
+    if (in->tick->has_player)
+        write_position(p, "player", in->tick->player);
+    else if (in->session->player.kind != OCTREE_PLAYER_NONE)
         write_row(p, "player", "away");
 }
 
 static void write_tick_rows(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
-    if (tick->key && (has_keys(in->game) || tick->key == 'n'))
+    if (tick->key && (has_keys(in) || tick->key == 'n'))
         write_row(p, "key", "%c  %s", tick->key, key_meaning(tick->key));
-    write_keys(p, in->game);
-    write_player(p, in->game);
+    write_keys(p, in);
+    write_player(p, in);
     if (tick->swept)
         write_row(p, "tested", "the whole way");
     p->y += LINE / 2;
@@ -329,7 +306,7 @@ static void write_tick_rows(pen *p, const layer_source *in)
     p->y += LINE / 2;
     if (tick->hit_count)
         write_ids(p, "hits", tick->hits, tick->hit_count);
-    write_answers(p, in->answers, in->answer_count);
+    write_answers(p, in);
     write_refusals(p, tick);
 }
 
@@ -343,17 +320,17 @@ static void write_tree_rows(pen *p, const layer_source *in)
     write_world(p, &in->world);
     if (in->answer_count)
         p->y += LINE / 2;
-    write_answers(p, in->answers, in->answer_count);
+    write_answers(p, in);
 }
 
 /* Where there is no room for the column, the most important of its lines, on the picture itself. */
 static void add_lines(scene *s, const layer_source *in, const char *title)
 {
-    pen p = {.scene = s, .y = 4, .name = ROLE_FAINT};
+    pen p = {.scene = s, .y = 4, .name = ROLE_FAINT, .value = ROLE_TEXT};
     if (in->tick) {
         write_text(&p, 4, ROLE_TEXT, 1, title);
         p.y += LINE;
-        write_events(&p, in->game);
+        write_events(&p, in);
     }
     write_left_out(&p);
     write_broken(&p, in);
@@ -362,20 +339,20 @@ static void add_lines(scene *s, const layer_source *in, const char *title)
 
 static void add(scene *s, const layer_source *in, view_layer own)
 {
+    (void)own;
     char tick[SCENE_TEXT];
     const char *title = in->tick ? tick : in->title;
-    (void)own;
     if (in->tick)
         snprintf(tick, sizeof tick, "tick %" PRIu64, in->tick->number);
     if (panel_width(&s->view) == 0) {
         add_lines(s, in, title);
         return;
     }
-    pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT};
+    pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT, .value = ROLE_TEXT};
     fill(&p, 0, 0, COLUMN, s->view.height / s->unit + 1, ROLE_PANEL);
     write_title(&p, title);
     if (in->tick) {
-        write_events(&p, in->game);
+        write_events(&p, in);
         p.y += LINE / 2;
         write_tick_rows(&p, in);
     } else {

@@ -39,7 +39,7 @@ void write_row(pen *p, const char *name, const char *format, ...)
     vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
     write_text(p, MARGIN, p->name, 1, name);
-    write_line(p, VALUE, ROLE_TEXT, value);
+    write_line(p, VALUE, p->value, value);
 }
 
 void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
@@ -64,10 +64,6 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
 void fill(pen *p, int x, int y, int width, int height, unsigned role)
 {
     const int unit = p->scene->unit;
-    scene_add_panel(p->scene, (scene_panel){.id = p->next_id++,
-                                            .x = x * unit,
-                                            .y = y * unit,
-                                            .width = width * unit,
-                                            .height = height * unit,
-                                            .style = {.layer = LAYER_TEXT, .role = (uint8_t)role}});
+    scene_add_rectangle(p->scene, p->next_id++, (int[]){x * unit, y * unit}, (int[]){width * unit, height * unit},
+                        LAYER_TEXT, role);
 }

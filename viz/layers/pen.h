@@ -19,7 +19,7 @@
 typedef struct pen {
     scene *scene;
     int y;
-    theme_role name; /* the colour of names of rows */
+    theme_role name, value; /* the colours of names and values of rows */
     uint64_t next_id;
 } pen;
 

@@ -4,9 +4,8 @@
 
 #include <string.h>
 
-static bool applies(const layer_source *in, view_layer own)
+static bool applies(const layer_source *in)
 {
-    (void)own;
     return in->game && in->session->player.kind != OCTREE_PLAYER_NONE;
 }
 
@@ -110,9 +109,8 @@ static void add_box(scene *s, const layer_source *in, view_layer own)
         add_collision(s, in, own);
 }
 
-static void add_box_legend(legend *l, const layer_source *in, view_layer own)
+static void add_box_legend(legend *l, const layer_source *in)
 {
-    (void)own;
     legend_add(l, SIGN_CROSS, "collision, crossed");
     if (in->session->player.sweep)
         legend_add(l, SIGN_DASHES, "way to a hit, dashed");

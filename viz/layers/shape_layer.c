@@ -6,9 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool applies(const layer_source *in, view_layer own)
+static bool applies(const layer_source *in)
 {
-    (void)own;
     return in->game && in->tick->shape_count > 0;
 }
 
@@ -46,9 +45,8 @@ static void add(scene *s, const layer_source *in, view_layer own)
     }
 }
 
-static void add_legend(legend *l, const layer_source *in, view_layer own)
+static void add_legend(legend *l, const layer_source *in)
 {
-    (void)own;
     legend_add(l, SIGN_BOLD, "%zu shape%s", in->tick->shape_count, plural(in->tick->shape_count));
 }
 

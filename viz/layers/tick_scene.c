@@ -6,9 +6,8 @@
 #define LAYER_TYPE(layer, ...) &layer_##layer,
 const layer_type *const layer_types[LAYER_COUNT + 1] = {LAYER_MAP(LAYER_TYPE)};
 
-bool layer_in_games(const layer_source *in, view_layer own)
+bool layer_in_games(const layer_source *in)
 {
-    (void)own;
     return in->game != NULL;
 }
 
@@ -19,10 +18,31 @@ view_layer layer_of_query(octree_query_kind kind)
     return layers[kind];
 }
 
+/* Where keys play it is known what will be asked: the session's queries, and the nearest point by a key. What else a
+ * session will ask is not: then it is what has been asked so far. */
+static bool is_asked(const layer_source *in, view_layer layer)
+{
+    const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;
+    bool asked = known && layer == LAYER_NEAREST;
+    for (size_t i = 0; i < in->answer_count; i++)
+        asked |= layer_of_query(in->answers[i].kind) == layer;
+    for (int kind = 0; in->game && kind < OCTREE_QUERY_KINDS; kind++)
+        asked |= (in->tick->asked >> kind & 1) && layer_of_query((octree_query_kind)kind) == layer;
+    for (size_t i = 0; known && i < in->session->query_count; i++)
+        asked |= layer_of_query(in->session->queries[i].kind) == layer;
+    return asked;
+}
+
+bool layer_applies(const layer_source *in, view_layer layer)
+{
+    const layer_type *type = layer_types[layer];
+    return type->applies ? type->applies(in) : !type->add_answer || is_asked(in, layer);
+}
+
 static void add_layer(scene *s, const layer_source *in, view_layer layer)
 {
     const layer_type *type = layer_types[layer];
-    if (type->applies && !type->applies(in, layer))
+    if (!layer_applies(in, layer))
         return;
     if (type->add)
         type->add(s, in, layer);

@@ -124,16 +124,14 @@ static void add(scene *s, const layer_source *in, view_layer own)
     s->tally.arrows.one_in = sieve + 1;
 }
 
-static bool applies(const layer_source *in, view_layer own)
+static bool applies(const layer_source *in)
 {
-    (void)own;
     return in->game && (in->tick->mover_count > 0 || octree_game_fastest(in->game) > 0);
 }
 
-static void add_legend(legend *l, const layer_source *in, view_layer own)
+static void add_legend(legend *l, const layer_source *in)
 {
     const unsigned ticks = velocity_ticks(in->game);
-    (void)own;
     legend_add(l, SIGN_ARROW, "velocity, %u tick%s", ticks, plural(ticks));
 }
 

@@ -34,18 +34,16 @@ static void add_hit(scene *s, const layer_source *in, view_layer own)
             add_node_box(s, &node, layer_style(own, STROKE_SOLID, 2));
 }
 
-static void add_pruned_legend(legend *l, const layer_source *in, view_layer own)
+static void add_pruned_legend(legend *l, const layer_source *in)
 {
-    (void)own;
     legend_add(l, SIGN_DASHES, "%zu pruned", in->tick->touched[OCTREE_TOUCH_PRUNED]);
 }
 
 /* What was taken whole has a line of its own where one has no room for both counts. */
-static void add_visited_legend(legend *l, const layer_source *in, view_layer own)
+static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = in->tick->touched[OCTREE_TOUCH_TAKEN];
     char rest[SCENE_TEXT];
-    (void)own;
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu visited", in->tick->touched[OCTREE_TOUCH_VISITED]);
     const int length = snprintf(rest, sizeof rest, "%zu taken", taken);
     if (taken && strlen(line->text) + strlen(", ") + (size_t)length > LEGEND_LETTERS)
@@ -54,10 +52,9 @@ static void add_visited_legend(legend *l, const layer_source *in, view_layer own
         strcat(strcat(line->text, ", "), rest);
 }
 
-static void add_hit_legend(legend *l, const layer_source *in, view_layer own)
+static void add_hit_legend(legend *l, const layer_source *in)
 {
     const size_t leaves = in->tick->hit_leaf_count;
-    (void)own;
     legend_add(l, SIGN_FRAME, "%zu %s hit", leaves, leaves == 1 ? "leaf" : "leaves");
 }
 

@@ -90,6 +90,16 @@ void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape
     scene_add_marker(s, (scene_marker){.id = id, .at = {at[0], at[1], at[2]}, .style = style, .shape = (uint8_t)shape});
 }
 
+void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[2], unsigned layer, unsigned role)
+{
+    scene_add_panel(s, (scene_panel){.id = id,
+                                     .x = at[0],
+                                     .y = at[1],
+                                     .width = size[0],
+                                     .height = size[1],
+                                     .style = {.layer = (uint8_t)layer, .role = (uint8_t)role}});
+}
+
 void scene_add_points(scene *s, scene_style style, const octree_point *points, size_t count)
 {
     if (count == 0 || !view_shows(&s->view, style.layer))
