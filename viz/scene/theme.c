@@ -23,15 +23,17 @@ static uint8_t mix(uint8_t color, uint8_t ground, int part)
     return (uint8_t)((color * part + ground * (256 - part)) / 256);
 }
 
-theme_color theme_color_at(uint8_t index)
+theme_color theme_shade(theme_color full, unsigned shade)
 {
     const theme_color ground = roles[ROLE_BACKGROUND];
+    const int part = strength[shade];
+    return (theme_color){mix(full.r, ground.r, part), mix(full.g, ground.g, part), mix(full.b, ground.b, part)};
+}
+
+theme_color theme_color_at(uint8_t index)
+{
     const unsigned role = index / THEME_SHADES;
-    if (role >= ROLE_COUNT)
-        return ground;
-    const int part = strength[index % THEME_SHADES];
-    return (theme_color){mix(roles[role].r, ground.r, part), mix(roles[role].g, ground.g, part),
-                         mix(roles[role].b, ground.b, part)};
+    return role < ROLE_COUNT ? theme_shade(roles[role], index % THEME_SHADES) : roles[ROLE_BACKGROUND];
 }
 
 theme_role theme_node_role(unsigned depth)

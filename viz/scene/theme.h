@@ -61,6 +61,9 @@ const char *theme_name(void);
 /* "range", "node-3". */
 const char *theme_role_name(theme_role role);
 
+/* A shade of a colour. */
+theme_color theme_shade(theme_color full, unsigned shade);
+
 /* The colour of an index; the background beyond the last role. */
 theme_color theme_color_at(uint8_t index);
 

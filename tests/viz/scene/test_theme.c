@@ -3,7 +3,9 @@
 #include "theme.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Hue in degrees from red, 0 to 180 either way, and how far a colour is from grey (chroma), 0 to 255. */
 static double degrees_from_red(theme_color c, double *chroma)
@@ -13,17 +15,23 @@ static double degrees_from_red(theme_color c, double *chroma)
     return fabs(atan2(y, x)) * 180 / acos(-1);
 }
 
+static bool is_reddish(theme_color c)
+{
+    double chroma;
+    return degrees_from_red(c, &chroma) <= 25 && chroma >= 12;
+}
+
 static void only_collision_is_red(void **state)
 {
     (void)state;
     for (unsigned role = 0; role < ROLE_COUNT; role++) {
         for (unsigned shade = 0; shade < THEME_SHADES; shade++) {
+            const theme_color color = theme_color_at(theme_index(role, shade));
             double chroma;
-            const double away = degrees_from_red(theme_color_at(theme_index(role, shade)), &chroma);
             if (role == ROLE_COLLISION)
-                assert_true(away < 15 && chroma > 60);
+                assert_true(degrees_from_red(color, &chroma) < 15 && chroma > 60);
             else
-                assert_true(away > 25 || chroma < 12);
+                assert_false(is_reddish(color));
         }
     }
 }
@@ -129,12 +137,17 @@ static void to_lab(theme_color c, const double eye[3][3], double lab[3])
     lab[2] = 200 * (f[1] - f[2]);
 }
 
-static double apart(theme_role a, theme_role b, const double eye[3][3])
+static double colors_apart(theme_color a, theme_color b, const double eye[3][3])
 {
     double p[3], q[3];
-    to_lab(theme_color_at(theme_index(a, 0)), eye, p);
-    to_lab(theme_color_at(theme_index(b, 0)), eye, q);
+    to_lab(a, eye, p);
+    to_lab(b, eye, q);
     return sqrt(pow(p[0] - q[0], 2) + pow(p[1] - q[1], 2) + pow(p[2] - q[2], 2));
+}
+
+static double apart(theme_role a, theme_role b, const double eye[3][3])
+{
+    return colors_apart(theme_color_at(theme_index(a, 0)), theme_color_at(theme_index(b, 0)), eye);
 }
 
 /* Where a difference of 2 or 3 is just seen side by side. */
@@ -167,8 +180,62 @@ static void meanings_stay_apart_from_nodes_unless_they_are_dashed(void **state)
                 assert_true(apart(meanings[i], theme_node_role(depth), eyes[eye]) > CLEARLY_APART);
 }
 
-int main(void)
+/* ---- A colour for a new role -------------------------------------------------------------------------------- */
+
+/* The contrast of WCAG 2.1, of a colour that is lighter than its ground; 4.5 is asked for letters. */
+static double contrast(theme_color c, theme_role ground)
 {
+    return (luminance(c) + 0.05) / (luminance(theme_color_at(theme_index(ground, 0))) + 0.05);
+}
+
+/* How far a colour is from that of every role by every eye, at least; 0 where it is reddish, or hard to see on the
+ * background or the panel. */
+static double worth_of(theme_color c)
+{
+    double least = 1000;
+    if (contrast(c, ROLE_BACKGROUND) < 4.5 || contrast(c, ROLE_PANEL) < 4.5)
+        return 0;
+    for (unsigned shade = 0; shade < THEME_SHADES; shade++)
+        if (is_reddish(theme_shade(c, shade)) || distance_to_ground(theme_shade(c, shade)) < 64)
+            return 0;
+    for (size_t eye = 0; eye < EYES; eye++)
+        for (unsigned role = 0; role < ROLE_COUNT; role++)
+            least = fmin(least, colors_apart(c, theme_color_at(theme_index(role, 0)), eyes[eye]));
+    return least;
+}
+
+enum { PROPOSALS = 5, STEP = 6 };
+
+/* The colours that are farthest from all others, and from those that were proposed before them. */
+static int propose(void)
+{
+    theme_color told[PROPOSALS];
+    for (int i = 0; i < PROPOSALS; i++) {
+        double best = 0;
+        for (int rgb = 0; rgb < 43 * 43 * 43; rgb++) {
+            const theme_color c = {(uint8_t)(rgb / 43 / 43 * STEP), (uint8_t)(rgb / 43 % 43 * STEP),
+                                   (uint8_t)(rgb % 43 * STEP)};
+            double worth = worth_of(c);
+            for (size_t eye = 0; eye < EYES; eye++)
+                for (int j = 0; j < i; j++)
+                    worth = fmin(worth, colors_apart(c, told[j], eyes[eye]));
+            if (worth > best) {
+                best = worth;
+                told[i] = c;
+            }
+        }
+        if (best <= 0)
+            break;
+        printf("%3d, %3d, %3d: at least %.1f from every role by every eye%s\n", told[i].r, told[i].g, told[i].b, best,
+               best > CLEARLY_APART ? "" : "; too near for a role that nothing but its colour tells");
+    }
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && strcmp(argv[1], "--propose") == 0)
+        return propose();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_collision_is_red),
         cmocka_unit_test(deeper_nodes_are_lighter_so_that_depth_survives_grey),
