@@ -166,16 +166,12 @@ static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
 /* The ranks of the first few, each beside its neighbour; where two would overlap, that of the nearer alone. */
 static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_style style)
 {
-    double pixels[NUMBERED_RANKS][2], seen[3];
+    double pixels[NUMBERED_RANKS][2];
     size_t numbered = 0;
     for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
         scene_label rank = {.id = part_id(place, i), .in_world = true, .style = style};
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
-        camera_transform(&s->camera, rank.at, seen);
-        if (s->camera.perspective && seen[2] < s->camera.near)
-            continue; /* behind the eye */
-        camera_project(&s->camera, seen, pixels[numbered]);
-        if (is_crowded(s, pixels, numbered))
+        if (!camera_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
             continue;
         numbered++;
         snprintf(rank.text, sizeof rank.text, " %zu", i + 1); /* the blank keeps clear of a marker */

@@ -124,28 +124,21 @@ static scene_style line_style(theme_role role, scene_stroke stroke, unsigned wid
         .layer = LAYER_DIAGRAM, .role = (uint8_t)role, .stroke = (uint8_t)stroke, .width = (uint8_t)width};
 }
 
-/* The order of a walk: the root first, and each node before its children. */
-static int compare_nodes(octree_address a, octree_address b)
+/* A node and a visit by the order of a walk: the root first, and each node before its children. */
+static int by_walk(const void *node, const void *visit)
 {
+    const octree_address a = *(const octree_address *)node, b = ((const octree_visit *)visit)->node;
     const unsigned depth_a = octree_address_depth(a), depth_b = octree_address_depth(b);
     const octree_address p = depth_a < depth_b ? a << 3 * (depth_b - depth_a) : a;
     const octree_address q = depth_b < depth_a ? b << 3 * (depth_a - depth_b) : b;
     return p != q ? (p < q ? -1 : 1) : (depth_a > depth_b) - (depth_a < depth_b);
 }
 
-/* How the tick met a node, whose visits are in pre-order; null where it did not. */
+/* How the tick met a node; null where it did not. */
 static const octree_visit *find_visit(const octree_tick *tick, octree_address node)
 {
-    size_t low = 0, high = tick ? tick->visit_count : 0;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        const int order = compare_nodes(tick->visits[middle].node, node);
-        if (order == 0)
-            return &tick->visits[middle];
-        low = order < 0 ? middle + 1 : low;
-        high = order < 0 ? high : middle;
-    }
-    return NULL;
+    return tick && tick->visit_count ? bsearch(&node, tick->visits, tick->visit_count, sizeof *tick->visits, by_walk)
+                                     : NULL;
 }
 
 /* The line to a node from above: as in the space view bold where it was looked into, dashed where it was left out. */

@@ -43,16 +43,6 @@ camera_window layout_diagram(const view *v)
     return w;
 }
 
-bool text_place(const scene *s, const double position[3], double pixel[2])
-{
-    double seen[3];
-    camera_transform(&s->camera, position, seen);
-    if (s->camera.perspective && !(seen[2] >= s->camera.near))
-        return false;
-    camera_project(&s->camera, seen, pixel);
-    return isfinite(pixel[0]) && isfinite(pixel[1]);
-}
-
 static bool is_free(const text_space *t, const double box[4])
 {
     for (size_t i = 0; i < t->count; i++) {

@@ -37,7 +37,4 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
  * label's id and layer. */
 void text_add_on_ground(scene *s, const scene_label *label, theme_role ground);
 
-/* The pixel of a position; false when it is not before the camera. */
-bool text_place(const scene *s, const double position[3], double pixel[2]);
-
 #endif

@@ -20,19 +20,17 @@ legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...)
 
 /* ---- Which lines -------------------------------------------------------------------------------------------- */
 
-/* Whether this frame has anything in a layer. */
-static bool is_in_frame(const scene *s, view_layer layer)
+/* The layers that have something in this frame, as bits. */
+static unsigned layers_in_frame(const scene *s)
 {
+    unsigned layers = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
-        if (s->boxes.items[i].style.layer == layer)
-            return true;
+        layers |= 1u << s->boxes.items[i].style.layer;
     for (size_t i = 0; i < s->segments.count; i++)
-        if (s->segments.items[i].style.layer == layer)
-            return true;
+        layers |= 1u << s->segments.items[i].style.layer;
     for (size_t i = 0; i < s->markers.count; i++)
-        if (s->markers.items[i].style.layer == layer)
-            return true;
-    return false;
+        layers |= 1u << s->markers.items[i].style.layer;
+    return layers;
 }
 
 /* The colours of nodes are those of the diagram too, and so is what tells how they were met. */
@@ -51,7 +49,7 @@ static void list_layer(legend *l, const layer_source *in, view_layer layer)
     if (!in_diagram && (layer == LAYER_DIAGRAM || !view_shows(&s->view, layer) || !layer_applies(in, layer)))
         return;
     l->next = (legend_line){.layer = layer,
-                            .worth = in_diagram || is_in_frame(s, layer) ? type->worth : WORTH_ABSENT,
+                            .worth = in_diagram || l->in_frame >> layer & 1 ? type->worth : WORTH_ABSENT,
                             .role = (theme_role)layer_rows[layer].role};
     if (type->legend)
         type->legend(l, in);
@@ -144,7 +142,7 @@ void write_legend(pen *p, const layer_source *in)
 {
     const scene *s = p->scene;
     const int foot = s->view.height / s->unit - MARGIN, room = (foot - p->y - LINE / 2) / LINE;
-    legend l = {.scene = s};
+    legend l = {.scene = s, .in_frame = layers_in_frame(s)};
     list_layers(&l, in);
     const size_t left_out = make_fit(&l, room > 0 ? (size_t)room : 0);
     if (l.count == 0)

@@ -49,7 +49,8 @@ typedef struct legend_line {
 
 typedef struct legend {
     const scene *scene;
-    legend_line next; /* what is added begins as this */
+    unsigned in_frame; /* layers that have something in this frame, as bits */
+    legend_line next;  /* what is added begins as this */
     legend_line lines[LEGEND_MOST_LINES];
     size_t count;
 } legend;

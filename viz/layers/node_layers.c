@@ -192,7 +192,7 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
     scene_box_middle(&box->box, middle);
     snprintf(label.text, sizeof label.text, "%s", octree_address_format(box->id, text));
     const double width = (double)(strlen(label.text) + 1) * TEXT_LETTER * s->unit;
-    if (!text_place(s, middle, pixel) || camera_box_pixels(&s->camera, &box->box) < width ||
+    if (!camera_pixel(&s->camera, middle, pixel) || camera_box_pixels(&s->camera, &box->box) < width ||
         !text_space_take(words, s, label.text, pixel, label.at))
         return false;
     text_add_on_ground(s, &label, ROLE_PANEL);

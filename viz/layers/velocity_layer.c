@@ -56,15 +56,9 @@ static bool is_shown(const scene *s, const octree *tree, const octree_box *world
 /* Shorter than the view's lod, as it appears. */
 static bool is_small(const scene *s, double ends[2][3])
 {
-    const camera *c = &s->camera;
-    double seen[3], pixels[2][2];
-    for (int i = 0; s->view.lod > 0 && i < 2; i++) {
-        camera_transform(c, ends[i], seen);
-        if (c->perspective && !(seen[2] >= c->near))
-            return false; /* behind the eye */
-        camera_project(c, seen, pixels[i]);
-    }
-    return s->view.lod > 0 && fmax(fabs(pixels[1][0] - pixels[0][0]), fabs(pixels[1][1] - pixels[0][1])) < s->view.lod;
+    double from[2], to[2];
+    return s->view.lod > 0 && camera_pixel(&s->camera, ends[0], from) && camera_pixel(&s->camera, ends[1], to) &&
+           fmax(fabs(to[0] - from[0]), fabs(to[1] - from[1])) < s->view.lod;
 }
 
 /* The arrow of a body; false when it has none, or the view does not show the body. */

@@ -66,7 +66,7 @@ static bool place_number(axes *a, const double end[3], scene_label *number)
 {
     double pixel[2], away[2];
     const int unit = a->scene->unit;
-    if (!text_place(a->scene, end, pixel))
+    if (!camera_pixel(&a->scene->camera, end, pixel))
         return false;
     for (int i = 0; i < 2; i++)
         away[i] = pixel[i] - a->middle[i];
@@ -102,7 +102,7 @@ static bool is_end_on(const axes *a, int axis)
     double end[3], pixels[2][2];
     memcpy(end, a->box->min, sizeof end);
     end[axis] = a->box->max[axis];
-    if (!text_place(a->scene, a->box->min, pixels[0]) || !text_place(a->scene, end, pixels[1]))
+    if (!camera_pixel(&a->scene->camera, a->box->min, pixels[0]) || !camera_pixel(&a->scene->camera, end, pixels[1]))
         return false; /* the camera is beside it */
     const double x = pixels[1][0] - pixels[0][0], y = pixels[1][1] - pixels[0][1];
     return sqrt(x * x + y * y) < side_length(&a->scene->camera, axis) * END_ON;
@@ -128,7 +128,7 @@ static void add_letter(axes *a, int axis)
     memcpy(letter.at, a->box->min, sizeof letter.at);
     letter.at[axis] = a->box->max[axis];
     scene_add_label(a->scene, letter);
-    if (text_place(a->scene, letter.at, pixel)) {
+    if (camera_pixel(&a->scene->camera, letter.at, pixel)) {
         pixel[0] += 6 * a->scene->unit; /* where draw puts it */
         text_space_take(&a->words, a->scene, letter.text, pixel, corner);
     }
@@ -156,7 +156,7 @@ static void add_axes(scene *s, const octree_box *world)
         add_letter(&a, axis);
     for (int axis = 0; fitted && axis < 3; axis++)
         add_edge(&a, axis);
-    if (view_shows(&s->view, LAYER_TEXT) && text_place(s, center, a.middle))
+    if (view_shows(&s->view, LAYER_TEXT) && camera_pixel(&s->camera, center, a.middle))
         for (int axis = 0; axis < 3; axis++)
             add_ticks(&a, axis);
 }

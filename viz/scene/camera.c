@@ -142,6 +142,16 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     return c;
 }
 
+bool camera_pixel(const camera *c, const double position[3], double pixel[2])
+{
+    double seen[3];
+    camera_transform(c, position, seen);
+    if (c->perspective && !(seen[2] >= c->near))
+        return false;
+    camera_project(c, seen, pixel);
+    return isfinite(pixel[0]) && isfinite(pixel[1]);
+}
+
 /* Under parallel rays a box appears as large wherever it is. */
 static double parallel_box_pixels(const camera *c, const octree_box *box)
 {

@@ -64,6 +64,9 @@ static inline void camera_project(const camera *c, const double seen[3], double 
     pixel[1] = c->middle[1] - seen[1] * scale;
 }
 
+/* The pixel of a position; false when it is not before the camera. */
+bool camera_pixel(const camera *c, const double position[3], double pixel[2]);
+
 /* How large a box appears: the longer side, in pixels, of the smallest upright rectangle around its picture. What lies
  * in the box appears no larger. Infinite where some of it is nearer than `near`. */
 double camera_box_pixels(const camera *c, const octree_box *box);

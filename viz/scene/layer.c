@@ -16,26 +16,18 @@ const char *view_layer_words(view_layer layer)
     return (unsigned)layer <= LAYER_COUNT ? layer_rows[layer].words : NULL;
 }
 
-static bool is_word(const char *name, size_t length, const char *word)
-{
-    return strlen(word) == length && strncmp(name, word, length) == 0;
-}
-
 /* The bits that a name of this length stands for; false when it is unknown. */
 static bool find_layers(const char *name, size_t length, unsigned *bits)
 {
     static const struct {
         const char *name;
         unsigned bits;
-    } sets[] = {{"all", VIEW_ALL_LAYERS}, {"default", VIEW_DEFAULT_LAYERS}, {"none", 0}};
-    for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
-        *bits = sets[i].bits;
-        if (is_word(name, length, sets[i].name))
-            return true;
-    }
-    for (int i = 0; i < LAYER_COUNT; i++) {
-        *bits = 1u << i;
-        if (is_word(name, length, layer_rows[i].name))
+    } choices[] = {
+#define LAYER_CHOICE(layer, name, ...) {name, 1u << LAYER_##layer},
+        LAYER_MAP(LAYER_CHOICE){"all", VIEW_ALL_LAYERS}, {"default", VIEW_DEFAULT_LAYERS}, {"none", 0}};
+    for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
+        *bits = choices[i].bits;
+        if (i != LAYER_DIAGRAM && strlen(choices[i].name) == length && strncmp(name, choices[i].name, length) == 0)
             return true;
     }
     return false;
