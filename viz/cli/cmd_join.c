@@ -1,4 +1,4 @@
-/* cmd_join.c - octreel join: a recording that was filmed in parts becomes whole. */
+/* cmd_join.c - octreel join: a recording that was filmed in chunks becomes whole. */
 #include "command.h"
 #include "command_line.h"
 #include "film_report.h"
@@ -9,12 +9,10 @@
 
 static const char help[] =
     "usage: octreel join DIR [OPTION ...]\n\n"
-    "Check that all parts of a recording are there (octreel record --ticks A:B -o DIR) and fit: every tick has its "
-    "line,\n"
-    "and every frame is whole, of its tick and of the session. Then write the rest, ticks.jsonl and index.html, so "
-    "that\n"
-    "DIR is the same as if it had been filmed at once. What is missing is named. Nothing is played or drawn: octreel\n"
-    "verify does that.\n\n"
+    "Check that all chunks of a recording are there (octreel record --ticks A:B -o DIR) and fit: every tick has its\n"
+    "line, and every frame is whole, of its tick and of the session. Then write the rest, ticks.jsonl and index.html,\n"
+    "so that DIR is the same as if it had been filmed at once. What is missing is named. Nothing is played or drawn:\n"
+    "octreel verify does that.\n\n"
     "      --json            print a summary as JSON on stdout\n"
     "  -h, --help\n\n"
     "Example: octreel record s.json --ticks :500 -o film & octreel record s.json --ticks 500: -o film; wait\n"

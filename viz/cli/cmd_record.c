@@ -17,7 +17,7 @@ static const char help[] =
     "  -o, --output DIR      where the recording goes; a new folder, or one without a recording\n"
     "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait\n"
     "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n"
-    "      --ticks A:B       film the ticks from A to B - 1 alone, as a part; parts go into one folder, from any "
+    "      --ticks A:B       film the ticks from A to B - 1 alone, as a chunk; chunks go into one folder, from any "
     "number\n"
     "                        of machines, and octreel join makes it whole; A: and :B will do, B may be beyond the end\n"
     "      --jobs N          processes that film at the same time (default: one a core, fewer for a few frames); the\n"

@@ -13,7 +13,7 @@ typedef struct command {
 
 static const command commands[] = {
     {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
-    {"join", cmd_join, "make a recording that was filmed in parts whole"},
+    {"join", cmd_join, "make a recording that was filmed in chunks whole"},
     {"verify", cmd_verify, "play a recording again: is it still what its session makes?"},
     {"pick", cmd_pick, "say what is drawn at a pixel of a frame"},
     {"inspect", cmd_inspect, "build a tree from a point cloud, draw its subdivision, print its statistics"},

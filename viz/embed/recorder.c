@@ -2,9 +2,10 @@
 #include "octreel/recorder.h"
 #include "error.h"
 #include "folder.h"
-#include "layer.h"
+#include "number.h"
 #include "ring.h"
 #include "session_file.h"
+#include "view_options.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -113,44 +114,34 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     return OCTREEL_OK;
 }
 
-static octreel_status set_names(octreel_recorder *r, const octreel_recorder_def *def)
+/* By the rows of the options of a view, as the command line does. */
+static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *def)
 {
     view *v = &r->settings.film.view;
-    const char *option = NULL, *name = NULL;
-    if (!view_camera_parse(def->camera, &v->camera))
-        option = "camera", name = def->camera;
-    else if (!view_layers_parse(def->layers, &v->layers, &name))
-        option = "layers";
-    else if (!view_coloring_parse(def->color_by, &v->coloring))
-        option = "color_by", name = def->color_by;
-    else if (!view_diagram_parse(def->diagram, &v->diagram))
-        option = "diagram", name = def->diagram;
-    else if (!draw_context_parse(def->context, &r->settings.film.renderer.context))
-        option = "context", name = def->context;
-    return option ? refuse(r, OCTREEL_BAD_OPTION, "%s: there is no \"%s\"; octreel record --help lists what there is",
-                           option, name)
-                  : OCTREEL_OK;
-}
-
-static octreel_status set_picture(octreel_recorder *r, const octreel_recorder_def *def)
-{
-    view *v = &r->settings.film.view;
-    const int aa = def->aa, longest = aa >= 1 ? VIEW_MAX_SIDE / aa : VIEW_MAX_SIDE;
+    char lod[NUMBER_TEXT] = "no number", budget[NUMBER_TEXT], aa[NUMBER_TEXT];
+    if (isfinite(def->lod))
+        number_print(def->lod, lod);
+    snprintf(budget, sizeof budget, "%" PRIu64, def->budget);
+    snprintf(aa, sizeof aa, "%d", def->aa);
+    const char *const options[][2] = {{"camera", def->camera},
+                                      {"layers", def->layers},
+                                      {"color-by", def->color_by},
+                                      {"diagram", def->diagram},
+                                      {"lod", lod},
+                                      {"budget", budget},
+                                      {"aa", aa}};
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        const view_option *option = view_option_named(options[i][0]);
+        if (!option->parse(option, options[i][1], v, &r->error))
+            return OCTREEL_BAD_OPTION;
+    }
+    const int longest = VIEW_MAX_SIDE / view_samples(v);
     v->width = def->width;
     v->height = def->height;
     v->labels = def->labels;
-    v->lod = def->lod;
-    v->budget = def->budget;
-    v->aa = aa;
-    if (aa != 1 && aa != 2 && aa != 4)
-        return refuse(r, OCTREEL_BAD_OPTION, "aa: there is no anti-aliasing by %d; there are 1, 2 and 4", aa);
     if (v->width < 1 || v->height < 1 || v->width > longest || v->height > longest)
         return refuse(r, OCTREEL_BAD_OPTION, "a frame of %d x %d pixels cannot be drawn: a side must be 1 to %d",
                       v->width, v->height, longest);
-    if (!(v->lod >= 0 && v->lod <= VIEW_MAX_SIDE))
-        return refuse(r, OCTREEL_BAD_OPTION, "lod: it must be 0 to %d pixels", VIEW_MAX_SIDE);
-    if (v->budget >= SESSION_ID_LIMIT)
-        return refuse(r, OCTREEL_BAD_OPTION, "budget: it must be below 2^53; 0 is none");
     return OCTREEL_OK;
 }
 
@@ -158,6 +149,9 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
 {
     film_options *film = &r->settings.film;
     film->every = def->every;
+    if (!draw_context_parse(def->context, &film->renderer.context))
+        return refuse(r, OCTREEL_BAD_OPTION, "context: there is no \"%s\"; octreel record --help lists what there is",
+                      def->context);
     film->renderer.any_renderer = def->any_renderer;
     if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
         return refuse(r, OCTREEL_BAD_OPTION, "any_renderer: it goes with the context \"egl\" alone");
@@ -180,9 +174,7 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
     if (status == OCTREEL_OK)
         status = set_player(r, &def->player);
     if (status == OCTREEL_OK)
-        status = set_names(r, def);
-    if (status == OCTREEL_OK)
-        status = set_picture(r, def);
+        status = set_view(r, def);
     return status == OCTREEL_OK ? set_film(r, def) : status;
 }
 

@@ -118,8 +118,8 @@ void folder_abandon(const char *folder)
     }
 }
 
-/* What stands behind the name of a file while it is written, or of a session while a program makes it: "part", "live",
- * or the writer's word of folder_write_once(), which is a part's name. */
+/* What follows the name of a file while it is written, or of a session while a program makes it: "part", "live",
+ * or the word of one of several writers, which is a chunk's name. */
 static bool is_of_writer(const char *ending)
 {
     char word[CHUNK_NAME];

@@ -25,15 +25,15 @@ bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last);
 /* The names of a recording's files beside its frames; null beyond the last. */
 const char *folder_fact_name(size_t i);
 
-/* Whether a name is that of one of these files, of a part's lines, or begins as a frame's: what tells a folder that was
- * filmed into. */
+/* Whether a name is that of one of these files, of a chunk's lines, or begins as a frame's: what tells a folder that
+ * was filmed into. */
 bool folder_is_name(const char *name);
 
 /* Whether a name is that of a file that was half written when something killed who wrote it: "session.json.part" and
  * the like, and the session of a program that died. */
 bool folder_is_unfinished(const char *name);
 
-/* Remove what a recording that is whole has no more use for: the lines of its parts, and files that were half written
+/* Remove what a recording that is whole has no more use for: the lines of its chunks, and files that were half written
  * when something killed who wrote them. */
 bool folder_sweep(const char *folder, octreel_error *error);
 

@@ -21,7 +21,7 @@ static bool find_share(const octree_session *session, const film_options *option
     const bool open = options->last == 0 || options->last > total;
     *share = (film_share){.first = options->first, .last = open ? total : options->last};
     return share->first < share->last ||
-           error_set(error, "there is no part from tick %" PRIu64 " on: the session's last tick is %" PRIu64,
+           error_set(error, "there is no chunk from tick %" PRIu64 " on: the session's last tick is %" PRIu64,
                      share->first, total - 1);
 }
 

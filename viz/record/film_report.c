@@ -108,7 +108,7 @@ static void report_left_out(FILE *out, const film_summary *summary)
 
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
 {
-    fprintf(out, "a part, from tick %" PRIu64 " to %" PRIu64 "; when all parts are there: octreel join ",
+    fprintf(out, "a chunk, from tick %" PRIu64 " to %" PRIu64 "; when all chunks are there: octreel join ",
             options->first, options->first + summary->ticks - 1);
     put_word(out, options->folder);
     putc('\n', out);

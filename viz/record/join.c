@@ -35,7 +35,7 @@ typedef struct joining {
 static bool add_chunk(joining *j, chunk c, octreel_error *error)
 {
     if (c.last > j->summary->total)
-        return error_set(error, "%s/%s: is no part of this session, whose last tick is %" PRIu64, j->options->folder,
+        return error_set(error, "%s/%s: is no chunk of this session, whose last tick is %" PRIu64, j->options->folder,
                          c.name, j->summary->total - 1);
     chunk *more = realloc(j->chunks, (j->count + 1) * sizeof *more);
     if (!more)
@@ -171,7 +171,7 @@ static bool join_all(joining *j, bool *stopped, octreel_error *error)
         if (!join_chunk(j, &j->chunks[i], stopped, error))
             return false;
     return *stopped || j->summary->ticks == j->summary->total ||
-           error_set(error, "%s: no part has tick %" PRIu64 "; octreel record --resume films what is missing",
+           error_set(error, "%s: no chunk has tick %" PRIu64 "; octreel record --resume films what is missing",
                      j->options->folder, j->summary->ticks);
 }
 

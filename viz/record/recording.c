@@ -66,7 +66,7 @@ static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
     return !folder_has(r->options->folder, chunk_name(r->share.first, r->share.last, name)) ||
-           error_set(error, "%s: already holds this part (%s); --resume completes what is there of it",
+           error_set(error, "%s: already holds this chunk (%s); --resume completes what is there of it",
                      r->options->folder, name);
 }
 

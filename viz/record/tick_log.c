@@ -19,7 +19,7 @@ static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
     return error_set(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
 }
 
-/* It is emptied behind the lock: the lines of another process stay. */
+/* Emptied only after the lock is taken: the lines of another process stay. */
 static bool begin(tick_log *log, int file, bool keep, octreel_error *error)
 {
     if (is_taken(file))

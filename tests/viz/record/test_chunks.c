@@ -17,13 +17,13 @@ enum { TICKS = 17 };
 
 static const char KEYS[] = "wwddeennwwddssaa"; /* one less than TICKS */
 
-static void film_part(const octree_session *session, const char *folder, uint64_t first, uint64_t last)
+static void film_chunk(const octree_session *session, const char *folder, uint64_t first, uint64_t last)
 {
     const film_options options = chunk_of(small_film(folder), first, last);
     assert_filmed(session, &options);
 }
 
-/* All of it at once, and in three parts, the last one first. */
+/* All of it at once, and in three chunks, the last one first. */
 static place film_whole(void **state)
 {
     const place folder = place_in(*state, "whole");
@@ -33,13 +33,13 @@ static place film_whole(void **state)
     return folder;
 }
 
-static place film_parts(void **state)
+static place film_chunks(void **state)
 {
-    const place folder = place_in(*state, "parts");
+    const place folder = place_in(*state, "chunks");
     const octree_session session = short_session(KEYS);
-    film_part(&session, folder.path, 11, TICKS);
-    film_part(&session, folder.path, 0, 5);
-    film_part(&session, folder.path, 5, 11);
+    film_chunk(&session, folder.path, 11, TICKS);
+    film_chunk(&session, folder.path, 0, 5);
+    film_chunk(&session, folder.path, 5, 11);
     return folder;
 }
 
@@ -69,7 +69,7 @@ static void assert_not_joined(const char *folder, const char *what, const char *
     listing_release(&after);
 }
 
-static void part_leaves_its_frames_and_its_lines(void **state)
+static void chunk_leaves_its_frames_and_its_lines(void **state)
 {
     static const char *const names[] = {"frame_000005.png", "frame_000006.png", "frame_000007.png", "recording.json",
                                         "renderer.json",    "session.json",     "ticks_5_8.jsonl"};
@@ -87,53 +87,53 @@ static void part_leaves_its_frames_and_its_lines(void **state)
     listing_release(&found);
 }
 
-static void parts_join_to_the_bytes_of_one_film(void **state)
+static void chunks_join_to_the_bytes_of_one_film(void **state)
 {
-    const place whole = film_whole(state), parts = film_parts(state);
-    assert_joined(parts.path);
-    assert_same_folders(whole.path, parts.path, NULL);
-    assert_joined(parts.path); /* and once more */
-    assert_same_folders(whole.path, parts.path, NULL);
+    const place whole = film_whole(state), chunks = film_chunks(state);
+    assert_joined(chunks.path);
+    assert_same_folders(whole.path, chunks.path, NULL);
+    assert_joined(chunks.path); /* and once more */
+    assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void parts_that_overlap_join(void **state)
+static void chunks_that_overlap_join(void **state)
 {
-    const place whole = film_whole(state), parts = film_parts(state);
+    const place whole = film_whole(state), chunks = film_chunks(state);
     const octree_session session = short_session(KEYS);
-    film_part(&session, parts.path, 2, 14);
-    film_part(&session, parts.path, 4, 6);
-    film_part(&session, parts.path, 0, TICKS);
-    assert_joined(parts.path);
-    assert_same_folders(whole.path, parts.path, NULL);
+    film_chunk(&session, chunks.path, 2, 14);
+    film_chunk(&session, chunks.path, 4, 6);
+    film_chunk(&session, chunks.path, 0, TICKS);
+    assert_joined(chunks.path);
+    assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void stopped_film_and_a_part_join(void **state)
+static void stopped_film_and_a_chunk_join(void **state)
 {
-    const place whole = film_whole(state), parts = place_in(*state, "parts");
+    const place whole = film_whole(state), chunks = place_in(*state, "chunks");
     const octree_session session = short_session(KEYS);
     uint64_t ticks = 6;
-    const film_options options = small_film(parts.path), stopped = stopped_after(options, &ticks);
+    const film_options options = small_film(chunks.path), stopped = stopped_after(options, &ticks);
     assert_int_equal(assert_filmed(&session, &stopped).ticks, 6);
-    film_part(&session, parts.path, 6, TICKS);
-    assert_joined(parts.path);
-    assert_same_folders(whole.path, parts.path, NULL);
+    film_chunk(&session, chunks.path, 6, TICKS);
+    assert_joined(chunks.path);
+    assert_same_folders(whole.path, chunks.path, NULL);
 }
 
 static void session_with_edits_and_every_third_frame_joins(void **state)
 {
     static random_session made;
-    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
     random_session_full(&made, 3);
     film_options options = small_film(whole.path);
     options.every = 7;
     options.view.camera = CAMERA_FOLLOW;
     options.view.fit = FIT_POINTS;
     const film_summary all = assert_filmed(&made.session, &options);
-    options.folder = parts.path;
+    options.folder = chunks.path;
     film_summary sum = {0};
     for (uint64_t at = 0; at < all.ticks; at += 31) {
-        const film_options part = chunk_of(options, at, at + 31); /* the last one reaches beyond the end */
-        const film_summary summary = assert_filmed(&made.session, &part);
+        const film_options chunk = chunk_of(options, at, at + 31); /* the last one reaches beyond the end */
+        const film_summary summary = assert_filmed(&made.session, &chunk);
         sum.ticks += summary.ticks;
         sum.frames += summary.frames;
     }
@@ -141,7 +141,7 @@ static void session_with_edits_and_every_third_frame_joins(void **state)
     assert_int_equal(sum.frames, all.frames);
     film_summary joined;
     octreel_error error = {""};
-    film_options found = {.folder = parts.path};
+    film_options found = {.folder = chunks.path};
     if (!join_chunks(&found, &joined, &error))
         fail_msg("%s", error.text);
     assert_int_equal(joined.ticks, all.ticks);
@@ -149,67 +149,67 @@ static void session_with_edits_and_every_third_frame_joins(void **state)
     assert_int_equal(joined.left_out, all.left_out);
     assert_int_equal(joined.total, all.total);
     assert_int_equal(found.every, 7);
-    assert_same_folders(whole.path, parts.path, NULL);
+    assert_same_folders(whole.path, chunks.path, NULL);
 }
 
 static void joining_that_is_stopped_changes_nothing(void **state)
 {
-    const place parts = film_parts(state), copy = place_in(*state, "copy");
+    const place chunks = film_chunks(state), copy = place_in(*state, "copy");
     uint64_t ticks = 9;
-    film_options options = stopped_after(small_film(parts.path), &ticks);
+    film_options options = stopped_after(small_film(chunks.path), &ticks);
     film_summary summary;
     octreel_error error = {""};
-    copy_folder(parts.path, copy.path);
+    copy_folder(chunks.path, copy.path);
     assert_true(join_chunks(&options, &summary, &error));
     assert_int_equal(summary.ticks, 9);
     assert_int_equal(summary.total, TICKS);
-    assert_same_folders(parts.path, copy.path, NULL);
+    assert_same_folders(chunks.path, copy.path, NULL);
 }
 
 /* ---- What is missing ---------------------------------------------------------------------------------------- */
 
 static void missing_chunks_are_named_by_their_first_tick(void **state)
 {
-    const place parts = film_parts(state);
-    remove(place_below(parts.path, "ticks_11_17.jsonl").path);
-    assert_not_joined(parts.path, "no part has tick 11;", "--resume");
-    remove(place_below(parts.path, "ticks_5_11.jsonl").path);
-    assert_not_joined(parts.path, "no part has tick 5;", "--resume");
+    const place chunks = film_chunks(state);
+    remove(place_below(chunks.path, "ticks_11_17.jsonl").path);
+    assert_not_joined(chunks.path, "no chunk has tick 11;", "--resume");
+    remove(place_below(chunks.path, "ticks_5_11.jsonl").path);
+    assert_not_joined(chunks.path, "no chunk has tick 5;", "--resume");
     const octree_session session = short_session(KEYS);
-    film_part(&session, parts.path, 7, 8);
-    assert_not_joined(parts.path, "no part has tick 5;", "--resume");
-    remove(place_below(parts.path, "ticks_0_5.jsonl").path);
-    assert_not_joined(parts.path, "no part has tick 0;", "--resume");
+    film_chunk(&session, chunks.path, 7, 8);
+    assert_not_joined(chunks.path, "no chunk has tick 5;", "--resume");
+    remove(place_below(chunks.path, "ticks_0_5.jsonl").path);
+    assert_not_joined(chunks.path, "no chunk has tick 0;", "--resume");
 }
 
-static void part_that_was_not_finished_misses_its_last_ticks(void **state)
+static void chunk_that_was_not_finished_misses_its_last_ticks(void **state)
 {
-    const place parts = film_parts(state), lines = place_below(parts.path, "ticks_5_11.jsonl");
+    const place chunks = film_chunks(state), lines = place_below(chunks.path, "ticks_5_11.jsonl");
     size_t size;
     char *text = file_read(lines.path, &size);
     file_write(lines.path, text, size - 3); /* the last line is torn */
-    assert_not_joined(parts.path, "no part has tick 10;", "--resume");
+    assert_not_joined(chunks.path, "no chunk has tick 10;", "--resume");
     file_write(lines.path, text, 0);
-    assert_not_joined(parts.path, "no part has tick 5;", "--resume");
+    assert_not_joined(chunks.path, "no chunk has tick 5;", "--resume");
     free(text);
 }
 
 static void missing_frames_are_named(void **state)
 {
-    const place parts = film_parts(state);
-    remove(frame_place(parts.path, 16).path);
-    assert_not_joined(parts.path, "frame_000016.png is missing", "--resume");
-    remove(frame_place(parts.path, 0).path);
-    assert_not_joined(parts.path, "frame_000000.png is missing", "--resume");
+    const place chunks = film_chunks(state);
+    remove(frame_place(chunks.path, 16).path);
+    assert_not_joined(chunks.path, "frame_000016.png is missing", "--resume");
+    remove(frame_place(chunks.path, 0).path);
+    assert_not_joined(chunks.path, "frame_000000.png is missing", "--resume");
 }
 
 static void files_of_the_recording_that_are_missing_are_named(void **state)
 {
     static const char *const names[] = {"renderer.json", "session.json", "recording.json"};
-    const place parts = film_parts(state);
+    const place chunks = film_chunks(state);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        remove(place_below(parts.path, names[i]).path);
-        assert_not_joined(parts.path, names[i], i == 0 ? "is missing" : "No such file or directory");
+        remove(place_below(chunks.path, names[i]).path);
+        assert_not_joined(chunks.path, names[i], i == 0 ? "is missing" : "No such file or directory");
     }
 }
 
@@ -218,69 +218,69 @@ static void files_of_the_recording_that_are_missing_are_named(void **state)
 /* Lines that are not of their ticks, or name no scene, or another one than the frame shows. */
 static void line_that_is_not_of_its_tick_and_frame_is_named(void **state)
 {
-    const place parts = film_parts(state), lines = place_below(parts.path, "ticks_5_11.jsonl");
+    const place chunks = film_chunks(state), lines = place_below(chunks.path, "ticks_5_11.jsonl");
     char *text = file_read(lines.path, NULL), *third = strstr(text, "\"tick\": 7,"),
          *scene = strstr(third, "\"scene\": ");
     third[strlen("\"tick\": ")] = '8';
     file_write_text(lines.path, text);
-    assert_not_joined(parts.path, "ticks_5_11.jsonl: ", "no line of tick 7");
+    assert_not_joined(chunks.path, "ticks_5_11.jsonl: ", "no line of tick 7");
     third[strlen("\"tick\": ")] = '7';
     scene[1] = 'S';
     file_write_text(lines.path, text);
-    assert_not_joined(parts.path, "ticks_5_11.jsonl: ", "no line of tick 7");
+    assert_not_joined(chunks.path, "ticks_5_11.jsonl: ", "no line of tick 7");
     scene[1] = 's';
     char *digit = scene + strlen("\"scene\": \"");
     *digit = *digit == '0' ? '1' : '0';
     file_write_text(lines.path, text);
-    assert_not_joined(parts.path, frame_place(parts.path, 7).path, "another view");
+    assert_not_joined(chunks.path, frame_place(chunks.path, 7).path, "another view");
     free(text);
 }
 
-static void part_with_more_lines_or_ticks_than_there_are_is_named(void **state)
+static void chunk_with_more_lines_or_ticks_than_there_are_is_named(void **state)
 {
-    const place parts = film_parts(state), lines = place_below(parts.path, "ticks_5_11.jsonl");
+    const place chunks = film_chunks(state), lines = place_below(chunks.path, "ticks_5_11.jsonl");
     char *text = file_read(lines.path, NULL);
     FILE *file = fopen(lines.path, "a");
     fputs("{}\n", file);
     fclose(file);
-    assert_not_joined(parts.path, "ticks_5_11.jsonl", "more lines than ticks");
+    assert_not_joined(chunks.path, "ticks_5_11.jsonl", "more lines than ticks");
     file_write_text(lines.path, text);
-    file_write_text(place_below(parts.path, "ticks_3_18.jsonl").path, "");
-    assert_not_joined(parts.path, "ticks_3_18.jsonl", "whose last tick is 16");
+    file_write_text(place_below(chunks.path, "ticks_3_18.jsonl").path, "");
+    assert_not_joined(chunks.path, "ticks_3_18.jsonl", "whose last tick is 16");
     free(text);
 }
 
 static void frame_that_is_not_whole_is_named(void **state)
 {
-    const place parts = film_parts(state), frame = frame_place(parts.path, 8);
+    const place chunks = film_chunks(state), frame = frame_place(chunks.path, 8);
     size_t size;
     char *bytes = file_read(frame.path, &size);
     const size_t sizes[] = {0, 7, 60, size / 2, size - 12, size - 1};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         file_write(frame.path, bytes, sizes[i]);
-        assert_not_joined(parts.path, frame.path, ": ");
+        assert_not_joined(chunks.path, frame.path, ": ");
     }
     bytes[size - 30] ^= 4;
     file_write(frame.path, bytes, size);
-    assert_not_joined(parts.path, frame.path, ": ");
+    assert_not_joined(chunks.path, frame.path, ": ");
     free(bytes);
 }
 
 static void frame_of_another_tick_session_or_view_is_named(void **state)
 {
-    const place parts = film_parts(state), frame = frame_place(parts.path, 8), other = place_in(*state, "other");
+    const place chunks = film_chunks(state), frame = frame_place(chunks.path, 8), other = place_in(*state, "other");
     char *own = NULL, *others;
     size_t own_size, size;
     own = file_read(frame.path, &own_size);
-    others = file_read(frame_place(parts.path, 9).path, &size);
+    others = file_read(frame_place(chunks.path, 9).path, &size);
     file_write(frame.path, others, size);
-    assert_not_joined(parts.path, frame.path, "another tick");
+    assert_not_joined(chunks.path, frame.path, "another tick");
     free(others);
     octree_session session = short_session("wwddeennwwddssaw");
-    film_part(&session, other.path, 8, 10);
+    film_chunk(&session, other.path, 8, 10);
     others = file_read(frame_place(other.path, 8).path, &size);
     file_write(frame.path, others, size);
-    assert_not_joined(parts.path, frame.path, "another session");
+    assert_not_joined(chunks.path, frame.path, "another session");
     free(others);
     session = short_session(KEYS);
     film_options view = chunk_of(small_film(place_in(*state, "view").path), 8, 10);
@@ -288,29 +288,29 @@ static void frame_of_another_tick_session_or_view_is_named(void **state)
     assert_filmed(&session, &view);
     others = file_read(frame_place(view.folder, 8).path, &size);
     file_write(frame.path, others, size);
-    assert_not_joined(parts.path, frame.path, "another view");
+    assert_not_joined(chunks.path, frame.path, "another view");
     free(others);
     file_write(frame.path, own, own_size);
-    assert_joined(parts.path);
+    assert_joined(chunks.path);
     free(own);
 }
 
 static void session_that_was_changed_by_hand_is_found(void **state)
 {
-    const place parts = film_parts(state), session = place_below(parts.path, "session.json");
+    const place chunks = film_chunks(state), session = place_below(chunks.path, "session.json");
     char *text = file_read(session.path, NULL), *keys = strstr(text, "wwdd");
     assert_non_null(keys);
     keys[15] = 'w';
     file_write_text(session.path, text);
-    assert_not_joined(parts.path, frame_place(parts.path, 0).path, "another session");
+    assert_not_joined(chunks.path, frame_place(chunks.path, 0).path, "another session");
     free(text);
 }
 
 static void frame_that_the_recording_has_not_is_named(void **state)
 {
-    const place parts = film_parts(state), extra = frame_place(parts.path, TICKS);
+    const place chunks = film_chunks(state), extra = frame_place(chunks.path, TICKS);
     file_write_text(extra.path, "");
-    assert_not_joined(parts.path, extra.path, "no frame of this recording");
+    assert_not_joined(chunks.path, extra.path, "no frame of this recording");
 }
 
 /* ---- Parts that are refused --------------------------------------------------------------------------------- */
@@ -325,24 +325,24 @@ static void assert_not_filmed(const octree_session *session, const film_options 
         fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, what, reason);
 }
 
-static void part_of_another_recording_is_refused_and_changes_nothing(void **state)
+static void chunk_of_another_recording_is_refused_and_changes_nothing(void **state)
 {
-    const place parts = film_parts(state), copy = place_in(*state, "copy");
-    copy_folder(parts.path, copy.path);
+    const place chunks = film_chunks(state), copy = place_in(*state, "copy");
+    copy_folder(chunks.path, copy.path);
     const octree_session session = short_session(KEYS), other = short_session("wwd");
-    film_options options = chunk_of(small_film(parts.path), 2, 4);
+    film_options options = chunk_of(small_film(chunks.path), 2, 4);
     assert_not_filmed(&other, &options, "session.json", "another session");
     options.view.camera = CAMERA_TOP;
     assert_not_filmed(&session, &options, "recording.json", "another view");
-    options = chunk_of(small_film(parts.path), 2, 4);
+    options = chunk_of(small_film(chunks.path), 2, 4);
     options.every = 2;
     assert_not_filmed(&session, &options, "recording.json", "every");
-    options = chunk_of(small_film(parts.path), 0, 5);
+    options = chunk_of(small_film(chunks.path), 0, 5);
     assert_not_filmed(&session, &options, "ticks_0_5.jsonl", "--resume");
-    assert_same_folders(parts.path, copy.path, NULL);
+    assert_same_folders(chunks.path, copy.path, NULL);
 }
 
-static void part_beyond_the_session_is_refused_and_makes_nothing(void **state)
+static void chunk_beyond_the_session_is_refused_and_makes_nothing(void **state)
 {
     const place folder = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
@@ -351,39 +351,39 @@ static void part_beyond_the_session_is_refused_and_makes_nothing(void **state)
     assert_false(file_exists(folder.path));
 }
 
-static void whole_film_is_not_made_into_a_folder_with_parts(void **state)
+static void whole_film_is_not_made_into_a_folder_with_chunks(void **state)
 {
-    const place parts = film_parts(state);
+    const place chunks = film_chunks(state);
     const octree_session session = short_session(KEYS);
-    const film_options options = small_film(parts.path);
-    assert_not_filmed(&session, &options, parts.path, "already holds a recording");
+    const film_options options = small_film(chunks.path);
+    assert_not_filmed(&session, &options, chunks.path, "already holds a recording");
 }
 
 /* ---- The program -------------------------------------------------------------------------------------------- */
 
 /* At the same time, into a folder that is not there yet. */
-static void four_parts_in_four_processes_are_the_bytes_of_one_film(void **state)
+static void four_chunks_in_four_processes_are_the_bytes_of_one_film(void **state)
 {
-    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
     command_result result = run_octreel(NULL, "record --size 160x90 --camera orbit -o %s", whole.path);
     assert_done(&result);
     command_release(&result);
     result = run_script(
         "for t in :64 64:128 128:192 192:256; do '%s' record --size 160x90 --camera orbit --ticks $t -o %s & "
         "pids=\"$pids $!\"; done; for p in $pids; do wait $p || exit; done",
-        octreel_program(), parts.path);
+        octreel_program(), chunks.path);
     assert_done(&result);
     command_release(&result);
-    result = run_octreel(NULL, "join %s --json", parts.path);
+    result = run_octreel(NULL, "join %s --json", chunks.path);
     assert_done(&result);
     assert_non_null(strstr(result.out, "\"ticks\": 253, \"frames\": 253"));
     command_release(&result);
-    assert_same_folders(whole.path, parts.path, NULL);
+    assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void gnu_parallel_films_the_parts(void **state)
+static void gnu_parallel_films_the_chunks(void **state)
 {
-    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
     if (!program_is_there("parallel"))
         skip();
     command_result result = run_octreel(NULL, "record --size 160x90 -o %s", whole.path);
@@ -392,16 +392,16 @@ static void gnu_parallel_films_the_parts(void **state)
     result = run_script(
         "parallel \"'%s'\" record --size 160x90 --jobs 1 -o %s --ticks {}:'{= $_ += 64 =}' ::: $(seq 0 64 252) && '%s' "
         "join %s",
-        octreel_program(), parts.path, octreel_program(), parts.path);
+        octreel_program(), chunks.path, octreel_program(), chunks.path);
     assert_int_equal(result.status, 0); /* parallel may ask to be cited */
     command_release(&result);
-    assert_same_folders(whole.path, parts.path, NULL);
+    assert_same_folders(whole.path, chunks.path, NULL);
 }
 
 /* The script of the README's array job, each task with the number that Slurm gives it. */
-static void slurm_tasks_film_the_parts(void **state)
+static void slurm_tasks_film_the_chunks(void **state)
 {
-    const place whole = place_in(*state, "whole"), parts = place_in(*state, "parts");
+    const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
     command_result result = run_octreel(NULL, "record --size 160x90 -o %s", whole.path);
     assert_done(&result);
     command_release(&result);
@@ -410,13 +410,13 @@ static void slurm_tasks_film_the_parts(void **state)
         "    -o %s --ticks $a:$((a + 64))'\n"
         "export program='%s'; for i in 0 1 2 3; do SLURM_ARRAY_TASK_ID=$i sh -c \"$task\" & pids=\"$pids $!\"; done; "
         "for p in $pids; do wait $p || exit; done; \"$program\" join %s",
-        parts.path, octreel_program(), parts.path);
+        chunks.path, octreel_program(), chunks.path);
     assert_done(&result);
     command_release(&result);
-    assert_same_folders(whole.path, parts.path, NULL);
+    assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void command_lines_of_parts_that_make_no_sense_are_refused(void **state)
+static void command_lines_of_chunks_that_make_no_sense_are_refused(void **state)
 {
     static const char *const rows[][2] = {
         {"record --ticks 5 -o x", "100:200"},   {"record --ticks : -o x", "100:200"},
@@ -437,10 +437,10 @@ static void command_lines_of_parts_that_make_no_sense_are_refused(void **state)
 
 static void join_says_in_one_sentence_what_is_missing(void **state)
 {
-    const place parts = film_parts(state);
-    remove(place_below(parts.path, "ticks_0_5.jsonl").path);
-    command_result result = run_octreel(NULL, "join %s", parts.path);
-    assert_trouble(&result, "no part has tick 0");
+    const place chunks = film_chunks(state);
+    remove(place_below(chunks.path, "ticks_0_5.jsonl").path);
+    command_result result = run_octreel(NULL, "join %s", chunks.path);
+    assert_trouble(&result, "no chunk has tick 0");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
@@ -448,29 +448,29 @@ static void join_says_in_one_sentence_what_is_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(part_leaves_its_frames_and_its_lines),
-        IN_FOLDER(parts_join_to_the_bytes_of_one_film),
-        IN_FOLDER(parts_that_overlap_join),
-        IN_FOLDER(stopped_film_and_a_part_join),
+        IN_FOLDER(chunk_leaves_its_frames_and_its_lines),
+        IN_FOLDER(chunks_join_to_the_bytes_of_one_film),
+        IN_FOLDER(chunks_that_overlap_join),
+        IN_FOLDER(stopped_film_and_a_chunk_join),
         IN_FOLDER(session_with_edits_and_every_third_frame_joins),
         IN_FOLDER(joining_that_is_stopped_changes_nothing),
         IN_FOLDER(missing_chunks_are_named_by_their_first_tick),
-        IN_FOLDER(part_that_was_not_finished_misses_its_last_ticks),
+        IN_FOLDER(chunk_that_was_not_finished_misses_its_last_ticks),
         IN_FOLDER(missing_frames_are_named),
         IN_FOLDER(files_of_the_recording_that_are_missing_are_named),
         IN_FOLDER(line_that_is_not_of_its_tick_and_frame_is_named),
-        IN_FOLDER(part_with_more_lines_or_ticks_than_there_are_is_named),
+        IN_FOLDER(chunk_with_more_lines_or_ticks_than_there_are_is_named),
         IN_FOLDER(frame_that_is_not_whole_is_named),
         IN_FOLDER(frame_of_another_tick_session_or_view_is_named),
         IN_FOLDER(session_that_was_changed_by_hand_is_found),
         IN_FOLDER(frame_that_the_recording_has_not_is_named),
-        IN_FOLDER(part_of_another_recording_is_refused_and_changes_nothing),
-        IN_FOLDER(part_beyond_the_session_is_refused_and_makes_nothing),
-        IN_FOLDER(whole_film_is_not_made_into_a_folder_with_parts),
-        IN_FOLDER(four_parts_in_four_processes_are_the_bytes_of_one_film),
-        IN_FOLDER(gnu_parallel_films_the_parts),
-        IN_FOLDER(slurm_tasks_film_the_parts),
-        cmocka_unit_test(command_lines_of_parts_that_make_no_sense_are_refused),
+        IN_FOLDER(chunk_of_another_recording_is_refused_and_changes_nothing),
+        IN_FOLDER(chunk_beyond_the_session_is_refused_and_makes_nothing),
+        IN_FOLDER(whole_film_is_not_made_into_a_folder_with_chunks),
+        IN_FOLDER(four_chunks_in_four_processes_are_the_bytes_of_one_film),
+        IN_FOLDER(gnu_parallel_films_the_chunks),
+        IN_FOLDER(slurm_tasks_film_the_chunks),
+        cmocka_unit_test(command_lines_of_chunks_that_make_no_sense_are_refused),
         IN_FOLDER(join_says_in_one_sentence_what_is_missing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
