@@ -1,4 +1,3 @@
-/* json_write.c - see json_write.h. */
 #include "json_write.h"
 #include "number.h"
 #include "text.h"

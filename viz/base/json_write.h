@@ -4,8 +4,8 @@
  * where json_write_newline() is called. Errors stay with the stream: ask ferror() or fclose() at the end. For text in
  * memory give it a stream of open_memstream().
  */
-#ifndef RECORD_JSON_WRITE_H
-#define RECORD_JSON_WRITE_H
+#ifndef BASE_JSON_WRITE_H
+#define BASE_JSON_WRITE_H
 
 #include "octree/octree.h"
 

@@ -2,8 +2,8 @@
  *
  * Reading is correctly rounded; what number_print() wrote reads back to the same bits.
  */
-#ifndef RECORD_NUMBER_H
-#define RECORD_NUMBER_H
+#ifndef BASE_NUMBER_H
+#define BASE_NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* folder.h - the folder of a recording: made, checked, and filled with files that are there whole or not at all. */
-#ifndef RECORD_FOLDER_H
-#define RECORD_FOLDER_H
+#ifndef FORMATS_FOLDER_H
+#define FORMATS_FOLDER_H
 
 #include "file.h"
 

@@ -1,4 +1,3 @@
-/* frame_file.c - see frame_file.h. */
 #include "frame_file.h"
 #include "ticks_write.h"
 #include "image_digest.h"

@@ -1,7 +1,7 @@
 /* frame_file.h - the frame of a tick as a file of a recording: its name, what traces it to the tick that made it, and
  * whether the one that is there is that one. */
-#ifndef RECORD_FRAME_FILE_H
-#define RECORD_FRAME_FILE_H
+#ifndef FORMATS_FRAME_FILE_H
+#define FORMATS_FRAME_FILE_H
 
 #include "file.h"
 #include "image.h"

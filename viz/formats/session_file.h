@@ -36,8 +36,8 @@
  * body. Ids are unique, that player's included. "velocities" replace those of the points. Points may lie outside the
  * world: the game refuses them at tick 0.
  */
-#ifndef RECORD_SESSION_FILE_H
-#define RECORD_SESSION_FILE_H
+#ifndef FORMATS_SESSION_FILE_H
+#define FORMATS_SESSION_FILE_H
 
 #include "error.h"
 #include "octree/game.h"

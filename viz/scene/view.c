@@ -2,7 +2,6 @@
 #include "layer.h"
 
 #include <stddef.h>
-#include <string.h>
 
 view view_default(void)
 {
@@ -22,22 +21,13 @@ int view_unit(const view *v)
     return height < 640 ? 1 : (height + 180) / 360;
 }
 
-/* The names of one of view.h's maps: TYPE_name() and TYPE_parse(). */
+/* The names of one of view.h's maps: TYPE_name(). */
 #define VIEW_TEXT(name, text) text,
 #define VIEW_NAMES(type, map, count)                                                                                   \
     static const char *const type##_names[count] = {map(VIEW_TEXT)};                                                   \
     const char *type##_name(type value)                                                                                \
     {                                                                                                                  \
         return (unsigned)value < count ? type##_names[value] : NULL;                                                   \
-    }                                                                                                                  \
-    bool type##_parse(const char *name, type *value)                                                                   \
-    {                                                                                                                  \
-        for (int i = 0; i < count; i++)                                                                                \
-            if (strcmp(name, type##_names[i]) == 0) {                                                                  \
-                *value = (type)i;                                                                                      \
-                return true;                                                                                           \
-            }                                                                                                          \
-        return false;                                                                                                  \
     }
 
 VIEW_NAMES(view_camera, VIEW_CAMERA_MAP, CAMERA_COUNT)

@@ -99,9 +99,4 @@ const char *view_camera_name(view_camera camera);
 const char *view_coloring_name(view_coloring coloring);
 const char *view_diagram_name(view_diagram diagram);
 
-/* The inverse; false when there is no such name. */
-bool view_camera_parse(const char *name, view_camera *value);
-bool view_coloring_parse(const char *name, view_coloring *value);
-bool view_diagram_parse(const char *name, view_diagram *value);
-
 #endif

@@ -1,5 +1,6 @@
 /* golden_frames.c - see golden_frames.h. */
 #include "golden_frames.h"
+#include "view_options.h"
 #include "broken_tree.h"
 #include "camera.h"
 #include "layer.h"
@@ -197,11 +198,11 @@ bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
     octree_body bodies[MOST_BODIES];
     const octree_session session = session_of(frame, bodies);
     view v = view_of_frame(frame);
-    const char *bad;
+    const view_option *camera = view_option_named("camera"), *layers = view_option_named("layers");
     octree_game *game;
     *s = (scene){0};
-    if (!view_camera_parse(frame->camera, &v.camera) || !view_layers_parse(frame->layers, &v.layers, &bad))
-        return error_set(error, "%s: no such camera or layer", frame->name);
+    if (!camera->parse(camera, frame->camera, &v, error) || !layers->parse(layers, frame->layers, &v, error))
+        return false;
     if (octree_game_create(&session, &game) != OCTREE_OK)
         return error_set(error, "%s: the session cannot be played", frame->name);
     camera_fit(&v, octree_game_tree(game));

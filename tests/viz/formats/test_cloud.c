@@ -160,9 +160,17 @@ static void pipe_is_refused_without_waiting(void **state)
     assert_file_is_refused(path, "is not a regular file");
 }
 
+static void formats_are_listed_for_people(void **state)
+{
+    char names[CLOUD_FORMAT_NAMES];
+    (void)state;
+    assert_string_equal(cloud_format_names(names), "x y z text, PLY and PCD");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(formats_are_listed_for_people),
         cmocka_unit_test(text_is_read_with_any_separator_and_line_end),
         cmocka_unit_test(text_keeps_doubles),
         cmocka_unit_test(text_that_is_no_cloud_is_refused_with_its_line),

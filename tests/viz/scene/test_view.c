@@ -1,53 +1,5 @@
-/* test_view.c - names of cameras and layers, lists of layers, and the unit of lines and text. */
+/* test_view.c - names of layers, lists of them, and the unit of lines and text. */
 #include "scenes.h"
-
-static void every_camera_is_found_by_its_name(void **state)
-{
-    (void)state;
-    for (int i = 0; i < CAMERA_COUNT; i++) {
-        view_camera found = CAMERA_COUNT;
-        assert_non_null(view_camera_name((view_camera)i));
-        assert_true(view_camera_parse(view_camera_name((view_camera)i), &found));
-        assert_int_equal(found, i);
-    }
-    assert_null(view_camera_name(CAMERA_COUNT));
-    assert_null(view_layer_name(LAYER_DIAGRAM + 1));
-}
-
-static void unknown_cameras_are_refused(void **state)
-{
-    (void)state;
-    static const char *const names[] = {"", "is", "isometric", "ISO", " iso", "iso ", "0", "iso,top"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        view_camera found = CAMERA_SIDE;
-        assert_false(view_camera_parse(names[i], &found));
-        assert_int_equal(found, CAMERA_SIDE);
-    }
-}
-
-static void every_colour_mode_is_found_by_its_name(void **state)
-{
-    (void)state;
-    view_coloring coloring;
-    for (int i = 0; i < COLORING_COUNT; i++) {
-        assert_true(view_coloring_parse(view_coloring_name((view_coloring)i), &coloring));
-        assert_int_equal(coloring, i);
-    }
-    assert_null(view_coloring_name(COLORING_COUNT));
-    assert_false(view_coloring_parse("", &coloring) || view_coloring_parse("Depth", &coloring));
-}
-
-static void every_place_of_the_diagram_is_found_by_its_name(void **state)
-{
-    (void)state;
-    view_diagram diagram;
-    for (int i = 0; i < DIAGRAM_COUNT; i++) {
-        assert_true(view_diagram_parse(view_diagram_name((view_diagram)i), &diagram));
-        assert_int_equal(diagram, i);
-    }
-    assert_null(view_diagram_name(DIAGRAM_COUNT));
-    assert_false(view_diagram_parse("", &diagram) || view_diagram_parse("Beside", &diagram));
-}
 
 static void every_layer_is_found_by_its_name(void **state)
 {
@@ -146,10 +98,6 @@ static void unit_is_a_whole_pixel_at_least_and_grows_with_the_picture(void **sta
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_camera_is_found_by_its_name),
-        cmocka_unit_test(unknown_cameras_are_refused),
-        cmocka_unit_test(every_colour_mode_is_found_by_its_name),
-        cmocka_unit_test(every_place_of_the_diagram_is_found_by_its_name),
         cmocka_unit_test(every_layer_is_found_by_its_name),
         cmocka_unit_test(lists_of_layers_are_read_from_left_to_right),
         cmocka_unit_test(unknown_layers_are_pointed_at_and_change_nothing),

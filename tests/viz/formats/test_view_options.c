@@ -1,0 +1,91 @@
+/* test_view_options.c - the rows of the options of a view. */
+#include <string.h>
+
+#include "fixture.h"
+#include "layer.h"
+#include "view_options.h"
+
+static bool parses(const view_option *option, const char *text, view *v, const char *part)
+{
+    octreel_error error = {""};
+    const bool parsed = option->parse(option, text, v, &error);
+    if (!parsed && !strstr(error.text, part))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, part);
+    return parsed;
+}
+
+static void every_row_is_whole_and_found_by_its_name(void **state)
+{
+    (void)state;
+    for (size_t i = 0; view_option_at(i); i++) {
+        const view_option *option = view_option_at(i);
+        assert_true(option->name || option->member.name);
+        assert_true(!option->member.name || (option->member.codec->read && option->member.codec->write));
+        if (!option->name)
+            continue;
+        assert_ptr_equal(view_option_named(option->name), option);
+        assert_non_null(option->help);
+        assert_non_null(option->parse);
+    }
+    assert_null(view_option_named("zoom"));
+}
+
+/* Names are taken as they are, and no others. */
+static void every_choice_is_made_by_its_name(void **state)
+{
+    static const char *const unknown[] = {"", "is", "isometric", "ISO", " iso", "iso ", "0", "iso,top", "Depth"};
+    (void)state;
+    for (size_t i = 0; view_option_at(i); i++) {
+        const view_option *option = view_option_at(i);
+        view v = view_default();
+        if (!option->member.names || strcmp(option->name, "layers") == 0)
+            continue;
+        const int *chosen = (const int *)((const char *)&v + option->member.offset);
+        for (int n = 0; option->member.names(n); n++) {
+            assert_true(parses(option, option->member.names(n), &v, ""));
+            assert_int_equal(*chosen, n);
+        }
+        const int last = *chosen;
+        for (size_t n = 0; n < sizeof unknown / sizeof unknown[0]; n++)
+            assert_false(parses(option, unknown[n], &v, "there is no "));
+        assert_int_equal(*chosen, last);
+    }
+}
+
+static void values_that_do_not_fit_are_refused(void **state)
+{
+    static const char *const rows[][3] = {
+        {"size", "640", "--size takes pixels as in 1280x720, not \"640\""},
+        {"size", "640x", "--size"},
+        {"size", "640x-1", "--size"},
+        {"fit", "box", "there is no fit \"box\"; there are world, points"},
+        {"layers", "nodes,walls,text", "there is no layer \"walls\"; there are world, nodes, "},
+        {"slice", "w=1", "--slice takes an axis and a place as in z=100, not \"w=1\""},
+        {"slice", "x=1,2", "--slice"},
+        {"depths", ":", "--depths takes levels from 0 to 21"},
+        {"depths", "3:2", "--depths"},
+        {"depths", "22", "--depths"},
+        {"region", "0,0,0,1,1", "--region takes six numbers"},
+        {"region", "0,0,2,1,1,1", "--region: min must be below max"},
+        {"lod", "-1", "--lod takes pixels from 0 to 16384, not \"-1\""},
+        {"lod", "nan", "--lod"},
+        {"budget", "9007199254740992", "--budget takes a whole number below 2^53"},
+        {"budget", "1.5", "--budget"},
+        {"aa", "3", "--aa takes 1, 2 or 4 samples"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        view v = view_default();
+        assert_false(parses(view_option_named(rows[i][0]), rows[i][1], &v, rows[i][2]));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_row_is_whole_and_found_by_its_name),
+        cmocka_unit_test(every_choice_is_made_by_its_name),
+        cmocka_unit_test(values_that_do_not_fit_are_refused),
+    };
+    return cmocka_run_group_tests_name("view_options", tests, NULL, NULL);
+}
