@@ -55,20 +55,6 @@ typedef struct watching {
     size_t count, next;
 } watching;
 
-/* Equal lines of equal ticks need no check: they are both right or both wrong. */
-static bool check_lines(explanation *e, const octree_game *const games[2], bool differs, octreel_error *error)
-{
-    recorded *const sides[2] = {&e->sides[0], &e->sides[1]};
-    const uint64_t tick = octree_game_tick(games[0])->number;
-    if (!recorded_read_line(sides[0], tick, error) || !recorded_read_line(sides[1], tick, error))
-        return false;
-    const line_reader *x = &sides[0]->lines, *y = &sides[1]->lines;
-    const bool both = sides[0]->reading && sides[1]->reading;
-    if (both && !differs && x->size == y->size && memcmp(x->line, y->line, x->size) == 0)
-        return true;
-    return recorded_check_line(sides[0], games[0], error) && recorded_check_line(sides[1], games[1], error);
-}
-
 /* Ticks are asked for in ascending order. */
 static bool is_wanted(void *context, uint64_t tick)
 {
@@ -82,7 +68,8 @@ static bool watch(void *context, const octree_game *const games[2], bool differs
 {
     watching *w = context;
     const uint64_t tick = octree_game_tick(games[0])->number;
-    if (!check_lines(w->e, games, differs, error) || !tracer_add_tick(&w->e->tracer, w->e->sides, games, error))
+    if (!recorded_check_tick(w->e->sides, games, differs, error) ||
+        !tracer_add_tick(&w->e->tracer, w->e->sides, games, error))
         return false;
     if (!is_wanted(w, tick))
         return true;

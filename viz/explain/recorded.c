@@ -63,7 +63,7 @@ void recorded_close(recorded *r)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error)
+static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
 {
     static const char *const words[] = {
         [LINE_WHOLE] = "",           [LINE_TORN] = "is torn within",       [LINE_LONG] = "has too long a line at",
@@ -109,7 +109,7 @@ static char *expected_line(const recorded *r, const octree_game *game, size_t *s
     return ok ? text : NULL;
 }
 
-bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *error)
+static bool check_line(recorded *r, const octree_game *game, octreel_error *error)
 {
     const uint64_t tick = octree_game_tick(game)->number;
     verify_finding finding = {.kind = VERIFY_LINES};
@@ -123,4 +123,17 @@ bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *er
     free(expected);
     return r->reading || warn(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
                               r->side->path, tick, finding.text);
+}
+
+/* Equal lines of equal ticks need no check: they are both right or both wrong. */
+bool recorded_check_tick(recorded sides[2], const octree_game *const games[2], bool differs, octreel_error *error)
+{
+    const uint64_t tick = octree_game_tick(games[0])->number;
+    if (!read_line(&sides[0], tick, error) || !read_line(&sides[1], tick, error))
+        return false;
+    const line_reader *x = &sides[0].lines, *y = &sides[1].lines;
+    if (sides[0].reading && sides[1].reading && !differs && x->size == y->size &&
+        memcmp(x->line, y->line, x->size) == 0)
+        return true;
+    return check_line(&sides[0], games[0], error) && check_line(&sides[1], games[1], error);
 }

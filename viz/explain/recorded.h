@@ -26,10 +26,8 @@ typedef struct recorded {
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error);
 void recorded_close(recorded *r);
 
-/* Read the line of the next tick, whether it is right or not. False when there is none, and then there is a warning. */
-bool recorded_read_line(recorded *r, uint64_t tick, octreel_error *error);
-
-/* Compare the line that was read last with the tick of a game of its session; a warning where they differ. */
-bool recorded_check_line(recorded *r, const octree_game *game, octreel_error *error);
+/* Read the lines of the tick at which two games of their sessions are, and compare them with what happened in it. What
+ * does not fit, or is missing, becomes a warning. `differs`: the games do at this tick. */
+bool recorded_check_tick(recorded sides[2], const octree_game *const games[2], bool differs, octreel_error *error);
 
 #endif
