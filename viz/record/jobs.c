@@ -215,6 +215,8 @@ static bool begin(job_pool *pool, playback *p, octreel_error *error)
     while (pool->count < pool->wanted)
         if (!start_job(pool, p, error))
             return false;
+    octree_game_destroy(p->game); /* each job has it, and this process plays nothing */
+    p->game = NULL;
     const bool begun = recording_film(pool->recording, p, error) && recording_begin(pool->recording, p, error);
     picture_close(&p->picture);
     for (unsigned i = 0; begun && i < pool->count; i++)
