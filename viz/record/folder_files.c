@@ -177,16 +177,17 @@ static bool read_session(const char *folder, const char *name, bool live, sessio
                          octreel_error *error)
 {
     char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, name);
+    char *inside = path_join(folder, ""); /* where files of points would be */
     size_t size;
-    if (!path)
-        return error_no_memory(error);
-    bool ok = file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason);
+    bool ok = (path && inside) || error_no_memory(error);
+    ok = ok && (file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason));
     while (ok && live && size > 0 && bytes[size - 1] != '\n')
         size--;
     if (ok)
         *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
-    ok = ok && session_parse(path, folder, bytes, size, file, error);
+    ok = ok && session_parse(path, inside, bytes, size, file, error);
     free(bytes);
+    free(inside);
     free(path);
     return ok;
 }

@@ -1,33 +1,15 @@
 /* replay.c - opens a recording and plays it to a tick. */
 #include "replay.h"
-#include "octree/digest.h"
+#include "folder_files.h"
 #include "recording_file.h"
-#include "file.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
-
-static bool read_session(replay *r, const char *folder, octreel_error *error)
-{
-    char reason[FILE_REASON], *text, *path = path_join(folder, "session.json");
-    char *inside = path_join(folder, ""); /* where files of points would be */
-    size_t size;
-    bool ok = (path && inside) || error_no_memory(error);
-    ok = ok && (file_read_whole(path, &text, &size, reason) || error_set(error, "%s: %s", path, reason));
-    if (ok) {
-        r->session_digest = octree_digest_bytes(OCTREE_DIGEST_START, text, size);
-        ok = session_parse(path, inside, text, size, &r->session, error);
-        free(text);
-    }
-    free(path);
-    free(inside);
-    return ok;
-}
 
 bool replay_read(replay *r, const char *folder, octreel_error *error)
 {
     *r = (replay){.film.folder = folder};
-    if (!recording_read(folder, &r->film.view, &r->film.every, error) || !read_session(r, folder, error))
+    if (!recording_read(folder, &r->film.view, &r->film.every, error) ||
+        !read_session_file(folder, &r->session, &r->session_digest, error))
         return false;
     r->ticks = octree_session_length(&r->session.session) + 1;
     return true;

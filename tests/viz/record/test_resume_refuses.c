@@ -1,4 +1,4 @@
-/* test_resume_refuses.c - what octreel record --resume, and a part, do not touch: files of somebody else, of another
+/* test_resume_refuses.c - what octreel record --resume, and a chunk, do not touch: files of somebody else, of another
  * session or view, and folders that say nothing of what was to be filmed. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -103,6 +103,17 @@ static void frames_without_a_view_or_a_session_are_not_replaced(void **state)
     }
 }
 
+/* Of a program that died while it recorded itself. */
+static void session_in_the_making_is_not_replaced_by_another(void **state)
+{
+    const place whole = recorded(state, "whole"), film = copy_of(state, whole.path, "film");
+    const place live = place_below(film.path, "session.json.live");
+    assert_int_equal(rename(place_below(film.path, "session.json").path, live.path), 0);
+    assert_refused(state, "--resume --size 64x48 --keys wwddeenw", film.path, "session.json.live: is another session");
+    record("--resume", film.path);
+    assert_same_folders(whole.path, film.path, NULL);
+}
+
 static void another_session_is_refused_before_a_file_is_written(void **state)
 {
     const place film = recorded(state, "film");
@@ -157,6 +168,7 @@ int main(void)
         IN_FOLDER(folder_that_is_not_there_is_not_resumed),
         IN_FOLDER(same_words_again_resume_what_has_just_begun),
         IN_FOLDER(frames_without_a_view_or_a_session_are_not_replaced),
+        IN_FOLDER(session_in_the_making_is_not_replaced_by_another),
         IN_FOLDER(another_session_is_refused_before_a_file_is_written),
         IN_FOLDER(surplus_frame_is_refused),
         IN_FOLDER(files_of_somebody_else_are_not_replaced),
