@@ -10,6 +10,7 @@
 /* Two games that are played together. */
 typedef struct playing {
     octree_game *games[2];
+    bool same_session;    /* then all ticks are the same */
     bool same_rules;      /* trees of the same contents are the same, and have the same digest */
     uint64_t versions[2]; /* of the trees that were looked at last, */
     bool looked, unlike;  /* and whether they differ */
@@ -81,20 +82,22 @@ static bool look_at(playing *p, octreel_error *error)
     const octree_game *const games[2] = {p->games[0], p->games[1]};
     const uint64_t tick = octree_game_tick(games[0])->number;
     cause_facts facts = {0};
-    const bool trees = trees_differ(p);
-    cause_compare_ticks(p->games[0], p->games[1], &facts);
+    const bool trees = !p->same_session && trees_differ(p);
+    if (!p->same_session)
+        cause_compare_ticks(p->games[0], p->games[1], &facts);
     const bool differs = trees || facts.count > 0;
     if (differs)
         note(p->found, tick);
-    bool ok = true;
+    bool ok = !facts.out_of_memory;
     if (is_wanted(p, tick, differs)) {
         cause_facts_release(&facts);
         if (trees)
             cause_compare_trees(p->games[0], p->games[1], &facts);
-        cause_compare_ticks(p->games[0], p->games[1], &facts);
+        if (differs)
+            cause_compare_ticks(p->games[0], p->games[1], &facts);
         if (p->warm)
             cause_add(&facts, "heat", "", CAUSE_OTHER, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, NULL, NULL});
-        ok = !facts.out_of_memory && keep(p->found, tick, &facts);
+        ok = ok && !facts.out_of_memory && keep(p->found, tick, &facts);
     }
     p->warm |= p->shows_heat && differs;
     cause_facts_release(&facts);
@@ -131,6 +134,7 @@ bool cause_find(const octree_session *a, const octree_session *b, const cause_vi
     playing p = {.watcher = watcher, .found = c};
     *c = (cause){0};
     cause_compare_sessions(a, b, &c->session);
+    p.same_session = c->session.count == 0;
     if (views)
         cause_compare_views(&views[0], &views[1], &c->view);
     p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
