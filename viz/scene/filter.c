@@ -1,4 +1,3 @@
-/* filter.c - see filter.h. */
 #include "filter.h"
 #include "number.h"
 
