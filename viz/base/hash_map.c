@@ -13,10 +13,14 @@ static void enter(hash_map *map, const hash_map_keys *keys, const void *items, s
     map->table[slot] = (uint32_t)(place + 1);
 }
 
-static bool grow(hash_map *map, const hash_map_keys *keys, const void *items)
+bool hash_map_reserve(hash_map *map, const hash_map_keys *keys, const void *items, size_t count)
 {
-    const size_t size = map->size ? 2 * map->size : SMALLEST_TABLE;
-    uint32_t *table = map->count < HASH_MAP_NONE - 1 ? calloc(size, sizeof *table) : NULL;
+    size_t size = map->size ? map->size : SMALLEST_TABLE;
+    if (2 * count <= map->size)
+        return true;
+    while (size < 2 * count)
+        size *= 2;
+    uint32_t *table = count < HASH_MAP_NONE ? calloc(size, sizeof *table) : NULL;
     if (!table)
         return false;
     free(map->table);
@@ -29,7 +33,7 @@ static bool grow(hash_map *map, const hash_map_keys *keys, const void *items)
 
 bool hash_map_add(hash_map *map, const hash_map_keys *keys, const void *items)
 {
-    if (2 * map->count >= map->size && !grow(map, keys, items))
+    if (!hash_map_reserve(map, keys, items, map->count + 1))
         return false;
     enter(map, keys, items, map->count++);
     return true;

@@ -60,6 +60,9 @@ static inline uint32_t hash_map_find(const hash_map *map, const hash_map_keys *k
  * map is then unchanged. */
 bool hash_map_add(hash_map *map, const hash_map_keys *keys, const void *items);
 
+/* Make room for `count` items at once. False when there is no memory: the map is then unchanged. */
+bool hash_map_reserve(hash_map *map, const hash_map_keys *keys, const void *items, size_t count);
+
 /* Forget all items, and keep the table. */
 void hash_map_clear(hash_map *map);
 

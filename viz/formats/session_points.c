@@ -68,6 +68,8 @@ static bool map_ids(json_reader *r, const json_place *at, hash_map *map)
     const session_loader *s = r->context;
     const octree_player *player = &s->header.session.player;
     uint32_t clash = HASH_MAP_NONE;
+    if (!hash_map_reserve(map, &by_id, s->bodies, s->header.session.body_count))
+        return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
     for (size_t i = 0; i < s->header.session.body_count; i++) {
         const uint64_t *id = &s->bodies[i].id;
         const json_place place = {at, NULL, i};
@@ -75,8 +77,7 @@ static bool map_ids(json_reader *r, const json_place *at, hash_map *map)
         if (first != HASH_MAP_NONE)
             return json_fail(r, &place, "id %" PRIu64 " is taken by points[%" PRIu32 "] in line %zu", *id, first,
                              json_line(r, &(json_place){at, NULL, first}));
-        if (!hash_map_add(map, &by_id, s->bodies))
-            return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
+        hash_map_add(map, &by_id, s->bodies); /* there is room */
     }
     if (is_apart(player))
         clash = hash_map_find(map, &by_id, s->bodies, &player->id);
