@@ -159,6 +159,30 @@ void json_member_integer(json_writer *writer, const char *key, uint64_t value)
     json_write_integer(writer, value);
 }
 
+void json_member_number(json_writer *writer, const char *key, double value)
+{
+    json_write_key(writer, key);
+    json_write_number(writer, value);
+}
+
+void json_member_bool(json_writer *writer, const char *key, bool value)
+{
+    json_write_key(writer, key);
+    json_write_bool(writer, value);
+}
+
+void json_member_begin_object(json_writer *writer, const char *key)
+{
+    json_write_key(writer, key);
+    json_write_begin_object(writer);
+}
+
+void json_member_begin_array(json_writer *writer, const char *key)
+{
+    json_write_key(writer, key);
+    json_write_begin_array(writer);
+}
+
 void json_member_text(json_writer *writer, const char *key, const char *text)
 {
     json_write_key(writer, key);

@@ -44,9 +44,13 @@ void json_write_numbers(json_writer *writer, const double *values, size_t count)
 
 /* A member of an object: its key and its value. A vector is three numbers, a box an object of its corners. */
 void json_member_integer(json_writer *writer, const char *key, uint64_t value);
+void json_member_number(json_writer *writer, const char *key, double value);
+void json_member_bool(json_writer *writer, const char *key, bool value);
 void json_member_text(json_writer *writer, const char *key, const char *text);
 void json_member_vector(json_writer *writer, const char *key, const double vector[3]);
 void json_member_box(json_writer *writer, const char *key, const octree_box *box);
+void json_member_begin_object(json_writer *writer, const char *key);
+void json_member_begin_array(json_writer *writer, const char *key);
 
 /* What comes next, the end of an array or object too, begins a new line. */
 void json_write_newline(json_writer *writer);

@@ -62,8 +62,7 @@ static void write_group(json_writer *w, const cause_group *group)
     if (*group->query)
         json_member_text(w, "query", group->query);
     json_member_integer(w, "count", group->found);
-    json_write_key(w, "facts");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "facts");
     for (size_t i = 0; i < cause_listed(group); i++)
         write_fact(w, &group->listed[i]);
     json_write_end_array(w);
@@ -72,8 +71,7 @@ static void write_group(json_writer *w, const cause_group *group)
 
 static void write_facts(json_writer *w, const char *key, const cause_facts *facts)
 {
-    json_write_key(w, key);
-    json_write_begin_array(w);
+    json_member_begin_array(w, key);
     for (size_t i = 0; i < facts->count; i++)
         write_group(w, &facts->groups[i]);
     json_write_end_array(w);
@@ -99,8 +97,7 @@ static void write_element(json_writer *w, const trace_part *part)
 static void write_trace(json_writer *w, const trace *t)
 {
     json_member_integer(w, "pixels", t->pixels);
-    json_write_key(w, "elements");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "elements");
     for (size_t i = 0; i < t->count && i < CAUSE_ELEMENTS; i++)
         write_element(w, &t->parts[i]);
     json_write_end_array(w);
@@ -109,8 +106,7 @@ static void write_trace(json_writer *w, const trace *t)
 static void write_ticks(json_writer *w, const explanation *e)
 {
     const cause *c = &e->cause;
-    json_write_key(w, "ticks");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "ticks");
     for (size_t i = 0; i < c->count; i++) {
         json_write_begin_object(w);
         json_member_integer(w, "tick", c->ticks[i].tick);
@@ -124,14 +120,12 @@ static void write_ticks(json_writer *w, const explanation *e)
 
 static void write_sides(json_writer *w, const explanation *e)
 {
-    json_write_key(w, "warnings");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "warnings");
     for (int side = 0; side < 2; side++)
         for (size_t i = 0; i < e->sides[side].warning_count; i++)
             json_write_string(w, e->sides[side].warnings[i]);
     json_write_end_array(w);
-    json_write_key(w, "drawn_by");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "drawn_by");
     for (int side = 0; side < 2; side++)
         json_write_string(w, e->sides[side].drawn_by);
     json_write_end_array(w);

@@ -172,8 +172,7 @@ static void write_answer(json_writer *w, const octree_answer *answer, const octr
     if (about->members & OCTREE_QUERY_HAS_K)
         json_member_integer(w, "k", answer->k);
     if (about->members & OCTREE_QUERY_HAS_RADIUS) {
-        json_write_key(w, "radius");
-        json_write_number(w, answer->radius);
+        json_member_number(w, "radius", answer->radius);
     }
     if (about->neighbors) {
         write_neighbors(w, answer, about->members & OCTREE_QUERY_HAS_K);
@@ -192,8 +191,7 @@ static void write_answers(json_writer *w, const void *from)
     for (size_t i = 0; i < tick->answer_count; i++) {
         const octree_query_traits *about = octree_query_about(tick->answers[i].kind);
         json_write_begin_object(w);
-        json_write_key(w, about->name);
-        json_write_begin_object(w);
+        json_member_begin_object(w, about->name);
         write_answer(w, &tick->answers[i], about);
         json_write_end_object(w);
         json_write_end_object(w);

@@ -198,8 +198,7 @@ static void write_slice(json_writer *w, const void *from)
 {
     const view_filter *f = from;
     json_write_begin_object(w);
-    json_write_key(w, (const char[]){f->slice, 0});
-    json_write_number(w, f->slice_at);
+    json_member_number(w, (const char[]){f->slice, 0}, f->slice_at);
     json_write_end_object(w);
 }
 

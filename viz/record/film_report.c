@@ -78,12 +78,9 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_writer writer = {.out = out}, *w = &writer;
     begin_json(w, summary, folder);
     json_member_integer(w, "over_budget", summary->over_budget);
-    json_write_key(w, "seconds");
-    json_write_number(w, seconds);
-    json_write_key(w, "frames_per_second");
-    json_write_number(w, rate_of(summary, seconds));
-    json_write_key(w, "events");
-    json_write_begin_object(w);
+    json_member_number(w, "seconds", seconds);
+    json_member_number(w, "frames_per_second", rate_of(summary, seconds));
+    json_member_begin_object(w, "events");
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         json_member_integer(w, octree_event_name(1u << i), summary->events[i]);
     json_write_end_object(w);

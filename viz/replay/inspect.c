@@ -196,8 +196,7 @@ void inspect_write_point(json_writer *w, const octree_point *point, const double
     json_member_integer(w, "id", point->id);
     json_member_vector(w, "position", point->position);
     if (distance) {
-        json_write_key(w, "distance");
-        json_write_number(w, *distance);
+        json_member_number(w, "distance", *distance);
     }
     json_write_end_object(w);
 }
@@ -232,8 +231,7 @@ static void write_occupancy(json_writer *w, const octree *tree)
 {
     histogram_row rows[OCCUPANCY_ROWS];
     const size_t count = count_occupancy(tree, rows);
-    json_write_key(w, "leaves_by_points");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "leaves_by_points");
     for (size_t i = 0; i < count; i++) {
         json_write_begin_object(w);
         json_member_integer(w, "from", rows[i].from);
@@ -246,8 +244,7 @@ static void write_occupancy(json_writer *w, const octree *tree)
 
 static void write_depths(json_writer *w, const char *key, const size_t *counts, unsigned depth)
 {
-    json_write_key(w, key);
-    json_write_begin_array(w);
+    json_member_begin_array(w, key);
     for (unsigned i = 0; i <= depth; i++)
         json_write_integer(w, counts[i]);
     json_write_end_array(w);
@@ -307,12 +304,10 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     json_member_text(w, "cloud", name);
     json_member_text(w, "node", octree_address_format(node->address, address));
     json_member_integer(w, "depth", node->depth);
-    json_write_key(w, "leaf");
-    json_write_bool(w, node->leaf);
+    json_member_bool(w, "leaf", node->leaf);
     json_member_integer(w, "count", node->count);
     json_member_box(w, "box", &node->box);
-    json_write_key(w, "points");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "points");
     for (size_t i = 0; node->leaf && i < node->count; i++)
         inspect_write_point(w, &node->points[i], NULL);
     json_write_end_array(w);

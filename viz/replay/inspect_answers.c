@@ -172,8 +172,7 @@ static void write_question(json_writer *w, const shown_answer *shown)
     if (members & OCTREE_QUERY_HAS_TARGET)
         json_member_vector(w, members & OCTREE_QUERY_HAS_RADIUS ? "center" : "target", answer->target);
     if (members & OCTREE_QUERY_HAS_RADIUS) {
-        json_write_key(w, "radius");
-        json_write_number(w, answer->radius);
+        json_member_number(w, "radius", answer->radius);
     }
     if (shown->about->neighbors)
         json_member_integer(w, "k", answer->k);
@@ -182,8 +181,7 @@ static void write_question(json_writer *w, const shown_answer *shown)
 static void write_points(json_writer *w, const shown_answer *shown)
 {
     json_member_integer(w, "found", shown->answer->count);
-    json_write_key(w, "points");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "points");
     for (size_t i = 0; i < shown->answer->count; i++)
         inspect_write_point(w, point_at(shown, i), distance_at(shown, i));
     json_write_end_array(w);
@@ -197,8 +195,7 @@ static void write_answer(json_writer *w, const shown_answer *shown)
     write_points(w, shown);
     if (note)
         json_member_text(w, "note", note);
-    json_write_key(w, "cost");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "cost");
     json_member_integer(w, "nodes", shown->answer->cost.nodes);
     json_member_integer(w, "leaves", shown->answer->cost.leaves);
     json_member_integer(w, "points", shown->answer->cost.points);
@@ -213,8 +210,7 @@ void inspect_print_answers(const inspect_answers *answers, const char *name, boo
     if (json) {
         json_write_begin_object(w);
         json_member_text(w, "cloud", name);
-        json_write_key(w, "answers");
-        json_write_begin_array(w);
+        json_member_begin_array(w, "answers");
     } else {
         fprintf(out, "%s\n", name);
     }

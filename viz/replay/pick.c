@@ -227,8 +227,7 @@ static void print_people(FILE *out, const pick *p)
 
 static void write_pair(json_writer *w, const char *key, const int pair[2])
 {
-    json_write_key(w, key);
-    json_write_begin_array(w);
+    json_member_begin_array(w, key);
     json_write_integer(w, (uint64_t)pair[0]);
     json_write_integer(w, (uint64_t)pair[1]);
     json_write_end_array(w);
@@ -238,13 +237,11 @@ static void write_node(json_writer *w, const element_subject *subject)
 {
     char path[OCTREE_ADDRESS_TEXT];
     const octree_node *node = &subject->node;
-    json_write_key(w, "node");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "node");
     json_member_text(w, "path", octree_address_format(node->address, path));
     json_member_integer(w, "depth", node->depth);
     if (!subject->gone) {
-        json_write_key(w, "leaf");
-        json_write_bool(w, node->leaf);
+        json_member_bool(w, "leaf", node->leaf);
         json_member_integer(w, "points", node->count);
     }
     json_member_box(w, "box", &node->box);
@@ -253,8 +250,7 @@ static void write_node(json_writer *w, const element_subject *subject)
 
 static void write_point(json_writer *w, const octree_point *point)
 {
-    json_write_key(w, "point");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "point");
     json_member_integer(w, "id", point->id);
     json_member_vector(w, "position", point->position);
     json_write_end_object(w);
@@ -268,8 +264,7 @@ static void write_element(json_writer *w, const pick_element *e)
     json_member_integer(w, "shown", (uint64_t)e->touch.shown);
     json_member_integer(w, "painted", (uint64_t)e->touch.painted);
     if (is_gap(e)) {
-        json_write_key(w, "gap");
-        json_write_bool(w, true);
+        json_member_bool(w, "gap", true);
     }
     if (e->subject.has_node)
         write_node(w, &e->subject);
@@ -297,8 +292,7 @@ static void print_json(FILE *out, const pick *p)
     }
     json_member_text(w, "color", print_color(p, color));
     json_member_integer(w, "samples", (uint64_t)p->samples);
-    json_write_key(w, "elements");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "elements");
     for (size_t i = 0; i < p->count; i++)
         write_element(w, &p->elements[i]);
     json_write_end_array(w);

@@ -325,12 +325,10 @@ static void print_json(FILE *out, const char *folder, const verify_report *repor
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
     write_string(w, "folder", folder);
-    json_write_key(w, "identical");
-    json_write_bool(w, report->count == 0);
+    json_member_bool(w, "identical", report->count == 0);
     json_member_integer(w, "ticks", report->ticks);
     json_member_integer(w, "frames", report->frames);
-    json_write_key(w, "findings");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "findings");
     for (size_t i = 0; i < report->count; i++)
         write_finding(w, report, &report->findings[i]);
     json_write_end_array(w);

@@ -7,16 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_bool(json_writer *w, const char *key, bool value)
-{
-    json_write_key(w, key);
-    json_write_bool(w, value);
-}
-
 static void write_whole_numbers(json_writer *w, const char *key, const int *values, size_t count)
 {
-    json_write_key(w, key);
-    json_write_begin_array(w);
+    json_member_begin_array(w, key);
     for (size_t i = 0; i < count; i++)
         json_write_number(w, values[i]);
     json_write_end_array(w);
@@ -24,8 +17,7 @@ static void write_whole_numbers(json_writer *w, const char *key, const int *valu
 
 static void write_side(json_writer *w, const char *key, const diff_side *side)
 {
-    json_write_key(w, key);
-    json_write_begin_object(w);
+    json_member_begin_object(w, key);
     json_member_text(w, "path", side->path);
     json_member_text(w, "kind", diff_kind_name(side->kind));
     json_member_integer(w, "frames", side->count);
@@ -49,22 +41,18 @@ static void write_tolerance(json_writer *w, const diff_options *options)
     const image_tolerance *t = &options->tolerance;
     const image_color ground = options->background;
     char color[8];
-    json_write_key(w, "tolerance");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "tolerance");
     json_member_integer(w, "max_pixels", t->max_pixels);
-    json_write_key(w, "max_delta");
-    json_write_number(w, t->max_delta);
+    json_member_number(w, "max_delta", t->max_delta);
     json_member_text(w, "delta_unit", IMAGE_DELTA_UNIT);
-    write_bool(w, "antialias", t->antialias);
-    json_write_key(w, "ignore");
-    json_write_begin_array(w);
+    json_member_bool(w, "antialias", t->antialias);
+    json_member_begin_array(w, "ignore");
     for (size_t i = 0; i < t->ignored_count; i++) {
         const image_rectangle *r = &t->ignored[i];
         json_write_numbers(w, (double[]){r->x, r->y, r->width, r->height}, 4);
     }
     json_write_end_array(w);
-    json_write_key(w, "ignore_layers");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "ignore_layers");
     if (options->mask)
         write_layers(w, options->layers);
     json_write_end_array(w);
@@ -75,12 +63,10 @@ static void write_tolerance(json_writer *w, const diff_options *options)
 
 static void write_tally(json_writer *w, const char *key, const image_tally *t)
 {
-    json_write_key(w, key);
-    json_write_begin_object(w);
+    json_member_begin_object(w, key);
     json_member_integer(w, "pixels", t->pixels);
     if (t->pixels > 0) {
-        json_write_key(w, "worst_delta");
-        json_write_number(w, t->worst_delta);
+        json_member_number(w, "worst_delta", t->worst_delta);
         write_whole_numbers(w, "worst_at", (int[]){t->worst_x, t->worst_y}, 2);
         json_member_integer(w, "largest_channel", (uint64_t)t->largest_channel);
         write_whole_numbers(w, "min", (int[]){t->min_x, t->min_y}, 2);
@@ -130,8 +116,7 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
 
 static void write_evidence(json_writer *w, const diff_report *report, size_t i)
 {
-    json_write_key(w, "evidence");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "evidence");
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
         if (path)
@@ -143,8 +128,7 @@ static void write_evidence(json_writer *w, const diff_report *report, size_t i)
 
 static void write_findings(json_writer *w, const diff_report *report)
 {
-    json_write_key(w, "findings");
-    json_write_begin_array(w);
+    json_member_begin_array(w, "findings");
     for (size_t i = 0; i < report->result->count; i++) {
         const diff_pair *pair = &report->result->pairs[i];
         if (!diff_is_listed(pair->finding))
@@ -161,8 +145,7 @@ static void write_findings(json_writer *w, const diff_report *report)
 static void write_counts(json_writer *w, const diff_result *result)
 {
     json_member_integer(w, "frames", result->count);
-    json_write_key(w, "found");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "found");
     for (int i = 0; i < DIFF_FINDINGS; i++)
         json_member_integer(w, diff_finding_name((diff_finding)i), result->found[i]);
     json_write_end_object(w);
@@ -186,8 +169,7 @@ void diff_json_summary(json_writer *w, const diff_report *report)
 static void write_place(json_writer *w, const evidence *e)
 {
     char *page = path_join(e->folder, EVIDENCE_PAGE);
-    json_write_key(w, "evidence");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "evidence");
     json_member_text(w, "folder", e->folder);
     if (page)
         json_member_text(w, "page", page);

@@ -134,8 +134,7 @@ static bool write_whole(const page *p)
 /* Names of the files beside the page. */
 static void write_files(json_writer *w, const diff_report *report, size_t i)
 {
-    json_write_key(w, "files");
-    json_write_begin_object(w);
+    json_member_begin_object(w, "files");
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *name = NULL;
         if (report->evidence->pictures[i] & 1u << picture)
@@ -160,8 +159,7 @@ static bool write_pair(const page *p, size_t n)
         diff_print_difference(words.stream, pair);
     const bool ok = write_words(&line.writer, "words", &words);
     write_files(&line.writer, p->report, i);
-    json_write_key(&line.writer, "embedded");
-    json_write_bool(&line.writer, p->embedded[n]);
+    json_member_bool(&line.writer, "embedded", p->embedded[n]);
     return line_end(&line, p->out) && ok;
 }
 
