@@ -123,15 +123,12 @@ static const char *save(const file *f)
 /* Up to where it fails, in bands: the rows must be those of the whole. */
 static bool read_rows(image_source *source, int rows, const image *whole)
 {
-    uint8_t *room = malloc(image_source_room(source, rows) + 1);
-    check(room != NULL);
     int y = 0;
-    for (image band; image_source_next(source, rows, room, &band); y += band.height) {
+    for (image band; image_source_next(source, rows, &band); y += band.height) {
         const size_t size = (size_t)band.width * image_pixel_size(&band);
         check(!whole->pixels || image_pixel_size(&band) == image_pixel_size(whole));
         check(!whole->pixels || memcmp(band.pixels, whole->pixels + (size_t)y * size, size * (size_t)band.height) == 0);
     }
-    free(room);
     return !image_source_failed(source) && y == image_source_about(source)->height;
 }
 

@@ -31,7 +31,6 @@ static void find_unreadable(diff_pair *pair, const octreel_error *error)
 /* A picture while it is read in bands of rows. */
 typedef struct reading {
     image_source *source; /* null: it cannot be read */
-    uint8_t *room;        /* of a band, where the source has not all rows at hand */
     int rows;             /* of a band */
     octreel_error error;
 } reading;
@@ -44,19 +43,11 @@ static void open_reading(reading *r, const char *path, const diff_options *optio
         return;
     const image *about = image_source_about(r->source);
     r->rows = options->tolerance.antialias ? about->height : image_band_rows(about);
-    const size_t room = image_source_room(r->source, r->rows);
-    r->room = room ? malloc(room) : NULL;
-    if (room && !r->room) {
-        error_set(&r->error, "%.400s: %s", path, strerror(ENOMEM));
-        image_source_close(r->source);
-        r->source = NULL;
-    }
 }
 
 static void close_reading(reading *r)
 {
     image_source_close(r->source);
-    free(r->room);
 }
 
 static bool failed(const reading *r)
@@ -66,7 +57,7 @@ static bool failed(const reading *r)
 
 static bool next_rows(reading *r, image *band)
 {
-    return r->source && image_source_next(r->source, r->rows, r->room, band);
+    return r->source && image_source_next(r->source, r->rows, band);
 }
 
 /* Both are read to their ends even when they are not compared, since an error may come late. An error of the first is

@@ -266,7 +266,7 @@ bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error
 static unsigned layer_of(const scene *s, const painter *p, const quad *q)
 {
     return q->kind == SCENE_BOX ? paint_edge_at(p, q->index)->style.layer
-                                : scene_style_of(s, (scene_element){(scene_kind)q->kind, q->index}).layer;
+                                : scene_head_of(s, (scene_element){(scene_kind)q->kind, q->index}).style.layer;
 }
 
 /* A pixel is in the mask where one of its samples is. */

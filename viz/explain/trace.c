@@ -60,14 +60,14 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
     if (number == 0)
         return part;
     const scene_element element = scene_element_at(s, number);
-    part.layer = scene_style_of(s, element).layer;
+    part.layer = scene_head_of(s, element).style.layer;
     const bool about_node = part.layer == LAYER_NODES || part.layer == LAYER_VISITED || part.layer == LAYER_PRUNED ||
                             part.layer == LAYER_HIT;
-    const octree_address changed = about_node ? changed_node(games, scene_id_of(s, element)) : 0;
+    const octree_address changed = about_node ? changed_node(games, scene_head_of(s, element).id) : 0;
     if (changed)
         part.layer = LAYER_NODES;
     if (changed || part.layer == LAYER_NODES || part.layer == LAYER_POINTS)
-        part.id = changed ? changed : scene_id_of(s, element);
+        part.id = changed ? changed : scene_head_of(s, element).id;
     return part;
 }
 

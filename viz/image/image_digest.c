@@ -2,7 +2,6 @@
 #include "octree/digest.h"
 #include "png_read.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* The colour of the n-th pixel in reading order as one word: 8 bits a sample, or 16. */
@@ -91,13 +90,11 @@ bool image_digest_png(const char *path, image_color background, image *about, ui
     *about = *image_source_about(source);
     about->pixels = NULL;
     const int rows = image_band_rows(about);
-    uint8_t *room = malloc(image_source_room(source, rows) + 1);
     digesting d = begin(about);
-    for (image band; room && image_source_next(source, rows, room, &band);)
+    for (image band; image_source_next(source, rows, &band);)
         add_rows(&d, &band);
     *digest = finish(&d);
-    const bool done = room ? !image_source_failed(source) : error_set(error, "%s: there is no memory", path);
-    free(room);
+    const bool done = !image_source_failed(source);
     image_source_close(source);
     return done;
 }

@@ -29,7 +29,9 @@ struct image_source {
     png_byte color_type, depth; /* as stored */
     size_t samples;             /* of a pixel as libpng delivers it: 1, an index or a grey; 3; or 4, with alpha */
     int passes;
-    image about; /* its pixels where all rows are at hand, else null */
+    image about;   /* its pixels when all rows are in memory, else null */
+    uint8_t *band; /* pixels of the last rows that were asked for, */
+    int band_rows; /* as many as it has room for */
     int next_y;
     bool beyond; /* an index beyond the palette was met: told when all else is right */
     bool failed;
@@ -292,12 +294,18 @@ static bool read_whole(image_source *s)
     return true;
 }
 
-size_t image_source_room(const image_source *s, int rows)
+/* Make room for a band of rows. */
+static bool reserve_band(image_source *s, int rows)
 {
-    return s->whole ? 0 : row_size(s) * (size_t)rows;
+    uint8_t *band = rows > s->band_rows ? realloc(s->band, row_size(s) * (size_t)rows) : s->band;
+    if (!band)
+        return fail(s, strerror(ENOMEM));
+    s->band = band;
+    s->band_rows = rows > s->band_rows ? rows : s->band_rows;
+    return true;
 }
 
-bool image_source_next(image_source *s, int rows, uint8_t *room, image *band)
+bool image_source_next(image_source *s, int rows, image *band)
 {
     const int left = s->about.height - s->next_y;
     if (s->failed || left == 0)
@@ -305,7 +313,9 @@ bool image_source_next(image_source *s, int rows, uint8_t *room, image *band)
     *band = s->about;
     band->height = left < rows ? left : rows;
     if (!s->whole) {
-        band->pixels = room;
+        if (!reserve_band(s, band->height))
+            return false;
+        band->pixels = s->band;
         return run(s, decode, &(band_request){s, band});
     }
     band->pixels += (size_t)s->next_y * (size_t)s->about.width * image_pixel_size(&s->about);
@@ -368,6 +378,7 @@ void image_source_close(image_source *s)
         return;
     png_destroy_read_struct(&s->png, &s->info, NULL);
     image_release(&s->about);
+    free(s->band);
     if (s->file)
         fclose(s->file); /* only read from: nothing is left to fail */
     free(s);

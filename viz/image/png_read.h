@@ -30,11 +30,10 @@ void image_source_close(image_source *source); /* null is allowed */
 /* The image but for its pixels, which are null unless all of them are at hand. */
 const image *image_source_about(const image_source *source);
 
-/* The next rows, at most `rows`, as an image of their own that is not to be released: its pixels are in `room`, of
- * image_source_room() bytes, or in the source. False when there are no more, or, with a sentence, when it fails; that
- * the file is right to its end is known when its last rows were given. */
-bool image_source_next(image_source *source, int rows, uint8_t *room, image *band);
-size_t image_source_room(const image_source *source, int rows);
+/* The next rows, at most `rows`, as an image that is not to be released: its pixels belong to the source, and are valid
+ * until the next call. False after the last row, or, with a sentence, when reading fails. The end of the file is
+ * checked before its last rows are returned. */
+bool image_source_next(image_source *source, int rows, image *band);
 bool image_source_failed(const image_source *source);
 
 /* How many rows of a picture are best asked for at a time: so few that some such bands fit the second cache, and so

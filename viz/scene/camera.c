@@ -161,38 +161,16 @@ static double parallel_box_pixels(const camera *c, const octree_box *box)
     return 2 * c->zoom * fmax(half_span(c->right, half), half_span(c->up, half));
 }
 
-/* What the two sides of a box add to its corners' camera coordinates: camera_transform() of all eight, to the bit. */
-typedef struct box_sides {
-    double of[3][2][3]; /* by axis of the world, side, and axis of the camera */
-} box_sides;
-
-static box_sides see_sides(const camera *c, const octree_box *box)
-{
-    box_sides sides;
-    for (int side = 0; side < 2; side++) {
-        double unit[3];
-        camera_unit(c, side ? box->max : box->min, unit);
-        for (int i = 0; i < 3; i++) {
-            const double from_eye = unit[i] - c->eye[i];
-            sides.of[i][side][0] = from_eye * c->right[i];
-            sides.of[i][side][1] = from_eye * c->up[i];
-            sides.of[i][side][2] = from_eye * c->forward[i];
-        }
-    }
-    return sides;
-}
-
 double camera_box_pixels(const camera *c, const octree_box *box)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     if (!c->perspective)
         return parallel_box_pixels(c, box);
-    const box_sides sides = see_sides(c, box);
     for (unsigned corner = 0; corner < 8; corner++) {
-        const double *x = sides.of[0][corner & 1], *y = sides.of[1][corner >> 1 & 1], *z = sides.of[2][corner >> 2 & 1];
-        double seen[3], pixel[2];
+        double position[3], seen[3], pixel[2];
         for (int i = 0; i < 3; i++)
-            seen[i] = (x[i] + y[i]) + z[i];
+            position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
+        camera_transform(c, position, seen);
         if (!(seen[2] >= c->near))
             return INFINITY;
         camera_project(c, seen, pixel);

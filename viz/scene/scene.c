@@ -160,36 +160,15 @@ uint32_t scene_number_of(const scene *s, scene_element element)
     return (uint32_t)number;
 }
 
-scene_style scene_style_of(const scene *s, scene_element element)
+scene_head scene_head_of(const scene *s, scene_element element)
 {
-    switch (element.kind) {
-    case SCENE_BOX:
-        return s->boxes.items[element.index].style;
-    case SCENE_SEGMENT:
-        return s->segments.items[element.index].style;
-    case SCENE_MARKER:
-        return s->markers.items[element.index].style;
-    case SCENE_PANEL:
-        return s->panels.items[element.index].style;
-    default:
-        return s->labels.items[element.index].style;
-    }
-}
-
-uint64_t scene_id_of(const scene *s, scene_element element)
-{
-    switch (element.kind) {
-    case SCENE_BOX:
-        return s->boxes.items[element.index].id;
-    case SCENE_SEGMENT:
-        return s->segments.items[element.index].id;
-    case SCENE_MARKER:
-        return s->markers.items[element.index].id;
-    case SCENE_PANEL:
-        return s->panels.items[element.index].id;
-    default:
-        return s->labels.items[element.index].id;
-    }
+    const void *const arrays[SCENE_KINDS] = {s->boxes.items, s->segments.items, s->markers.items, s->panels.items,
+                                             s->labels.items};
+    static const size_t sizes[SCENE_KINDS] = {sizeof(scene_box), sizeof(scene_segment), sizeof(scene_marker),
+                                              sizeof(scene_panel), sizeof(scene_label)};
+    scene_head head;
+    memcpy(&head, (const char *)arrays[element.kind] + element.index * sizes[element.kind], sizeof head);
+    return head;
 }
 
 /* ---- The digest --------------------------------------------------------------------------------------------- */

@@ -27,18 +27,24 @@ typedef struct scene_style {
     uint8_t width;  /* of lines, half the size of markers, and the size of text: 1 is 12 units a line */
 } scene_style;
 
+/* What every element begins with. */
+typedef struct scene_head {
+    uint64_t id;
+    scene_style style;
+} scene_head;
+
 typedef struct scene_box {
     uint64_t id; /* a node's address in LAYER_NODES */
-    octree_box box;
     scene_style style;
     uint8_t depth; /* a node's; of two boxes that share an edge the shallower gives it its colour */
+    octree_box box;
 } scene_box;
 
 typedef struct scene_segment {
     uint64_t id;
+    scene_style style;
     bool in_picture;
     double ends[2][3]; /* world positions; or, in the picture, x and y in pixels */
-    scene_style style;
 } scene_segment;
 
 typedef enum scene_shape {
@@ -51,9 +57,9 @@ typedef enum scene_shape {
 
 typedef struct scene_marker {
     uint64_t id; /* a point's in LAYER_POINTS */
-    double at[3];
     scene_style style;
-    uint8_t shape;
+    uint8_t shape; /* scene_shape */
+    double at[3];
 } scene_marker;
 
 #define SCENE_TEXT 48
@@ -61,17 +67,17 @@ typedef struct scene_marker {
 /* Text at a pixel, or beside the place where a world position is drawn. */
 typedef struct scene_label {
     uint64_t id;
+    scene_style style;
     bool in_world;
     double at[3]; /* a world position, or x and y in pixels of the text's top left corner */
     char text[SCENE_TEXT];
-    scene_style style;
 } scene_label;
 
 /* A filled rectangle of the picture, in pixels. */
 typedef struct scene_panel {
     uint64_t id;
-    int x, y, width, height;
     scene_style style;
+    int x, y, width, height;
 } scene_panel;
 
 /* A growing array; see scene_add_*. */
@@ -164,8 +170,7 @@ const char *scene_kind_name(scene_kind kind);
 scene_element scene_element_at(const scene *s, uint32_t number);
 uint32_t scene_number_of(const scene *s, scene_element element);
 
-scene_style scene_style_of(const scene *s, scene_element element);
-uint64_t scene_id_of(const scene *s, scene_element element);
+scene_head scene_head_of(const scene *s, scene_element element);
 
 /* A digest of the whole draw list, camera and size included: the same on every machine. */
 uint64_t scene_digest(const scene *s);

@@ -76,10 +76,8 @@ static bool read_in_bands(const char *path, int rows, const image *whole, octree
     if (!source)
         return false;
     const image *about = image_source_about(source);
-    uint8_t *room = malloc(image_source_room(source, rows) + 1);
-    assert_non_null(room);
     int y = 0;
-    for (image band; image_source_next(source, rows, room, &band); y += band.height) {
+    for (image band; image_source_next(source, rows, &band); y += band.height) {
         const size_t size = (size_t)band.width * image_pixel_size(&band);
         assert_true(band.height == rows || y + band.height == about->height);
         if (whole->pixels)
@@ -89,7 +87,6 @@ static bool read_in_bands(const char *path, int rows, const image *whole, octree
     assert_true(!ok || y == about->height);
     if (whole->pixels)
         assert_same_but_pixels(about, whole);
-    free(room);
     image_source_close(source);
     return ok;
 }

@@ -50,7 +50,8 @@ static void check_against_elements(const scene *s, const uint32_t *numbers, unsi
     assert_non_null(expected);
     for (size_t i = 0; i < frame_samples(s); i++)
         if (numbers[i])
-            expected[pixel_of_sample(s, i)] |= layers >> scene_style_of(s, scene_element_at(s, numbers[i])).layer & 1;
+            expected[pixel_of_sample(s, i)] |=
+                layers >> scene_head_of(s, scene_element_at(s, numbers[i])).style.layer & 1;
     assert_memory_equal(mask, expected, size);
     free(expected);
 }

@@ -80,15 +80,15 @@ static size_t expectation_of(scene_style style, scene_kind kind)
 /* The mark that has the player's id, and is none of what was hit. */
 static bool is_cross(const octree_game *game, const scene *s, scene_element element)
 {
-    return element.kind == SCENE_MARKER && scene_style_of(s, element).layer == LAYER_BOX &&
-           scene_id_of(s, element) == octree_game_session(game)->player.id;
+    return element.kind == SCENE_MARKER && scene_head_of(s, element).style.layer == LAYER_BOX &&
+           scene_head_of(s, element).id == octree_game_session(game)->player.id;
 }
 
 static void check_element(const octree_game *game, const heat *h, const scene *s, scene_element element,
                           size_t seen[EXPECTED])
 {
     const element_subject subject = describe_element(game, h, s, element);
-    const size_t i = expectation_of(scene_style_of(s, element), element.kind);
+    const size_t i = expectation_of(scene_head_of(s, element).style, element.kind);
     if (is_cross(game, s, element)) {
         assert_string_equal(subject.text, "a cross that crosses the collision out");
         assert_false(subject.has_point || subject.has_node);
@@ -102,10 +102,11 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
     assert_int_equal(expected[i].about_point, subject.has_point);
     if (subject.has_node)
         check_node(game, &subject,
-                   expected[i].layer == LAYER_SPLITS || expected[i].layer == LAYER_MERGES ? scene_id_of(s, element) >> 2
-                                                                                          : scene_id_of(s, element));
+                   expected[i].layer == LAYER_SPLITS || expected[i].layer == LAYER_MERGES
+                       ? scene_head_of(s, element).id >> 2
+                       : scene_head_of(s, element).id);
     if (subject.has_point && element.kind == SCENE_MARKER)
-        assert_int_equal(subject.point.id, scene_id_of(s, element));
+        assert_int_equal(subject.point.id, scene_head_of(s, element).id);
     seen[i]++;
 }
 
@@ -161,7 +162,7 @@ static void words_of_a_node_and_of_a_point_are_these(void **state)
         assert_string_equal(subject.text,
                             "node root: inner node at depth 0, 11 points, box (-1000, -1000, -1000) to (1000, 1000, "
                             "1000)");
-        assert_string_equal(view_layer_name((view_layer)scene_style_of(&s, (scene_element){SCENE_BOX, i}).layer),
+        assert_string_equal(view_layer_name((view_layer)scene_head_of(&s, (scene_element){SCENE_BOX, i}).style.layer),
                             "nodes");
     }
     scene_release(&s);

@@ -33,7 +33,7 @@ static bool has_color_of(const scene *s, uint32_t number, uint8_t index)
 {
     if (number == 0)
         return index == 0;
-    const scene_style style = scene_style_of(s, scene_element_at(s, number));
+    const scene_style style = scene_head_of(s, scene_element_at(s, number)).style;
     return index / THEME_SHADES == style.role || (index == 0 && style.stroke == STROKE_CUT);
 }
 
@@ -300,8 +300,8 @@ static void check_row(view_camera camera, bool within)
         assert_true(numbers[sample] != 0);
         const scene_element element = scene_element_at(&s, numbers[sample]);
         assert_int_equal(element.kind, SCENE_BOX);
-        if (scene_id_of(&s, element) != (within ? 100u : (unsigned)at / STEPS + 1))
-            fail_msg("camera %d: box %d at x = %g", (int)camera, (int)scene_id_of(&s, element), x);
+        if (scene_head_of(&s, element).id != (within ? 100u : (unsigned)at / STEPS + 1))
+            fail_msg("camera %d: box %d at x = %g", (int)camera, (int)scene_head_of(&s, element).id, x);
         checked++;
     }
     assert_true(checked > 200);
