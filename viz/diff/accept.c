@@ -1,6 +1,5 @@
 /* accept.c - references are compared with new frames, and replaced by them. */
 #include "accept.h"
-#include "file.h"
 #include "digest_file.h"
 #include "text.h"
 #include "diff_words.h"
@@ -93,16 +92,14 @@ static action action_for(const diff_pair *pair)
 /* A frame that cannot be read becomes no reference; a reference that cannot be read may be replaced. */
 static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
-    octreel_error unread;
-    return digest_frame(pair->b->path, a->reference.background, &pair->about[1], &unread) ||
-           error_set(error, "%s", unread.text);
+    return digest_frame(pair->b->path, a->reference.background, &pair->about[1], error);
 }
 
 static bool decide(accepting *a, octreel_error *error)
 {
     a->actions = calloc(a->result.count, sizeof *a->actions);
     if (!a->actions)
-        return error_set(error, "there is no memory for %zu frames", a->result.count);
+        return error_no_memory(error);
     for (size_t i = 0; i < a->result.count; i++) {
         diff_pair *pair = &a->result.pairs[i];
         a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair) : KEPT;

@@ -80,6 +80,9 @@ bool diff_run(const diff_side *a, const diff_side *b, const diff_options *option
               octreel_error *error);
 void diff_release(diff_result *result);
 
+/* Find by the pixels, or by the digests, of a pair that has both frames. The finding is set in any case. */
+void compare_pixels(diff_pair *pair, const diff_options *options);
+
 /* What is forgiven in one pair: as the options have it, and what its mask leaves out. False when there is no memory; to
  * be released in any case. */
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);

@@ -170,7 +170,7 @@ bool digest_all(diff_side *side, image_color background, octreel_error *error)
         return true;
     digesting d = {side, calloc(side->count + 1, sizeof *d.errors)};
     if (!d.errors)
-        return error_set(error, "there is no memory for the frames of %s", side->path);
+        return error_no_memory(error);
     side->background = background;
     parallel_for(side->count, count_cores(), digest_one, &d);
     bool ok = true;

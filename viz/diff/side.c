@@ -43,7 +43,7 @@ bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octre
         return true;
     }
     free(frame.name);
-    return error_set(error, "there is no memory for the frames of %s", side->path);
+    return error_no_memory(error);
 }
 
 static bool is_png_name(const char *name)

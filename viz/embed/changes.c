@@ -1,5 +1,6 @@
 /* changes.c - how the points of a tree change from tick to tick. */
 #include "changes.h"
+#include "array.h"
 #include "session_file.h"
 
 #include <stdlib.h>
@@ -18,15 +19,9 @@ void points_release(points *p)
 
 static bool reserve_points(points *p, size_t count)
 {
-    if (count <= p->room)
-        return true;
-    const size_t room = count > 2 * p->room ? count : 2 * p->room;
-    octree_point *items = room <= SIZE_MAX / sizeof *items ? realloc(p->items, room * sizeof *items) : NULL;
-    if (!items)
-        return false;
-    p->items = items;
-    p->room = room;
-    return true;
+    octree_point *items = array_reserve(p->items, count, &p->room, sizeof *items);
+    p->items = items ? items : p->items;
+    return items || count == 0;
 }
 
 static octree_walk_order add_leaf(const octree_node *node, void *context)

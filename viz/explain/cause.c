@@ -103,7 +103,7 @@ static bool look_at(playing *p, octreel_error *error)
     cause_facts_release(&facts);
     p->found->compared++;
     if (!ok)
-        return error_set(error, "there is no memory for what differs in tick %" PRIu64, tick);
+        return error_no_memory(error);
     return !p->watcher->watch || p->watcher->watch(p->watcher->context, games, differs, error);
 }
 
@@ -138,8 +138,7 @@ bool cause_find(const octree_session *a, const octree_session *b, const cause_vi
     if (views)
         cause_compare_views(&views[0], &views[1], &c->view);
     p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
-    bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) ||
-              error_set(error, "there is no memory for what differs");
+    bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) || error_no_memory(error);
     ok = ok && open_game(&p, 0, a, error) && open_game(&p, 1, b, error);
     p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
     for (bool over = false; ok && !over;) {

@@ -30,7 +30,7 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
 {
     for (int i = 0; i < 2; i++)
         if ((sides[i].view.view.layers & VIEW_HEAT_LAYERS) && !heat_add_tick(&t->heats[i], games[i]))
-            return error_set(error, "there is no memory for the heat of the nodes");
+            return error_no_memory(error);
     return true;
 }
 
@@ -242,7 +242,7 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
         ok = add_trace(t, games, pair, options, frames, &p);
     free(p.numbers[0]);
     free(p.numbers[1]);
-    return ok || error_set(error, "there is no memory to trace what differs in %s", diff_pair_name(pair));
+    return ok || error_no_memory(error);
 }
 
 bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
@@ -254,7 +254,7 @@ bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *cons
         return true;
     for (int i = 0; i < 2; i++)
         if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->heats[i]))
-            return error_set(error, "there is no memory for a scene");
+            return error_no_memory(error);
     const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, error);
     image_release(&frames[0]);
     image_release(&frames[1]);

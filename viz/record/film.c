@@ -92,7 +92,7 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
     *summary = (film_summary){0};
     if (!picture_fit(&v, tree, error) || !picture_open(&p, &v, &options->renderer, error))
         return false;
-    bool ok = tree_scene_build(&s, &v, tree, about) || error_set(error, "there is no memory for a scene");
+    bool ok = tree_scene_build(&s, &v, tree, about) || error_no_memory(error);
     ok = ok && picture_draw(&p, &s, error) && write_picture(&p, &s, path, error);
     if (ok)
         *summary = (film_summary){

@@ -83,39 +83,15 @@ static bool put_file(const folder_place *place, const char *name, const char *by
 
 /* ---- Written ------------------------------------------------------------------------------------------------ */
 
-/* A stream into memory that becomes a file of the folder. */
-typedef struct memory_file {
-    FILE *stream;
-    char *bytes;
-    size_t size;
-} memory_file;
-
-static bool begin_file(memory_file *file, octreel_error *error)
-{
-    *file = (memory_file){0};
-    file->stream = open_memstream(&file->bytes, &file->size);
-    return file->stream || error_no_memory(error);
-}
-
-/* False, and nothing is left of it, where there is no memory. */
-static bool close_file(memory_file *file, const char *name, octreel_error *error)
-{
-    const bool whole = !ferror(file->stream);
-    if (fclose(file->stream) == 0 && whole)
-        return true;
-    free(file->bytes);
-    return error_set(error, "there is no memory for %s", name);
-}
-
 bool make_session_bytes(const octree_session *session, session_bytes *made, octreel_error *error)
 {
-    memory_file file;
-    if (!begin_file(&file, error))
-        return false;
-    session_write(session, file.stream);
-    if (!close_file(&file, "session.json", error))
-        return false;
-    *made = (session_bytes){file.bytes, file.size, octree_digest_bytes(OCTREE_DIGEST_START, file.bytes, file.size)};
+    text_stream s;
+    char *bytes;
+    if (text_stream_begin(&s))
+        session_write(session, s.stream);
+    if (!text_stream_end(&s, &bytes))
+        return error_no_memory(error);
+    *made = (session_bytes){bytes, s.size, octree_digest_bytes(OCTREE_DIGEST_START, bytes, s.size)};
     return true;
 }
 
@@ -125,24 +101,24 @@ bool write_session_file(const folder_place *place, const session_bytes *session,
                     error);
 }
 
-/* False, and nothing is left of it, where there is no memory. */
-static bool end_file(memory_file *file, const folder_place *place, const char *name, const char *unlike,
-                     octreel_error *error)
+/* Write what was printed into a stream of text, and end it. */
+static bool put_stream(const folder_place *place, const char *name, text_stream *s, const char *unlike,
+                       octreel_error *error)
 {
-    if (!close_file(file, name, error))
-        return false;
-    const bool ok = put_file(place, name, file->bytes, file->size, unlike, error);
-    free(file->bytes);
+    char *bytes;
+    if (!text_stream_end(s, &bytes))
+        return error_no_memory(error);
+    const bool ok = put_file(place, name, bytes, s->size, unlike, error);
+    free(bytes);
     return ok;
 }
 
 bool write_recording_file(const folder_place *place, const view *v, uint64_t every, octreel_error *error)
 {
-    memory_file file;
-    if (!begin_file(&file, error))
-        return false;
-    recording_write(file.stream, v, every);
-    return end_file(&file, place, "recording.json", "tells of another view (size, camera, layers, every ...)", error);
+    text_stream s;
+    if (text_stream_begin(&s))
+        recording_write(s.stream, v, every);
+    return put_stream(place, "recording.json", &s, "tells of another view (size, camera, layers, every ...)", error);
 }
 
 static void write_text(json_writer *w, const char *key, const char *text)
@@ -154,10 +130,10 @@ static void write_text(json_writer *w, const char *key, const char *text)
 bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error)
 {
     char library[IMAGE_LIBRARY_TEXT];
-    memory_file file;
-    if (!begin_file(&file, error))
-        return false;
-    json_writer writer = {.out = file.stream}, *w = &writer;
+    text_stream s;
+    if (!text_stream_begin(&s))
+        return error_no_memory(error);
+    json_writer writer = {.out = s.stream}, *w = &writer;
     json_write_begin_object(w);
     write_text(w, "context", info->context);
     write_text(w, "vendor", info->vendor);
@@ -167,7 +143,7 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
     json_write_newline(w);
     json_write_end_object(w);
     json_write_end_line(w);
-    return end_file(&file, place, "renderer.json", NULL, error);
+    return put_stream(place, "renderer.json", &s, NULL, error);
 }
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */

@@ -96,13 +96,12 @@ static bool read_scene(const char *line, size_t size, uint64_t tick, uint64_t *s
 static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
 {
     frame_origin origin = {.tick = j->summary->ticks, .session = j->session_digest, .scene = scene};
-    octreel_error why;
     char name[FRAME_NAME];
     if (!folder_has(j->options->folder, frame_name(origin.tick, name)))
         return error_set(error, "%s: %s is missing; octreel record --resume films what is missing", j->options->folder,
                          name);
-    if (!frame_check(j->options->folder, &origin, &why))
-        return error_set(error, "%s", why.text);
+    if (!frame_check(j->options->folder, &origin, error))
+        return false;
     j->summary->frames++;
     j->summary->left_out += origin.left_out;
     return true;

@@ -2,6 +2,7 @@
 #include "page.h"
 #include "file.h"
 #include "page_html.h"
+#include "text.h"
 
 #include <errno.h>
 #include <jansson.h>
@@ -59,16 +60,19 @@ static bool pass_bracket(cutter *c, char at)
  * million points. The caller frees the copy. Null where there is no memory, or brackets do not match. */
 static char *cut_lists(const char *text, size_t size, size_t *left)
 {
-    char *copy = NULL;
-    cutter c = {.out = open_memstream(&copy, left)};
-    bool ok = c.out != NULL;
+    char *copy;
+    text_stream s;
+    bool ok = text_stream_begin(&s);
+    cutter c = {.out = s.stream};
     for (size_t i = 0; ok && i < size; i++) {
         ok = pass_string(&c, text[i]) || pass_bracket(&c, text[i]);
         if (!c.cut)
             putc(text[i], c.out);
     }
-    if (c.out && fclose(c.out) == 0 && ok)
+    if (text_stream_end(&s, &copy) && ok) {
+        *left = s.size;
         return copy;
+    }
     free(copy);
     return NULL;
 }

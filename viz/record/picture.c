@@ -49,17 +49,16 @@ static bool create_images(picture *p, const view *v)
 
 bool picture_open(picture *p, const view *v, const renderer_choice *choice, octreel_error *error)
 {
-    octreel_error why;
     *p = (picture){0};
     if (!check_samples(v, error))
         return false;
-    p->renderer = renderer_open(v->width * view_samples(v), v->height * view_samples(v), choice, &why);
+    p->renderer = renderer_open(v->width * view_samples(v), v->height * view_samples(v), choice, error);
     if (!p->renderer)
-        return error_set(error, "%s", why.text);
+        return false;
     if (create_images(p, v))
         return true;
     picture_close(p);
-    return error_set(error, "there is no memory for a frame of %d x %d pixels", v->width, v->height);
+    return error_no_memory(error);
 }
 
 void picture_close(picture *p)
@@ -72,16 +71,14 @@ void picture_close(picture *p)
 
 bool picture_draw(picture *p, const scene *s, octreel_error *error)
 {
-    octreel_error why;
     image *drawn = p->samples.pixels ? &p->samples : &p->frame;
-    if (!renderer_draw(p->renderer, s, drawn->pixels, &why))
-        return error_set(error, "%s", why.text);
+    if (!renderer_draw(p->renderer, s, drawn->pixels, error))
+        return false;
     return drawn == &p->frame || image_shrink(drawn, view_samples(&s->view), &p->frame) ||
            error_set(error, "the scene is not of the picture's anti-aliasing");
 }
 
 bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, octreel_error *error)
 {
-    octreel_error why;
-    return image_write_png(&p->frame, path, texts, count, &why) || error_set(error, "%s", why.text);
+    return image_write_png(&p->frame, path, texts, count, error);
 }

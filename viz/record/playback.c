@@ -2,6 +2,7 @@
 #include "playback.h"
 #include "frame_file.h"
 #include "layer.h"
+#include "text.h"
 #include "tick_scene.h"
 
 #include <inttypes.h>
@@ -11,8 +12,7 @@
 
 static bool add_heat(playback *p, octreel_error *error)
 {
-    return !(p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) ||
-           error_set(error, "there is no memory for the heat of the nodes");
+    return !(p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) || error_no_memory(error);
 }
 
 bool playback_open(playback *p, const octree_session *session, const view *v, octreel_error *error)
@@ -62,8 +62,7 @@ bool playback_film(playback *p, const playback_target *target, octreel_error *er
 
 bool playback_scene(playback *p, octreel_error *error)
 {
-    return tick_scene_build(&p->scene, &p->view, p->game, &p->heat) ||
-           error_set(error, "there is no memory for a scene");
+    return tick_scene_build(&p->scene, &p->view, p->game, &p->heat) || error_no_memory(error);
 }
 
 static bool draw_frame(playback *p, frame_origin *origin, octreel_error *error)
@@ -93,15 +92,14 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
 /* In memory: a line is written in one piece, and may be sent or compared instead. */
 static bool make_line(playback *p, film_step *step, octreel_error *error)
 {
+    text_stream s;
     free(p->line);
-    p->line = NULL;
-    FILE *stream = open_memstream(&p->line, &step->size);
-    if (stream)
-        tick_write(stream, octree_game_tick(p->game), &p->extras);
-    const bool whole = stream && !ferror(stream);
-    if ((stream && fclose(stream) != 0) || !whole)
-        return error_set(error, "there is no memory for the line of tick %" PRIu64, step->tick);
+    if (text_stream_begin(&s))
+        tick_write(s.stream, octree_game_tick(p->game), &p->extras);
+    if (!text_stream_end(&s, &p->line))
+        return error_no_memory(error);
     step->line = p->line;
+    step->size = s.size;
     return true;
 }
 

@@ -101,7 +101,7 @@ static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *er
 {
     const size_t samples = (size_t)view_samples(&s->view);
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
-    bool ok = numbers || error_set(error, "there is no memory for a frame");
+    bool ok = numbers || error_no_memory(error);
     ok = ok && renderer_pick(r, s, numbers, error);
     if (ok)
         find_nearest(p, numbers, samples);
@@ -115,7 +115,7 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
     draw_touches touches = {0};
     bool ok = renderer_pixel(r, s, p->pixel[0], p->pixel[1], &touches, error);
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
-    ok = ok && (p->elements || touches.count == 0 || error_set(error, "there is no memory for what is there"));
+    ok = ok && (p->elements || touches.count == 0 || error_no_memory(error));
     for (size_t i = 0; ok && i < touches.count; i++) {
         const scene_element element = scene_element_at(s, touches.items[i].number);
         p->elements[p->count++] = (pick_element){

@@ -252,7 +252,7 @@ bool evidence_draw(const diff_pair *pair, const diff_options *options, const cha
 bool evidence_collect(evidence *e, const char *folder, const diff_result *result, octreel_error *error)
 {
     *e = (evidence){.folder = folder, .pictures = calloc(result->count, sizeof *e->pictures)};
-    bool ok = e->pictures || error_set(error, "there is no memory for %zu frames", result->count);
+    bool ok = e->pictures || error_no_memory(error);
     for (size_t i = 0; ok && i < result->count; i++)
         if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME)
             ok = evidence_draw(&result->pairs[i], &result->options, folder, &e->pictures[i], error);

@@ -1,5 +1,5 @@
 /* test_row_by_row.c - pictures that are read and compared row by row, beside the same held whole. */
-#include "compare.h"
+#include "diff.h"
 #include "images.h"
 #include "naive_compare.h"
 #include "stored_png.h"
