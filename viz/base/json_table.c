@@ -1,4 +1,5 @@
 #include "json_table.h"
+#include "octree/octree.h"
 
 #include <string.h>
 
@@ -36,6 +37,8 @@ bool json_read_members(json_reader *r, json_t *object, const json_place *at, con
         r->row = table;
         if (value && !table->codec->read(r, value, &place, (char *)into + table->offset))
             return false;
+        if (value && table->given)
+            *(bool *)((char *)into + table->given) = true;
     }
     return true;
 }
@@ -44,7 +47,8 @@ void json_write_members(json_writer *w, const json_member *table, const void *fr
 {
     for (; table->name; table++) {
         const void *value = (const char *)from + table->offset;
-        if (!table->codec->write || (table->codec->is_set && !table->codec->is_set(value)))
+        if (!table->codec->write || (table->codec->is_set && !table->codec->is_set(value)) ||
+            (table->given && !*(const bool *)((const char *)from + table->given)))
             continue;
         if (table->line)
             json_write_newline(w);
@@ -132,19 +136,25 @@ int json_find_name(json_name *names, const char *name)
     return -1;
 }
 
+const char *json_list_names(json_name *names, char *text, size_t size)
+{
+    size_t length = 0;
+    for (int i = 0; names(i) && length < size; i++)
+        length += (size_t)snprintf(text + length, size - length, "%s%s", i ? ", " : "", names(i));
+    return text;
+}
+
 static bool read_choice(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     json_name *names = r->row->names;
     const int found = json_find_name(names, json_string_value(value));
-    char known[200] = "one of";
+    char known[200], what[sizeof known + 8];
     if (found >= 0) {
         *(int *)into = found;
         return true;
     }
-    size_t length = strlen(known);
-    for (int i = 0; names(i) && length < sizeof known; i++)
-        length += (size_t)snprintf(known + length, sizeof known - length, "%s %s", i ? "," : "", names(i));
-    return json_expected(r, value, at, known);
+    snprintf(what, sizeof what, "one of %s", json_list_names(names, known, sizeof known));
+    return json_expected(r, value, at, what);
 }
 
 static void write_choice(json_writer *w, const void *from)
@@ -159,6 +169,23 @@ static bool is_later(const void *from)
 
 const json_codec json_choice = {read_choice, write_choice, NULL};
 const json_codec json_later_choice = {read_choice, write_choice, is_later};
+
+static bool read_constant(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *text = json_string_value(value);
+    char what[80];
+    (void)into;
+    snprintf(what, sizeof what, "\"%s\"", (const char *)r->row->about);
+    return (text && strcmp(text, r->row->about) == 0) || json_expected(r, value, at, what);
+}
+
+static void write_constant(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_string(w, w->row->about);
+}
+
+const json_codec json_constant = {read_constant, write_constant, NULL};
 
 static bool read_bool(json_reader *r, json_t *value, const json_place *at, void *into)
 {
@@ -215,11 +242,11 @@ bool json_read_int(json_reader *r, json_t *value, const json_place *at, void *in
     return done;
 }
 
-/* Never more than can be read again. */
+/* Never more than can be read again; a row that is only written has no max. */
 void json_write_uint64(json_writer *w, const void *from)
 {
     const uint64_t number = *(const uint64_t *)from, max = (uint64_t)w->row->max;
-    json_write_integer(w, number < max ? number : max);
+    json_write_integer(w, max == 0 || number < max ? number : max);
 }
 
 static void write_size(json_writer *w, const void *from)
@@ -268,15 +295,20 @@ const json_codec json_interval = {read_interval, json_write_double, NULL};
 
 /* ---- Places ------------------------------------------------------------------------------------------------- */
 
-bool json_read_vector(json_reader *r, json_t *value, const json_place *at, void *into)
+bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at, size_t first, size_t count,
+                       double *into)
 {
-    double *vector = into;
-    if (!json_is_array(value) || json_array_size(value) != 3)
-        return json_expected(r, value, at, "three numbers [x, y, z]");
-    for (size_t i = 0; i < 3; i++)
-        if (!json_read_number(r, json_array_get(value, i), &(json_place){at, NULL, i}, &vector[i]))
+    for (size_t i = 0; i < count; i++)
+        if (!json_read_number(r, json_array_get(list, first + i), &(json_place){at, NULL, first + i}, &into[i]))
             return false;
     return true;
+}
+
+bool json_read_vector(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    if (!json_is_array(value) || json_array_size(value) != 3)
+        return json_expected(r, value, at, "three numbers [x, y, z]");
+    return json_read_numbers(r, value, at, 0, 3, into);
 }
 
 void json_write_vector(json_writer *w, const void *from)

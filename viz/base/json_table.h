@@ -23,13 +23,14 @@ typedef const char *json_name(int n);
 typedef struct json_member {
     const char *name; /* null ends a table */
     const json_codec *codec;
-    size_t offset;                     /* of the value in the structure */
-    bool required;                     /* when it is read */
-    bool line;                         /* it is written on a line of its own */
-    double min, max;                   /* of numbers */
-    json_name *names;                  /* of a choice */
+    size_t offset;    /* of the value in the structure */
+    size_t given;     /* of a bool in it: reading sets it, and it is written where it is set; 0: none */
+    bool required;    /* when it is read */
+    bool line;        /* it is written on a line of its own */
+    double min, max;  /* of numbers */
+    json_name *names; /* of a choice */
     const struct json_member *members; /* of an object */
-    const void *about;                 /* whatever else its type asks for */
+    const void *about;                 /* the text of a constant, or what else its type needs */
 } json_member;
 
 /* A type for one row. */
@@ -66,8 +67,15 @@ json_counted json_counted_at(const void *from);
 
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 
+/* The names, with commas between, cut where they do not fit. Returns `text`. */
+const char *json_list_names(json_name *names, char *text, size_t size);
+
 /* A whole number that is no member. */
 bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, double min, double max, uint64_t *into);
+
+/* The elements first, first + 1, ... of an array, `count` numbers. */
+bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at, size_t first, size_t count,
+                       double *into);
 
 /* Values that other types are made of: double, double of 0 or more, double[3], octree_box with min not above max. */
 json_read_value json_read_number, json_read_positive, json_read_vector, json_read_box;
@@ -77,6 +85,7 @@ json_write_value json_write_double, json_write_vector, json_write_box, json_writ
 extern const json_codec json_uint64, json_size, json_int; /* whole numbers from row->min to row->max */
 extern const json_codec json_number, json_positive;       /* double */
 extern const json_codec json_interval;                    /* double from row->min to row->max */
+extern const json_codec json_constant;                    /* the text row->about: no other is read */
 extern const json_codec json_bool;                        /* left out when false */
 extern const json_codec json_choice;                      /* an enumeration: the number of one of row->names */
 extern const json_codec json_later_choice;                /* the same, left out when it is the first */

@@ -167,27 +167,13 @@ bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word,
 
 const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE])
 {
-    static const char digits[] = "0123456789abcdef";
-    static const char ending[] = "...'";
-    size_t length = 0;
-    text[length++] = '\'';
-    for (const char *at = word.begin; at < word.limit; at++) {
-        unsigned char c = (unsigned char)*at;
-        if (length + 4 + sizeof ending > CLOUD_QUOTE) {
-            memcpy(text + length, ending, sizeof ending);
-            return text;
-        }
-        if (c >= ' ' && c <= '~') {
-            text[length++] = (char)c;
-            continue;
-        }
-        text[length++] = '\\';
-        text[length++] = 'x';
-        text[length++] = digits[c >> 4];
-        text[length++] = digits[c & 15];
-    }
-    text[length++] = '\'';
-    text[length] = '\0';
+    enum { LONGEST = CLOUD_QUOTE - sizeof "\\xff...'" + 1 };
+    const char *at = word.begin;
+    int length = snprintf(text, CLOUD_QUOTE, "'");
+    for (; at < word.limit && length < LONGEST; at++)
+        length += snprintf(text + length, CLOUD_QUOTE - (size_t)length, *at >= ' ' && *at <= '~' ? "%c" : "\\x%02x",
+                           (unsigned char)*at);
+    snprintf(text + length, CLOUD_QUOTE - (size_t)length, "%s", at < word.limit ? "...'" : "'");
     return text;
 }
 

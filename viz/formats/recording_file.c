@@ -14,19 +14,6 @@ typedef struct recorded {
     uint64_t every;
 } recorded;
 
-static bool read_kind(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    const char *kind = json_string_value(value);
-    (void)into;
-    return (kind && strcmp(kind, "recording") == 0) || json_expected(r, value, at, "\"recording\"");
-}
-
-static void write_kind(json_writer *w, const void *from)
-{
-    (void)from;
-    json_write_string(w, "recording");
-}
-
 /* Digests of scenes in ticks.jsonl and in frames are those of the version. */
 static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
 {
@@ -47,26 +34,11 @@ static void write_version(json_writer *w, const void *from)
     json_write_integer(w, RECORDING_VERSION);
 }
 
-static bool read_theme(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    const char *name = json_string_value(value);
-    char what[80];
-    (void)into;
-    snprintf(what, sizeof what, "the theme that there is, \"%s\"", theme_name());
-    return (name && strcmp(name, theme_name()) == 0) || json_expected(r, value, at, what);
-}
-
-static void write_theme(json_writer *w, const void *from)
-{
-    (void)from;
-    json_write_string(w, theme_name());
-}
-
 /* The options of the view stand between the first two and the others. */
 static const json_member own_members[] = {
-    {"octreel", JSON_CODEC(read_kind, write_kind, NULL), .required = true},
+    {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", JSON_CODEC(read_version, write_version, NULL), .required = true},
-    {"theme", JSON_CODEC(read_theme, write_theme, NULL), .required = false},
+    {"theme", &json_constant, .offset = 0},
     {"every", &json_uint64, offsetof(recorded, every), .min = 1, .max = SESSION_LAST_TICK},
 };
 
@@ -80,7 +52,8 @@ static void list_members(json_member members[MOST_MEMBERS])
     for (size_t i = 0; view_option_at(i) && count < MOST_MEMBERS - 3; i++)
         if (view_option_at(i)->member.name)
             members[count++] = view_option_at(i)->member;
-    members[count++] = own_members[2];
+    members[count] = own_members[2];
+    members[count++].about = theme_name();
     members[count++] = own_members[3];
     members[count] = (json_member){0};
     while (count > 0)

@@ -175,30 +175,19 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
-static size_t count_single_queries(const octree_session *session)
-{
-    size_t count = session->query_count;
-    while (count > 0 && session->queries[count - 1].tick == OCTREE_EVERY_TICK)
-        count--;
-    return count;
-}
-
-static size_t count_single_shapes(const octree_session *session)
-{
-    size_t count = session->shape_count;
-    while (count > 0 && session->shapes[count - 1].tick == OCTREE_EVERY_TICK)
-        count--;
-    return count;
-}
-
+/* What is of every tick comes last in the session's arrays. */
 void session_write_header(const octree_session *session, FILE *out)
 {
-    const size_t queries = count_single_queries(session), shapes = count_single_shapes(session);
     session_header header = {.session = *session};
-    header.standing.query_count = session->query_count - queries;
-    header.standing.queries = header.standing.query_count ? session->queries + queries : NULL;
-    header.standing.shape_count = session->shape_count - shapes;
-    header.standing.shapes = header.standing.shape_count ? session->shapes + shapes : NULL;
+    octree_input *standing = &header.standing;
+    for (size_t i = session->query_count; i > 0 && session->queries[i - 1].tick == OCTREE_EVERY_TICK; i--) {
+        standing->queries = &session->queries[i - 1];
+        standing->query_count++;
+    }
+    for (size_t i = session->shape_count; i > 0 && session->shapes[i - 1].tick == OCTREE_EVERY_TICK; i--) {
+        standing->shapes = &session->shapes[i - 1];
+        standing->shape_count++;
+    }
     json_writer writer = {.out = out};
     json_write_object(&writer, session_header_members, &header);
     json_write_end_line(&writer);
@@ -213,16 +202,16 @@ void session_write_tick(uint64_t tick, const octree_input *input, FILE *out)
     json_write_end_line(&writer);
 }
 
-/* What of a session belongs to single ticks and has not been written: the rest of its arrays. */
+/* What of a session's arrays has not been written. */
 typedef struct rest {
     octree_input input;
-    uint64_t tick; /* the next; UINT64_MAX: none */
+    uint64_t tick; /* the next; OCTREE_EVERY_TICK: none is left */
 } rest;
 
 static void find_next_tick(rest *left)
 {
     const octree_input *i = &left->input;
-    left->tick = i->edit_count ? i->edits->tick : UINT64_MAX;
+    left->tick = i->edit_count ? i->edits->tick : OCTREE_EVERY_TICK;
     if (i->query_count && i->queries->tick < left->tick)
         left->tick = i->queries->tick;
     if (i->shape_count && i->shapes->tick < left->tick)
@@ -248,11 +237,11 @@ bool session_write(const octree_session *session, FILE *out)
     rest left = {.input = {.edits = session->edits,
                            .edit_count = session->edit_count,
                            .queries = session->queries,
-                           .query_count = count_single_queries(session),
+                           .query_count = session->query_count,
                            .shapes = session->shapes,
-                           .shape_count = count_single_shapes(session)}};
+                           .shape_count = session->shape_count}};
     session_write_header(session, out);
-    for (find_next_tick(&left); left.tick != UINT64_MAX; find_next_tick(&left)) {
+    for (find_next_tick(&left); left.tick != OCTREE_EVERY_TICK; find_next_tick(&left)) {
         const uint64_t tick = left.tick;
         const octree_input input = take_tick(&left);
         session_write_tick(tick, &input, out);

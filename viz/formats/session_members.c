@@ -10,19 +10,6 @@ static session_loader *loader_of(const json_reader *r)
 
 /* ---- What the file is --------------------------------------------------------------------------------------- */
 
-static bool read_kind(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    const char *kind = json_string_value(value);
-    (void)into;
-    return (kind && strcmp(kind, "session") == 0) || json_expected(r, value, at, "\"session\"");
-}
-
-static void write_kind(json_writer *w, const void *from)
-{
-    (void)from;
-    json_write_string(w, "session");
-}
-
 static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     (void)into;
@@ -238,7 +225,7 @@ octree_session session_default_header(void)
 
 /* Positions need the world, points the player, and velocities the points. */
 const json_member session_header_members[] = {
-    {"octreel", JSON_CODEC(read_kind, write_kind, NULL), .required = true},
+    {"octreel", &json_constant, .required = true, .about = "session"},
     {"version", JSON_CODEC(read_version, write_version, NULL), .required = true},
     {"world", JSON_CODEC(read_world, json_write_box, NULL), HEADER(session.tree.world)},
     {"tree", &json_structure, HEADER(session.tree), .members = tree_members},

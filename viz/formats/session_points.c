@@ -43,11 +43,9 @@ static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_b
     const size_t size = json_array_size(row);
     if (size != 3 && size != 4)
         return json_expected(r, row, at, "a point [x, y, z] or [x, y, z, id]");
-    for (size_t i = 0; i < 3; i++)
-        if (!json_read_number(r, json_array_get(row, i), &(json_place){at, NULL, i}, &body->position[i]))
-            return false;
-    return size == 3 ||
-           json_read_whole(r, json_array_get(row, 3), &(json_place){at, NULL, 3}, 0, JSON_LARGEST_WHOLE, &body->id);
+    return json_read_numbers(r, row, at, 0, 3, body->position) &&
+           (size == 3 ||
+            json_read_whole(r, json_array_get(row, 3), &(json_place){at, NULL, 3}, 0, JSON_LARGEST_WHOLE, &body->id));
 }
 
 static bool read_point(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -246,10 +244,7 @@ static bool read_velocity(json_reader *r, json_t *row, const json_place *at, voi
     if (points->given[place])
         return json_fail(r, at, "the point with the id %" PRIu64 " was given a velocity before", id);
     points->given[place] = true;
-    for (size_t i = 1; i < 4; i++)
-        if (!json_read_number(r, json_array_get(row, i), &(json_place){at, NULL, i}, &s->bodies[place].velocity[i - 1]))
-            return false;
-    return true;
+    return json_read_numbers(r, row, at, 1, 3, s->bodies[place].velocity);
 }
 
 static bool read_velocity_list(json_reader *r, json_t *list, const json_place *at)

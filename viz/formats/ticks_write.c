@@ -11,16 +11,6 @@ char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
 
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 
-static void write_uint64(json_writer *w, const void *from)
-{
-    json_write_integer(w, *(const uint64_t *)from);
-}
-
-static void write_size(json_writer *w, const void *from)
-{
-    json_write_integer(w, *(const size_t *)from);
-}
-
 static void write_unsigned(json_writer *w, const void *from)
 {
     json_write_integer(w, *(const unsigned *)from);
@@ -56,19 +46,16 @@ static void write_addresses(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-static const json_codec uint64_codec = {NULL, write_uint64, NULL}, size_codec = {NULL, write_size, NULL},
-                        digest_codec = {NULL, write_digest, NULL};
-
 static const json_member cost_members[] = {
-    {"nodes", &uint64_codec, .offset = offsetof(octree_cost, nodes)},
-    {"leaves", &uint64_codec, .offset = offsetof(octree_cost, leaves)},
-    {"points", &uint64_codec, .offset = offsetof(octree_cost, points)},
-    {"pruned", &uint64_codec, .offset = offsetof(octree_cost, pruned)},
+    {"nodes", &json_uint64, .offset = offsetof(octree_cost, nodes)},
+    {"leaves", &json_uint64, .offset = offsetof(octree_cost, leaves)},
+    {"points", &json_uint64, .offset = offsetof(octree_cost, points)},
+    {"pruned", &json_uint64, .offset = offsetof(octree_cost, pruned)},
     {0},
 };
 
 static const json_member neighbor_members[] = {
-    {"id", &uint64_codec, .offset = offsetof(octree_neighbor, point.id)},
+    {"id", &json_uint64, .offset = offsetof(octree_neighbor, point.id)},
     {"position", &json_vector, .offset = offsetof(octree_neighbor, point.position)},
     {"distance", &json_number, .offset = offsetof(octree_neighbor, distance)},
     {0},
@@ -104,16 +91,6 @@ static void write_attempt(json_writer *w, const void *from)
 {
     const octree_tick *tick = from;
     write_place(w, tick, tick->attempt);
-}
-
-static void write_from(json_writer *w, const void *from)
-{
-    json_write_numbers(w, ((const octree_tick *)from)->from, 3);
-}
-
-static bool is_swept(const void *from)
-{
-    return ((const octree_tick *)from)->swept;
 }
 
 static void write_events(json_writer *w, const void *from)
@@ -203,28 +180,28 @@ static void write_answers(json_writer *w, const void *from)
 
 /* How many nodes all questions of the tick met in each way, and how many leaves hold what was found. */
 static const json_member visit_members[] = {
-    {"visited", &size_codec, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_VISITED])},
-    {"taken", &size_codec, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_TAKEN])},
-    {"pruned", &size_codec, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_PRUNED])},
-    {"hit", &size_codec, .offset = offsetof(octree_tick, hit_leaf_count)},
+    {"visited", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_VISITED])},
+    {"taken", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_TAKEN])},
+    {"pruned", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_PRUNED])},
+    {"hit", &json_size, .offset = offsetof(octree_tick, hit_leaf_count)},
     {0},
 };
 
 static const json_member tree_members[] = {
-    {"points", &size_codec, .offset = offsetof(octree_tick, stats.points)},
-    {"nodes", &size_codec, .offset = offsetof(octree_tick, stats.nodes)},
-    {"leaves", &size_codec, .offset = offsetof(octree_tick, stats.leaves)},
+    {"points", &json_size, .offset = offsetof(octree_tick, stats.points)},
+    {"nodes", &json_size, .offset = offsetof(octree_tick, stats.nodes)},
+    {"leaves", &json_size, .offset = offsetof(octree_tick, stats.leaves)},
     {"depth", JSON_CODEC(NULL, write_unsigned, NULL), .offset = offsetof(octree_tick, stats.depth)},
-    {"digest", &digest_codec, .offset = offsetof(octree_tick, tree_digest)},
+    {"digest", JSON_CODEC(NULL, write_digest, NULL), .offset = offsetof(octree_tick, tree_digest)},
     {0},
 };
 
 static const json_member line_members[] = {
-    {"tick", &uint64_codec, .offset = offsetof(octree_tick, number)},
+    {"tick", &json_uint64, .offset = offsetof(octree_tick, number)},
     {"key", JSON_CODEC(NULL, write_key, NULL), .offset = offsetof(octree_tick, key)},
     {"player", JSON_CODEC(NULL, write_player, NULL), .offset = 0},
     {"events", JSON_CODEC(NULL, write_events, NULL), .offset = offsetof(octree_tick, events)},
-    {"from", JSON_CODEC(NULL, write_from, is_swept), .offset = 0},
+    {"from", &json_vector, .offset = offsetof(octree_tick, from), .given = offsetof(octree_tick, swept)},
     {"attempt", JSON_CODEC(NULL, write_attempt, NULL), .offset = 0},
     {"hits", JSON_CODEC(NULL, write_ids, NULL), .offset = offsetof(octree_tick, hits)},
     {"hit_cost", &json_structure, .offset = offsetof(octree_tick, hit_cost), .members = cost_members},

@@ -38,10 +38,9 @@ static const char *fit_at(int n)
 /* "there is no camera "x"; there are iso, top ..." */
 static bool no_such(const char *what, const char *text, int length, json_name *names, octreel_error *error)
 {
-    char known[320] = "";
-    for (size_t i = 0, at = 0; names((int)i) && at < sizeof known; i++)
-        at += (size_t)snprintf(known + at, sizeof known - at, "%s%s", i ? ", " : "", names((int)i));
-    return error_set(error, "there is no %s \"%.*s\"; there are %s", what, length < 100 ? length : 100, text, known);
+    char known[320];
+    return error_set(error, "there is no %s \"%.*s\"; there are %s", what, length < 100 ? length : 100, text,
+                     json_list_names(names, known, sizeof known));
 }
 
 /* ---- Values of each type ------------------------------------------------------------------------------------ */
@@ -234,7 +233,6 @@ static bool read_depths(json_reader *r, json_t *value, const json_place *at, voi
         if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, i ? (double)depths[0] : 0,
                              OCTREE_MAX_DEPTH, &depths[i]))
             return false;
-    f->by_depth = true;
     f->min_depth = (unsigned)depths[0];
     f->max_depth = (unsigned)depths[1];
     return true;
@@ -244,11 +242,6 @@ static void write_depths(json_writer *w, const void *from)
 {
     const view_filter *f = from;
     json_write_numbers(w, (double[]){f->min_depth, f->max_depth}, 2);
-}
-
-static bool has_depths(const void *from)
-{
-    return ((const view_filter *)from)->by_depth;
 }
 
 static bool parse_region(const view_option *option, const char *text, view *v, octreel_error *error)
@@ -262,23 +255,6 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
     v->filter.by_region = true;
     memcpy(&v->filter.region, corners, sizeof corners);
     return true;
-}
-
-static bool read_region(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    view_filter *f = into;
-    f->by_region = true;
-    return json_read_box(r, value, at, &f->region);
-}
-
-static void write_region(json_writer *w, const void *from)
-{
-    json_write_box(w, &((const view_filter *)from)->region);
-}
-
-static bool has_region(const void *from)
-{
-    return ((const view_filter *)from)->by_region;
 }
 
 /* ---- Anti-aliasing ------------------------------------------------------------------------------------------ */
@@ -335,11 +311,12 @@ static const view_option rows[] = {
      MEMBER("slice", JSON_CODEC(read_slice, write_slice, has_slice), filter)},
     {"depths", "A:B", "levels from 0 to " NUMBER_DIGITS(OCTREE_MAX_DEPTH) " as in 2:5, 2:, :5 or 3",
      "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", parse_depths,
-     MEMBER("depths", JSON_CODEC(read_depths, write_depths, has_depths), filter)},
+     MEMBER("depths", JSON_CODEC(read_depths, write_depths, NULL), filter),
+     .member.given = offsetof(view, filter.by_depth)},
     {"leaves", NULL, NULL, "only leaves", parse_switch, MEMBER("leaves", &json_bool, filter.leaves)},
     {"region", "BOX", "six numbers as in -10,-10,-10,10,10,10",
      "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", parse_region,
-     MEMBER("region", JSON_CODEC(read_region, write_region, has_region), filter)},
+     MEMBER("region", &json_box, filter.region), .member.given = offsetof(view, filter.by_region)},
     {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes, where there is room", parse_switch,
      MEMBER("labels", &json_bool, labels)},
     {"lod", "PX", "pixels from 0 to " MOST_PIXELS,

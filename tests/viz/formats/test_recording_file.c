@@ -132,7 +132,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {VIEW ", \"lod\": -1}", "lod: expected a number from 0 to 16384, found -1"},
         {VIEW ", \"aa\": 3}", "aa: expected 1, 2 or 4, found 3"},
         {VIEW ", \"budget\": 0.5}", "budget: expected a whole number"},
-        {VIEW ", \"theme\": \"day\"}", "theme: expected the theme that there is"},
+        {VIEW ", \"theme\": \"day\"}", "theme: expected \"night\""},
     };
     const temp_folder *folder = *state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
