@@ -3,6 +3,7 @@
 #include "command_line.h"
 #include "explain.h"
 #include "ignored_layers.h"
+#include "number.h"
 #include "report.h"
 
 #include <stdio.h>
@@ -54,76 +55,71 @@ typedef struct arguments {
     bool json;
 } arguments;
 
-static const struct option options[] = {
-    {"max-pixels", required_argument, NULL, 'p'},
-    {"max-delta", required_argument, NULL, 'd'},
-    {"antialias", no_argument, NULL, 'a'},
-    {"ignore", required_argument, NULL, 'i'},
-    {"ignore-layer", required_argument, NULL, 'l'},
-    {"causes", required_argument, NULL, 'c'},
-    {"background", required_argument, NULL, 'b'},
-    {"output", required_argument, NULL, 'o'},
-    {"junit", required_argument, NULL, 'u'},
-    {"markdown", required_argument, NULL, 'm'},
-    {NULL, 0, NULL, 0},
-};
-
-static bool add_rectangle(arguments *a, const char *text)
+static bool read_delta(const command_option *option, const char *text, void *into)
 {
+    double *delta = into;
+    if (numbers_parse(text, delta, 1) && *delta >= 0 && *delta <= 1)
+        return true;
+    return refuse("--%s takes a number from 0 to 1, not \"%s\"", option->name, text);
+}
+
+static bool read_rectangle(const command_option *option, const char *text, void *into)
+{
+    arguments *a = into;
     image_tolerance *t = &a->options.tolerance;
+    const char *at = text;
+    uint64_t values[4] = {0};
+    bool ok = true;
+    for (int i = 0; ok && i < 4; i++, at++)
+        ok = whole_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
+    if (!ok || values[2] == 0 || values[3] == 0)
+        return refuse("--%s takes left, top, width and height in pixels, as in 10,20,300,40, each at most %d and the "
+                      "last two at least 1, not \"%s\"",
+                      option->name, INT32_MAX, text);
     image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
     if (!grown)
         return refuse("there is no memory for what is ignored");
+    grown[t->ignored_count++] = (image_rectangle){(int)values[0], (int)values[1], (int)values[2], (int)values[3]};
     t->ignored = a->ignored = grown;
-    return read_rectangle("--ignore", text, &grown[t->ignored_count]) && ++t->ignored_count;
-}
-
-static bool read_layers(const char *list, arguments *a)
-{
-    const char *bad;
-    if (a->options.mask)
-        return refuse("--ignore-layer is given once, with commas between the names of several layers");
-    if (!view_layers_parse(list, &a->layers, &bad))
-        return refuse("--ignore-layer takes names of layers with commas between, and \"%.*s\" is none",
-                      (int)strcspn(bad, ","), bad);
-    a->options.mask = ignore_layers;
-    a->options.mask_context = &a->layers;
-    a->options.layers = list;
     return true;
 }
 
-static bool read_option(int option, void *context)
+static bool read_layers(const command_option *option, const char *text, void *into)
 {
-    arguments *a = context;
-    switch (option) {
-    case 'p':
-        return read_count("--max-pixels", optarg, 0, UINT32_MAX, &a->options.tolerance.max_pixels);
-    case 'd':
-        return read_part("--max-delta", optarg, &a->options.tolerance.max_delta);
-    case 'a':
-        a->options.tolerance.antialias = true;
-        return true;
-    case 'i':
-        return add_rectangle(a, optarg);
-    case 'l':
-        return read_layers(optarg, a);
-    case 'c':
-        a->causes = UINT64_MAX;
-        a->causes_said = true;
-        return strcmp(optarg, "all") == 0 || read_count("--causes", optarg, 0, UINT32_MAX, &a->causes);
-    case 'b':
-        return read_color("--background", optarg, &a->options.background);
-    case 'o':
-        a->folder = optarg;
-        return check_name("-o", optarg);
-    case 'u':
-        a->junit = optarg;
-        return check_name("--junit", optarg);
-    default:
-        a->markdown = optarg;
-        return check_name("--markdown", optarg);
-    }
+    arguments *a = into;
+    const char *bad;
+    if (a->options.mask)
+        return refuse("--%s is given once, with commas between the names of several layers", option->name);
+    if (!view_layers_parse(text, &a->layers, &bad))
+        return refuse("--%s takes names of layers with commas between, and \"%.*s\" is none", option->name,
+                      (int)strcspn(bad, ","), bad);
+    a->options.mask = ignore_layers;
+    a->options.mask_context = &a->layers;
+    a->options.layers = text;
+    return true;
 }
+
+static bool read_causes(const command_option *option, const char *text, void *into)
+{
+    arguments *a = into;
+    a->causes = UINT64_MAX;
+    a->causes_said = true;
+    return strcmp(text, "all") == 0 || read_whole(option, text, &a->causes);
+}
+
+static const command_option options[] = {
+    {"max-pixels", read_whole, OPTION_VALUE(arguments, options.tolerance.max_pixels), 0, UINT32_MAX},
+    {"max-delta", read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta), 0, 0},
+    {"antialias", read_flag, OPTION_VALUE(arguments, options.tolerance.antialias), 0, 0},
+    {"ignore", read_rectangle, 0, 0, 0, 0},
+    {"ignore-layer", read_layers, 0, 0, 0, 0},
+    {"causes", read_causes, 0, sizeof(uint64_t), 0, UINT32_MAX},
+    {"background", read_color, OPTION_VALUE(arguments, options.background), 0, 0},
+    {"output", read_name, OPTION_VALUE(arguments, folder), 0, 0},
+    {"junit", read_name, OPTION_VALUE(arguments, junit), 0, 0},
+    {"markdown", read_name, OPTION_VALUE(arguments, markdown), 0, 0},
+    {0},
+};
 
 /* The first sentence of what cannot be read, and how many more there are; or why nobody can say why. */
 static int tell_trouble(const diff_result *result, const explanation *why)
@@ -250,10 +246,8 @@ int cmd_diff(int argc, char **argv)
     arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
     const command_line line = {.name = "diff",
                                .help = help,
-                               .short_options = "o:h",
                                .options = options,
-                               .read = read_option,
-                               .context = &a,
+                               .arguments = &a,
                                .json = &a.json,
                                .least = 2,
                                .most = 2,

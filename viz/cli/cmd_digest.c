@@ -53,30 +53,19 @@ typedef struct arguments {
     image_color background;
 } arguments;
 
-static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"background", required_argument, NULL, 'b'},
-    {NULL, 0, NULL, 0},
+static const command_option options[] = {
+    {"output", read_name, OPTION_VALUE(arguments, path), 0, 0},
+    {"background", read_color, OPTION_VALUE(arguments, background), 0, 0},
+    {0},
 };
-
-static bool read_option(int option, void *context)
-{
-    arguments *a = context;
-    if (option == 'b')
-        return read_color("--background", optarg, &a->background);
-    a->path = optarg;
-    return check_name("-o", optarg);
-}
 
 int cmd_digest(int argc, char **argv)
 {
     arguments a = {.background = IMAGE_WHITE};
     const command_line line = {.name = "digest",
                                .help = help,
-                               .short_options = "o:h",
                                .options = options,
-                               .read = read_option,
-                               .context = &a,
+                               .arguments = &a,
                                .least = 1,
                                .most = 1,
                                .takes = "one folder of frames"};

@@ -5,6 +5,7 @@
 #include "film.h"
 #include "inspect.h"
 #include "inspect_answers.h"
+#include "number.h"
 #include "progress.h"
 
 #include <inttypes.h>
@@ -44,78 +45,55 @@ typedef struct arguments {
     renderer_choice renderer;
 } arguments;
 
-static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'}, {"capacity", required_argument, NULL, 'C'},
-    {"depth", required_argument, NULL, 'd'},  {"full", required_argument, NULL, 'f'},
-    {"world", required_argument, NULL, 'w'},  {"node", required_argument, NULL, 'n'},
-    {"nodes", required_argument, NULL, 'N'},  {NULL, 0, NULL, 0},
-};
-
-static bool read_world(const char *text, octree_box *world)
+static bool read_depth(const command_option *option, const char *text, void *into)
 {
-    if (!read_box("--world", text, world))
-        return false;
-    for (int i = 0; i < 3; i++)
-        if (world->min[i] == world->max[i])
-            return refuse("--world: min must be below max on every axis, not so in \"%s\"", text);
-    return true;
+    if (strchr(text, ':'))
+        return refuse("--depth is that of the tree, one number; --depths %s shows some of its levels", text);
+    return read_whole(option, text, into);
 }
 
-static bool read_full(const char *text, octree_full_leaf *mode)
+static bool read_full(const command_option *option, const char *text, void *into)
 {
+    octree_full_leaf *mode = into;
     *mode = strcmp(text, "grow") == 0 ? OCTREE_GROW : OCTREE_REFUSE;
     if (*mode == OCTREE_GROW || strcmp(text, "refuse") == 0)
         return true;
-    return refuse("--full takes refuse or grow, not \"%s\"", text);
+    return refuse("--%s takes refuse or grow, not \"%s\"", option->name, text);
 }
 
-static bool read_tree_option(arguments *a, int option)
+static bool read_world(const command_option *option, const char *text, void *into)
 {
-    uint64_t value = 0;
-    bool ok = true;
-    switch (option) {
-    case 'C':
-        ok = read_count("--capacity", optarg, 1, UINT32_MAX, &value);
-        a->def.leaf_capacity = (size_t)value;
-        return ok;
-    case 'd':
-        if (strchr(optarg, ':'))
-            return refuse("--depth is that of the tree, one number; --depths %s shows some of its levels", optarg);
-        ok = read_count("--depth", optarg, 0, OCTREE_MAX_DEPTH, &value);
-        a->def.max_depth = (size_t)value;
-        return ok;
-    case 'f':
-        return read_full(optarg, &a->def.full_leaf);
-    default:
-        a->has_world = true;
-        return read_world(optarg, &a->def.world);
+    arguments *a = into;
+    octree_box *world = &a->def.world;
+    double corners[6];
+    a->has_world = true;
+    if (!numbers_parse(text, corners, 6))
+        return refuse("--%s takes six numbers as in -10,-10,-10,10,10,10, not \"%s\"", option->name, text);
+    for (int i = 0; i < 3; i++) {
+        world->min[i] = corners[i];
+        world->max[i] = corners[i + 3];
+        if (world->min[i] >= world->max[i])
+            return refuse("--%s: min must be below max on every axis, not so in \"%s\"", option->name, text);
     }
-}
-
-static bool read_node(arguments *a, const char *address)
-{
-    if (a->node)
-        return refuse("--node names one node, not %s and %s", a->node, address);
-    a->node = address;
     return true;
 }
 
-static bool read_option(int option, void *context)
+static bool read_node(const command_option *option, const char *text, void *into)
 {
-    arguments *a = context;
-    switch (option) {
-    case 'o':
-        a->picture = optarg;
-        return check_name("-o", optarg);
-    case 'n':
-        return read_node(a, optarg);
-    case 'N':
-        a->nodes = optarg;
-        return check_name("--nodes", optarg);
-    default:
-        return read_tree_option(a, option);
-    }
+    const char **node = into;
+    return *node ? refuse("--node names one node, not %s and %s", *node, text) : read_text(option, text, into);
 }
+
+static const command_option options[] = {
+    {"output", read_name, OPTION_VALUE(arguments, picture), 0, 0},
+    {"capacity", read_whole, OPTION_VALUE(arguments, def.leaf_capacity), 1, UINT32_MAX},
+    {"depth", read_depth, OPTION_VALUE(arguments, def.max_depth), 0, OCTREE_MAX_DEPTH},
+    {"full", read_full, OPTION_VALUE(arguments, def.full_leaf), 0, 0},
+    {"world", read_world, 0, sizeof(arguments), 0, 0},
+    {"node", read_node, OPTION_VALUE(arguments, node), 0, 0},
+    {"nodes", read_name, OPTION_VALUE(arguments, nodes), 0, 0},
+    {0},
+};
 
 /* ---- The report --------------------------------------------------------------------------------------------- */
 
@@ -249,10 +227,8 @@ int cmd_inspect(int argc, char **argv)
     const command_line line = {.name = "inspect",
                                .help = help,
                                .more_help = more_help,
-                               .short_options = "o:h",
                                .options = options,
-                               .read = read_option,
-                               .context = &a,
+                               .arguments = &a,
                                .json = &a.json,
                                .renderer = &a.renderer,
                                .view = &a.view_options,

@@ -25,25 +25,18 @@ static const char more_help[] =
     "Example: octreel record -o flight\n"
     "         octreel pick flight/frame_000219.png 800 200\n";
 
-static bool read_pixels(const char *name, const char *text, uint64_t most, int *value)
+static bool read_place(const char *name, const char *text, int *value)
 {
-    uint64_t number;
-    if (!read_count(name, text, 0, most, &number))
-        return false;
+    uint64_t number = 0;
+    const bool ok = read_count(name, text, 0, MOST_PLACE, &number);
     *value = (int)number;
-    return true;
+    return ok;
 }
 
-static const struct option options[] = {{"radius", required_argument, NULL, 'r'}, {NULL, 0, NULL, 0}};
-
-static bool read_option(int option, void *context)
-{
-    pick_options *pick = context;
-    if (option == 'r')
-        return read_pixels("--radius", optarg, VIEW_MAX_SIDE, &pick->radius);
-    trouble("the coordinates of a pixel are counted from 0 on, from the top left"); /* a digit, as in -10 */
-    return false;
-}
+static const command_option options[] = {
+    {"radius", read_whole, OPTION_VALUE(pick_options, radius), 0, VIEW_MAX_SIDE},
+    {0},
+};
 
 static int pick_it(const char *frame, const pick_options *options, bool json)
 {
@@ -63,10 +56,9 @@ int cmd_pick(int argc, char **argv)
     const command_line line = {.name = "pick",
                                .help = help,
                                .more_help = more_help,
-                               .short_options = "h0123456789", /* a negative number looks like an option */
                                .options = options,
-                               .read = read_option,
-                               .context = &pick,
+                               .arguments = &pick,
+                               .no_negative = "the coordinates of a pixel are counted from 0 on, from the top left",
                                .json = &json,
                                .renderer = &pick.renderer,
                                .least = 3,
@@ -75,7 +67,6 @@ int cmd_pick(int argc, char **argv)
     const int status = command_line_read(&line, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
-    const bool ok = read_pixels("X", argv[optind + 1], MOST_PLACE, &pick.x) &&
-                    read_pixels("Y", argv[optind + 2], MOST_PLACE, &pick.y);
+    const bool ok = read_place("X", argv[optind + 1], &pick.x) && read_place("Y", argv[optind + 2], &pick.y);
     return ok ? pick_it(argv[optind], &pick, json) : EXIT_TROUBLE;
 }

@@ -3,6 +3,7 @@
 #include "command_line.h"
 #include "film.h"
 #include "film_report.h"
+#include "number.h"
 #include "progress.h"
 #include "recording_file.h"
 #include "folder_files.h"
@@ -41,44 +42,29 @@ typedef struct arguments {
     bool json;
 } arguments;
 
-static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'},
-    {"keys", required_argument, NULL, 'k'},
-    {"every", required_argument, NULL, 'e'},
-    {"ticks", required_argument, NULL, 't'},
-    {"jobs", required_argument, NULL, 'p'},
-    {"resume", no_argument, NULL, 'r'},
-    {NULL, 0, NULL, 0},
+static bool read_ticks(const command_option *option, const char *text, void *into)
+{
+    film_options *film = into;
+    const char *at = text;
+    film->first = 0;
+    film->last = UINT64_MAX;
+    const bool begins = whole_parse(&at, UINT64_MAX - 1, &film->first), open = *at == ':';
+    at += open;
+    const bool ends = open && whole_parse(&at, UINT64_MAX, &film->last);
+    if (open && (begins || ends) && *at == 0 && film->first < film->last)
+        return true;
+    return refuse("--%s takes ticks as in 100:200 (from 100 to 199), 100: or :200, not \"%s\"", option->name, text);
+}
+
+static const command_option options[] = {
+    {"output", read_text, OPTION_VALUE(arguments, film.folder), 0, 0},
+    {"keys", read_text, OPTION_VALUE(arguments, keys), 0, 0},
+    {"every", read_whole, OPTION_VALUE(arguments, film.every), 1, 1000000000},
+    {"ticks", read_ticks, OPTION_VALUE(arguments, film), 0, 0},
+    {"jobs", read_whole, OPTION_VALUE(arguments, film.jobs), 1, FILM_MOST_JOBS},
+    {"resume", read_flag, OPTION_VALUE(arguments, film.resume), 0, 0},
+    {0},
 };
-
-static bool read_jobs(const char *text, unsigned *jobs)
-{
-    uint64_t value = 0;
-    const bool ok = read_count("--jobs", text, 1, FILM_MOST_JOBS, &value);
-    *jobs = (unsigned)value;
-    return ok;
-}
-
-static bool read_option(int option, void *context)
-{
-    arguments *a = context;
-    switch (option) {
-    case 'o':
-        a->film.folder = optarg;
-        return true;
-    case 'k':
-        a->keys = optarg;
-        return true;
-    case 'e':
-        return read_count("--every", optarg, 1, 1000000000, &a->film.every);
-    case 't':
-        return read_ticks(optarg, &a->film.first, &a->film.last);
-    case 'p':
-        return read_jobs(optarg, &a->film.jobs);
-    default:
-        return a->film.resume = true;
-    }
-}
 
 static int film_it(arguments *a, const octree_session *session)
 {
@@ -160,10 +146,8 @@ int cmd_record(int argc, char **argv)
     const command_line line = {.name = "record",
                                .help = help,
                                .more_help = more_help,
-                               .short_options = "o:h",
                                .options = options,
-                               .read = read_option,
-                               .context = &a,
+                               .arguments = &a,
                                .json = &a.json,
                                .renderer = &a.film.renderer,
                                .view = &a.view,

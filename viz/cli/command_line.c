@@ -4,14 +4,16 @@
 #include <string.h>
 
 #define MOST_OPTIONS 64
+#define OWN_OPTION 1024 /* the first of getopt's numbers for a command's own */
 
 static void list_options(const command_line *line, struct option all[MOST_OPTIONS])
 {
     static const struct option drawing[] = {{"context", required_argument, NULL, OPTION_CONTEXT},
                                             {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER}};
     size_t count = 0;
-    for (const struct option *own = line->options; own && own->name; own++)
-        all[count++] = *own;
+    for (const command_option *own = line->options; own && own->name; own++)
+        all[count++] = (struct option){own->name, own->read == read_flag ? no_argument : required_argument, NULL,
+                                       OWN_OPTION + (int)(own - line->options)};
     if (line->queries)
         count += list_query_options(all + count);
     if (line->view)
@@ -40,6 +42,21 @@ static int print_help(const command_line *line)
     return EXIT_DONE;
 }
 
+/* getopt's number for -o; 0 where the command has none. */
+static int find_output(const command_line *line)
+{
+    for (const command_option *own = line->options; own && own->name; own++)
+        if (strcmp(own->name, "output") == 0)
+            return OWN_OPTION + (int)(own - line->options);
+    return 0;
+}
+
+static bool read_own(const command_line *line, int option)
+{
+    const command_option *own = &line->options[option - OWN_OPTION];
+    return own->read(own, optarg, (char *)line->arguments + own->offset);
+}
+
 static bool read_option(const command_line *line, int option)
 {
     if (line->view && take_view_option(line->view, option))
@@ -56,14 +73,16 @@ static bool read_option(const command_line *line, int option)
     case '?': /* getopt has said what is wrong */
         fprintf(stderr, "octreel %s --help tells what it takes\n", line->name);
         return false;
-    default:
-        return line->read(option, line->context);
+    case 'o':
+        return read_own(line, find_output(line));
+    default: /* a digit, as in -10 */
+        return option >= OWN_OPTION ? read_own(line, option) : refuse("%s", line->no_negative);
     }
 }
 
 int command_line_read(const command_line *line, int argc, char **argv)
 {
-    const char *letters = line->short_options ? line->short_options : "h";
+    const char *letters = line->no_negative ? "h0123456789" : find_output(line) ? "o:h" : "h";
     struct option all[MOST_OPTIONS];
     list_options(line, all);
     optind = 1;

@@ -8,13 +8,10 @@
 /* What a command takes. Shared options are those whose member is not null. */
 typedef struct command_line {
     const char *name;
-    const char *help, *more_help; /* around the help of the shared options; more_help may be null */
-    const char *short_options;    /* as getopt takes them; null: "h" */
-    const struct option *options; /* the command's own, ended by a zeroed one; may be null */
-
-    /* Read one of them, its value in optarg. False, with the sentence printed, where it does not fit. */
-    bool (*read)(int option, void *context);
-    void *context;
+    const char *help, *more_help;  /* around the help of the shared options; more_help may be null */
+    const command_option *options; /* the command's own, ended by a zeroed one; may be null */
+    void *arguments;               /* where their values go */
+    const char *no_negative;       /* the sentence about an argument such as -10; null: getopt's own */
 
     bool *json;                /* --json */
     renderer_choice *renderer; /* --context, --any-renderer */

@@ -37,7 +37,7 @@ bool refuse(const char *format, ...)
     return false;
 }
 
-bool check_name(const char *option, const char *name)
+static bool check_name(const char *option, const char *name)
 {
     return *name || refuse("%s takes a name, and the one that it is given is empty", option);
 }
@@ -52,72 +52,60 @@ bool check_names(const char *command, char *const *names, int count)
 
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 
-bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value)
+bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value)
 {
     const char *at = text;
     if (whole_parse(&at, max, value) && *at == 0 && *value >= min)
         return true;
-    return refuse("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", option, min, max, text);
+    return refuse("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", name, min, max, text);
 }
 
-bool read_ticks(const char *text, uint64_t *first, uint64_t *last)
+const char *option_typed(const command_option *option, char text[OPTION_TYPED])
 {
-    const char *at = text;
-    *first = 0;
-    *last = UINT64_MAX;
-    const bool begins = whole_parse(&at, UINT64_MAX - 1, first), open = *at == ':';
-    at += open;
-    const bool ends = open && whole_parse(&at, UINT64_MAX, last);
-    if (open && (begins || ends) && *at == 0 && *first < *last)
-        return true;
-    return refuse("--ticks takes ticks as in 100:200 (from 100 to 199), 100: or :200, not \"%s\"", text);
+    snprintf(text, OPTION_TYPED, "--%s", option->name);
+    return strcmp(option->name, "output") == 0 ? "-o" : text;
 }
 
-bool read_box(const char *option, const char *text, octree_box *box)
+bool read_flag(const command_option *option, const char *text, void *into)
 {
-    double values[6];
-    if (!numbers_parse(text, values, 6))
-        return refuse("%s takes six numbers as in -10,-10,-10,10,10,10, not \"%s\"", option, text);
-    for (int i = 0; i < 3; i++) {
-        box->min[i] = values[i];
-        box->max[i] = values[i + 3];
-        if (box->min[i] > box->max[i])
-            return refuse("%s: min must be below max on every axis, not so in \"%s\"", option, text);
-    }
+    (void)option, (void)text;
+    return *(bool *)into = true;
+}
+
+bool read_text(const command_option *option, const char *text, void *into)
+{
+    (void)option;
+    *(const char **)into = text;
     return true;
 }
 
-bool read_rectangle(const char *option, const char *text, image_rectangle *rectangle)
+bool read_name(const command_option *option, const char *text, void *into)
 {
-    const char *at = text;
-    uint64_t values[4] = {0};
-    bool ok = true;
-    for (int i = 0; ok && i < 4; i++, at++)
-        ok = whole_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
-    if (!ok || values[2] == 0 || values[3] == 0)
-        return refuse(
-            "%s takes left, top, width and height in pixels, as in 10,20,300,40, each at most %d and the last "
-            "two at least 1, not \"%s\"",
-            option, INT32_MAX, text);
-    *rectangle = (image_rectangle){(int)values[0], (int)values[1], (int)values[2], (int)values[3]};
+    char typed[OPTION_TYPED];
+    return read_text(option, text, into) && check_name(option_typed(option, typed), text);
+}
+
+bool read_whole(const command_option *option, const char *text, void *into)
+{
+    char typed[OPTION_TYPED];
+    uint64_t value;
+    if (!read_count(option_typed(option, typed), text, option->min, option->max, &value))
+        return false;
+    if (option->size == sizeof value)
+        memcpy(into, &value, sizeof value);
+    else
+        memcpy(into, &(uint32_t){(uint32_t)value}, sizeof(uint32_t));
     return true;
 }
 
-bool read_color(const char *option, const char *text, image_color *color)
+bool read_color(const command_option *option, const char *text, void *into)
 {
     const char *digits = text[0] == '#' ? text + 1 : text;
     if (strlen(digits) != 6 || strspn(digits, "0123456789abcdefABCDEF") != 6)
-        return refuse("%s takes a colour as in ff8000, not \"%s\"", option, text);
+        return refuse("--%s takes a colour as in ff8000, not \"%s\"", option->name, text);
     const unsigned long value = strtoul(digits, NULL, 16);
-    *color = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
+    *(image_color *)into = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
     return true;
-}
-
-bool read_part(const char *option, const char *text, double *value)
-{
-    if (numbers_parse(text, value, 1) && *value >= 0 && *value <= 1)
-        return true;
-    return refuse("%s takes a number from 0 to 1, not \"%s\"", option, text);
 }
 
 /* ---- Options of a view -------------------------------------------------------------------------------------- */

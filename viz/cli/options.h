@@ -7,6 +7,7 @@
 
 #include <getopt.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -19,17 +20,36 @@ int trouble(const char *format, ...);
 /* The same for readers of values: returns false. */
 bool refuse(const char *format, ...);
 
+/* An option of one command: how its value is read, and where it goes. */
+typedef struct command_option command_option;
+
+/* Read a value. False, with the sentence printed, where `text` does not fit. */
+typedef bool command_option_reader(const command_option *option, const char *text, void *into);
+
+struct command_option {
+    const char *name; /* without dashes; "output" has the short form -o. Null ends a table */
+    command_option_reader *read;
+    size_t offset, size; /* of the value in the command's arguments */
+    uint64_t min, max;   /* of a whole number */
+};
+
+#define OPTION_VALUE(type, member) offsetof(type, member), sizeof(((type *)NULL)->member)
+
+/* As it is typed: "--every", "-o". */
+#define OPTION_TYPED 32
+const char *option_typed(const command_option *option, char text[OPTION_TYPED]);
+
+command_option_reader read_flag;  /* bool: the option takes no value */
+command_option_reader read_text;  /* const char * */
+command_option_reader read_name;  /* the same, of a file or folder: not empty */
+command_option_reader read_whole; /* an integer type */
+command_option_reader read_color; /* image_color, as RRGGBB or #RRGGBB */
+
 /* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
-bool check_name(const char *option, const char *name);
 bool check_names(const char *command, char *const *names, int count);
 
-/* Read the value of an option. False, with the sentence printed, where `text` does not fit. */
-bool read_count(const char *option, const char *text, uint64_t min, uint64_t max, uint64_t *value);
-bool read_box(const char *option, const char *text, octree_box *box);                  /* six numbers, min <= max */
-bool read_rectangle(const char *option, const char *text, image_rectangle *rectangle); /* left, top, width, height */
-bool read_color(const char *option, const char *text, image_color *color);             /* RRGGBB or #RRGGBB */
-bool read_part(const char *option, const char *text, double *value);                   /* 0 to 1 */
-bool read_ticks(const char *text, uint64_t *first, uint64_t *last);                    /* A:B, A: or :B; first < last */
+/* A whole number that is no option's. */
+bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value);
 
 /* The options of a view are the same for every command that draws. They are collected while the command line is read,
  * and then become a view. */
