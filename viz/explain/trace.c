@@ -284,7 +284,7 @@ void trace_print_part(FILE *out, const trace_part *part)
     else if (part->layer == TRACE_BACKGROUND)
         fputs("the background", out);
     else
-        fputs(view_layer_words((view_layer)part->layer), out);
+        fputs(layer_rows[part->layer].words, out);
 }
 
 void trace_print(FILE *out, const trace *t)

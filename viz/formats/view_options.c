@@ -25,7 +25,7 @@ static const char *diagram_at(int n)
 
 const char *view_layer_at(int n)
 {
-    return n < LAYER_COUNT ? view_layer_name((view_layer)n) : NULL;
+    return n < LAYER_COUNT ? layer_rows[n].name : NULL;
 }
 
 /* Those of view_fit that a command line can ask for. */

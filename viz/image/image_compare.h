@@ -17,7 +17,7 @@ typedef struct image_rectangle {
 typedef struct image_tolerance {
     uint64_t max_pixels; /* so many unlike pixels, after all else is forgiven */
     double max_delta;    /* unlike pixels no farther apart than this, in IMAGE_DELTA_UNIT */
-    bool antialias;      /* pixels that anti-aliasing explains; see antialias.c */
+    bool antialias;      /* pixels on anti-aliased edges */
     const image_rectangle *ignored;
     size_t ignored_count;
     const uint8_t *ignored_mask; /* a byte a pixel, not 0: ignored too; as large as the images. Null: none */

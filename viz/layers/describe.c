@@ -90,7 +90,7 @@ static void describe(description *d, const described *element)
     else if (element->kind == SCENE_MARKER)
         say_point(d, element->id, element->at);
     if (found)
-        say(d, ", found by a %s query", view_layer_name((view_layer)element->style.layer));
+        say(d, ", found by a %s query", layer_rows[element->style.layer].name);
 }
 
 element_subject describe_element(const octree_game *game, const heat *h, const scene *s, scene_element element)

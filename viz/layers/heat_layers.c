@@ -7,12 +7,7 @@
 
 unsigned heat_step(uint64_t amount, unsigned shift)
 {
-    unsigned step = 0;
-    while (step < HEAT_STEPS - 1 && amount >> shift) {
-        amount >>= shift;
-        step++;
-    }
-    return step;
+    return theme_step(amount >> shift, shift);
 }
 
 /* What the walk over the leaves carries with it. */

@@ -113,7 +113,6 @@ static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_SQUARE] = {{7, 2, 5, 5}},
     [SIGN_ARROW] = {{0, 4, SWATCH, 1}, {17, 3, 2, 3}, {15, 2, 2, 5}, {13, 1, 2, 7}},
     [SIGN_NODES] = {{3, 1, 6, 6}, {14, 3, 3, 3}},
-    [SIGN_PATH] = {{0, 4, SWATCH, 1}},
     [SIGN_BARS] = {{6, 3, 2, 2}, {9, 1, 2, 6}, {12, 2, 2, 4}},
     [SIGN_NODE] = {{7, 1, 6, 6}},
 };

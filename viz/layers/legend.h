@@ -23,7 +23,6 @@ typedef enum legend_sign {
     SIGN_RAMP, /* the colours of nodes, from the first: as many as there are in `steps` */
     SIGN_GROWING_RAMP,
     SIGN_NODES, /* of the diagram */
-    SIGN_PATH,
     SIGN_BARS,
     SIGN_NODE,
 } legend_sign;

@@ -4,7 +4,7 @@ theme_role node_role(const view *v, unsigned depth, size_t points)
 {
     switch (v->coloring) {
     case COLORING_OCCUPANCY:
-        return theme_node_role(theme_occupancy_step(points));
+        return theme_node_role(theme_step(points, 1));
     case COLORING_PLAIN:
         return ROLE_NODE_PLAIN;
     default:

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define FEW_POINTS 32 /* of a leaf: sorted on the stack */
+
 /* What the walk over the nodes carries with it. */
 typedef struct tree_walk {
     scene *scene;
@@ -40,36 +42,6 @@ static void thin_points(tree_walk *w)
     s->markers.count = kept;
 }
 
-/* These are in the order in which they are shown. */
-static void add_sorted(tree_walk *w, const octree_point *points, size_t count)
-{
-    scene *s = w->scene;
-    scene_add_points(s, layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width), points, count);
-    s->tally.points += count;
-    while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
-        thin_points(w);
-}
-
-static bool are_sorted(const octree_point *points, size_t count)
-{
-    for (size_t i = 1; i < count; i++)
-        if (octree_compare_points(&points[i - 1], &points[i]) > 0)
-            return false;
-    return true;
-}
-
-/* Few, and often in order already. */
-static void sort_few(octree_point *points, size_t count)
-{
-    for (size_t i = 1; i < count; i++) {
-        const octree_point it = points[i];
-        size_t at = i;
-        for (; at > 0 && octree_compare_points(&points[at - 1], &it) > 0; at--)
-            points[at] = points[at - 1];
-        points[at] = it;
-    }
-}
-
 /* Whether a point is shown, by the filter and the budget. */
 static bool takes_point(tree_walk *w, const octree_point *point)
 {
@@ -80,33 +52,37 @@ static bool takes_point(tree_walk *w, const octree_point *point)
     return !out;
 }
 
-/* Those of a leaf's points that are shown, sorted, by way of memory for all of them. */
-static void add_some(tree_walk *w, const octree_node *leaf, octree_point *some, size_t most_few)
+/* Insertion sort where there are few: they are often in order already. */
+static void sort_points(octree_point *points, size_t count)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < leaf->count; i++)
-        if (takes_point(w, &leaf->points[i]))
-            some[count++] = leaf->points[i];
-    if (count <= most_few)
-        sort_few(some, count);
-    else
-        qsort(some, count, sizeof *some, octree_compare_points);
-    add_sorted(w, some, count);
-}
-
-/* A leaf's points come in no stated order: sort them, so that a scene does not depend on the tree's history. */
-static void add_points(tree_walk *w, const octree_node *leaf)
-{
-    enum { FEW = 32 };
-    if (!w->sieve && !filter_is_on(&w->scene->view.filter) && are_sorted(leaf->points, leaf->count)) {
-        add_sorted(w, leaf->points, leaf->count);
+    if (count > FEW_POINTS) {
+        qsort(points, count, sizeof *points, octree_compare_points);
         return;
     }
-    octree_point few[FEW], *some = leaf->count <= FEW ? few : malloc(leaf->count * sizeof *some);
-    if (some)
-        add_some(w, leaf, some, FEW);
-    else
-        w->scene->out_of_memory = true;
+    for (size_t i = 1; i < count; i++) {
+        const octree_point it = points[i];
+        size_t at = i;
+        for (; at > 0 && octree_compare_points(&points[at - 1], &it) > 0; at--)
+            points[at] = points[at - 1];
+        points[at] = it;
+    }
+}
+
+/* A leaf's points come in no defined order: they are sorted, so that a scene does not depend on the tree's history. */
+static void add_points(tree_walk *w, const octree_node *leaf)
+{
+    scene *s = w->scene;
+    octree_point few[FEW_POINTS], *some = leaf->count <= FEW_POINTS ? few : malloc(leaf->count * sizeof *some);
+    size_t count = 0;
+    s->out_of_memory = s->out_of_memory || !some;
+    for (size_t i = 0; some && i < leaf->count; i++)
+        if (takes_point(w, &leaf->points[i]))
+            some[count++] = leaf->points[i];
+    sort_points(some, count);
+    scene_add_points(s, layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width), some, count);
+    s->tally.points += count;
+    while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
+        thin_points(w);
     if (some != few)
         free(some);
 }

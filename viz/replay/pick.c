@@ -121,7 +121,7 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
         p->elements[p->count++] = (pick_element){
             .touch = touches.items[i],
             .kind = element.kind,
-            .layer = view_layer_name((view_layer)scene_head_of(s, element).style.layer),
+            .layer = layer_rows[scene_head_of(s, element).style.layer].name,
             .subject = describe_element(from->playback.game, &from->playback.heat, s, element),
         };
     }

@@ -6,16 +6,6 @@
 #define LAYER_ROW(layer, name, words, role, fades, shown) {name, words, role, fades},
 const layer_row layer_rows[LAYER_COUNT + 1] = {LAYER_MAP(LAYER_ROW)};
 
-const char *view_layer_name(view_layer layer)
-{
-    return (unsigned)layer <= LAYER_COUNT ? layer_rows[layer].name : NULL;
-}
-
-const char *view_layer_words(view_layer layer)
-{
-    return (unsigned)layer <= LAYER_COUNT ? layer_rows[layer].words : NULL;
-}
-
 /* The bits that a name of this length stands for; false when it is unknown. */
 static bool find_layers(const char *name, size_t length, unsigned *bits)
 {

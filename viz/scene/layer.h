@@ -48,8 +48,8 @@ typedef enum view_layer {
 } view_layer;
 
 typedef struct layer_row {
-    const char *name, *words;
-    uint8_t role; /* theme_role */
+    const char *name, *words; /* "visit-heat"; "pruned nodes" */
+    uint8_t role;             /* theme_role */
     bool fades;
 } layer_row;
 
@@ -60,10 +60,6 @@ extern const layer_row layer_rows[LAYER_COUNT + 1];
 
 #define LAYER_DEFAULT_BIT(layer, name, words, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
 #define VIEW_DEFAULT_LAYERS ((0u LAYER_MAP(LAYER_DEFAULT_BIT)) & VIEW_ALL_LAYERS)
-
-/* "visit-heat", and "the world", "pruned nodes"; null beyond the last. */
-const char *view_layer_name(view_layer layer);
-const char *view_layer_words(view_layer layer);
 
 /* Layers by a list of names with commas between, or "all", "default" or "none"; "-text" leaves one out, and a list that
  * begins so starts from the default. On failure *bad points at the name that is unknown. */

@@ -195,7 +195,7 @@ static digest_names hash_names(void)
 {
     digest_names n;
     for (int i = 0; i <= LAYER_DIAGRAM; i++)
-        n.layers[i] = hash_name("layer ", view_layer_name((view_layer)i));
+        n.layers[i] = hash_name("layer ", layer_rows[i].name);
     for (int i = 0; i < ROLE_COUNT; i++)
         n.roles[i] = hash_name("role ", theme_role_name((theme_role)i));
     return n;

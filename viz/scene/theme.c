@@ -10,11 +10,6 @@ const char *theme_role_name(theme_role role)
     return role_names[role];
 }
 
-const char *theme_name(void)
-{
-    return "night";
-}
-
 /* How much of the role's own colour is left in a shade, in 256ths: the far end keeps less than half. */
 static const int strength[THEME_SHADES] = {256, 236, 216, 196, 176, 156, 136, 116};
 
@@ -41,10 +36,10 @@ theme_role theme_node_role(unsigned depth)
     return (theme_role)(ROLE_NODE + (depth < THEME_NODE_DEPTHS ? depth : THEME_NODE_DEPTHS - 1));
 }
 
-unsigned theme_occupancy_step(size_t count)
+unsigned theme_step(uint64_t amount, unsigned shift)
 {
     unsigned step = 0;
-    for (; count > 0 && step < THEME_NODE_DEPTHS - 1; count /= 2)
+    for (; amount > 0 && step < THEME_NODE_DEPTHS - 1; amount >>= shift)
         step++;
     return step;
 }

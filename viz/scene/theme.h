@@ -56,7 +56,7 @@ typedef struct theme_color {
 } theme_color;
 
 /* The name that recording.json gives to this table. */
-const char *theme_name(void);
+#define THEME_NAME "night"
 
 /* "range", "node-3". */
 const char *theme_role_name(theme_role role);
@@ -78,10 +78,11 @@ static inline uint8_t theme_index(unsigned role, unsigned shade)
 /* The colour of a node by its depth, or by any other step of the same ramp. */
 theme_role theme_node_role(unsigned depth);
 
-/* The step of the ramp for a number of points: 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
-unsigned theme_occupancy_step(size_t count);
+/* The step of the ramp for an amount: each step begins at 2^shift times the one before. With a shift of 1 the steps are
+ * 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
+unsigned theme_step(uint64_t amount, unsigned shift);
 
-/* Where its last step begins. */
+/* Where the last step begins, with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
 /* The one colour of nodes that tell nothing by it. */

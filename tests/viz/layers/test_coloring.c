@@ -82,11 +82,11 @@ static void steps_of_occupancy_are_powers_of_two(void **state)
     (void)state;
     static const size_t counts[] = {0, 1, 2, 4, 8, 16, 32, 64, 128, 256};
     for (unsigned step = 0; step < THEME_NODE_DEPTHS; step++) {
-        assert_int_equal(theme_occupancy_step(counts[step]), step);
+        assert_int_equal(theme_step(counts[step], 1), step);
         if (step > 1)
-            assert_int_equal(theme_occupancy_step(counts[step] - 1), step - 1);
+            assert_int_equal(theme_step(counts[step] - 1, 1), step - 1);
     }
-    assert_int_equal(theme_occupancy_step(SIZE_MAX), THEME_NODE_DEPTHS - 1);
+    assert_int_equal(theme_step(SIZE_MAX, 1), THEME_NODE_DEPTHS - 1);
 }
 
 int main(void)

@@ -162,8 +162,7 @@ static void words_of_a_node_and_of_a_point_are_these(void **state)
         assert_string_equal(subject.text,
                             "node root: inner node at depth 0, 11 points, box (-1000, -1000, -1000) to (1000, 1000, "
                             "1000)");
-        assert_string_equal(view_layer_name((view_layer)scene_head_of(&s, (scene_element){SCENE_BOX, i}).style.layer),
-                            "nodes");
+        assert_string_equal(layer_rows[scene_head_of(&s, (scene_element){SCENE_BOX, i}).style.layer].name, "nodes");
     }
     scene_release(&s);
     octree_game_destroy(game);

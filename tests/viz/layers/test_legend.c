@@ -222,7 +222,7 @@ static void every_kind_of_query_has_a_layer_and_a_row_of_the_panel(void **state)
     (void)state;
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         const view_layer layer = layer_of_query((octree_query_kind)kind);
-        assert_string_equal(view_layer_name(layer), octree_query_name((octree_query_kind)kind));
+        assert_string_equal(layer_rows[layer].name, octree_query_name((octree_query_kind)kind));
         assert_true(layer_types[layer]->add_answer && layer_types[layer]->write_answer);
     }
 }
