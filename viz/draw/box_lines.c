@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-/* Boxes of a tree come in one order, so that from frame to frame a few come between others and a few are missing. So
- * many in a row may be missing at once; what comes after more of them is taken for new. */
+/* A tree's boxes keep their order from frame to frame, with some inserted and some removed. At most this many in a row
+ * are recognized as removed; a box after more than that counts as new. */
 #define MISSING_AT_MOST 64
 
 void box_lines_clear(box_lines *kept)
@@ -25,11 +25,11 @@ void box_lines_release(box_lines *kept)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* Planes of a tree have few bits, and those at the top: they are brought down before they are mixed. */
+/* A tree's planes have few bits set, all of them high: they are moved down before they are mixed. */
 static uint64_t fold(double value)
 {
     uint64_t bits;
-    const double canonical = value + 0.0; /* of the two zeros one */
+    const double canonical = value + 0.0; /* -0 and 0 are equal */
     memcpy(&bits, &canonical, sizeof bits);
     return bits ^ bits >> 32;
 }
@@ -42,7 +42,7 @@ static uint64_t hash_key(const void *of)
     return (mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32;
 }
 
-/* The two zeros are one. */
+/* -0 and 0 are equal. */
 static bool same_key(const void *a, const void *b)
 {
     const line_key *p = a, *q = b;
@@ -68,7 +68,7 @@ static uint32_t add_line(box_lines *kept, const line_key *key)
     return (uint32_t)kept->count++;
 }
 
-/* One user more of a line, which may be new. LINE_NONE when there is no memory. */
+/* Add a user to a line, which may be new. LINE_NONE when there is no memory. */
 static uint32_t ref_line(box_lines *kept, const line_key *key)
 {
     uint32_t place = hash_map_find(&kept->map, &by_key, kept->lines, key);
@@ -124,7 +124,7 @@ static bool same_box(const scene_box *a, const scene_box *b)
            memcmp(&a->box, &b->box, sizeof a->box) == 0;
 }
 
-/* Where a box is among the next few from `from` on; null when it is not. */
+/* Find a box among the next MISSING_AT_MOST from `from` on; null when it is not there. */
 static const lined_box *find_box(const lined_boxes *in, size_t from, const scene_box *box)
 {
     const size_t left = in->count - from, end = from + (left < MISSING_AT_MOST ? left : MISSING_AT_MOST);
@@ -134,7 +134,7 @@ static const lined_box *find_box(const lined_boxes *in, size_t from, const scene
     return NULL;
 }
 
-/* Add the next box, which was there from *old on or is new. */
+/* Add the next box: one of the last scene from *old on, or a new one. */
 static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
     const lined_box *next = kept->before.items + *old, *found = find_box(&kept->before, *old, box);

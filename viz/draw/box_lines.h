@@ -1,5 +1,5 @@
-/* box_lines.h - the lines of the world that the edges of boxes lie on: boxes share an edge where two lines are equal.
- * Boxes and lines are kept from one scene to the next, and what changed is marked. For this folder. */
+/* box_lines.h - the lines in the world that the edges of boxes lie on: boxes with equal lines may share edges. Boxes
+ * and lines are kept from one scene to the next, and changed lines are marked. For this folder. */
 #ifndef DRAW_BOX_LINES_H
 #define DRAW_BOX_LINES_H
 
@@ -9,10 +9,10 @@
 /* Parallel to an axis at `u` and `v` on the two others. */
 typedef struct line_key {
     double u, v;
-    uint32_t kind; /* layer, style, width and axis: what is drawn alike */
+    uint32_t kind; /* layer, stroke, width and axis */
 } line_key;
 
-/* The line through a place. */
+/* The line through a point. */
 static inline line_key line_key_at(scene_style style, unsigned axis, const double at[3])
 {
     return (line_key){
@@ -22,7 +22,7 @@ static inline line_key line_key_at(scene_style style, unsigned axis, const doubl
     };
 }
 
-/* That of the edge of a box at one of the four corners across an axis. */
+/* The line of one of a box's four edges along an axis. */
 static inline line_key line_key_of(const scene_box *box, unsigned axis, unsigned corner)
 {
     double at[3] = {0};
@@ -54,14 +54,14 @@ typedef struct line {
     line_key key;
     uint32_t users;        /* edges of boxes that lie on it */
     uint32_t first, count; /* its merged edges */
-    uint32_t stretches;    /* while it is merged: how many there are on it, */
-    uint32_t last;         /* and the last of these, LINE_NONE before the first */
+    uint32_t stretches;    /* while it is merged: the number of its stretches */
+    uint32_t last;         /* while it is merged: the last of these, or LINE_NONE */
 } line;
 
 #define LINE_NONE HASH_MAP_NONE
 #define BOX_EDGES 12
 
-/* A box and the lines of its edges, four along each axis; LINE_NONE where the box has no extent. */
+/* A box and the lines of its edges, four along each axis; LINE_NONE when the box has no extent along it. */
 typedef struct lined_box {
     scene_box box;
     uint32_t lines[BOX_EDGES];
@@ -72,24 +72,23 @@ typedef struct lined_boxes {
     size_t count, room;
 } lined_boxes;
 
-/* A zeroed one is empty. */
+/* Empty when zeroed. */
 typedef struct box_lines {
     lined_boxes now, before;
-    line *lines; /* each once; a new one comes after all others */
+    line *lines; /* without duplicates; new lines are appended */
     size_t count, room;
-    uint8_t *changed; /* for each line: whether its merged edges are out of date */
+    uint8_t *changed; /* of each line: whether its merged edges are out of date */
     size_t changed_room;
     size_t idle;  /* lines without users */
-    hash_map map; /* of lines by their keys */
+    hash_map map; /* from keys to lines */
 } box_lines;
 
 void box_lines_clear(box_lines *kept);
 void box_lines_release(box_lines *kept);
 
-/* Take over the boxes of a scene in the layers [first, end), in their order. Lines of boxes that come or go are marked
- * as changed, and *changed is set when there are such boxes; those that stay are found where few others came or went
- * before them. False when there is no memory: then it is to be cleared. Cost: O(n), and a search for a line for each
- * edge of a box that comes. */
+/* Take over the boxes of a scene in the layers [first, end), in their order. Lines of boxes that were added or removed
+ * are marked as changed, and *changed is set if there are any. False when there is no memory: the caller must then
+ * clear it. Cost: O(n), and a look-up of a line for each edge of an added box. */
 bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned end, bool *changed);
 
 #endif

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* To begin and to read once more costs a rasteriser about as much as so many quads. */
+/* One more pass of the rasteriser, with its clear and read, costs about as much as drawing so many quads. */
 #define WORTH_A_PASS 256
 
-/* The index of what is laid over another picture and shows it. */
+/* The index that is transparent when a picture is laid over another. */
 #define NOTHING 255
 _Static_assert(THEME_COLORS <= NOTHING, "an index is left over");
 
@@ -20,7 +20,7 @@ typedef struct drawing {
     void *context;
     uint8_t *indices;
     octreel_error *error;
-    bool blank; /* nothing is in `indices` yet */
+    bool blank; /* nothing has been drawn to `indices` yet */
 } drawing;
 
 void canvas_release(canvas *c)
@@ -38,9 +38,9 @@ static size_t count_pixels(const canvas *c)
 
 /* ---- Filling -------------------------------------------------------------------------------------------------
  *
- * Corners are whole 1/256 pixels, so that whether a pixel's centre is in a quad is a question of integers. By the rule
- * that GL states and llvmpipe keeps, a pixel belongs to what its centre is in; a centre on an edge belongs to the quad
- * that has the edge on its left, or, where the edge is level, on its top.
+ * Corners are whole 1/256 pixels, so that integers decide whether a pixel's centre is in a quad. By GL's rule, which
+ * llvmpipe follows, a pixel is drawn if its centre is inside; a centre on an edge is inside if that is a left edge, or
+ * a horizontal top edge.
  */
 
 static bool is_rectangle(const quad *q)
@@ -50,7 +50,7 @@ static bool is_rectangle(const quad *q)
            (x[0] == x[1] && x[2] == x[3] && y[1] == y[2] && y[3] == y[0]);
 }
 
-/* The sides 0-3 and 1-2 lie along `across`: one is the other, moved. */
+/* Whether the sides 0-3 and 1-2 are parallel to the axis `across` and of the same whole number of pixels. */
 static bool is_strip(const int32_t along[4], const int32_t across[4])
 {
     const int32_t width = across[3] - across[0];
@@ -67,14 +67,14 @@ static bool is_inside(const drawing *d, const quad *q)
     return inside;
 }
 
-/* Upright rectangles; and lines as they are stroked, parallelograms with two sides along an axis, as long as a whole
- * number of pixels. These must lie in the picture: GL clips what reaches beyond it, in single precision. */
+/* Upright rectangles; and lines as stroke.c makes them: parallelograms with two sides along an axis, a whole number of
+ * pixels long. These must lie within the picture, since GL clips others in single precision. */
 static bool can_fill(const drawing *d, const quad *q)
 {
     return is_rectangle(q) || (is_inside(d, q) && (is_strip(q->x, q->y) || is_strip(q->y, q->x)));
 }
 
-/* The first pixel whose centre is not before a coordinate: 0 to `size`. */
+/* The first pixel whose centre is at or after a coordinate: 0 to `size`. */
 static int first_pixel(int32_t at, int size)
 {
     if (at <= CENTRE)
@@ -114,8 +114,8 @@ static int64_t divide(int64_t a, int64_t b, int64_t *rest)
     return quotient;
 }
 
-/* Step by step along one axis, a run of `width` pixels across. The lower edge runs from (a0, b0) to (a1, b1), a0 < a1;
- * at the centre of step i it is at P / Q pixels from the centre of pixel 0 across, with Q = 256 (a1 - a0). */
+/* For each step along one axis, fill `width` pixels across. The lower edge runs from (a0, b0) to (a1, b1), a0 < a1; at
+ * the centre of step i it is P / Q pixels from the centre of pixel 0 across, with Q = 256 (a1 - a0). */
 static void fill_strip(uint8_t *indices, uint8_t color, fill_axis along, fill_axis across, const int32_t a[2],
                        const int32_t b[2], int width, bool lower_is_in)
 {
@@ -139,7 +139,7 @@ static void fill_strip(uint8_t *indices, uint8_t color, fill_axis along, fill_ax
     }
 }
 
-/* An edge that goes down to the right has what is below it on its left side: there its centres are not in. */
+/* A left edge includes centres that lie on it; when a flat strip falls to the right its lower edge is not one. */
 static void fill_quad(const drawing *d, const quad *q)
 {
     const bool flat = is_strip(q->x, q->y);
@@ -166,7 +166,7 @@ static void fill_all(drawing *d, size_t start, size_t end)
 
 /* ---- The rasteriser ----------------------------------------------------------------------------------------- */
 
-/* The rows that quads may light. */
+/* The rows that quads may cover. */
 static void find_rows(const drawing *d, size_t start, size_t end, int *first, int *end_row)
 {
     int32_t least = INT32_MAX, most = INT32_MIN;
@@ -211,7 +211,7 @@ static bool rasterise_all(drawing *d, size_t start, size_t end)
 
 /* ---- A frame ------------------------------------------------------------------------------------------------ */
 
-/* Many rectangles in a row, and those that come last, are filled. */
+/* Fill long runs of rectangles, and those at the end; rasterise the rest. */
 static bool draw_span(drawing *d, size_t start, size_t end)
 {
     size_t begun = start;
@@ -242,7 +242,8 @@ static size_t count_same(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* Whether it pays to keep what is alike up to `same`, where `start` quads are drawn, and there is room for it. */
+/* Whether it pays to keep the picture of the first `same` quads, of which `start` are drawn, and there is memory for
+ * it. */
 static bool is_worth_keeping(canvas *c, size_t start, size_t same)
 {
     if (same - start < WORTH_A_PASS)

@@ -41,7 +41,7 @@ bool draw_context_built(draw_context kind)
     return (unsigned)kind < DRAW_CONTEXTS && kinds[kind].open;
 }
 
-/* When none opens, the first one's reason is told. */
+/* When none opens, the first one's error is reported. */
 static context *open_any(const renderer_choice *choice, octreel_error *error)
 {
     octreel_error *reason = error, later;

@@ -27,30 +27,31 @@ typedef struct renderer_choice {
 
 typedef void (*context_function)(void);
 
-/* The kinds begin their own structs with this. */
+/* The first member of each kind's own struct. */
 typedef struct context context;
 struct context {
     const char *name;
 
-    /* Make it current, whatever was: contexts of several kinds share what Mesa calls current, and only their own
-     * library tells the truth about it. */
+    /* Make it current in any case: contexts of different kinds share Mesa's notion of the current one, so a library's
+     * own answer about it may be outdated. */
     bool (*use)(context *c);
 
-    /* A GL function of this very context: two GL libraries in one process have the same symbols. Null when unknown. */
+    /* A GL function of this context's own library: two GL libraries in one process have the same symbols. Null when
+     * unknown. */
     context_function (*find)(const context *c, const char *name);
 
     void (*close)(context *c);
 };
 
-/* Open a context and make it current. Null, and a sentence, when that fails. */
+/* Open a context and make it current. Null, with an error, when that fails. */
 typedef context *context_opener(const renderer_choice *choice, octreel_error *error);
 context_opener context_osmesa_open, context_egl_open;
 
 /* The context of a choice; under DRAW_AUTO the first kind that opens. */
 context_opener context_open;
 
-/* For the kinds: open a library by the first of two names that is found; null, with a sentence, when none is. And find
- * one of its functions, which goes into *function, a pointer to a function of `size` bytes. */
+/* For the kinds: open a library by either of two names; null, with an error, when neither is found. And look up one of
+ * its functions, which is written to *function, a function pointer of `size` bytes. */
 void *context_load(const char *name, const char *other_name, const char *sentence, octreel_error *error);
 bool context_symbol(void *library, const char *name, void *function, size_t size);
 

@@ -1,5 +1,6 @@
-/* context_egl.c - EGL without a display, a surface or a configuration, opened at run time: draws off-screen where Mesa
- * is too new for OSMesa. It may find a graphics card; where it can name its devices, the software one is asked for. */
+/* context_egl.c - EGL without a display, a surface or a configuration, opened at run time: draws off-screen with
+ * versions of Mesa that no longer have OSMesa. EGL may choose a graphics card, so the software device is requested when
+ * devices can be listed. */
 #include "context.h"
 
 #include <EGL/egl.h>
@@ -40,7 +41,7 @@ static bool has_word(const char *list, const char *word)
     return list && strstr(list, word);
 }
 
-/* The device that draws with the processor, or null where devices cannot be asked. */
+/* The device that draws with the processor, or null when devices cannot be listed. */
 static EGLDeviceEXT software_device(const egl *egl)
 {
     const PFNEGLQUERYDEVICESEXTPROC list = (PFNEGLQUERYDEVICESEXTPROC)egl->GetProcAddress("eglQueryDevicesEXT");
@@ -70,7 +71,8 @@ static EGLDisplay open_display(const egl *egl, bool any_renderer)
     return display && egl->Initialize(display, NULL, NULL) ? display : EGL_NO_DISPLAY;
 }
 
-/* Being made current twice changes nothing for EGL, also where another library was made current in between. */
+/* It is released first: EGL skips a context that it takes for current already, even if another library's was made
+ * current since. */
 static bool use(context *face)
 {
     const egl_context *c = (const egl_context *)face;

@@ -1,11 +1,11 @@
-/* context_osmesa.c - Mesa's off-screen context. The library is opened at run time: without it there is an error, not a
- * program that does not start. */
+/* context_osmesa.c - Mesa's off-screen context. The library is opened at run time: without it there is an error
+ * message, and the program still starts. */
 #include "context.h"
 
 #include <GL/osmesa.h>
 #include <stdlib.h>
 
-/* Drawing goes to a framebuffer object; Mesa wants a buffer of its own all the same. */
+/* Drawing goes to a framebuffer object, but Mesa requires a buffer of its own. */
 #define OWN_SIDE 4
 
 typedef struct osmesa_context {
@@ -53,7 +53,7 @@ static bool open_mesa(osmesa_context *c, void *library)
 
 context *context_osmesa_open(const renderer_choice *choice, octreel_error *error)
 {
-    (void)choice; /* it draws with the processor in any case */
+    (void)choice; /* it always draws with the processor */
     void *library = context_load("libOSMesa.so.8", "libOSMesa.so",
                                  "OSMesa, the off-screen renderer, cannot be loaded (Debian: libosmesa6)", error);
     osmesa_context *c = library ? calloc(1, sizeof *c) : NULL;

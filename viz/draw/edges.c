@@ -1,7 +1,7 @@
-/* edges.c - a box has twelve edges; on a tree most of them are shared. They are gathered by the line that they lie on,
- * compared by the very doubles of the planes, and each line is swept once. Most are not even gathered: a tree's boxes
- * come from the root down, and what lies on an edge of a parent is covered by the stretch before it. And from one frame
- * to the next a line keeps its edges, unless a box on it came or went. */
+/* edges.c - a box has twelve edges, and in a tree most are shared. They are grouped by the line that they lie on, whose
+ * doubles are compared exactly, and each line is swept once. Most are dropped before: a tree's boxes come from the root
+ * down, and an edge on a parent's edge is covered by it. A line keeps its edges from frame to frame unless a box on it
+ * was added or removed. */
 #include "edges.h"
 #include "array.h"
 
@@ -13,7 +13,7 @@ typedef struct stretch {
     double from, to;
     uint64_t id;
     scene_style style;
-    uint32_t previous; /* on the same line; LINE_NONE: none */
+    uint32_t previous; /* on the same line, or LINE_NONE */
     uint8_t depth;
 } stretch;
 
@@ -39,7 +39,7 @@ static int compare_lines(const void *a, const void *b)
     return line_key_compare(&(*p)->key, &(*q)->key);
 }
 
-/* Put the lines that came last, sorted, between the others, from the last place on. */
+/* Merge the new lines, sorted, into the order of the others, from the end. */
 static void merge_order(edge_list *list, const line *const *sorted)
 {
     const line *lines = list->boxes.lines;
@@ -71,8 +71,7 @@ static bool order_lines(edge_list *list)
 
 /* ---- The stretches of lines ----------------------------------------------------------------------------------- */
 
-/* Whether a stretch that was put on the same line before leaves nothing of this one to be seen: what sweep_line() would
- * find, known at once. */
+/* Whether an earlier stretch of the same line hides this one completely, as sweep_line() would find. */
 static bool is_covered(const stretch *it, const stretch *by)
 {
     if (it->from < by->from || it->to > by->to || it->depth < by->depth)
@@ -101,7 +100,7 @@ static bool collect_edge(stretch_list *all, line *on, const scene_box *box, unsi
     return true;
 }
 
-/* The stretches of all lines that are changed. */
+/* Collect the stretches of all changed lines. */
 static bool collect(stretch_list *all, box_lines *from)
 {
     bool ok = true;
@@ -132,7 +131,7 @@ static int compare_stretches(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-/* Most lines have few, and these nearly in order. */
+/* Most lines have few stretches, nearly in order. */
 static void sort_stretches(stretch *line, size_t count)
 {
     enum { FEW = 24 };
@@ -149,7 +148,7 @@ static void sort_stretches(stretch *line, size_t count)
     }
 }
 
-/* Those of one line side by side, sorted. */
+/* Copy the stretches of one line into an array, and sort them. */
 static bool gather(stretch_list *one, const stretch_list *all, const line *on)
 {
     stretch *items = array_reserve(one->items, on->stretches + 1, &one->room, sizeof *items);
@@ -166,7 +165,7 @@ static bool gather(stretch_list *one, const stretch_list *all, const line *on)
 
 /* ---- The sweep of a line -------------------------------------------------------------------------------------- */
 
-/* A line under way: its edges are those from the first one on. */
+/* The line that is being swept, whose edges begin at `first`. */
 typedef struct sweep {
     edge_array *edges;
     const line_key *on;
@@ -174,7 +173,7 @@ typedef struct sweep {
     size_t first;
 } sweep;
 
-/* The end of the last edge of the line; null when there is none. */
+/* The end of the line's last edge, or null. */
 static double *last_end(const sweep *w)
 {
     return w->edges->count > w->first ? &w->edges->items[w->edges->count - 1].ends[1][w->axis] : NULL;
@@ -207,7 +206,7 @@ static bool same_style(scene_style a, scene_style b)
     return a.layer == b.layer && a.role == b.role && a.stroke == b.stroke && a.width == b.width;
 }
 
-/* Add [from, to] with the style of a stretch, to the last edge where it goes on from there. */
+/* Add [from, to] with the style of a stretch, as an edge or by extending the last one. */
 static bool emit(const sweep *w, const stretch *of, double from, double to)
 {
     double *end = last_end(w);
@@ -218,7 +217,7 @@ static bool emit(const sweep *w, const stretch *of, double from, double to)
     return true;
 }
 
-/* The shallowest stretch of a line that covers what begins at `at`: the best of those begun and not yet ended. */
+/* The shallowest of a line's stretches that have begun and not ended at `at`. */
 static const stretch *shallowest(const stretch *line, size_t begun, double at)
 {
     const stretch *best = NULL;
@@ -228,7 +227,7 @@ static const stretch *shallowest(const stretch *line, size_t begun, double at)
     return best;
 }
 
-/* Where the stretch in force ends or a shallower one begins. */
+/* Where the current stretch ends or a shallower one begins. */
 static double next_change(const stretch *line, size_t count, size_t begun, const stretch *now)
 {
     for (size_t i = begun; i < count && line[i].from < now->to; i++)
@@ -237,8 +236,8 @@ static double next_change(const stretch *line, size_t count, size_t begun, const
     return now->to;
 }
 
-/* Sweep the stretches of one line, sorted by where they begin. Those that have ended are dropped from the front, so
- * that a line costs little more than its length times the depth of the tree. */
+/* Sweep the stretches of one line, sorted by where they begin. Ended ones are dropped from the front, so that the cost
+ * of a line is about its length times the depth of the tree. */
 static bool sweep_line(const sweep *w, const stretch *line, size_t count)
 {
     size_t first = 0;
@@ -268,7 +267,7 @@ static bool sweep_line(const sweep *w, const stretch *line, size_t count)
 
 /* ---- All lines ------------------------------------------------------------------------------------------------ */
 
-/* The edges of a line that are as they were. */
+/* Copy the edges of an unchanged line. */
 static bool copy_edges(edge_list *list, const line *of)
 {
     edge_array *now = &list->now;
@@ -281,7 +280,7 @@ static bool copy_edges(edge_list *list, const line *of)
     return true;
 }
 
-/* Line by line in their order: what is gathered of those that are changed, and the edges before of all others. */
+/* Line by line in order: sweep the changed lines, and copy the edges of the others. */
 static bool sweep_lines(edge_list *list, const stretch_list *all)
 {
     bool ok = true;

@@ -4,7 +4,7 @@
 
 #include "box_lines.h"
 
-/* A stretch of a line of the world that has one colour. */
+/* A piece of a line in the world that has one colour. */
 typedef struct edge {
     double ends[2][3];
     scene_style style;
@@ -18,10 +18,10 @@ typedef struct edge_array {
 
 typedef struct edge_list {
     edge_array now;
-    edge_array before; /* those of the last scene, while they are merged */
-    box_lines boxes;   /* what was merged last */
+    edge_array before; /* those of the last scene, during a merge */
+    box_lines boxes;   /* the boxes that were merged last */
     uint32_t *order;   /* the lines in the order of painting: */
-    size_t ordered;    /* so many; lines that came since are not among them yet */
+    size_t ordered;    /* how many; newer lines are not in it yet */
 } edge_list;
 
 void edges_release(edge_list *list);

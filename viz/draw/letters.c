@@ -13,8 +13,8 @@ typedef struct corner {
     unsigned char color[4];
 } corner;
 
-/* The pixel of the text's top left corner; false when its place is out of sight. Text begins with whole pixels, however
- * many samples these have, and stays crisp. */
+/* The pixel of the text's top left corner; false when its position is not visible. Text begins at whole pixels under
+ * anti-aliasing too, and stays crisp. */
 static bool place(const scene *s, const scene_label *label, int *x, int *y)
 {
     double pixel[2] = {label->at[0], label->at[1]};
@@ -50,7 +50,7 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
     }
 }
 
-/* The pixels that a label's letters may light; false when it is out of sight. */
+/* The box around a label's letters; false when it is not visible. */
 static bool find_box(const scene *s, const scene_label *label, draw_box *box)
 {
     char text[SCENE_TEXT];

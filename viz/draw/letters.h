@@ -1,4 +1,4 @@
-/* letters.h - text as quads, by stb_easy_font; and where the text of a scene is. */
+/* letters.h - text as quads, by stb_easy_font; and the boxes around a scene's text. */
 #ifndef DRAW_LETTERS_H
 #define DRAW_LETTERS_H
 
@@ -9,10 +9,11 @@ typedef struct draw_box {
     int x, y, width, height;
 } draw_box;
 
-/* Where a scene's letters and panels are: no text lights a pixel outside these boxes. Needs no renderer. */
+/* Visit the boxes of a scene's letters and panels: no text is drawn outside them. Needs no renderer. */
 void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
 
-/* For this folder: add a label of a scene in samples, at its pixel, or beside the place where its position is drawn. */
+/* For this folder: add the letters of a label, at its pixel or beside the pixel of its position. The scene is in
+ * samples. */
 void letters_add(quad_list *list, const scene *s, const scene_label *label);
 
 #endif

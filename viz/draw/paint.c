@@ -33,7 +33,7 @@ static void paint_segment(painter *p, const scene *s, const double from[3], cons
     stroke(p, s, pieces, count, style, depth);
 }
 
-/* Those of the world, or those of the picture. */
+/* Paint the segments of the world, or those in picture coordinates. */
 static void paint_segments(painter *p, const scene *s, bool in_picture)
 {
     for (size_t i = 0; i < s->segments.count; i++) {
@@ -101,12 +101,12 @@ bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place
 
 /* Where a point is drawn. */
 typedef struct point_place {
-    uint32_t pixel; /* its place among all of them */
+    uint32_t pixel; /* index of its sample */
     uint8_t band;
     bool seen; /* it is a point, and in the picture */
 } point_place;
 
-/* A byte a pixel, all 0, and a place a marker. */
+/* Reserve a byte per pixel, zeroed, and a place per marker. */
 static bool make_room_for_points(painter *p, const scene *s)
 {
     const size_t pixels = (size_t)s->view.width * (size_t)s->view.height;
@@ -126,7 +126,7 @@ static bool make_room_for_points(painter *p, const scene *s)
     return true;
 }
 
-/* Points on one pixel are one quad: the nearest band's, which would cover the others. */
+/* Points on one pixel become one quad, that of the nearest band, which would cover the others. */
 static bool paint_points(painter *p, const scene *s)
 {
     if (!make_room_for_points(p, s))
@@ -175,7 +175,7 @@ bool paint(painter *p, const scene *picture)
         quads_begin(&p->quads, SCENE_PANEL, i);
         stroke_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
     }
-    paint_segments(p, s, true); /* on the panels of their layer */
+    paint_segments(p, s, true); /* above the panels of their layer */
     for (size_t i = 0; i < s->labels.count; i++) {
         quads_begin(&p->quads, SCENE_LABEL, i);
         letters_add(&p->quads, s, &s->labels.items[i]);

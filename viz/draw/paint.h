@@ -1,20 +1,20 @@
-/* paint.h - a scene as flat quads in painter's order: all that the picture is, before any GL. For this
- * folder. */
+/* paint.h - a scene as flat quads in painter's order: the whole picture, before any GL. For this folder. */
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H
 
 #include "edges.h"
 #include "quads.h"
 
-/* What is reused from frame to frame. A zeroed painter is an empty one. */
+/* Data that is reused from frame to frame. Empty when zeroed. */
 typedef struct painter {
     quad_list quads;
-    edge_list tree, edges; /* of the world and its nodes, which are the same for many ticks; and of all else */
-    uint8_t *nearest;      /* a byte a sample: 1 + the nearest band of a point there, while points are folded */
+    edge_list tree,
+        edges;        /* of the world and the nodes, which often stay the same from tick to tick; and of other layers */
+    uint8_t *nearest; /* a byte a sample: 1 + the nearest band of a point there, while points are folded */
     size_t pixels;
-    struct point_place *places; /* where each point is, meanwhile */
+    struct point_place *places; /* where each point is drawn */
     size_t place_room;
-    size_t overflowed; /* elements of the last scene that are too far off for doubles: counted, not drawn */
+    size_t overflowed; /* elements of the last scene that are too far away for doubles, and so not drawn */
 } painter;
 
 void painter_release(painter *p);
@@ -26,8 +26,8 @@ bool paint(painter *p, const scene *picture);
 size_t paint_edge_count(const painter *p);
 const edge *paint_edge_at(const painter *p, size_t index);
 
-/* The place of the sample that a point lies on, and its band; points of one place are one quad. False for a marker that
- * is no point, and for what is outside the picture. `s` is in samples. */
+/* The index of the sample that a point lies on, and its band; points at one sample share a quad. False for other
+ * markers and outside the picture. `s` is in samples. */
 bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place, unsigned *band);
 
 #endif

@@ -1,5 +1,5 @@
-/* pixel.c - the quads of a picture are drawn again, but for what their colour stands for: no sample can be decided
- * otherwise than in the picture. For one pixel, those that may reach it are drawn one by one. */
+/* pixel.c - a picture's quads are drawn again with numbers for colours, so that every sample has the same winner as in
+ * the picture. For one pixel, the quads that may cover it are drawn one by one. */
 #include "pixel.h"
 #include "array.h"
 #include "paint.h"
@@ -11,9 +11,8 @@
 
 /* ---- The boxes that lie on a merged edge ---------------------------------------------------------------------
  *
- * An edge is one stroke for all boxes that share it. Which they are at a sample is asked of the scene: the sample is
- * taken back to the place on the line that is seen there. The way from a line to its picture is a quotient of linear
- * functions, and so is the way back.
+ * An edge is one stroke for all boxes that share it. To find these at a sample, the sample is mapped back to a place on
+ * the line. The map from a line to its projection is a quotient of linear functions, and so is its inverse.
  */
 
 /* One edge of one box. */
@@ -26,7 +25,7 @@ typedef struct box_edge {
 
 /* The edges of all boxes of a scene, sorted by the lines that they lie on. */
 typedef struct edge_boxes {
-    const scene *scene; /* in samples; as long as this is in use */
+    const scene *scene; /* in samples; must outlive this */
     box_edge *items;
     size_t count;
 } edge_boxes;
@@ -85,9 +84,9 @@ typedef struct stroke {
     const edge *edge;
     line_key line;
     double from, to;
-    double seen[2][3]; /* its ends in camera coordinates */
+    double seen[2][3]; /* of the ends, in camera coordinates */
     int across;        /* the picture's axis that the stroke is longer on */
-    bool speck;        /* it is one mark, which shows no place on the line */
+    bool speck;        /* too small on screen to tell places on the line apart */
 } stroke;
 
 static stroke stroke_of(const scene *s, const edge *e)
@@ -120,7 +119,7 @@ static double place_at(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
     const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
-    double off[2]; /* how far each end is from the plane that the eye sees at this coordinate */
+    double off[2]; /* distance of each end from the plane through the eye and this coordinate */
     for (int end = 0; end < 2; end++)
         off[end] = k->seen[end][k->across] - slope * (c->perspective ? k->seen[end][2] : 1);
     const double part = off[0] / (off[0] - off[1]);
@@ -153,7 +152,7 @@ static double distance(const box_edge *of, double at)
     return at < of->from ? of->from - at : at > of->to ? at - of->to : 0;
 }
 
-/* The box that gives an edge of edges_merge() its colour at a sample: its index in the scene. */
+/* The index of the box that gives an edge of edges_merge() its colour at a sample. */
 static size_t edge_boxes_owner(const edge_boxes *all, const edge *e, int x, int y)
 {
     const stroke k = stroke_of(all->scene, e);
@@ -165,7 +164,7 @@ static size_t edge_boxes_owner(const edge_boxes *all, const edge *e, int x, int 
         if (gives && found->to >= k.from && (!best || distance(found, at) < distance(best, at)))
             best = found;
     }
-    return best->box; /* an edge is made of the edges of boxes */
+    return best->box; /* not null: an edge consists of the edges of boxes */
 }
 
 /* All boxes that have an edge where this one passes through a sample, the owner among them; some twice. */
@@ -201,7 +200,7 @@ static bool rasterise_all(renderer *r, const scene *s, const painter *p, uint8_t
     return renderer_rasterise(r, p->quads.items, p->quads.count, 0, all, samples, error);
 }
 
-/* What is painted has numbers too: the merged edges take the places of the boxes. */
+/* Quads are numbered as elements are, with the merged edges in the place of the boxes. */
 static uint64_t stroke_number(const scene *s, const painter *p, const quad *q)
 {
     if (q->kind == SCENE_BOX)
@@ -230,7 +229,7 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, uint32_t *numb
     return ok;
 }
 
-/* From strokes to elements. */
+/* Replace the numbers of strokes by those of elements. */
 static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, octreel_error *error)
 {
     const scene fine = project_samples(s);
@@ -254,7 +253,7 @@ bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error
 {
     if (!renderer_fits(r, s, error))
         return false;
-    painter p = {0}; /* not the renderer's, which may keep what it has painted */
+    painter p = {0}; /* the renderer's own may be in use by the next frame */
     const bool ok = (paint(&p, s) || error_no_memory(error)) && draw_strokes(r, s, &p, numbers, error) &&
                     name_boxes(s, &p, numbers, error);
     painter_release(&p);
@@ -300,14 +299,14 @@ bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *
 
 #define MOST_SAMPLES 16 /* of a pixel: 4 on each axis */
 
-/* The pixel that is asked about. */
+/* A query about one pixel. */
 typedef struct probe {
     const scene *picture;
     scene fine; /* in samples */
     painter painter;
     edge_boxes boxes;
     renderer_part part; /* its samples */
-    unsigned taken;     /* a bit for each that something is seen at already */
+    unsigned taken;     /* bits of those that have an element on top already */
     draw_touches *list;
     bool out_of_memory;
 } probe;
@@ -326,7 +325,7 @@ static draw_touch *find_touch(draw_touches *list, uint32_t number)
     return NULL;
 }
 
-/* The entry of an element, at the end of the list where it has none yet; null when there is no memory. */
+/* The entry of an element, which is appended if it has none; null when there is no memory. */
 static draw_touch *take_touch(probe *p, scene_kind kind, size_t index)
 {
     draw_touches *list = p->list;
@@ -344,7 +343,7 @@ static draw_touch *take_touch(probe *p, scene_kind kind, size_t index)
     return &list->items[list->count++];
 }
 
-/* A sample that was painted for an element, from the last quad to the first. */
+/* Note that an element covers a sample. Quads come from the last to the first. */
 static void add_paint(probe *p, scene_kind kind, size_t index, uint8_t color, int sample)
 {
     draw_touch *touch = take_touch(p, kind, index);
@@ -358,13 +357,13 @@ static void add_paint(probe *p, scene_kind kind, size_t index, uint8_t color, in
     touch->shown += shown;
 }
 
-/* A box that is there by another's edge. */
+/* Add a box that shares an edge. */
 static void add_box_too(size_t box, void *context)
 {
     take_touch(context, SCENE_BOX, box);
 }
 
-/* The points that are on one sample with a point that is drawn. */
+/* Add the points that share the sample of a point that is drawn. */
 static void add_points_too(probe *p, size_t drawn)
 {
     const scene *s = &p->fine;
@@ -392,7 +391,7 @@ static bool is_beyond(const quad *q, int from, int to, int turn, const int64_t x
     return true;
 }
 
-/* Whether a quad may light a sample of the pixel: what is not, a sample's width from it, surely does not. */
+/* Whether a quad may cover a sample of the pixel: it is less than a sample's width away. */
 static bool may_reach(const quad *q, const renderer_part *part)
 {
     const int64_t x[2] = {(int64_t)(part->x - 1) * QUAD_SUBPIXELS,
@@ -413,7 +412,7 @@ static bool may_reach(const quad *q, const renderer_part *part)
     return !apart;
 }
 
-/* The samples that a quad covers, as bits; nothing but `ok` tells that they could not be found. */
+/* The samples that a quad covers, as bits; *ok is false when drawing fails. */
 static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
@@ -426,7 +425,7 @@ static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, oc
     return bits;
 }
 
-/* Each sample of an edge may be another box's. Those that merely share it come last. */
+/* The owner of an edge may differ from sample to sample. Boxes that merely share it come last. */
 static void add_edge(probe *p, const quad *q, unsigned bits)
 {
     const edge *e = paint_edge_at(&p->painter, q->index);

@@ -21,7 +21,7 @@ scene project_samples(const scene *s)
     return fine;
 }
 
-/* A depth in bands from the near side of the world, not yet rounded: a real number in 0..QUAD_BANDS for what is in it.
+/* A view depth in bands from the near side of the world: a real number, 0 to QUAD_BANDS within the world.
  */
 static double band_position(const camera *c, double depth)
 {
@@ -36,8 +36,8 @@ static unsigned band_of(double position)
     return position < QUAD_BANDS ? (unsigned)position : QUAD_BANDS - 1;
 }
 
-/* The point of a segment where a linear function that is `at_a` and `at_b` at its ends, of unlike sign, is zero. Both
- * ends are weighed, so that one at 1e300 does not cost the other its digits. */
+/* The point of a segment where a linear function that is `at_a` and `at_b` at its ends, of unlike sign, is zero. A
+ * weighted mean of both ends, so that one at 1e300 does not cancel the digits of the other. */
 static void zero_of(const double a[3], const double b[3], double at_a, double at_b, double result[3])
 {
     const double whole = at_b / 2 - at_a / 2;

@@ -5,8 +5,8 @@
 
 #include "quads.h"
 
-/* The scene as its samples see it, which is what is painted: a picture that is larger, through a camera that enlarges.
- * Its elements are shared. All else here is of such a scene: its pixels are samples. */
+/* The scene with samples for pixels, which is what is painted: the picture and the camera's zoom are multiplied. It
+ * shares the elements of s. The functions below take such a scene. */
 scene project_samples(const scene *s);
 
 /* A piece of a segment within one band, in pixels. */
@@ -15,13 +15,14 @@ typedef struct piece {
     unsigned band;
 } piece;
 
-/* Clip a segment to what is before the camera and to the picture (with a margin), and cut it at the band planes.
- * Returns the number of pieces, 0 to QUAD_BANDS, from the first end to the second. Ends whose camera coordinates
- * overflow a double give none: *overflowed is then set. */
+/* Clip a segment to the space in front of the camera and to the picture (with a margin), and cut it at the band planes.
+ * Returns the number of pieces, 0 to QUAD_BANDS, from the first end to the second. If camera coordinates overflow a
+ * double there are none, and *overflowed is set. */
 unsigned project_segment(const scene *s, const double from[3], const double to[3], piece pieces[QUAD_BANDS],
                          bool *overflowed);
 
-/* The piece of a segment of the picture: nearest, clipped likewise. False when nothing of it is in the picture. */
+/* The piece of a segment in picture coordinates: of the nearest band, clipped likewise. False when it is outside the
+ * picture. */
 bool project_flat(const scene *s, const double from[3], const double to[3], piece *p);
 
 /* A point's pixel and band; false when it lies behind the camera or outside the picture. */

@@ -1,6 +1,6 @@
 /* quads.h - the flat quads that a scene is painted with, in painter's order. For this folder.
  *
- * Coordinates are in 1/256 pixel, y down, snapped. What covers what is decided here and in doubles: layers in their
+ * Coordinates are in 1/256 pixel, y down, snapped. Visibility is decided here, not by GL: layers in their
  * order; within a layer eight bands of view depth, far to near; within a band deeper nodes first.
  */
 #ifndef DRAW_QUADS_H
@@ -28,7 +28,7 @@ typedef struct quad_list {
 
 void quads_release(quad_list *list);
 
-/* What is added from now on is a part of this element. */
+/* Quads added from now on are parts of this element. */
 static inline void quads_begin(quad_list *list, scene_kind kind, size_t index)
 {
     list->kind = (uint8_t)kind;
@@ -45,8 +45,8 @@ uint16_t quad_order(unsigned layer, unsigned band, unsigned depth);
 
 #define QUAD_BANDS THEME_SHADES
 
-/* The order of letters and of rectangles of the picture, which have no depth: the last of their layer; but what is
- * written on axes lies on nodes and points, and what is written on nodes lies on that, on points and velocities. */
+/* The order of letters and of panels, which have no depth: last in their layer; but those of the axes lie above nodes
+ * and points, and those of nodes above these and velocities. */
 uint16_t quad_order_of_text(unsigned layer);
 
 #endif

@@ -47,7 +47,7 @@ typedef struct gl {
 #undef GL_MEMBER
 } gl;
 
-/* False, with a sentence that names the first one missing, when the context does not have them all. */
+/* False, with an error that names the first missing function, when the context lacks one. */
 static bool gl_load(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;

@@ -12,7 +12,7 @@
 
 typedef struct renderer renderer;
 
-/* Who draws: static while the renderer lives. */
+/* Which driver draws; valid while the renderer is open. */
 typedef struct renderer_info {
     const char *context;                     /* "osmesa", "egl" */
     const char *vendor, *renderer, *version; /* GL's own strings */

@@ -8,11 +8,11 @@
 #define DASH 6
 #define GAP 4
 
-/* And the head of an arrow: how far back it reaches, and to either side. */
+/* The head of an arrow in half units: its length, and its reach to either side. */
 #define HEAD 8
 #define HEAD_SIDE 4
 
-/* Pixels. A line that is to be bold is so in the smallest picture too. */
+/* In pixels. Bold lines are at least 2 pixels wide, so that they look bold in the smallest picture too. */
 static int line_width(const scene *s, unsigned wanted)
 {
     const int width = (int)wanted * s->unit / 2, least = wanted > 1 ? 2 : 1;
@@ -29,7 +29,7 @@ pencil pencil_make(const scene *s, scene_style style, unsigned depth)
                     .depth = depth};
 }
 
-/* What the tick is about fades less than the tree around it: the last bands would drown it. */
+/* What happens in the tick fades less than the tree around it: the farthest shades would hide it. */
 static unsigned shade_of(const pencil *with, unsigned band)
 {
     if (with->style.role == ROLE_BACKGROUND)
@@ -50,7 +50,7 @@ static int32_t snap(double pixel)
     return (int32_t)floor(pixel * QUAD_SUBPIXELS + 0.5);
 }
 
-/* A parallelogram, shifted by half the width along the minor axis: a line of one pixel lights one pixel a step. */
+/* A parallelogram, extended by half the width along the minor axis: a line of one pixel covers one pixel a step. */
 static void add_line(quad_list *list, const pencil *with, unsigned band, const double from[2], const double to[2])
 {
     quad q = blank(with, band);
@@ -78,7 +78,7 @@ static void add_rectangle(quad_list *list, quad q, int x, int y, int width, int 
     quads_add(list, &q);
 }
 
-/* True when all of a segment lies within about a pixel, where a parallelogram may light nothing. */
+/* Whether a whole segment lies within about a pixel, where a parallelogram may cover no centre. */
 static bool is_speck(const piece *pieces, unsigned count)
 {
     const piece *first = &pieces[0], *last = &pieces[count - 1];
@@ -91,7 +91,7 @@ static void add_solid(quad_list *list, const pencil *with, const piece *pieces, 
         add_line(list, with, pieces[i].band, pieces[i].from, pieces[i].to);
 }
 
-/* Dashes run on from piece to piece: `phase` is how far into dash and gap the line is. */
+/* Dashes continue from piece to piece: `phase` is the position within dash and gap. */
 static void add_dashes(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     const double half_unit = with->unit * with->samples / 2.0, dash = DASH * half_unit, period = dash + GAP * half_unit;
@@ -111,7 +111,7 @@ static void add_dashes(quad_list *list, const pencil *with, const piece *pieces,
     }
 }
 
-/* A head is no longer than half of its arrow, and is left out where it would be a blot. */
+/* A head is at most half as long as its arrow, and is left out if too small to be recognized. */
 static void add_head(quad_list *list, const pencil *with, const piece *first, const piece *last)
 {
     const double half_unit = with->unit * with->samples / 2.0;
@@ -167,7 +167,7 @@ static void add_diamond(quad_list *list, quad q, int left, int top, int side)
     quads_add(list, &q);
 }
 
-/* A diamond of which only the edge is drawn. */
+/* The outline of a diamond. */
 static void add_lozenge(quad_list *list, const pencil *with, unsigned band, int left, int top, int side)
 {
     const double half = (side - with->samples) / 2.0, cx = left + side / 2.0, cy = top + side / 2.0;

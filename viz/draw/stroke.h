@@ -15,7 +15,7 @@ typedef struct pencil {
 
 pencil pencil_make(const scene *s, scene_style style, unsigned depth);
 
-/* The pieces of one segment, as its stroke says. However short, it leaves a mark of at least one pixel. */
+/* Draw the pieces of one segment with its stroke; however short, at least one pixel. */
 void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);

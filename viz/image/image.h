@@ -20,7 +20,7 @@ typedef struct image_color {
 } image_color;
 
 typedef struct image_palette {
-    image_color colors[256]; /* those from count on are never drawn: leave them zero */
+    image_color colors[256]; /* entries from count on are unused and must be zero */
     int count;               /* 1 to 256 */
 } image_palette;
 
@@ -28,7 +28,7 @@ typedef struct image {
     int width, height;
     int channels;          /* 1: indices into the palette; 3: r, g, b */
     bool wide;             /* a sample has 16 bits, in this machine's byte order, not 8; channels is then 3 */
-    bool transparent;      /* read from a file that is transparent somewhere: it was laid over a background */
+    bool transparent;      /* the file that it was read from has transparent pixels: they were laid over a background */
     image_palette palette; /* read when channels is 1 */
     uint8_t *pixels;       /* width * height * image_pixel_size() bytes, owned */
 } image;

@@ -169,7 +169,7 @@ typedef struct rows {
     int first; /* their place in the whole */
 } rows;
 
-/* Do equal bytes mean equal colours? The whole tables count: they are always there. */
+/* Whether equal bytes mean equal colours. Whole palettes are compared: unused entries are zero. */
 static bool stored_alike(const image *a, const image *b)
 {
     if (a->channels != b->channels || a->wide != b->wide)
@@ -233,7 +233,7 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
         add_pixel(&difference->counted, x, r->first + y, c);
 }
 
-/* How many pixels are stored alike before the first that is not. */
+/* The number of equal pixels before the first that differs in its bytes. */
 static int run_alike(const uint8_t *a, const uint8_t *b, int count, size_t pixel_size)
 {
     const size_t size = (size_t)count * pixel_size;
@@ -324,14 +324,14 @@ bool image_forgiven(const image_difference *difference, const image_tolerance *t
 
 /* ---- A picture ----------------------------------------------------------------------------------------------- */
 
-/* The smallest difference is as bright as a warning, and the scale above it follows the square root of the delta: half
- * of it is for what an eye would hardly see. */
-/* Indices of the palette: greys, what is forgiven, what only one of both has, and the heat of a difference. */
+/* The colour of a difference follows the square root of its delta, so that half of the scale is for barely visible
+ * ones. */
+/* Indices of the palette: greys, what is forgiven, pixels of one image only, and the heat of a difference. */
 enum { GREYS = 64, FORGIVEN = GREYS, OUTSIDE, HEAT, HEATS = 256 - HEAT };
 
 static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 46, 104};
 
-/* Apart from the greys for colour-blind eyes too, each brighter than the one before. */
+/* Distinct from the greys under colour blindness too, each brighter than the one before. */
 static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
 
 static uint8_t between(int from, int to, int part, int whole)

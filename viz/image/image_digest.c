@@ -17,8 +17,8 @@ static uint64_t color_word(const image *image, size_t n)
     return (uint64_t)color.r << 16 | (uint64_t)color.g << 8 | color.b;
 }
 
-/* The end of the run of pixels stored as pixel `start` is. A frame is mostly background: eight bytes at a time are
- * compared with their own neighbours one pixel earlier. */
+/* The end of the run of pixels equal to pixel `start`. Eight bytes at a time are compared with those one pixel earlier,
+ * since a frame is mostly background. */
 static size_t run_end(const image *image, size_t start, size_t pixel_count)
 {
     const size_t step = image_pixel_size(image);
@@ -40,11 +40,11 @@ static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool 
     return octree_digest_word(digest, (uint64_t)length << 24 | color);
 }
 
-/* A digest while rows are stirred in. Runs of one colour are, not pixels. Runs of unlike indices may have the same
- * colour, and runs may go on in the next rows: these are joined, so that neither palette nor bands leave a trace. */
+/* A digest in progress, over runs of one colour. Adjacent runs of different indices may have the same colour, and runs
+ * may continue in the next rows: these are joined, so that the digest depends neither on the palette nor on bands. */
 typedef struct digesting {
     uint64_t digest;
-    uint64_t color; /* of the run that has not ended */
+    uint64_t color; /* of the current run */
     size_t length;
     bool wide;
 } digesting;

@@ -52,7 +52,7 @@ static bool find_chunk(page *p, size_t offset, chunk *c)
     return c->size <= p->size - offset - DATA - CRC_SIZE && get_number(c->at + DATA + c->size) == crc_of(c);
 }
 
-/* Null for what is no regular file, too: opening a pipe would wait for its other end. */
+/* Null also for anything but a regular file: opening a pipe would block. */
 static FILE *open_png(const char *path, const char *mode, page *p)
 {
     struct stat status;
@@ -117,7 +117,7 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
     return found;
 }
 
-/* Text and check sum stand side by side, in one page: one write, which nothing tears. */
+/* Text and check sum are adjacent and within one page, so that one write replaces both at once. */
 static bool replace(FILE *file, page *p, const char *keyword, const char *text)
 {
     chunk c;

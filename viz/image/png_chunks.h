@@ -1,4 +1,4 @@
-/* png_chunks.h - what a PNG file says beside its pixels, found chunk by chunk without decoding them. */
+/* png_chunks.h - size and texts of PNG files, read chunk by chunk without decoding pixels. */
 #ifndef IMAGE_PNG_CHUNKS_H
 #define IMAGE_PNG_CHUNKS_H
 
@@ -12,8 +12,8 @@ bool image_png_size(const char *path, int *width, int *height);
  * (cut at size - 1). False when there is none. */
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size);
 
-/* Put another text of the same length in its place; nothing else of the file changes. The file is whole before and
- * after, whatever ends the process. False when the file has no such text or cannot be written. */
+/* Overwrite it with a text of the same length; nothing else in the file changes. The file stays valid even if the
+ * process is killed. False when the file has no such text or cannot be written. */
 bool image_replace_text(const char *path, const char *keyword, const char *text);
 
 #endif

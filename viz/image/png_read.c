@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Bounds on what a hostile file may claim beside its pixels. */
+/* Limits on a hostile file's chunks other than pixels. */
 #define LARGEST_CHUNK 8000000
 #define MOST_TEXTS 1000
 
@@ -25,7 +25,7 @@ struct image_source {
     FILE *file;
     uint64_t file_size;
     image_color background;
-    bool whole;                 /* all rows at once: it was asked for, or the picture cannot be told otherwise */
+    bool whole;                 /* all rows at once: it was requested, or the format requires it */
     png_byte color_type, depth; /* as stored */
     size_t samples;             /* of a pixel as libpng delivers it: 1, an index or a grey; 3; or 4, with alpha */
     int passes;
@@ -33,7 +33,7 @@ struct image_source {
     uint8_t *band; /* pixels of the last rows that were asked for, */
     int band_rows; /* as many as it has room for */
     int next_y;
-    bool beyond; /* an index beyond the palette was met: told when all else is right */
+    bool beyond; /* an index beyond the palette was met; reported last */
     bool failed;
 };
 
@@ -45,7 +45,7 @@ static bool fail(image_source *s, const char *reason)
 
 /* ---- libpng -------------------------------------------------------------------------------------------------- */
 
-/* A step of the reading, which an error of libpng's ends. */
+/* A step of reading; an error of libpng's aborts it. */
 typedef void step(png_structp png, png_infop info, void *context);
 
 static void read_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -77,10 +77,10 @@ static bool run(image_source *s, step *task, void *context)
     return true;
 }
 
-/* Strict, because a damaged file that looks like a picture would be compared as one: a wrong CRC of any chunk and
- * broken streams are errors. The Adler-32 within the stream, a fifth of the time, is left alone where libpng was built
- * so that it can be (Debian 12's, not 13's): the CRCs are over the same bytes. Chunks that change no pixel here (gamma,
- * profiles, texts) are skipped, with all they might unpack to. */
+/* Strict, because a damaged file must not be compared as a picture: a wrong CRC of any chunk and
+ * broken streams are errors. The Adler-32 within the stream, a fifth of the time, is skipped if libpng was built with
+ * that option (Debian 12's, not 13's): the CRCs are over the same bytes. Chunks that affect no pixel here (gamma,
+ * profiles, texts) are skipped without unpacking them. */
 static void set_rules(png_structp png, FILE *file)
 {
     png_set_read_fn(png, file, read_bytes);
@@ -92,7 +92,7 @@ static void set_rules(png_structp png, FILE *file)
     png_set_chunk_malloc_max(png, LARGEST_CHUNK);
     png_set_chunk_cache_max(png, MOST_TEXTS);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
-    /* Who reads pixels tests the sides: libpng's own test says only "Invalid IHDR data". */
+    /* check_size() tests the sides: libpng's own test says only "Invalid IHDR data". */
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
 }
 
@@ -103,7 +103,7 @@ static bool is_indexed(const image_source *s)
     return s->color_type == PNG_COLOR_TYPE_PALETTE || (s->color_type == PNG_COLOR_TYPE_GRAY && s->depth <= 8);
 }
 
-/* Have libpng deliver whole samples, as exact as they are. Laying over a background is not left to it: 1.6.39 turns the
+/* Have libpng deliver whole samples without loss. It does not blend with the background: 1.6.39 turns the
  * white of 16-bit files into 254. */
 static void set_conversion(png_structp png, png_infop info, image_source *s)
 {
@@ -125,7 +125,7 @@ static void set_conversion(png_structp png, png_infop info, image_source *s)
         png_set_swap(png);
 }
 
-/* Refuse before memory is spent on it. */
+/* Checked before memory is allocated. */
 static void check_size(png_structp png, png_infop info, const image_source *s)
 {
     const png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
@@ -147,7 +147,7 @@ static image_color mix_color(image_color color, image_color ground, unsigned alp
                          (uint8_t)mix(color.b, ground.b, alpha, 255)};
 }
 
-/* The colours that the indices, or the greys, of a file stand for. */
+/* The colours of a file's indices or grey levels. */
 static void set_colors(png_structp png, png_infop info, image_source *s)
 {
     image_palette *palette = &s->about.palette;
@@ -197,7 +197,7 @@ static void begin(png_structp png, png_infop info, void *context)
         png_error(png, "libpng cannot turn it into whole samples");
     if (s->samples == 1)
         set_colors(png, info, s);
-    /* Interlaced rows come in passes; whether 16 bits a sample are needed is known at the end. */
+    /* Interlaced rows come in passes; only all rows together show whether 16 bits a sample are needed. */
     s->whole = s->whole || s->passes > 1 || s->about.wide;
 }
 
@@ -233,7 +233,7 @@ static bool fits_bytes(const uint8_t *samples, size_t count)
     return true;
 }
 
-/* An image has 16 bits a sample only where it needs them, so that equal pictures are stored alike. */
+/* 16 bits a sample are kept only if needed, so that equal pictures are stored alike. */
 static void narrow_where_exact(image *out)
 {
     const size_t count = 3 * (size_t)out->width * (size_t)out->height;
@@ -256,13 +256,13 @@ static void convert(image_source *s, const image *band)
         lay_over_wide(band->pixels, count, s->background);
 }
 
-/* Rows that are wanted, and where their pixels go. */
+/* The rows to read, and where their pixels go. */
 typedef struct band_request {
     image_source *source;
     const image *band;
 } band_request;
 
-/* With the last rows all that follows them is read. */
+/* After the last rows, read to the end of the file. */
 static void decode(png_structp png, png_infop info, void *context)
 {
     (void)info;
@@ -335,7 +335,7 @@ bool image_source_failed(const image_source *s)
     return s->failed;
 }
 
-/* Opening a pipe would wait for its other end; a device may never end. */
+/* Opening a pipe would block, and a device may be endless. */
 static bool open_file(image_source *s)
 {
     struct stat status;

@@ -4,30 +4,28 @@
 
 #include "image.h"
 
-/* What shines through where a picture is transparent, unless another colour is asked for. */
+/* The default background of transparent pictures. */
 #define IMAGE_WHITE ((image_color){255, 255, 255})
 
 /* Read any PNG without loss: palettes, and greys of up to 8 bits, become indexed images, the others RGB ones, with 16
  * bits a sample only where 8 cannot hold them. What is transparent is laid over white; gamma and colour profiles are
- * ignored. Refused are files that are no regular files, whatever is cut short or fails a checksum, sides beyond
- * IMAGE_MAX_SIDE, and more pixels than so many compressed bytes can hold: memory stays within 8 bytes a pixel, and
- * within 8300 times the file's size. The image is created; when it fails, it is zeroed. */
+ * ignored. Refused are irregular files, files that are cut short or fail a checksum, sides beyond IMAGE_MAX_SIDE, and
+ * more pixels than the file's size can encode: memory stays within 8 bytes a pixel, and within 8300 times the file's
+ * size. On failure the image is zeroed. */
 bool image_read_png(const char *path, image *image, octreel_error *error);
 
-/* The same over a background of one's own. */
+/* The same over a given background. */
 bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error);
 
-/* The rows of a PNG, decoded as they are asked for, so that it never is in memory whole. Where rows cannot come one
- * after the other - they are interlaced, or have 16 bits a sample and may not need them - all are read when it is
- * opened, as they are when `whole` asks for it. One thread at a time may use it. */
+/* The rows of a PNG, decoded on demand, so that it is never in memory as a whole. All rows are read at opening if
+ * `whole` is set, or if the file is interlaced or has 16 bits a sample. One thread at a time may use it. */
 typedef struct image_source image_source;
 
-/* Begin, under the rules of image_read_png(). Null, with a sentence, where that cannot be; path and error must outlive
- * the source. */
+/* Open under the rules of image_read_png(). Null, with an error, on failure; path and error must outlive the source. */
 image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error);
 void image_source_close(image_source *source); /* null is allowed */
 
-/* The image but for its pixels, which are null unless all of them are at hand. */
+/* The image; its pixels are null unless all rows are in memory. */
 const image *image_source_about(const image_source *source);
 
 /* The next rows, at most `rows`, as an image that is not to be released: its pixels belong to the source, and are valid
@@ -36,8 +34,8 @@ const image *image_source_about(const image_source *source);
 bool image_source_next(image_source *source, int rows, image *band);
 bool image_source_failed(const image_source *source);
 
-/* How many rows of a picture are best asked for at a time: so few that some such bands fit the second cache, and so
- * many that what is done for each band does not count. */
+/* How many rows to read at a time: few enough for several such bands to fit the L2 cache, and enough that the cost per
+ * band does not matter. */
 static inline int image_band_rows(const image *about)
 {
     enum { BAND_PIXELS = 1 << 14 };

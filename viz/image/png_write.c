@@ -10,7 +10,7 @@
 /* Large enough for the whole of a usual frame: one IDAT chunk, which stdio passes on without copying. */
 #define COMPRESSED_BUFFER_SIZE ((size_t)1 << 16)
 
-/* A file under way: libpng hands it back as its error pointer. */
+/* A file being written: libpng's error pointer. */
 typedef struct output {
     const image_rows *rows;
     const image_text *texts;
@@ -96,7 +96,8 @@ static bool write_chunks(png_structp png, png_infop info, const output *out)
     return true;
 }
 
-/* Warnings are errors here: libpng warns where it would write something else than it was given, a keyword say. */
+/* Warnings count as errors: libpng warns when it would write something other than it was given, such as an invalid
+ * keyword. */
 static bool encode(output *out)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, out, raise_error, raise_error);
@@ -106,7 +107,7 @@ static bool encode(output *out)
     return whole;
 }
 
-/* A pipe would wait for its other end. */
+/* Opening a pipe would block. */
 static bool is_replaceable(const char *path)
 {
     struct stat status;

@@ -1,4 +1,4 @@
-/* png_write.h - pictures to PNG files: there whole, or not at all. */
+/* png_write.h - pictures to PNG files, which are written completely or not at all. */
 #ifndef IMAGE_PNG_WRITE_H
 #define IMAGE_PNG_WRITE_H
 
@@ -17,7 +17,7 @@ typedef struct image_text {
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
                      octreel_error *error);
 
-/* A picture that is made while it is written, so that it never is in memory whole. */
+/* A picture that is produced while it is written, so that it is never in memory as a whole. */
 typedef struct image_rows {
     int width, height;            /* at least 1; PNG readers may refuse what is larger than IMAGE_MAX_SIDE */
     const image_palette *palette; /* of one byte a pixel, whose indices all have a colour; null: r, g, b */

@@ -1,5 +1,5 @@
-/* describe.h - what an element of a tick's scene is about, in words: ids taken back to the nodes, points, queries and
- * events that they stand for. Each layer describes its own (layer_type.h).
+/* describe.h - a description in words of an element of a tick's scene: the node, point, query or event that its id
+ * stands for. Each layer describes its own elements (layer_type.h).
  */
 #ifndef LAYERS_DESCRIBE_H
 #define LAYERS_DESCRIBE_H
@@ -13,18 +13,18 @@
 
 typedef struct element_subject {
     bool has_node, has_point;
-    octree_node node;         /* the node it is about; where the tree has none any more, its cell */
-    bool gone;                /* there is only the cell */
-    octree_point point;       /* the point it is about */
+    octree_node node;         /* the node that it shows, or its cell when the tree no longer has the node */
+    bool gone;                /* the tree no longer has the node */
+    octree_point point;       /* the point that it shows */
     char text[ELEMENT_WORDS]; /* such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)" */
 } element_subject;
 
-/* `s` must be the scene of the game's last tick, and `h` the heat that it was made with. */
+/* s must be the scene of the game's last tick, and h the heat that it was built with. */
 element_subject describe_element(const octree_game *game, const heat *h, const scene *s, scene_element element);
 
 /* ---- For layers --------------------------------------------------------------------------------------------- */
 
-/* A description while it is written. */
+/* A description under construction. */
 typedef struct description {
     const octree_game *game;
     const octree_tick *tick;
@@ -42,7 +42,7 @@ typedef struct described {
     double at[3];   /* of a marker */
 } described;
 
-/* Add words; what has no room is cut. */
+/* Append words; cut at ELEMENT_WORDS. */
 void say(description *d, const char *format, ...);
 void say_number(description *d, double value);
 void say_place(description *d, const double place[3]); /* "(1, 2, 3)" */

@@ -1,13 +1,13 @@
 /* diagram_slots.h - the diagram's layout: which nodes are drawn one by one, and where across the picture each stands.
  *
- * A node has a slot, an interval from 0 to 1, and deals it out to its octants in Morton order. The share of a leaf is
- * 1; that of an inner node is the number of shares below it, rounded up to 2, 3, 4, 6, 8, 12, 16, 24 ...: what splits
- * or merges moves what is beside it, and what is beside its ancestors only where one of these steps is passed. Where
- * the whole tree has room for it, an empty octant has a share of 1 too, so that filling it moves nothing; else it has
- * none.
+ * A node has a slot, an interval within 0 to 1, which is divided among its octants in Morton order. The share of a leaf
+ * is 1; that of an inner node is the number of shares below it, rounded up to 2, 3, 4, 6, 8, 12, 16, 24 ...: a split or
+ * merge moves the node's siblings, but those of its ancestors only when one of these steps is crossed. If the whole
+ * tree fits so, an empty octant has a share of 1 too, so that filling it moves nothing; else 0.
  *
- * Nodes are drawn one by one down to the deepest level at which every share is wide enough. What is deeper is folded:
- * it stands within the slot of its ancestor at that level, where its points are among the ancestor's in Morton order.
+ * Nodes are drawn one by one down to the deepest level at which every share is wide enough. Deeper nodes are folded:
+ * each is placed in the slot of its ancestor at that level, at its points' position among the ancestor's points in
+ * Morton order.
  */
 #ifndef LAYERS_DIAGRAM_SLOTS_H
 #define LAYERS_DIAGRAM_SLOTS_H
@@ -32,12 +32,12 @@ typedef struct diagram_slots {
     octree_stats stats; /* of the whole tree */
 } diagram_slots;
 
-/* Arrange a tree in at most `room` shares, of which there must be one. False when there is no memory. Cost: O(nodes).
+/* Arrange a tree in at most `room` shares, at least 1. False when there is no memory. Cost: O(nodes).
  */
 bool diagram_arrange(diagram_slots *slots, const octree *tree, size_t room);
 void diagram_slots_release(diagram_slots *slots);
 
-/* Visit the nodes that are folded, in pre-order, with the place where each stands. Cost: O(nodes). */
+/* Visit the folded nodes in pre-order, with the position of each, 0 to 1. Cost: O(nodes). */
 typedef void (*diagram_visitor)(const octree_node *node, double middle, void *context);
 void diagram_visit_folded(const diagram_slots *slots, const octree *tree, diagram_visitor visit, void *context);
 

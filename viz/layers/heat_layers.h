@@ -1,4 +1,4 @@
-/* heat_layers.h - the scales of the layers of heat. */
+/* heat_layers.h - the scales of the heat layers. */
 #ifndef LAYERS_HEAT_LAYERS_H
 #define LAYERS_HEAT_LAYERS_H
 
@@ -12,10 +12,10 @@
 #define HEAT_VISITS_SHIFT 1
 #define HEAT_POINTS_SHIFT 2
 
-/* Where the last step begins. */
+/* The least amount of the last step. */
 #define HEAT_LAST(shift) (UINT64_C(1) << (HEAT_STEPS - 1) * (shift))
 
-/* The step of an amount that is not 0. */
+/* The step of an amount, which is not 0. */
 unsigned heat_step(uint64_t amount, unsigned shift);
 
 #endif

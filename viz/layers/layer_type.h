@@ -1,5 +1,5 @@
 /* layer_type.h - what a layer does. The file of a layer in this folder defines a layer_type of its row in layer.h, such
- * as layer_RANGE; that is all that the scene, the legend and those who ask what is at a pixel go by.
+ * as layer_RANGE; scenes, the legend and `octreel pick` use nothing else.
  */
 #ifndef LAYERS_LAYER_TYPE_H
 #define LAYERS_LAYER_TYPE_H
@@ -9,48 +9,48 @@
 #include "legend.h"
 #include "pen.h"
 
-/* What a scene is made of: a tick of a game, or a tree alone. */
+/* What a scene is built from: a tick of a game, or a tree alone. */
 typedef struct layer_source {
-    const view *view; /* as it was asked for; where the diagram is alone, the scene's has fewer layers */
+    const view *view; /* as requested; under DIAGRAM_ONLY the scene's view has fewer layers */
     const octree *tree;
     octree_box world;
     const octree_answer *answers;
     size_t answer_count;
-    const char *broken; /* what the validator found, null where all invariants hold, */
+    const char *broken; /* what the validator found; null when all invariants hold */
     octree_address broken_at;
 
     const octree_game *game; /* null: a tree alone */
     const octree_session *session;
     const octree_tick *tick;
-    const heat *heat; /* null: not counted */
+    const heat *heat; /* null: the heat layers are empty */
 
-    const char *title;    /* of a tree alone, */
-    octree_address asked; /* and the node that is asked for, or 0 */
+    const char *title;    /* of a tree alone */
+    octree_address asked; /* of a tree alone: the node to mark, or 0 */
 } layer_source;
 
-/* Members that are null or 0 are what a layer does not have. `own` is the layer itself, for files with several. */
+/* Members that a layer does not need are null or 0. `own` is the layer itself, for files that define several. */
 typedef struct layer_type {
-    /* Whether the layer can have something in it, in this frame or others of its recording; then it is listed in the
-     * legend. Null: always, or where there are answers in it or will be. */
+    /* Whether the layer can have elements in this frame or others of its recording: then the legend lists it. Null:
+     * always; for layers of answers, when such a query was or will be asked. */
     bool (*applies)(const layer_source *in);
 
-    /* Add the layer's elements; of a layer of answers, those of one. Layers that are not shown need no test: a scene
-     * leaves their elements out. */
+    /* Add the layer's elements, or those of one answer. Hidden layers need no test: scene_add_* drops their elements.
+     */
     void (*add)(scene *s, const layer_source *in, view_layer own);
     void (*add_answer)(scene *s, const octree_answer *answer, size_t place, view_layer own);
 
-    /* The row of an answer in the panel. */
+    /* Write the panel's row of an answer. */
     void (*write_answer)(pen *p, const octree_answer *answer);
 
-    /* The legend: sorted by these places, a line of a sign and words, or what a function adds. */
+    /* The legend: lines are sorted by place; one line of a sign and text, or what the function adds. */
     int legend_place;
     legend_sign sign;
     legend_worth worth;
     const char *text;
     void (*legend)(legend *l, const layer_source *in);
 
-    /* Say what an element is about. Where this is null: boxes are of nodes, markers on points, by their ids; and so are
-     * the markers of answers. */
+    /* Describe an element. Null: the ids of boxes are nodes, those of markers points. Markers of answers are always
+     * points. */
     void (*describe)(description *d, const described *element);
 } layer_type;
 
@@ -60,12 +60,12 @@ LAYER_MAP(LAYER_TYPE_DECLARE)
 
 extern const layer_type *const layer_types[LAYER_COUNT + 1];
 
-/* applies() of layers that only games have. */
+/* An applies() for layers that only games have. */
 bool layer_in_games(const layer_source *in);
 
 bool layer_applies(const layer_source *in, view_layer layer);
 
-/* The layer of the answers to queries of a kind has the kind's name. */
+/* The layer that shows answers of a kind of query. */
 view_layer layer_of_query(octree_query_kind kind);
 
 #endif

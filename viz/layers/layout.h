@@ -1,5 +1,5 @@
-/* layout.h - the areas of a picture, in whole pixels: the column of text at the left, what the space view and the
- * diagram have of the rest, and room for words there so that none covers another. */
+/* layout.h - the areas of a picture, in whole pixels: the column of text at the left, the space view, the diagram; and
+ * the placement of labels so that none covers another. */
 #ifndef LAYERS_LAYOUT_H
 #define LAYERS_LAYOUT_H
 
@@ -13,27 +13,27 @@ int panel_width(const view *v);
 /* Where the world is drawn. */
 camera_window layout_space(const view *v);
 
-/* Where the tree is drawn as a tree; without extent where the view shows no diagram. Beside the space view it has half
- * of the rest, at the right or, where the rest is higher than wide, below. */
+/* The area of the diagram; empty when the view shows none. Beside the space view it has half of what the column leaves:
+ * the right half, or the lower one when that is higher than wide. */
 camera_window layout_diagram(const view *v);
 
 /* ---- Words among the lines ---------------------------------------------------------------------------------- */
 
-#define TEXT_SPACE_MOST 400 /* more words than that are no help */
+#define TEXT_SPACE_MOST 400 /* more labels than that are unreadable */
 #define TEXT_LETTER 6       /* units that a letter takes, about */
 #define TEXT_HEIGHT 9       /* units from the top of a letter to below its foot */
 
-/* Rectangles that are taken, in pixels: left, top, right, bottom. */
+/* Rectangles in use, in pixels: left, top, right, bottom. */
 typedef struct text_space {
     double taken[TEXT_SPACE_MOST][4];
     size_t count;
 } text_space;
 
-/* Take the room of a text around a place, in pixels, and write where its label begins. False where it would leave the
- * area that the world is drawn in, or cover another. */
+/* Reserve room for a text centred on a pixel, and write its top left corner. False when it would leave the space view
+ * or cover another text. */
 bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2]);
 
-/* Add a label that has its room, on a ground of a role: lines and points would make it hard to read. The ground has the
+/* Add a label on a filled rectangle, so that lines and points do not make it hard to read. The rectangle has the
  * label's id and layer. */
 void text_add_on_ground(scene *s, const scene_label *label, theme_role ground);
 

@@ -9,7 +9,7 @@ typedef struct layer_source layer_source;
 
 /* What a line shows before its words, in the colour of its role. */
 typedef enum legend_sign {
-    SIGN_NONE, /* the line belongs to the one before it */
+    SIGN_NONE, /* continues the line before it */
     SIGN_LINE,
     SIGN_BOLD,
     SIGN_DASHES,
@@ -27,12 +27,12 @@ typedef enum legend_sign {
     SIGN_NODE,
 } legend_sign;
 
-/* Where there is no room for all lines, those that are worth less go first. */
+/* When lines do not fit, those with the greatest value are dropped first. */
 typedef enum legend_worth {
     WORTH_FULL,
-    WORTH_ANSWER, /* the panel tells its answer in the same colour */
-    WORTH_PLAIN,  /* says little that the picture does not say by itself */
-    WORTH_ABSENT, /* nothing in this frame */
+    WORTH_ANSWER, /* the panel shows its answer in the same colour */
+    WORTH_PLAIN,  /* nearly self-explanatory */
+    WORTH_ABSENT, /* no elements in this frame */
 } legend_worth;
 
 typedef struct legend_line {
@@ -48,21 +48,20 @@ typedef struct legend_line {
 
 typedef struct legend {
     const scene *scene;
-    unsigned in_frame; /* layers that have something in this frame, as bits */
-    legend_line next;  /* what is added begins as this */
+    unsigned in_frame; /* bits of the layers with elements in this frame */
+    legend_line next;  /* the initial value of added lines */
     legend_line lines[LEGEND_MOST_LINES];
     size_t count;
 } legend;
 
-/* Letters of a line's words that have room. */
+/* Letters that fit into a line. */
 #define LEGEND_LETTERS ((COLUMN - WORDS) / LETTER)
 
-/* Add a line in the layer's colour; the line it returns may be changed. */
+/* Add a line in the layer's colour. The result may be changed. */
 legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...);
 
-/* A line for each layer of the view that can have something in it, as far as there is room below the pen: first those
- * go that have nothing in this frame, then those that explain themselves, then those of answers; and then the last,
- * which a last line counts. */
+/* Write the lines of the view's layers below the pen. When they do not fit, lines are dropped by their worth, and then
+ * from the end, with a final line that counts these. */
 void write_legend(pen *p, const layer_source *in);
 
 #endif

@@ -11,19 +11,17 @@ theme_role node_role(const view *v, unsigned depth, size_t points);
 /* A node's box, with its address as id. */
 void add_node_box(scene *s, const octree_node *node, scene_style style);
 
-/* The node at an address that a tick names, or its empty cell where the tree has no node there any more. False when the
- * view's filter leaves it out; or where it is smaller than the view's lod and lies in one that is shown, which is
- * counted. */
+/* The node at an address of a tick, or its empty cell when the tree no longer has the node. False when the view's
+ * filter hides it, or when it is smaller than the view's lod and lies in a node that is shown, which is counted. */
 bool tick_node_shown(scene *s, const octree *tree, octree_address address, octree_node *node);
 
-/* The diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1: a box is told from others without a colour.
+/* The diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1: recognizable without colour.
  */
 void add_crossed_faces(scene *s, const octree_box *box, scene_style style);
 #define CROSS_LINES 12
 
-/* Which of too many points are left out: by the id alone, so that a point that moves does not come and go, and so that
- * its velocity is left out with it. A sieve with n of its lowest bits set keeps about one id in 2^n, of which a finer
- * one keeps a part. */
+/* Thinning of points to the budget goes by the id alone, so that a moving point does not flicker and its velocity is
+ * dropped with it. A sieve whose n lowest bits are set keeps about one id in 2^n; a finer sieve keeps a subset. */
 static inline bool sieve_drops(uint64_t sieve, uint64_t id)
 {
     return octree_digest_word(OCTREE_DIGEST_START, id) & sieve;

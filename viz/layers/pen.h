@@ -11,7 +11,7 @@
 #define MARGIN 8
 #define LINE 13
 #define VALUE 54                    /* where a row's value begins */
-#define LETTER 6                    /* the widest that most letters are; a row of text is cut to fit the panel by it */
+#define LETTER 6                    /* the width of the widest usual letter: text is cut by it to fit the panel */
 #define SWATCH 20                   /* the width of a sign in the legend */
 #define WORDS (MARGIN + SWATCH + 6) /* where its words begin */
 
@@ -23,17 +23,17 @@ typedef struct pen {
     uint64_t next_id;
 } pen;
 
-/* Letters from `x` to the end of the column. */
+/* How many letters fit from x to the end of the column. */
 size_t text_room(int x, int size);
 
-/* One that is longer than its room is cut, and ends in two dots. */
+/* Write a text; one that does not fit is cut and ends in two dots. */
 void write_text(pen *p, int x, theme_role role, int size, const char *text);
 
-/* A line of text, and of a name and a value. */
+/* Write a line of text, or a row of a name and a value, and move to the next line. */
 void write_line(pen *p, int x, theme_role role, const char *text);
 void write_row(pen *p, const char *name, const char *format, ...);
 
-/* A row of a number and as many ids as have room, a few at most: "3: 17 5 +1". */
+/* Write a row of a count and as many ids as fit, PEN_MOST_IDS at most: "3: 17 5 +1". */
 void write_ids(pen *p, const char *name, const octree_point *points, size_t count);
 #define PEN_MOST_IDS 3
 

@@ -1,4 +1,4 @@
-/* tick_scene.h - what a tree, or a tick of a game, looks like: a scene with all layers that its view shows. */
+/* tick_scene.h - builds the scene of a tree, or of a tick of a game, with the layers that its view shows. */
 #ifndef LAYERS_TICK_SCENE_H
 #define LAYERS_TICK_SCENE_H
 
@@ -6,11 +6,11 @@
 #include "octree/game.h"
 #include "scene.h"
 
-/* Fill a scene with one tick of a game, as seen by a view. `h` is what all ticks up to this one have added up to; null
- * leaves the layers of heat empty. False when there is no memory. */
+/* Fill a scene with the last tick of a game, as seen by a view. h is the heat up to this tick; null leaves the heat
+ * layers empty. False when there is no memory. */
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h);
 
-/* What is shown of a tree beside its nodes and points. */
+/* What is shown of a tree in addition to its nodes and points. */
 typedef struct tree_subject {
     const char *title;
     octree_address node; /* it is marked, and the diagram shows the path to it; 0: none */

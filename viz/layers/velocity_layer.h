@@ -4,8 +4,8 @@
 
 #include "octree/game.h"
 
-/* The ticks whose way an arrow shows: so many of 1, 2, 5, 10 ... 1000 that the arrow of the fastest of the session's
- * bodies is no longer than a tenth of the world's longest side, or 1. The same at every tick. */
+/* An arrow shows a body's movement over this many ticks: the largest of 1, 2, 5, 10 ... 1000 at which the fastest
+ * body's arrow is at most a tenth of the world's longest side, at least 1. The same at every tick. */
 unsigned velocity_ticks(const octree_game *game);
 
 #endif

@@ -6,15 +6,15 @@
 #include <math.h>
 #include <string.h>
 
-/* A unit that is not quite the frame's, so that labels fit around the world. */
+/* The window divided by the world's picture: room for labels. */
 #define MARGIN 1.1
 #define MARGIN_OF_BALL 1.01
-#define THINNEST 1e-3   /* a world that is seen as less, end on, is not enlarged to fill the window */
+#define THINNEST 1e-3   /* a world that looks thinner, seen end on, is not enlarged to fill the window */
 #define ORBIT_TICKS 480 /* ticks for a full turn */
-#define FOCAL 1.6       /* of the camera that follows: half the window is seen at this distance a unit */
+#define FOCAL 1.6       /* of the following camera: focal length in half windows */
 
-/* Of a box whose size is told from its middle: so far aside at most, and from the eye, for the roundings to be small;
- * and what they are in pixels, at most. */
+/* Limits of the quick test in is_seen_below(): how far a box may be off the view axis, relative to its depth, and how
+ * far from the eye, for rounding errors to stay below DOUBT pixels. */
 #define ASIDE 1e3
 #define FARTHEST 1e100
 #define DOUBT 1e-6
@@ -73,7 +73,7 @@ static void stand(camera *c, const double target[3], double distance)
         c->eye[i] = target[i] - distance * c->forward[i];
 }
 
-/* Half the extent of what is framed in unit coordinates, as seen along an axis of the camera. */
+/* Half the extent of the framed box in unit coordinates, along an axis of the camera. */
 static double half_span(const double axis[3], const double half[3])
 {
     return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
@@ -92,7 +92,7 @@ static const struct {
     [CAMERA_ORBIT] = {30.0 / 360, 22.0 / 360, true},
 };
 
-/* Fit the world into the window: orthographic by its outline, perspective by the ball around it. */
+/* Fit the world into the window: by its outline if orthographic, by its bounding sphere under perspective. */
 static double fit(const camera *c, camera_window window, double distance)
 {
     const double across = fmax(half_span(c->right, c->half), THINNEST),
@@ -152,7 +152,7 @@ bool camera_pixel(const camera *c, const double position[3], double pixel[2])
     return isfinite(pixel[0]) && isfinite(pixel[1]);
 }
 
-/* Under parallel rays a box appears as large wherever it is. */
+/* Under orthographic projection a box has the same size on screen everywhere. */
 static double parallel_box_pixels(const camera *c, const octree_box *box)
 {
     double half[3];
@@ -182,12 +182,11 @@ double camera_box_pixels(const camera *c, const octree_box *box)
     return fmax(high[0] - low[0], high[1] - low[1]);
 }
 
-/* From the middle of a box, at (x, y, depth), a corner that is d away has its picture off by
+/* The corner of a box at offset d from its middle (x, y, depth) is projected off the middle's pixel by
  *   zoom (d.right - x / depth d.forward) / (depth + d.forward)
- * across, and likewise along. What is above the line is greatest at one of two opposite corners, where it has the same
- * size; what is below it lies between the depths of the nearest and the farthest corner. So it is known within the
- * quotient of these how large the box appears, which for a small one is nearly 1. Roundings are far below DOUBT where
- * no corner is beside or behind the eye. */
+ * in x, and likewise in y. The numerator is largest, in size, at two opposite corners; the denominator lies between the
+ * depths of the nearest and the farthest corner. This bounds the box's size on screen within their quotient, nearly 1
+ * for a small box. Rounding errors are far below DOUBT when no corner is beside or behind the eye. */
 static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
 {
     double middle[3], half[3], across = 0, along = 0;
@@ -220,8 +219,8 @@ bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)
 
 /* ---- Views that fit ------------------------------------------------------------------------------------------ */
 
-/* Of the longest side: a box that is thinner is widened to it, so that points on a line or a plane are seen in a piece
- * of their surroundings from any side. */
+/* A fitted box is at least this thick, relative to its longest side, so that points on a line or a plane are shown with
+ * some of their surroundings. */
 #define THINNEST_FIT (1.0 / 16)
 
 typedef struct bounds {

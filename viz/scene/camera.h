@@ -26,7 +26,7 @@ typedef struct camera {
     double zoom;                  /* pixels a unit; under perspective, at distance 1 */
     double middle[2];             /* the pixel that the axis of view passes through */
     double near;                  /* what is nearer than this (along forward, from the eye) is clipped */
-    double near_depth, far_depth; /* the box's span of view depth: the bands divide it */
+    double near_depth, far_depth; /* the box's range of view depth, which is cut into bands */
 } camera;
 
 /* The camera of a tick: it depends on nothing but the view, the world, the player and the number of the tick. */
@@ -67,16 +67,16 @@ static inline void camera_project(const camera *c, const double seen[3], double 
 /* The pixel of a position; false when it is not before the camera. */
 bool camera_pixel(const camera *c, const double position[3], double pixel[2]);
 
-/* How large a box appears: the longer side, in pixels, of the smallest upright rectangle around its picture. What lies
- * in the box appears no larger. Infinite where some of it is nearer than `near`. */
+/* A box's size on screen: the longer side, in pixels, of the upright rectangle around its projection; infinite when a
+ * part of it is nearer than `near`. Nothing inside the box appears larger. */
 double camera_box_pixels(const camera *c, const octree_box *box);
 
-/* Whether that is less than so many pixels: sooner, for a box that is not just about as large. */
+/* Whether that is less than `pixels`; faster unless the size is close to it. */
 bool camera_box_is_below(const camera *c, const octree_box *box, double pixels);
 
-/* Under FIT_POINTS, make the view frame the points that it shows of a tree, which is that of tick 0: a camera that fits
- * stays where it is from tick to tick. Where they are all equal it is the cell of their leaf, and where there are none
- * the world. Other views stay as they are. */
+/* Under FIT_POINTS, make the view frame the points that it shows of the tree of tick 0, so that the camera does not
+ * move from tick to tick: FIT_BOX around them, around their leaf when they are all equal, or FIT_WORLD when there are
+ * none. Other views do not change. */
 void camera_fit(view *v, const octree *tree);
 
 /* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */

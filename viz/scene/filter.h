@@ -1,4 +1,4 @@
-/* filter.h - what of a tree a view shows, node by node and point by point.
+/* filter.h - which nodes and points of a tree a view shows.
  *
  * A node is shown when it passes every part of the filter:
  *   slice    the plane runs through its cell, by the rule that places points: min <= at < max, where the world's
@@ -8,7 +8,7 @@
  *   leaves   it is a leaf.
  *   region   its box meets the region; both are closed.
  * A point is shown when it lies in the region, in a leaf that the slice's plane runs through, and in some node of the
- * range of depths: that is, in a leaf at least as deep as the range begins. "Leaves" leaves out no point.
+ * range of depths: that is, in a leaf at least as deep as the range begins. "Leaves" hides no point.
  */
 #ifndef SCENE_FILTER_H
 #define SCENE_FILTER_H
@@ -17,7 +17,7 @@
 
 #include <stdbool.h>
 
-/* What of the tree is shown; all zero is all of it. */
+/* All zero shows the whole tree. */
 typedef struct view_filter {
     char slice;                    /* 'x', 'y' or 'z': the nodes that cut a plane across this axis; 0: all */
     double slice_at;               /* where the plane is */
@@ -31,10 +31,10 @@ typedef struct view_filter {
 /* Whether a node's box is shown. `world` is the tree's. */
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* Whether anything at or below a node may be shown: slice and region leave out whole branches. */
+/* Whether a node or anything below it may be shown: slice and region cut off whole branches. */
 bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* Whether points of a leaf may be shown, as far as the leaf decides that; and then a point of it. */
+/* Whether a leaf's points may be shown, judged by the leaf alone; and then one of its points. */
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);
 

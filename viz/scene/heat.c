@@ -10,14 +10,14 @@ void heat_release(heat *h)
     *h = (heat){0};
 }
 
-/* The cell of an address; null where there is none. */
+/* The cell of an address, or null. */
 static heat_cell *find(const heat *h, octree_address node)
 {
     const uint32_t place = hash_map_find(&h->places, &by_node, h->cells, &node);
     return place == HASH_MAP_NONE ? NULL : &h->cells[place];
 }
 
-/* Made where there is none; null when there is no memory. */
+/* Null when there is no memory. */
 static heat_cell *find_or_add(heat *h, octree_address node)
 {
     heat_cell *cell = find(h, node);
@@ -61,7 +61,7 @@ static bool is_within(octree_address address, octree_address node)
     return address == node;
 }
 
-/* A node of the tree has its cell by now. Nodes that are gone since they were asked are left out. */
+/* Nodes of the tree already have cells. Nodes removed since they were visited are skipped. */
 static void add_visit(heat *h, const octree *tree, octree_address address, bool below)
 {
     octree_node node;
@@ -79,7 +79,7 @@ bool heat_add_tick(heat *h, const octree_game *game)
     const octree *tree = octree_game_tree(game);
     heat_walk w = {.heat = h};
     octree_walk(tree, add_points, &w);
-    octree_address taken = 0; /* the last that was taken whole: visits are in pre-order, so those below it come next */
+    octree_address taken = 0; /* the last node taken whole: visits are in pre-order, so its descendants come next */
     for (size_t i = 0; !w.failed && i < tick->visit_count; i++) {
         const octree_visit *visit = &tick->visits[i];
         if (visit->touch == OCTREE_TOUCH_PRUNED || (taken && is_within(visit->node, taken)))

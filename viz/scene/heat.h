@@ -1,5 +1,5 @@
-/* heat.h - what the nodes of a game have seen since tick 0. It grows with the game, tick by tick, and knows nothing of
- * pictures: whoever plays the same session has the same heat at the same tick.
+/* heat.h - how often each node of a game was visited, and how many points it held, since tick 0. It is updated tick by
+ * tick and depends on the session alone, not on the view.
  */
 #ifndef SCENE_HEAT_H
 #define SCENE_HEAT_H
@@ -9,14 +9,14 @@
 
 #include <stdbool.h>
 
-/* What an address has seen in the ticks in which it had a node. */
+/* The totals of an address over the ticks in which it had a node. */
 typedef struct heat_cell {
     octree_address node;
-    uint64_t visits; /* ticks whose questions looked into it, or took it whole or with one above it */
-    uint64_t points; /* the points in and below it, added up over the ticks */
+    uint64_t visits; /* ticks whose queries visited it, or took it or an ancestor whole */
+    uint64_t points; /* the points in and below it, summed over the ticks */
 } heat_cell;
 
-/* A zeroed one is that before tick 0. */
+/* All zero: before tick 0. */
 typedef struct heat {
     heat_cell *cells;
     size_t room;
@@ -25,11 +25,11 @@ typedef struct heat {
 
 void heat_release(heat *h);
 
-/* Add the tick that the game has played last. False when there is no memory: the heat is then not whole. Cost: O(nodes
+/* Add the game's last tick. False when there is no memory: the heat is then incomplete. Cost: O(nodes
  * + visits). */
 bool heat_add_tick(heat *h, const octree_game *game);
 
-/* What an address has seen; all zero where it never had a node, or there is no heat. */
+/* The totals of an address; all zero when it never had a node, or h is null. */
 heat_cell heat_at(const heat *h, octree_address node);
 
 #endif

@@ -1,7 +1,7 @@
 /* layer.h - the layers of a scene, one row each.
  *
  * To add a layer: a row here, a file in viz/layers with its layer_type (layer_type.h), its test, and a frame in
- * golden/. What a tick does not say yet goes into octree_tick first; a new colour is a row of theme.h; a curve of a
+ * golden/. Data that a tick lacks is added to octree_tick first; a new colour is a row of theme.h; a curve of a
  * recording's page is a line of CURVES in viz/record/page/facts.js.
  */
 #ifndef SCENE_LAYER_H
@@ -9,9 +9,9 @@
 
 #include "scene.h"
 
-/* Each layer: its name, what it shows in words, its colour (theme.h), whether it fades with distance as the tree does
- * (what the tick is about fades less), and whether it is shown unless somebody says otherwise. In painter's order:
- * later rows lie on top. Scene digests hash the names. Where a layer has several colours, the one here stands for all.
+/* Each layer: its name, what it shows in words, its colour (theme.h), whether it fades with distance as much as the
+ * tree does, and whether it is shown by default. In painter's order: later rows lie on top. Scene digests hash the
+ * names. Where a layer has several colours, the one here stands for all.
  */
 #define LAYER_MAP(X)                                                                                                   \
     X(WORLD, "world", "the world", ROLE_WORLD, true, true)                                                             \
@@ -19,14 +19,14 @@
     X(VISIT_HEAT, "visit-heat", "heat", ROLE_NODE, false, false) /* in how many ticks leaves were visited */           \
     X(POINT_HEAT, "point-heat", "heat", ROLE_NODE, false,                                                              \
       false) /* how many points were in them, in all ticks together */                                                 \
-    X(PRUNED, "pruned", "pruned nodes", ROLE_NODE_2, true, true)     /* nodes that the tick's questions left out */    \
-    X(VISITED, "visited", "visited nodes", ROLE_NODE_2, false, true) /* those that they looked into, or took whole */  \
-    X(HIT, "hit", "leaves with hits", ROLE_POINT, false, true)       /* leaves that hold what they found */            \
-    X(MERGES, "merges", "merges", ROLE_POINT, false, true) /* nodes that ceased to be inner ones at this tick */       \
-    X(SPLITS, "splits", "splits", ROLE_POINT, false, true) /* nodes that became inner ones */                          \
+    X(PRUNED, "pruned", "pruned nodes", ROLE_NODE_2, true, true)      /* nodes that the tick's queries pruned */       \
+    X(VISITED, "visited", "visited nodes", ROLE_NODE_2, false, true)  /* nodes that they visited, or took whole */     \
+    X(HIT, "hit", "leaves with hits", ROLE_POINT, false, true)        /* leaves with points that they found */         \
+    X(MERGES, "merges", "merges", ROLE_POINT, false, true)            /* inner nodes that merged at this tick */       \
+    X(SPLITS, "splits", "splits", ROLE_POINT, false, true)            /* leaves that split */                          \
     X(ASKED, "asked", "the node asked for", ROLE_PLAYER, false, true) /* the node that inspect is asked for */         \
     X(POINTS, "points", "points", ROLE_POINT, true, true)                                                              \
-    X(VELOCITIES, "velocities", "velocities", ROLE_POINT, true, true) /* where points that move go on to */            \
+    X(VELOCITIES, "velocities", "velocities", ROLE_POINT, true, true) /* where moving points go next */                \
     X(RANGE, "range", "range queries", ROLE_RANGE, false, true)                                                        \
     X(RADIUS, "radius", "radius queries", ROLE_RADIUS, false, true)                                                    \
     X(KNEAREST, "knearest", "k-nearest queries", ROLE_KNEAREST, false, true)                                           \
@@ -34,7 +34,7 @@
     X(PLAYER, "player", "the player", ROLE_PLAYER, false, true)                                                        \
     X(BOX, "box", "the collision box", ROLE_COLLISION, false,                                                          \
       true)                                                /* the player's collision box, and what is in it */         \
-    X(SHAPES, "shapes", "shapes", ROLE_SHAPE, false, true) /* what the session shows beside the points */              \
+    X(SHAPES, "shapes", "shapes", ROLE_SHAPE, false, true) /* what the session shows in addition to its points */      \
     X(BROKEN, "broken", "the broken node", ROLE_WARNING, false,                                                        \
       true) /* where the validator finds an invariant broken */                                                        \
     X(TEXT, "text", "text", ROLE_TEXT, false, true)                                                                    \
@@ -44,7 +44,7 @@ typedef enum view_layer {
 #define LAYER_ENUM(layer, ...) LAYER_##layer,
     LAYER_MAP(LAYER_ENUM)
 #undef LAYER_ENUM
-        LAYER_COUNT = LAYER_DIAGRAM /* those that a view chooses from, a bit of view.layers each */
+        LAYER_COUNT = LAYER_DIAGRAM /* the layers that a view selects, one bit of view.layers each */
 } view_layer;
 
 typedef struct layer_row {
@@ -61,7 +61,7 @@ extern const layer_row layer_rows[LAYER_COUNT + 1];
 #define LAYER_DEFAULT_BIT(layer, name, words, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
 #define VIEW_DEFAULT_LAYERS ((0u LAYER_MAP(LAYER_DEFAULT_BIT)) & VIEW_ALL_LAYERS)
 
-/* Layers by a list of names with commas between, or "all", "default" or "none"; "-text" leaves one out, and a list that
+/* Layers by a list of names with commas between, or "all", "default" or "none"; "-text" removes one, and a list that
  * begins so starts from the default. On failure *bad points at the name that is unknown. */
 bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
 

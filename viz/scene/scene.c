@@ -25,7 +25,7 @@ void scene_release(scene *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Room for so many items, or null: then the scene says so. */
+/* Room for so many items. Null, and out_of_memory set, when there is none. */
 static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
 {
     void *grown = array_reserve(items, count, room, size);
@@ -34,7 +34,7 @@ static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size
     return grown;
 }
 
-/* The body of every scene_add: `array` is one of the scene's. */
+/* Append an item to one of the scene's arrays. */
 #define APPEND(s, array, item)                                                                                         \
     do {                                                                                                               \
         void *grown = grow(s, (array).items, (array).count + 1, &(array).room, sizeof *(array).items);                 \
@@ -52,7 +52,7 @@ static bool all_finite(const double *values, size_t count)
     return true;
 }
 
-/* True when an element is to be drawn at all. */
+/* Whether an element is added: its layer is shown and its geometry finite. */
 static bool admits(scene *s, scene_style style, bool finite)
 {
     if (!view_shows(&s->view, style.layer))
@@ -180,8 +180,8 @@ static uint64_t digest_doubles(uint64_t digest, const double *values, size_t cou
     return digest;
 }
 
-/* What stands for layers and roles in a digest: hashes of their names, so that a new one leaves the digests of all
- * scenes without it as they are. */
+/* Layers and roles enter a digest as hashes of their names, so that adding one does not change the digests of scenes
+ * without it. */
 typedef struct digest_names {
     uint64_t layers[LAYER_DIAGRAM + 1], roles[ROLE_COUNT];
 } digest_names;
@@ -256,8 +256,8 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }
 
-/* Elements are the terms of a polynomial, so that their order counts; each by itself, so that a processor works on
- * several at once, which one long chain of words does not let it. */
+/* The elements' digests are the coefficients of a polynomial, so that their order counts. Each is computed
+ * independently, so that a processor can work on several at once. */
 #define DIGEST_ALL(digest, array, digest_one)                                                                          \
     do {                                                                                                               \
         uint64_t sum = 0;                                                                                              \

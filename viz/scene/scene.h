@@ -15,7 +15,7 @@
 typedef enum scene_stroke {
     STROKE_SOLID,
     STROKE_DASHED,
-    STROKE_CUT,   /* dashed, and in its gaps nothing is seen of the lines beneath: what was solid there is dashed now */
+    STROKE_CUT,   /* dashed, with gaps in the background colour: a solid line beneath looks dashed */
     STROKE_ARROW, /* solid, with a head at its second end where it is long enough to be seen */
 } scene_stroke;
 
@@ -64,7 +64,7 @@ typedef struct scene_marker {
 
 #define SCENE_TEXT 48
 
-/* Text at a pixel, or beside the place where a world position is drawn. */
+/* Text at a pixel, or beside the pixel of a world position. */
 typedef struct scene_label {
     uint64_t id;
     scene_style style;
@@ -87,28 +87,28 @@ typedef struct scene_panel {
         size_t count, room;                                                                                            \
     }
 
-/* Velocities that are not in a scene. */
+/* Velocity arrows that a scene leaves out. */
 typedef struct scene_arrows {
-    size_t thinned;  /* left out by the view's budget */
-    uint64_t one_in; /* what is left is about one in so many */
-    size_t small;    /* of those left out by the view's lod */
+    size_t thinned;  /* beyond the view's budget */
+    uint64_t one_in; /* about one arrow in so many is kept */
+    size_t small;    /* of the others, below the view's lod */
 } scene_arrows;
 
-/* How much of a tree is in a scene. */
+/* How much of a tree a scene shows. */
 typedef struct scene_tally {
     size_t nodes, points; /* shown */
     size_t labels;        /* nodes with their path on them */
-    size_t small;         /* nodes left out by the view's lod */
-    size_t small_met;     /* and boxes and planes of nodes that the tick met, split or merged */
-    size_t beyond;        /* nodes left out by its budget: all below `deepest` */
-    int deepest;          /* the depth that nodes are shown to where the budget bites */
-    size_t thinned;       /* points left out by the budget */
-    uint64_t one_in;      /* what is left is about one point in so many */
+    size_t small;         /* nodes below the view's lod */
+    size_t small_met;     /* and boxes and planes of nodes that the tick visited, split or merged */
+    size_t beyond;        /* nodes beyond its budget: all below `deepest` */
+    int deepest;          /* the greatest depth that fits the budget */
+    size_t thinned;       /* points beyond the budget */
+    uint64_t one_in;      /* about one point in so many is kept */
     scene_arrows arrows;
     size_t drawn, folded;                 /* nodes in the diagram: one by one, and in its bars */
     unsigned folded_from, folded_to;      /* the depths that are bars */
     size_t path;                          /* nodes on the path that it shows */
-    size_t marked_visited, marked_pruned; /* nodes that it marks as met so by the tick */
+    size_t marked_visited, marked_pruned; /* nodes that it marks as visited or pruned by the tick */
 } scene_tally;
 
 typedef struct scene {
@@ -122,14 +122,14 @@ typedef struct scene {
     SCENE_ARRAY(scene_panel) panels;
     scene_tally tally;
     size_t refused;     /* elements with NaN or infinite geometry: counted, never drawn */
-    bool out_of_memory; /* set by scene_add_*: the scene is not whole */
+    bool out_of_memory; /* set by scene_add_*: the scene is incomplete */
 } scene;
 
-/* Empty a scene for its next tick; the memory is kept. A zeroed scene is an empty one. */
+/* Empty a scene for its next tick, keeping its memory. A zeroed scene is empty. */
 void scene_clear(scene *s);
 void scene_release(scene *s);
 
-/* Append an element. Those of layers that the view does not show are left out here, and nowhere else. */
+/* Append an element, unless the view does not show its layer: nothing else tests that. */
 void scene_add_box(scene *s, scene_box box);
 void scene_add_segment(scene *s, scene_segment segment);
 void scene_add_marker(scene *s, scene_marker marker);
@@ -145,7 +145,7 @@ void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[
 /* A marker on each of many points, with their ids. */
 void scene_add_points(scene *s, scene_style style, const octree_point *points, size_t count);
 
-/* Where a box has its middle; extents can overflow. */
+/* The middle of a box, without overflow of large extents. */
 static inline void scene_box_middle(const octree_box *box, double middle[3])
 {
     for (int i = 0; i < 3; i++)

@@ -10,7 +10,7 @@ const char *theme_role_name(theme_role role)
     return role_names[role];
 }
 
-/* How much of the role's own colour is left in a shade, in 256ths: the far end keeps less than half. */
+/* The part of the role's own colour in each shade, in 256ths. */
 static const int strength[THEME_SHADES] = {256, 236, 216, 196, 176, 156, 136, 116};
 
 static uint8_t mix(uint8_t color, uint8_t ground, int part)

@@ -1,7 +1,7 @@
 /* theme.h - what the colours mean, and the fixed table of 256 that a frame is made of.
  *
  * A role has eight shades, from 0 (near, full colour) to 7 (far, towards the background): the colour of a pixel is
- * the index role * 8 + shade. Red is the role of collision and of nothing else.
+ * the index role * 8 + shade. Red means collision and nothing else.
  */
 #ifndef SCENE_THEME_H
 #define SCENE_THEME_H
@@ -14,8 +14,8 @@
 /* Each role, its name and its colour on the dark ground. Single meanings are from the set of Okabe and Ito (2008),
  * which survives colour blindness, and a few more were searched for beside them; depth is a ramp of growing lightness
  * from blue to pale yellow, after cividis (Nunez et al. 2018), so that it survives grey. A new role is a row at the
- * end: `test_theme --propose` prints colours that are told from all others, on every ground and by every eye. Scene
- * digests hash the names. */
+ * end: `test_theme --propose` prints colours that differ visibly from all others, on every background and under colour
+ * blindness. Scene digests hash the names. */
 #define THEME_ROLE_MAP(X)                                                                                              \
     X(BACKGROUND, "background", 13, 17, 26)                                                                            \
     X(PANEL, "panel", 24, 30, 43)                                                                                      \
@@ -85,7 +85,7 @@ unsigned theme_step(uint64_t amount, unsigned shift);
 /* Where the last step begins, with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
-/* The one colour of nodes that tell nothing by it. */
+/* The colour of nodes under COLORING_PLAIN. */
 #define ROLE_NODE_PLAIN (ROLE_NODE + 3)
 
 #endif

@@ -1,5 +1,4 @@
-/* view.h - what a scene is seen by: size, camera, layers, colours, and what of the tree is left out. What
- * recording.json keeps. */
+/* view.h - how a scene is viewed: size, camera, layers, colours and filter. recording.json stores it. */
 #ifndef SCENE_VIEW_H
 #define SCENE_VIEW_H
 
@@ -17,13 +16,13 @@
     X(FOLLOW, "follow") /* perspective, behind and above the player */                                                 \
     X(ORBIT, "orbit")   /* perspective, round the world by a fixed angle a tick */
 
-/* What the colour of a node tells, and the name of each choice. */
+/* What the colour of a node means, and the name of each choice. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
     X(DEPTH, "depth")         /* how deep it lies */                                                                   \
     X(OCCUPANCY, "occupancy") /* how many points are in it, on a fixed scale of powers of two */                       \
     X(PLAIN, "plain")         /* nothing */
 
-/* Where the tree is drawn as a tree, and the name of each choice. */
+/* Where the diagram of the tree is drawn, and the name of each choice. */
 #define VIEW_DIAGRAM_MAP(X)                                                                                            \
     X(NONE, "none")     /* nowhere */                                                                                  \
     X(BESIDE, "beside") /* beside the space view; below it in a picture that is higher than wide */                    \
@@ -53,7 +52,7 @@ typedef enum view_diagram {
 /* What the camera frames. */
 typedef enum view_fit {
     FIT_WORLD,
-    FIT_POINTS, /* those that are shown at tick 0; camera_fit() makes a box of them */
+    FIT_POINTS, /* the points shown at tick 0; camera_fit() turns this into FIT_BOX */
     FIT_BOX,
 } view_fit;
 
@@ -66,25 +65,25 @@ typedef struct view {
     view_coloring coloring;
     view_diagram diagram;
     view_filter filter;
-    bool labels;     /* the paths of nodes on their boxes */
-    double lod;      /* pixels: boxes of nodes that appear smaller are left out where an ancestor's is drawn; 0: none */
-    int aa;          /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
+    bool labels; /* the paths of nodes on their boxes */
+    double lod;  /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
+    int aa;      /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
     uint64_t budget; /* the most boxes of nodes, and the most points, of a frame; 0: any number */
 } view;
 
 /* The longest side of a picture, samples counted: what llvmpipe draws without clamping it. */
 #define VIEW_MAX_SIDE 16384
 
-/* What is so unless somebody says otherwise. */
+/* Defaults. */
 #define VIEW_DEFAULT_WIDTH 1280
 #define VIEW_DEFAULT_HEIGHT 720
-#define VIEW_DEFAULT_LOD 2         /* smaller boxes are specks: at 100,000 points no difference is seen up to 4 */
+#define VIEW_DEFAULT_LOD 2         /* smaller boxes are specks: at 100,000 points values up to 4 look the same */
 #define VIEW_DEFAULT_BUDGET 250000 /* some 300 MB and a few seconds a frame at worst */
 
-/* These, iso, all layers about the tick alone, no anti-aliasing, and nodes coloured by depth. */
+/* These, the iso camera, the default layers, no anti-aliasing, and nodes coloured by depth. */
 view view_default(void);
 
-/* What text and lines are measured in: whole pixels, so that they stay crisp. 1 below a height of 640, 2 from there, 6
+/* The unit of text and line widths, in whole pixels so that they stay crisp. 1 below a height of 640, 2 from there, 6
  * at 2160; a narrow picture counts as its 16:9 part. */
 int view_unit(const view *v);
 
@@ -94,7 +93,7 @@ static inline int view_samples(const view *v)
     return v->aa > 1 ? v->aa : 1;
 }
 
-/* Names, and null beyond the last. */
+/* The name; null beyond the last. */
 const char *view_camera_name(view_camera camera);
 const char *view_coloring_name(view_coloring coloring);
 const char *view_diagram_name(view_diagram diagram);
