@@ -38,7 +38,7 @@ static void write_version(json_writer *w, const void *from)
 static const json_member own_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", JSON_CODEC(read_version, write_version, NULL), .required = true},
-    {"theme", &json_constant, .offset = 0},
+    {"theme", &json_constant, .about = THEME_NAME},
     {"every", &json_uint64, offsetof(recorded, every), .min = 1, .max = SESSION_LAST_TICK},
 };
 
@@ -52,8 +52,7 @@ static void list_members(json_member members[MOST_MEMBERS])
     for (size_t i = 0; view_option_at(i) && count < MOST_MEMBERS - 3; i++)
         if (view_option_at(i)->member.name)
             members[count++] = view_option_at(i)->member;
-    members[count] = own_members[2];
-    members[count++].about = theme_name();
+    members[count++] = own_members[2];
     members[count++] = own_members[3];
     members[count] = (json_member){0};
     while (count > 0)
