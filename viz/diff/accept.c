@@ -8,7 +8,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 /* What happens to a reference. */
 typedef enum action { KEPT, CHANGED, ADDED, REMOVED, ACTIONS } action;
@@ -26,12 +26,6 @@ typedef struct accepting {
 
 /* ---- What is to be done ------------------------------------------------------------------------------------- */
 
-static bool is_there(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0;
-}
-
 /* A reference that does not exist yet starts as an empty side of the same kind. */
 static bool open_sides(accepting *a, octreel_error *error)
 {
@@ -42,7 +36,7 @@ static bool open_sides(accepting *a, octreel_error *error)
         return error_set(error, "%s: pictures are accepted, not digests of them", o->frames);
     if (a->frames.count == 0)
         return error_set(error, "%s: there is no PNG in it", o->frames);
-    a->is_new = !is_there(o->reference);
+    a->is_new = access(o->reference, F_OK) != 0;
     if (a->is_new) {
         a->reference = (diff_side){.path = o->reference, .kind = a->frames.kind};
         return true;
@@ -132,15 +126,11 @@ static bool compare(accepting *a, octreel_error *error)
 
 /* ---- Doing it ------------------------------------------------------------------------------------------------ */
 
-static bool remove_file(const char *path, octreel_error *error)
-{
-    return remove(path) == 0 || error_set(error, "%s: cannot be removed: %s", path, strerror(errno));
-}
-
 static bool write_picture(const accepting *a, const diff_pair *pair, action what, octreel_error *error)
 {
     if (what == REMOVED)
-        return remove_file(pair->a->path, error);
+        return remove(pair->a->path) == 0 ||
+               error_set(error, "%s: cannot be removed: %s", pair->a->path, strerror(errno));
     if (a->reference.kind == DIFF_PICTURE || pair->a)
         return file_copy_to(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
     char *to = path_join(a->reference.path, pair->b->name);
@@ -195,7 +185,7 @@ static bool copy_fact(const accepting *a, const char *name, octreel_error *error
 {
     char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
     bool ok = (from && to) || error_no_memory(error);
-    if (ok && is_there(from) && !same_bytes(from, to))
+    if (ok && access(from, F_OK) == 0 && !same_bytes(from, to))
         ok = file_copy_to(from, to, error);
     free(from);
     free(to);

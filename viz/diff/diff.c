@@ -1,6 +1,5 @@
 /* diff.c - frames are paired by name, and the pairs compared on all cores. */
 #include "diff.h"
-#include "cores.h"
 #include "digest_file.h"
 #include "file.h"
 #include "parallel.h"
@@ -306,12 +305,11 @@ static void keep_undecided(pending *p)
 
 static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octreel_error *error)
 {
-    const unsigned cores = count_cores();
-    parallel_for(p->count, cores, try_bytes, p);
+    parallel_for(p->count, try_bytes, p);
     keep_undecided(p);
     if (p->options->mask && !p->options->mask(p->options->mask_context, a, b, p->pairs, p->count, error))
         return false;
-    parallel_for(p->count, cores, find_pixels, p);
+    parallel_for(p->count, find_pixels, p);
     return true;
 }
 

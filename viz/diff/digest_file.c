@@ -1,6 +1,5 @@
 /* digest_file.c - files of digests, read and written. */
 #include "digest_file.h"
-#include "cores.h"
 #include "parallel.h"
 #include "text.h"
 #include "file.h"
@@ -172,7 +171,7 @@ bool digest_all(diff_side *side, image_color background, octreel_error *error)
     if (!d.errors)
         return error_no_memory(error);
     side->background = background;
-    parallel_for(side->count, count_cores(), digest_one, &d);
+    parallel_for(side->count, digest_one, &d);
     bool ok = true;
     for (size_t i = 0; ok && i < side->count; i++)
         if (side->frames[i].digest.width == 0)

@@ -1,5 +1,6 @@
 /* parallel.c - a loop over threads. */
 #include "parallel.h"
+#include "cores.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -22,10 +23,11 @@ static void *run_worker(void *shared)
     return NULL;
 }
 
-void parallel_for(size_t count, unsigned workers, parallel_task *task, void *context)
+void parallel_for(size_t count, parallel_task *task, void *context)
 {
     work w = {.count = count, .task = task, .context = context};
     pthread_t threads[MOST_THREADS];
+    const unsigned workers = count_cores();
     size_t started = 0;
     while (started < MOST_THREADS && started + 1 < workers && started + 1 < count &&
            pthread_create(&threads[started], NULL, run_worker, &w) == 0)

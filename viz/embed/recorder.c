@@ -3,8 +3,8 @@
 #include "error.h"
 #include "folder.h"
 #include "number.h"
-#include "ring.h"
 #include "session_file.h"
+#include "session_filmer.h"
 #include "view_options.h"
 
 #include <inttypes.h>
@@ -12,6 +12,14 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The last ticks, as they were handed over: the points of the first of them, and the changes since. */
+typedef struct ring {
+    size_t most;
+    batch_list list;
+    points start, spare; /* at the first tick; its batch has no changes */
+    uint64_t dropped;    /* ticks that are no longer in it */
+} ring;
 
 struct octreel_recorder {
     filmer_settings settings;
@@ -176,6 +184,65 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
     if (status == OCTREEL_OK)
         status = set_view(r, def);
     return status == OCTREEL_OK ? set_film(r, def) : status;
+}
+
+/* ---- The ring ----------------------------------------------------------------------------------------------- */
+
+static void ring_release(ring *r)
+{
+    batch_list_clear(&r->list);
+    points_release(&r->start);
+    points_release(&r->spare);
+    *r = (ring){0};
+}
+
+/* Let the points of the first tick be those of this one. */
+static bool start_at(ring *r, batch *b)
+{
+    if (!batch_apply(b, &r->start, &r->spare))
+        return false;
+    free(b->changes);
+    b->changes = NULL;
+    b->change_count = 0;
+    return true;
+}
+
+/* Take a tick over; where there are enough the first goes. False when there is no memory: then nothing has changed, and
+ * the batch stays the caller's. Cost: O(points), once a tick is dropped. */
+static bool ring_put(ring *r, batch *b)
+{
+    const bool full = r->list.count == r->most;
+    batch *first = r->list.first, *second = first && first->next ? first->next : b;
+    if ((full || !first) && !start_at(r, second))
+        return false;
+    if (full) {
+        batch_release(batch_list_take(&r->list));
+        r->dropped++;
+    }
+    batch_list_add(&r->list, b);
+    return true;
+}
+
+/* Film it all into a folder, in a thread. Errors: those of session_filmer_join(). */
+static octreel_status ring_write(ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
+{
+    queue ticks;
+    session_filmer f = {.settings = s, .folder = folder, .start = &r->start, .queue = &ticks};
+    if (!queue_init(&ticks, 0, 0)) {
+        error_no_memory(error);
+        return OCTREEL_NO_MEMORY;
+    }
+    ticks.list = r->list;
+    ticks.borrowed = ticks.ended = true;
+    octreel_status status = session_filmer_start(&f);
+    if (status == OCTREEL_OK)
+        status = session_filmer_join(&f);
+    else
+        error_set(&f.error, "a thread cannot be started");
+    queue_release(&ticks);
+    if (status != OCTREEL_OK)
+        *error = f.error;
+    return status;
 }
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */

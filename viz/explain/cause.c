@@ -64,7 +64,7 @@ static bool keep(cause *c, uint64_t tick, cause_facts *facts)
     if (!grown)
         return false;
     c->ticks = grown;
-    c->ticks[c->count++] = (cause_tick){tick, *facts};
+    c->ticks[c->count++] = (cause_tick){.tick = tick, .facts = *facts};
     *facts = (cause_facts){0};
     return true;
 }
@@ -153,8 +153,10 @@ bool cause_find(const octree_session *a, const octree_session *b, const cause_vi
 
 void cause_release(cause *c)
 {
-    for (size_t i = 0; i < c->count; i++)
+    for (size_t i = 0; i < c->count; i++) {
         cause_facts_release(&c->ticks[i].facts);
+        free(c->ticks[i].trace.parts);
+    }
     free(c->ticks);
     cause_facts_release(&c->session);
     cause_facts_release(&c->view);

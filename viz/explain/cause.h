@@ -3,12 +3,13 @@
 #define EXPLAIN_CAUSE_H
 
 #include "cause_compare.h"
-#include "folder.h"
+#include "trace.h"
 
 /* A tick that is told in detail. */
 typedef struct cause_tick {
     uint64_t tick;
     cause_facts facts; /* none: nothing that happened differs */
+    trace trace;       /* of its frames */
 } cause_tick;
 
 /* A zeroed one is empty. */

@@ -111,8 +111,8 @@ static void write_ticks(json_writer *w, const explanation *e)
         json_write_begin_object(w);
         json_member_integer(w, "tick", c->ticks[i].tick);
         write_facts(w, "causes", &c->ticks[i].facts);
-        if (tracer_at(&e->tracer, c->ticks[i].tick))
-            write_trace(w, tracer_at(&e->tracer, c->ticks[i].tick));
+        if (c->ticks[i].trace.made)
+            write_trace(w, &c->ticks[i].trace);
         json_write_end_object(w);
     }
     json_write_end_array(w);

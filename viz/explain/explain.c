@@ -76,8 +76,9 @@ static bool watch(void *context, const octree_game *const games[2], bool differs
     if (!is_wanted(w, tick))
         return true;
     const diff_pair *pair = w->pairs[w->next].pair;
+    cause_tick *told = &w->e->cause.ticks[w->e->cause.count - 1]; /* that of this tick: it was wanted */
     return !pair->difference.unlike.pixels ||
-           tracer_add_pair(&w->e->tracer, w->e->sides, games, pair, w->options, error);
+           tracer_trace(&w->e->tracer, w->e->sides, games, pair, w->options, &told->trace, error);
 }
 
 static int by_number(const void *a, const void *b)
@@ -189,7 +190,7 @@ static void print_tick(FILE *out, const explanation *e, uint64_t tick)
     }
     if (facts || view)
         return;
-    if ((e->cause.session.count > 0)) {
+    if (e->cause.session.count > 0) {
         fputs("the same happened in it; ", out);
         cause_print_facts(out, &e->cause.session, true);
     } else {
@@ -216,10 +217,10 @@ static void print_origins(FILE *out, const origins *o)
 /* What is drawn where they differ. */
 static void print_trace(FILE *out, const explanation *e, uint64_t tick)
 {
-    const trace *t = tracer_at(&e->tracer, tick);
-    if (t && t->count) {
+    const cause_tick *told = cause_at(&e->cause, tick);
+    if (told && told->trace.count) {
         fputs("; ", out);
-        trace_print(out, t);
+        trace_print(out, &told->trace);
     }
 }
 
@@ -277,7 +278,8 @@ static size_t first_explained(const explanation *e)
     return i;
 }
 
-static void print_warnings(FILE *out, const explanation *e)
+/* Whether there were any. */
+static bool print_warnings(FILE *out, const explanation *e)
 {
     bool any = false;
     for (int side = 0; side < 2; side++)
@@ -285,20 +287,15 @@ static void print_warnings(FILE *out, const explanation *e)
             fprintf(out, "%s%s", any ? "; " : "", e->sides[side].warnings[i]);
             any = true;
         }
-}
-
-static bool any_warning(const explanation *e)
-{
-    return e->sides[0].warning_count + e->sides[1].warning_count > 0;
+    return any;
 }
 
 /* Warnings about files come first; without a difference of sessions and views, rendering is the cause. */
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
-    const bool known = (e->cause.session.count > 0) || (e->cause.view.count > 0);
+    const bool known = e->cause.session.count > 0 || e->cause.view.count > 0;
     const size_t first = first_explained(e);
-    print_warnings(out, e);
-    if (any_warning(e) && (known || first < e->count))
+    if (print_warnings(out, e) && (known || first < e->count))
         fputs("; ", out);
     if (known)
         cause_print_headline(out, &e->cause);

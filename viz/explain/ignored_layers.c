@@ -62,7 +62,7 @@ static uint64_t tick_of(const diff_frame *frame)
 
 static bool add_mask(masking *w, diff_pair *pair, const diff_frame *frame, octreel_error *error)
 {
-    if (!replay_to(&w->replay, tick_of(frame), error) || !replay_scene(&w->replay, error))
+    if (!replay_to(&w->replay, tick_of(frame), error) || !playback_scene(&w->replay.playback, error))
         return false;
     const view *v = &w->replay.playback.scene.view;
     frame_mask m = {calloc((size_t)v->width, (size_t)v->height), v->width, v->height};

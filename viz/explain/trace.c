@@ -20,9 +20,6 @@ void tracer_close(tracer *t)
         scene_release(&t->scenes[i]);
     }
     renderer_close(t->renderer);
-    for (size_t i = 0; i < t->count; i++)
-        free(t->traces[i].parts);
-    free(t->traces);
     *t = (tracer){0};
 }
 
@@ -167,27 +164,15 @@ static int by_pixels(const void *a, const void *b)
     return x->layer != y->layer ? x->layer - y->layer : (x->id > y->id) - (x->id < y->id);
 }
 
-static bool keep_trace(tracer *t, const trace *made)
+static bool make_trace(const tracer *t, const octree_game *const games[2], const diff_pair *pair,
+                       const diff_options *options, const image frames[2], const pictures *p, trace *made)
 {
-    trace *grown = array_reserve(t->traces, t->count + 1, &t->room, sizeof *grown);
-    if (!grown)
-        return false;
-    t->traces = grown;
-    t->traces[t->count++] = *made;
-    if (made->count)
-        qsort(made->parts, made->count, sizeof *made->parts, by_pixels);
-    return true;
-}
-
-static bool add_trace(tracer *t, const octree_game *const games[2], const diff_pair *pair, const diff_options *options,
-                      const image frames[2], const pictures *p)
-{
-    counting c = {.made.tick = octree_game_tick(games[0])->number};
+    counting c = {.made.made = true};
     image_tolerance tolerance;
-    const bool ok = pair_tolerance(pair, options, &tolerance) && count_parts(&c, t, games, frames, &tolerance, p) &&
-                    keep_trace(t, &c.made);
-    if (!ok)
-        free(c.made.parts);
+    const bool ok = pair_tolerance(pair, options, &tolerance) && count_parts(&c, t, games, frames, &tolerance, p);
+    if (c.made.count)
+        qsort(c.made.parts, c.made.count, sizeof *c.made.parts, by_pixels);
+    *made = c.made;
     hash_map_release(&c.map);
     pair_tolerance_release(&tolerance);
     return ok;
@@ -227,7 +212,7 @@ static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
 }
 
 static bool trace_frames(tracer *t, const octree_game *const games[2], const diff_pair *pair,
-                         const diff_options *options, const image frames[2], octreel_error *error)
+                         const diff_options *options, const image frames[2], trace *made, octreel_error *error)
 {
     const size_t side = (size_t)view_samples(&t->scenes[0].view), width = (size_t)frames[0].width;
     const size_t size = width * (size_t)frames[0].height * side * side;
@@ -239,14 +224,14 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
     pictures p = {{malloc(size * sizeof **p.numbers), malloc(size * sizeof **p.numbers)}, width, side};
     bool ok = p.numbers[0] && p.numbers[1];
     if (ok && pick(t, &t->scenes[0], p.numbers[0]) && pick(t, &t->scenes[1], p.numbers[1]))
-        ok = add_trace(t, games, pair, options, frames, &p);
+        ok = make_trace(t, games, pair, options, frames, &p, made);
     free(p.numbers[0]);
     free(p.numbers[1]);
     return ok || error_no_memory(error);
 }
 
-bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
-                     const diff_options *options, octreel_error *error)
+bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
+                  const diff_options *options, trace *made, octreel_error *error)
 {
     const view *a = &sides[0].view.view, *b = &sides[1].view.view;
     image frames[2] = {{0}, {0}};
@@ -255,21 +240,10 @@ bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *cons
     for (int i = 0; i < 2; i++)
         if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->heats[i]))
             return error_no_memory(error);
-    const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, error);
+    const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, made, error);
     image_release(&frames[0]);
     image_release(&frames[1]);
     return ok;
-}
-
-static int by_tick(const void *tick, const void *told)
-{
-    const uint64_t x = *(const uint64_t *)tick, y = ((const trace *)told)->tick;
-    return (x > y) - (x < y);
-}
-
-const trace *tracer_at(const tracer *t, uint64_t tick)
-{
-    return t->count ? bsearch(&tick, t->traces, t->count, sizeof *t->traces, by_tick) : NULL;
 }
 
 /* ---- In words ------------------------------------------------------------------------------------------------ */

@@ -21,9 +21,10 @@ typedef struct trace_part {
 
 #define TRACE_BACKGROUND (LAYER_DIAGRAM + 1)
 
+/* A zeroed one is of no frames. */
 typedef struct trace {
-    uint64_t tick;
-    trace_part *parts; /* the largest first, none twice */
+    bool made;
+    trace_part *parts; /* the largest first, none twice; owned */
     size_t count;
     uint64_t pixels; /* of all parts */
 } trace;
@@ -33,8 +34,6 @@ typedef struct tracer {
     heat heats[2];
     scene scenes[2];
     renderer *renderer; /* opened for the first frame that is traced */
-    trace *traces;      /* in ascending order of their ticks */
-    size_t count, room;
     char untraced[256]; /* a sentence: why nothing can be drawn; else "" */
 } tracer;
 
@@ -43,14 +42,11 @@ void tracer_close(tracer *t);
 /* To be called at each tick: heat adds up over ticks. */
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error);
 
-/* Trace the pair, compared with these options, of the tick at which the games are. Nothing is added where a frame does
+/* Trace the pair, compared with these options, of the tick at which the games are. Nothing is traced where a frame does
  * not show the scene of its tick or cannot be read, where sizes are unlike, or where nothing can be drawn: that is no
  * error. */
-bool tracer_add_pair(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
-                     const diff_options *options, octreel_error *error);
-
-/* What is known of a tick, or null. */
-const trace *tracer_at(const tracer *t, uint64_t tick);
+bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
+                  const diff_options *options, trace *made, octreel_error *error);
 
 /* "node 0/3/7", "point 12", "text". */
 void trace_print_part(FILE *out, const trace_part *part);

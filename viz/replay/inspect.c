@@ -16,13 +16,8 @@
 /* The distance from |value| to the next double above it. */
 static double ulp_of(double value)
 {
-    uint64_t bits;
-    double next;
     value = fabs(value);
-    memcpy(&bits, &value, sizeof bits);
-    bits++;
-    memcpy(&next, &bits, sizeof next);
-    return isfinite(next) ? next - value : value - DBL_MAX / 2 > 0 ? 0x1p971 : 0;
+    return value < DBL_MAX ? nextafter(value, INFINITY) - value : 0x1p971;
 }
 
 static octree_box bounds_of(const cloud *c)

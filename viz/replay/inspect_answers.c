@@ -84,21 +84,24 @@ static const double *distance_at(const shown_answer *shown, size_t i)
     return shown->neighbors ? &shown->neighbors[i].distance : NULL;
 }
 
-/* Whether the world and the box about a place have nothing in common. Sums may be infinite. */
-static bool is_outside(const octree_box *world, const double center[3], double radius)
-{
-    for (int i = 0; i < 3; i++)
-        if (center[i] + radius < world->min[i] || center[i] - radius > world->max[i])
-            return true;
-    return false;
-}
-
+/* Whether the world and a box have nothing in common. */
 static bool is_box_outside(const octree_box *world, const octree_box *box)
 {
     for (int i = 0; i < 3; i++)
         if (box->max[i] < world->min[i] || box->min[i] > world->max[i])
             return true;
     return false;
+}
+
+/* The same of the box about a place. Sums may be infinite. */
+static bool is_outside(const octree_box *world, const double center[3], double radius)
+{
+    octree_box about;
+    for (int i = 0; i < 3; i++) {
+        about.min[i] = center[i] - radius;
+        about.max[i] = center[i] + radius;
+    }
+    return is_box_outside(world, &about);
 }
 
 /* Why less may be found than was expected; null where there is no reason. */

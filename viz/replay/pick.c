@@ -55,7 +55,7 @@ static bool remake(pick *p, replay *r, const char *folder, octreel_error *error)
     if (p->tick >= r->ticks)
         return error_set(error, "%s: is of tick %" PRIu64 ", and the session beside it ends with tick %" PRIu64,
                          p->path, p->tick, r->ticks - 1);
-    if (!replay_to(r, p->tick, error) || !replay_scene(r, error))
+    if (!replay_to(r, p->tick, error) || !playback_scene(&r->playback, error))
         return false;
     frame_origin origin = {.tick = p->tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
     return frame_check_file(p->path, &origin, error);

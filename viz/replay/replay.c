@@ -60,11 +60,6 @@ bool replay_to(replay *r, uint64_t tick, octreel_error *error)
     return true;
 }
 
-bool replay_scene(replay *r, octreel_error *error)
-{
-    return playback_scene(&r->playback, error);
-}
-
 renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error)
 {
     picture *drawing = &r->playback.picture;

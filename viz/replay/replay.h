@@ -1,12 +1,12 @@
 /* replay.h - opens a recording and plays it to any tick: its game, and the scene of its frame.
  *
  *   replay r;
- *   if (replay_open(&r, "frames", &error) && replay_to(&r, 41, &error) && replay_scene(&r, &error))
+ *   if (replay_open(&r, "frames", &error) && replay_to(&r, 41, &error) && playback_scene(&r.playback, &error))
  *       ... octree_game_tick(r.playback.game), r.playback.scene ...
  *   replay_close(&r);
  */
-#ifndef RECORD_REPLAY_H
-#define RECORD_REPLAY_H
+#ifndef REPLAY_REPLAY_H
+#define REPLAY_REPLAY_H
 
 #include "session_file.h"
 #include "film_options.h"
@@ -30,9 +30,6 @@ void replay_close(replay *r);
 /* Play to a tick; from the start again where it lies before the last one. False, with a sentence, also where the
  * session has no such tick. */
 bool replay_to(replay *r, uint64_t tick, octreel_error *error);
-
-/* Make the scene of the tick that was played last in the recording's view: r->playback.scene. */
-bool replay_scene(replay *r, octreel_error *error);
 
 /* The renderer of such scenes, opened at the first call and closed by replay_close(). Null with a sentence. */
 renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error);

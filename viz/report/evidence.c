@@ -269,10 +269,5 @@ void evidence_release(evidence *e)
 
 char *evidence_path(const evidence *e, const diff_result *result, size_t i, evidence_picture picture)
 {
-    if (!(e->pictures[i] & 1u << picture))
-        return NULL;
-    char *name = evidence_name(diff_pair_name(&result->pairs[i]), picture);
-    char *path = name ? path_join(e->folder, name) : NULL;
-    free(name);
-    return path;
+    return e->pictures[i] & 1u << picture ? picture_path(e->folder, &result->pairs[i], picture) : NULL;
 }

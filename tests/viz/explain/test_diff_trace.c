@@ -36,9 +36,10 @@ static comparison_of assert_traced(const place *a, const place *b, const diff_op
 
 static const trace *trace_of(const comparison_of *made, uint64_t tick)
 {
-    const trace *t = tracer_at(&made->why.tracer, tick);
-    assert_non_null(t);
-    return t;
+    const cause_tick *told = cause_at(&made->why.cause, tick);
+    assert_non_null(told);
+    assert_true(told->trace.made);
+    return &told->trace;
 }
 
 /* The parts are all of the pixels that the comparison counts, the largest first and none twice. */
@@ -90,7 +91,7 @@ static void a_moved_point_has_all_pixels_of_its_layer(void **state)
         const place b = film_layers(*state, names[1], &other, 1u << LAYER_POINTS, aa);
         comparison_of made = assert_traced(&a, &b, NULL);
         assert_adds_up(&made);
-        assert_null(tracer_at(&made.why.tracer, 0));
+        assert_null(cause_at(&made.why.cause, 0));
         for (uint64_t tick = 1; tick < 3; tick++) {
             assert_int_equal(trace_of(&made, tick)->count, 1);
             assert_part(&trace_of(&made, tick)->parts[0], LAYER_POINTS, 3);
@@ -235,7 +236,7 @@ static void frames_of_unlike_sizes_are_not_traced(void **state)
     const place a = film_layers(*state, "a", &session, VIEW_DEFAULT_LAYERS, 1),
                 b = film_layers(*state, "b", &session, VIEW_DEFAULT_LAYERS, 2);
     comparison_of made = assert_traced(&a, &b, NULL);
-    assert_null(tracer_at(&made.why.tracer, 1));
+    assert_false(cause_at(&made.why.cause, 1)->trace.made);
     comparison_release(&made);
 }
 
