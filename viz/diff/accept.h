@@ -15,7 +15,7 @@ typedef struct accept_options {
 
 /* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is; but
  * of a recording that is accepted whole, all files are taken over. What was done is said on `out` at the end. False
- * with a sentence: before anything is written when a side, a new frame or a name is no good. */
+ * with an error: before anything is written when a side, a new frame or a name is invalid. */
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error);
 
 #endif

@@ -8,14 +8,14 @@
 
 /* Each finding, its name in reports, and what it means for the whole. */
 #define DIFF_FINDING_MAP(X)                                                                                            \
-    X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* told without decoding */                                        \
-    X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* stored in unlike ways */                                        \
-    X(WITHIN, "within_tolerance", DIFF_SAME)        /* unlike, and all of it forgiven */                               \
-    X(PIXELS, "pixels", DIFF_DIFFERENT)             /* unlike beyond the tolerance */                                  \
-    X(SIZE, "size", DIFF_DIFFERENT)                 /* of unlike width or height */                                    \
-    X(DIGEST, "digest", DIFF_DIFFERENT)             /* of one size, and of unlike digests */                           \
-    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* a reference, and nothing to compare with it */                  \
-    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* and the other way round */                                      \
+    X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* found without decoding */                                       \
+    X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* encoded differently */                                          \
+    X(WITHIN, "within_tolerance", DIFF_SAME)        /* different, all within the tolerance */                          \
+    X(PIXELS, "pixels", DIFF_DIFFERENT)             /* different beyond the tolerance */                               \
+    X(SIZE, "size", DIFF_DIFFERENT)                 /* of different width or height */                                 \
+    X(DIGEST, "digest", DIFF_DIFFERENT)             /* of the same size, with different digests */                     \
+    X(NO_FRAME, "no_frame", DIFF_DIFFERENT)         /* a reference without a frame */                                  \
+    X(NO_REFERENCE, "no_reference", DIFF_DIFFERENT) /* a frame without a reference */                                  \
     X(UNREADABLE, "unreadable", DIFF_TROUBLE)
 
 typedef enum diff_finding {
@@ -25,7 +25,7 @@ typedef enum diff_finding {
         DIFF_FINDINGS
 } diff_finding;
 
-/* In the order of what counts most: any trouble is trouble, any difference is one. */
+/* Least severe first: the verdict of a whole is that of its worst pair. */
 typedef enum diff_verdict { DIFF_SAME, DIFF_DIFFERENT, DIFF_TROUBLE } diff_verdict;
 
 const char *diff_finding_name(diff_finding finding);
@@ -33,8 +33,8 @@ diff_verdict diff_finding_verdict(diff_finding finding);
 
 struct diff_pair;
 
-/* Adds to the mask of each pair where some layers are seen in its frames: only who can play a recording knows that.
- * False, with a sentence, where that cannot be told. */
+/* Adds to the mask of each pair where some layers are seen in its frames: it is given by the caller since it plays
+ * recordings. False with an error where it fails. */
 typedef bool diff_mask(void *context, const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
                        octreel_error *error);
 
@@ -43,13 +43,13 @@ typedef struct diff_options {
     image_color background; /* transparent pixels are laid over it */
     diff_mask *mask;        /* null: no layer is left out */
     void *mask_context;
-    const char *layers; /* the names of those that are left out, with commas between */
+    const char *layers; /* names of the layers that are left out, separated by commas */
 } diff_options;
 
 /* Exact, over white. */
 diff_options diff_options_default(void);
 
-/* A frame of the reference (a), a frame that is compared with it (b), and what came of it. */
+/* A frame of the reference (a), a frame that is compared with it (b), and the result of comparing them. */
 typedef struct diff_pair {
     const diff_frame *a, *b; /* null: there is none */
     diff_finding finding;
@@ -57,7 +57,7 @@ typedef struct diff_pair {
     bool transparent;            /* the background shows in one of them */
     image_difference difference; /* where both were decoded */
     pixel_mask mask;             /* what the layers that are left out cover */
-    char *trouble;               /* the sentence of what is unreadable; owned */
+    char *trouble;               /* the error of what is unreadable; owned */
 } diff_pair;
 
 typedef struct diff_result {
@@ -68,14 +68,14 @@ typedef struct diff_result {
     diff_verdict verdict;
 } diff_result;
 
-/* False, with a sentence, when the sides cannot be compared at all: a picture with a folder, a tolerance for digests,
+/* False with an error when the sides cannot be compared at all: a picture with a folder, a tolerance for digests,
  * two empty folders. No picture is read. */
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
-/* Compare b with the reference a, on all cores. Identical files are told by their bytes; what is left is decoded. Of a
+/* Compare b with the reference a, on all cores. Identical files are found by their bytes; the others are decoded. Of a
  * pair a few rows are in memory; both pictures are with a tolerance for anti-aliasing, and a picture that is interlaced
- * or has 16 bits a sample is in any case. Both sides and the options' lists must outlive the result. False, with a
- * sentence, when diff_check() says so, or there is no memory. */
+ * or has 16 bits a sample is in any case. Both sides and the options' lists must outlive the result. False with an
+ * error when diff_check() fails, or there is no memory. */
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               octreel_error *error);
 void diff_release(diff_result *result);

@@ -12,7 +12,7 @@
 /* "same", "different" or "trouble". */
 const char *diff_verdict_name(diff_verdict verdict);
 
-/* The verdict and the counts. The verdict may be worse than that of the result: nobody can say why. */
+/* The verdict and the counts. The verdict may be worse than that of the result: explaining may fail. */
 void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdict);
 
 /* How one pair differs, with its name and without. */

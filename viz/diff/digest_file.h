@@ -18,7 +18,7 @@
 /* What such a file begins with. */
 #define DIGEST_FILE_BEGINNING "octreel-digests "
 
-/* Read the file at side->path into side. False with file, line and reason when it is none. */
+/* Read the file at side->path into side. False with file, line and reason when it is invalid. */
 bool digest_file_read(diff_side *side, octreel_error *error);
 
 /* The same for text in memory, which is taken apart in place; it ends with a zero. */
@@ -28,7 +28,7 @@ bool digest_file_parse(diff_side *side, char *text, size_t size, octreel_error *
  * stream took it all is left to the caller. */
 bool digest_file_write(FILE *out, const diff_side *side, octreel_error *error);
 
-/* The digest of a picture. False with a sentence when it cannot be read. */
+/* The digest of a picture. False with an error when it cannot be read. */
 bool digest_frame(const char *path, image_color background, frame_digest *digest, octreel_error *error);
 
 /* Give every frame of a side its digest, on all cores. */

@@ -13,8 +13,8 @@ typedef struct pixel_mask {
     size_t count;
 } pixel_mask;
 
-/* Leave out besides where `bytes`, one a pixel, are not 0. Of another size than before it changes nothing: such frames
- * are unlike in any case. False when there is no memory. */
+/* Leave out also the pixels whose byte is not 0. A mask of another size than before changes nothing: such frames
+ * differ in any case. False when there is no memory. */
 bool mask_add(pixel_mask *mask, const uint8_t *bytes, int width, int height);
 void mask_release(pixel_mask *mask);
 

@@ -31,12 +31,12 @@ typedef struct diff_side {
     image_color background; /* of a file of digests: what transparent pixels were laid over */
 } diff_side;
 
-/* See what a path is. A folder stands for the PNG files in it, those with a dot before their name and those in folders
- * below left out; a recording for its frames. False when it is none of the four; side is then empty. */
+/* Open what a path names. A folder has the PNG files directly in it whose names do not begin with a dot; a recording
+ * has its frames. False with an error when it is none of the four; side is then empty. */
 bool diff_side_open(diff_side *side, const char *path, octreel_error *error);
 void diff_side_release(diff_side *side);
 
-/* False, with a sentence, where an output is a file that is read for this side: a frame, the file of digests, or one of
+/* False with an error where an output is a file that is read for this side: a frame, the file of digests, or one of
  * a recording's files beside its frames. */
 bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error);
 

@@ -30,7 +30,7 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
     if (!node->leaf)
         return OCTREE_WALK_ON;
     if (node->count > p->room - p->count)
-        return OCTREE_WALK_STOP; /* cannot be: there is room for all */
+        return OCTREE_WALK_STOP; /* cannot happen: there is room for all */
     if (node->count > 0)
         memcpy(p->items + p->count, node->points, node->count * sizeof *p->items);
     p->count += node->count;
@@ -290,8 +290,8 @@ static bool reserve_edits(edit_order *o, size_t changes)
     return true;
 }
 
-/* Make a change as an edit of this kind, where there is room for it. False when there is no memory; *made tells the
- * rest. */
+/* Make a change as an edit of this kind, where there is room for it. False when there is no memory; *made is whether
+ * it was made. */
 static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, const change *c, bool *made)
 {
     octree_status status = OCTREE_OK;
@@ -326,7 +326,7 @@ static bool make_all(edit_order *o, const batch *b, uint64_t tick, octree_edit_k
     return true;
 }
 
-/* Make those that wait, in the same way each; what still finds no room goes on waiting. */
+/* Make all waiting changes as edits of this kind; those that still find no room stay in the list. */
 static bool make_waiting(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, size_t *waiting)
 {
     size_t left = 0;

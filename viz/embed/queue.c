@@ -12,7 +12,7 @@ bool queue_init(queue *q, size_t most, size_t most_bytes)
     return false;
 }
 
-/* The caller holds the lock, or is the last who has the queue. */
+/* The caller holds the lock, or is the last user of the queue. */
 static void drop_all(queue *q)
 {
     if (!q->borrowed)

@@ -12,7 +12,7 @@ typedef struct queue {
     pthread_cond_t changed;
     batch_list list;
     size_t most, most_bytes;
-    bool borrowed; /* the batches stay those of who put them into the list */
+    bool borrowed; /* the batches are not released by the queue */
     bool ended;    /* nothing more is put */
     bool broken;   /* nothing more is taken */
     uint64_t done; /* batches that were filmed */
@@ -20,10 +20,10 @@ typedef struct queue {
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
 
-/* Nobody may be waiting any more. */
+/* No thread may be waiting. */
 void queue_release(queue *q);
 
-/* Hand a batch over. Where there is no room for it, wait, or with `wait` false return BUSY; BROKEN where nobody takes
+/* Hand a batch over. Where there is no room for it, wait, or with `wait` false return BUSY; BROKEN where none is taken
  * any more. On failure the batch stays the caller's. */
 octreel_status queue_put(queue *q, batch *b, bool wait);
 

@@ -9,7 +9,7 @@
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* The numbers of the ticks that the program has given are its own matter. */
+/* The tick numbers given by the program are not used. */
 static void number_tick(batch *b, uint64_t tick)
 {
     for (size_t i = 0; i < b->query_count; i++)
@@ -88,8 +88,8 @@ static octreel_status film_next(session_filmer *f, const batch *b)
 
 /* ---- The thread --------------------------------------------------------------------------------------------- */
 
-/* Tick after tick, until there are no more or one fails. A program that waits for a tick is told after f->status is
- * set; after a failure it need not wait for the files that come last. */
+/* Tick after tick, until there are no more or one fails. A program that waits for a tick is woken after f->status is
+ * set; after a failure it does not wait for the last files. */
 static void film_queue(session_filmer *f)
 {
     batch *b;
@@ -105,7 +105,7 @@ static void *run(void *context)
 {
     session_filmer *f = context;
     octreel_error late;
-    fesetenv(FE_DFL_ENV); /* a thread begins with the mode of the one that started it */
+    fesetenv(FE_DFL_ENV); /* a thread inherits the floating-point mode */
     film_queue(f);
     edit_order_release(&f->order);
     const bool whole = f->status == OCTREEL_OK;
@@ -118,7 +118,7 @@ octreel_status session_filmer_start(session_filmer *f)
 {
     sigset_t all, before;
     sigfillset(&all);
-    if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0) /* a thread begins with that of its maker, too */
+    if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0) /* a thread inherits the signal mask, too */
         return OCTREEL_NO_MEMORY;
     const bool started = pthread_create(&f->thread, NULL, run, f) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);

@@ -12,7 +12,7 @@ typedef struct playing {
     octree_game *games[2];
     bool same_session;    /* then all ticks are the same */
     bool same_rules;      /* trees of the same contents are the same, and have the same digest */
-    uint64_t versions[2]; /* of the trees that were looked at last, */
+    uint64_t versions[2]; /* of the trees that were compared last */
     bool looked, unlike;  /* and whether they differ */
     bool warm;            /* a tick before has left other heat, and it is shown */
     bool shows_heat;
@@ -76,7 +76,7 @@ static void note(cause *c, uint64_t tick)
     c->last = tick;
 }
 
-/* The trees are compared node by node only for ticks that are told in detail. */
+/* The trees are compared node by node only for ticks that are reported in detail. */
 static bool look_at(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};

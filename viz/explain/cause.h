@@ -5,7 +5,7 @@
 #include "cause_compare.h"
 #include "trace.h"
 
-/* A tick that is told in detail. */
+/* A tick that is reported in detail. */
 typedef struct cause_tick {
     uint64_t tick;
     cause_facts facts; /* none: nothing that happened differs */
@@ -15,34 +15,34 @@ typedef struct cause_tick {
 /* A zeroed one is empty. */
 typedef struct cause {
     cause_facts session; /* in what the sessions differ */
-    cause_facts view;    /* and how they are looked at; of two sessions alone there is none */
-    cause_tick *ticks;   /* told in detail, in ascending order */
+    cause_facts view;    /* in what their views differ; none when only sessions are compared */
+    cause_tick *ticks;   /* reported in detail, in ascending order */
     size_t count, room;
     uint64_t compared;    /* ticks that both have */
     uint64_t differing;   /* of them, in what happened */
     uint64_t first, last; /* of those that differ */
 } cause;
 
-/* Who watches while two sessions are played. */
+/* Callbacks while two sessions are played. */
 typedef struct cause_watcher {
-    size_t first; /* so many ticks that differ are told in detail, the first ones */
+    size_t first; /* how many of the first differing ticks are reported in detail */
 
-    /* Whether a tick is told in detail besides; null: none is. */
+    /* Whether another tick is reported in detail; may be null. */
     bool (*wants)(void *context, uint64_t tick);
 
-    /* Called at each tick that both have, with the games at it, and whether what happened differs. False, with a
-     * sentence, ends the playing. May be null. */
+    /* Called at each tick that both have, with the games at it, and whether what happened differs. False with an
+     * error ends the playing. May be null. */
     bool (*watch)(void *context, const octree_game *const games[2], bool differs, octreel_error *error);
     void *context;
 } cause_watcher;
 
 /* Compare two sessions and play them side by side. `views`, which may be null, add what shows in pictures alone. False
- * with a sentence when one cannot be played; *c is to be released in any case. */
+ * with an error when one cannot be played; *c is to be released in any case. */
 bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2],
                 const cause_watcher *watcher, cause *c, octreel_error *error);
 void cause_release(cause *c);
 
-/* The facts of a tick that is told in detail, or null. */
+/* A tick that is reported in detail, or null. */
 const cause_tick *cause_at(const cause *c, uint64_t tick);
 
 #endif

@@ -43,12 +43,12 @@ typedef struct cause_view {
 
 void cause_compare_views(const cause_view *a, const cause_view *b, cause_facts *facts);
 
-/* Nodes and points of the trees of two games, but the player, which the tick tells; of trees in unlike worlds the
- * worlds, and points. Nodes that are there because one above them split are not told one by one. Cost: a sort of the
+/* Nodes and points of the trees of two games, except the player, which is compared with the tick; of trees in different
+ * worlds only the points. Nodes below one that split or merged are not reported. Cost: a sort of the
  * points. */
 void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts *facts);
 
-/* All that the ticks say at which two games are. What their trees tell is not told twice. */
+/* All facts of the games' current ticks, except what cause_compare_trees() reports. */
 void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts *facts);
 
 #endif

@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What the second side has: another value, something besides, something missing, the same in another order. */
+/* What the second side has: another value, an additional one, one less, the same ones in another order. */
 typedef enum cause_change { CAUSE_OTHER, CAUSE_MORE, CAUSE_LESS, CAUSE_ORDER } cause_change;
 
 const char *cause_change_name(cause_change change);

@@ -29,7 +29,7 @@ static void add_node(const walking *w, const char *where, octree_address node)
     add(w->facts, where, CAUSE_MORE, json_string(octree_address_format(node, text)));
 }
 
-/* Below a node that the other tree lacks, or has as a leaf, nothing more is told. */
+/* Below a node that the other tree lacks, or has as a leaf, nothing more is reported. */
 static octree_walk_order look_at(const octree_node *node, void *context)
 {
     const walking *w = context;
@@ -62,7 +62,7 @@ static cause_points sort_points(const octree *tree, const uint64_t *but)
     return sorted;
 }
 
-/* The id of the player that both have: the tick tells where it is. Null where they have none, or two. */
+/* The id of the player if both games have the same one, whose position is compared with the tick; else null. */
 static const uint64_t *player_of_both(const octree_game *a, const octree_game *b)
 {
     const uint64_t *ids[2] = {&octree_game_session(a)->player.id, &octree_game_session(b)->player.id};
@@ -123,7 +123,7 @@ static bool is_inner(const octree_game *game, octree_address address)
     return octree_node_at(octree_game_tree(game), address, &node) == OCTREE_OK && !node.leaf;
 }
 
-/* Leave out nodes in which the trees differ: they are told already. */
+/* Leave out nodes in which the trees differ: they are reported already. */
 static void drop_told(const octree_game *a, const octree_game *b, json_t *nodes)
 {
     for (size_t i = json_array_size(nodes); i-- > 0;) {
@@ -138,7 +138,7 @@ static json_t *read_line(const octree_game *a, const octree_game *b, const char 
 {
     json_error_t error;
     json_t *line = json_loads(text, JSON_DECODE_INT_AS_REAL, &error);
-    json_object_del(line, "tree"); /* counts of what the trees tell one by one */
+    json_object_del(line, "tree"); /* counts of what the trees report one by one */
     drop_told(a, b, json_object_get(line, "splits"));
     drop_told(a, b, json_object_get(line, "merges"));
     return line;

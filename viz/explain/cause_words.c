@@ -6,16 +6,16 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* ---- What there are words for -------------------------------------------------------------------------------- */
+/* ---- Phrases ------------------------------------------------------------------------------------------------- */
 
-/* How the facts of one place are told: "another NOUN (8, was 4)", "one more NOUN (...)", "one NOUN fewer (...)"; or,
+/* How the facts of one place are printed: "another NOUN (8, was 4)", "one more NOUN (...)", "one NOUN fewer (...)"; or,
  * with a verb, "NOUN 12 VERB". */
 typedef struct phrase {
     const char *where, *noun, *plural; /* null: the noun and an s */
     const char *moved, *added, *gone;  /* the verbs for each change */
-    bool option;                       /* of the whole session: what follows from it shows in all ticks */
-    bool every;                        /* said to be of every tick where it is not of one */
-    bool minor;                        /* told after the others; where there is little room, only without them */
+    bool option;                       /* of the whole session: it affects all ticks */
+    bool every;                        /* "at every tick" is printed where a fact is of no single one */
+    bool minor;                        /* printed after the others; in a brief text only if there are no others */
 } phrase;
 
 #define PLAIN .option = false
@@ -23,7 +23,7 @@ typedef struct phrase {
 #define EVERY .every = true
 #define MINOR .minor = true
 
-/* A place without a row is told by its path. */
+/* A place without a row is printed as its path. */
 static const phrase phrases[] = {
     /* Sessions. */
     {"world", "world", OPTION},
@@ -203,7 +203,7 @@ static void print_values(FILE *out, const phrase *p, const cause_group *group, c
 
 static void print_fact(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
 {
-    if (strcmp(group->where, "answers") == 0) { /* asked by one side alone */
+    if (strcmp(group->where, "answers") == 0) { /* only one side has the query */
         fprintf(out, "%s%s", group->query, group->change == CAUSE_MORE ? " asked besides" : " not asked");
         return;
     }
@@ -272,7 +272,7 @@ static void print_many(FILE *out, const phrase *p, const cause_group *group, boo
     fputc(')', out);
 }
 
-/* Facts without an id or a word to name them by are told one by one. */
+/* Facts without an id or a word to name them by are printed one by one. */
 static bool has_subject(const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;

@@ -8,7 +8,7 @@
 
 /* The facts of one list, with commas between, those that matter least after a semicolon: "node 0/3/7 split, point 12
  * moved from (0, 0, 0) to (1, 2, 3)". Brief is without places, and no more than CAUSE_BRIEF groups of facts, those that
- * matter least left out. Nothing where there is none. */
+ * matter least left out. Prints nothing for an empty list. */
 #define CAUSE_BRIEF 4
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief);
 

@@ -57,7 +57,7 @@ typedef struct watching {
     size_t count, next;
 } watching;
 
-/* Ticks are asked for in ascending order. */
+/* Called with ascending ticks. */
 static bool is_wanted(void *context, uint64_t tick)
 {
     watching *w = context;
@@ -76,7 +76,7 @@ static bool watch(void *context, const octree_game *const games[2], bool differs
     if (!is_wanted(w, tick))
         return true;
     const diff_pair *pair = w->pairs[w->next].pair;
-    cause_tick *told = &w->e->cause.ticks[w->e->cause.count - 1]; /* that of this tick: it was wanted */
+    cause_tick *told = &w->e->cause.ticks[w->e->cause.count - 1]; /* of this tick, which was wanted */
     return !pair->difference.unlike.pixels ||
            tracer_trace(&w->e->tracer, w->e->sides, games, pair, w->options, &told->trace, error);
 }
@@ -118,10 +118,10 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 
 /* ---- One pair ------------------------------------------------------------------------------------------------ */
 
-/* What both frames say of themselves. */
+/* The origins in the text chunks of both frames. */
 typedef struct origins {
     frame_origin of[2];
-    bool told; /* by both */
+    bool told; /* both frames have one */
 } origins;
 
 static origins read_origins(const diff_pair *pair)
@@ -132,7 +132,7 @@ static origins read_origins(const diff_pair *pair)
     return o;
 }
 
-/* Whether a frame has the pixels that it says were drawn. */
+/* Whether a frame has the pixels of the digest in its text chunk. */
 static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
 {
     octreel_error ignored;
@@ -141,7 +141,7 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     return image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored) && pixels == origin->pixels;
 }
 
-/* Two frames that say the same of their pixels, and differ in them: name what somebody changed. */
+/* Of two frames with the same digest and different pixels name those that were changed. */
 static bool print_changed(FILE *out, const diff_pair *pair, const origins *o)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
@@ -201,7 +201,7 @@ static void print_tick(FILE *out, const explanation *e, uint64_t tick)
     }
 }
 
-/* Frames without recordings: only their text chunks tell something. */
+/* Frames without recordings: only their text chunks are known. */
 static void print_origins(FILE *out, const origins *o)
 {
     const frame_origin *a = &o->of[0], *b = &o->of[1];
@@ -257,7 +257,7 @@ static bool find_cause(const explanation *e, const diff_pair *pair, pair_cause *
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Whether all that were explained show the same scenes, drawn otherwise. */
+/* Whether all explained pairs show the same scenes, drawn differently. */
 static bool only_drawn(const explanation *e)
 {
     bool any = false;
@@ -269,7 +269,7 @@ static bool only_drawn(const explanation *e)
     return any;
 }
 
-/* The first pair that has a cause, where nothing can be said of all; e->count where there is none. */
+/* The first pair that has a cause; e->count where there is none. */
 static size_t first_explained(const explanation *e)
 {
     size_t i = 0;

@@ -2,14 +2,14 @@
  *
  * Two recordings are explained by their sessions, which are played side by side; other frames by their text chunks.
  *
- * Who prints what of it:
+ * The function that prints each line:
  *   different: 5 of 5 frames                                        report.c
  *   another leaf capacity (4, was 2): every tick from 0 differs     the headline: print_headline() in explain.c
  *     frame_000001.png: 312 of 14400 pixels differ; ...             report.c
  *       tick 1: node 0/3/7 split, point 12 moved from ...           a pair: print_cause() in explain.c
  *       ...; 312 pixels: 180 of node 0/3/7, 132 of point 12         its pixels: trace_print()
- * The second and the fourth line tell facts: cause.h finds them, cause_words.h has their words, cause_json.h their
- * JSON.
+ * The facts in the second and the fourth line are found by cause.h and printed by cause_words.h and, as JSON,
+ * cause_json.h.
  */
 #ifndef EXPLAIN_EXPLAIN_H
 #define EXPLAIN_EXPLAIN_H

@@ -16,12 +16,12 @@ typedef struct recorded {
     cause_view view;
     line_reader lines;
     bool reading;                      /* nothing is wrong with the lines so far */
-    char drawn_by[RECORDED_WHO];       /* as renderer.json tells */
+    char drawn_by[RECORDED_WHO];       /* from renderer.json */
     char *warnings[RECORDED_WARNINGS]; /* sentences about files that do not fit its session; owned */
     size_t warning_count;
 } recorded;
 
-/* Read it, all but its frames. False with a sentence when something is not there or cannot be read. *r is to be closed
+/* Read it, all but its frames. False with an error when something is not there or cannot be read. *r is to be closed
  * in any case. */
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error);
 void recorded_close(recorded *r);

@@ -10,7 +10,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-/* Samples of a picture that is traced, which take 8 bytes each. */
+/* The most samples of a picture that is traced; each takes 8 bytes. */
 #define MOST_SAMPLES ((size_t)1 << 25)
 
 void tracer_close(tracer *t)
@@ -31,7 +31,7 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
     return true;
 }
 
-/* ---- What it belongs to -------------------------------------------------------------------------------------- */
+/* ---- Parts --------------------------------------------------------------------------------------------------- */
 
 /* The highest node on the way to this one, or itself, in which the trees differ: there on one side alone, or inner on
  * one side and a leaf on the other. 0: none. */
@@ -49,8 +49,8 @@ static octree_address changed_node(const octree_game *const games[2], octree_add
     return 0;
 }
 
-/* Points, and nodes in the layer that has all of them or where they are what differs, are told one by one; of other
- * layers what they show is told as one. */
+/* Points, nodes of LAYER_NODES and nodes in which the trees differ are parts of their own; each other layer is one
+ * part. */
 static trace_part part_of(const scene *s, uint32_t number, const octree_game *const games[2])
 {
     trace_part part = {.layer = TRACE_BACKGROUND, .pixels = 1};
@@ -89,7 +89,7 @@ typedef struct pictures {
     size_t samples; /* of a pixel, each way */
 } pictures;
 
-/* Of the samples of a pixel the first at which the sides show unlike elements; else the first that shows any. */
+/* Of the samples of a pixel the first at which the sides show different elements; else the first that shows any. */
 static trace_part part_at(const tracer *t, const octree_game *const games[2], const pictures *p, size_t x, size_t y)
 {
     trace_part found = {.layer = TRACE_BACKGROUND, .pixels = 1};

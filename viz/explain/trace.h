@@ -43,7 +43,7 @@ void tracer_close(tracer *t);
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error);
 
 /* Trace the pair, compared with these options, of the tick at which the games are. Nothing is traced where a frame does
- * not show the scene of its tick or cannot be read, where sizes are unlike, or where nothing can be drawn: that is no
+ * not show the scene of its tick or cannot be read, where sizes differ, or where nothing can be drawn: that is no
  * error. */
 bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
                   const diff_options *options, trace *made, octreel_error *error);

@@ -21,7 +21,7 @@ typedef struct film_options {
     unsigned jobs; /* at most FILM_MOST_JOBS, and one a frame */
     bool resume;   /* complete what the folder holds of this recording: frames that are there and right are kept */
     void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
-    bool (*keep_going)(void *context); /* asked between ticks: false stops after the last one; may be null */
+    bool (*keep_going)(void *context);                              /* called between ticks: false stops; may be null */
     void *context;
 } film_options;
 

@@ -1,4 +1,4 @@
-/* film_report.c - what was filmed, said when it is done. */
+/* film_report.c - the summary printed after filming. */
 #include "film_report.h"
 #include "json_write.h"
 #include "text.h"

@@ -1,4 +1,4 @@
-/* film_report.h - what was filmed, said when it is done. */
+/* film_report.h - the summary printed after filming. */
 #ifndef RECORD_FILM_REPORT_H
 #define RECORD_FILM_REPORT_H
 
@@ -12,7 +12,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
 /* The same of a recording that was joined from its chunks, of which less is known. */
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json);
 
-/* One sentence: how far it came, and the command that goes on. */
+/* One sentence: how many ticks were filmed, and the command that continues. */
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options);
 
 #endif

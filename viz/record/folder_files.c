@@ -1,4 +1,4 @@
-/* folder_files.c - the files of a recording that are written once, and whose they are. */
+/* folder_files.c - the files of a recording that are written once, and to which recording a folder belongs. */
 #include "folder_files.h"
 #include "frame_file.h"
 #include "png_write.h"
@@ -57,8 +57,8 @@ static bool write_once(const folder_place *place, const char *name, const char *
     return ok;
 }
 
-/* Where the folder may be that of a recording already. `unlike` is said of a file that is there with other bytes; null:
- * those are as good. */
+/* Into a folder that may hold the recording already. `unlike` is the error for a file with other bytes; null: they are
+ * accepted. */
 static bool put_shared(const folder_place *place, const char *name, const char *bytes, size_t size, const char *unlike,
                        octreel_error *error)
 {

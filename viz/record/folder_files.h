@@ -1,4 +1,4 @@
-/* folder_files.h - the files of a recording that are written once: what is played, how it is seen, who draws it; and
+/* folder_files.h - the files of a recording that are written once: the session, the view and the renderer; and
  * whether a folder that is not empty may be filmed into. */
 #ifndef RECORD_FOLDER_FILES_H
 #define RECORD_FOLDER_FILES_H
@@ -34,7 +34,7 @@ bool write_session_file(const folder_place *place, const session_bytes *session,
 /* recording.json: format version and view. */
 bool write_recording_file(const folder_place *place, const view *v, uint64_t every, octreel_error *error);
 
-/* renderer.json: the one file that may differ between machines. Of several who draw the first is named. */
+/* renderer.json: the one file that may differ between machines. Of several processes the first one's is kept. */
 bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error);
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */

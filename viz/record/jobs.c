@@ -11,7 +11,7 @@
 
 /* ---- Pipes -------------------------------------------------------------------------------------------------- */
 
-/* No signal where nobody reads: a job may have died, and so may who started it. */
+/* No SIGPIPE where the other end is closed: the job, or the process that started it, may have died. */
 static bool pipe_write(int pipe, const void *bytes, size_t size)
 {
     for (const char *at = bytes; size > 0;) {
@@ -116,7 +116,7 @@ static bool start_job(job_pool *pool, playback *p, octreel_error *error)
     if (pid == 0) {
         close(ends[0]);
         for (unsigned i = 0; i < pool->count; i++)
-            close(pool->jobs[i].pipe); /* a pipe ends when nobody has its other end */
+            close(pool->jobs[i].pipe); /* a pipe ends when all copies of its other end are closed */
         share.index = pool->count;
         share.count = pool->wanted;
         run_job(&(job){0, ends[1], r->options}, r, p, &share);
@@ -221,7 +221,7 @@ static bool begin(job_pool *pool, playback *p, octreel_error *error)
     picture_close(&p->picture);
     for (unsigned i = 0; begun && i < pool->count; i++)
         pipe_write(pool->jobs[i].pipe, &p->session_digest,
-                   sizeof p->session_digest); /* that a job has died shows when it is read */
+                   sizeof p->session_digest); /* a job that has died is noticed when it is read */
     return begun;
 }
 

@@ -120,7 +120,7 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
                          c->name, tick);
     if (filmed && !check_frame(j, scene, error))
         return false;
-    fwrite(j->line, 1, size, j->ticks.stream); /* file_writer_close tells */
+    fwrite(j->line, 1, size, j->ticks.stream); /* errors are reported by file_writer_close() */
     j->summary->ticks++;
     if (j->options->progress)
         j->options->progress(j->summary->ticks, j->summary->total, j->options->context);
@@ -132,7 +132,7 @@ static bool is_stopped(const joining *j)
     return j->options->keep_going && !j->options->keep_going(j->options->context);
 }
 
-/* Take what other chunks have not had. A last line that is torn is none. */
+/* Take the ticks that earlier chunks did not have. A torn last line is ignored. */
 static bool join_lines(joining *j, const chunk *c, FILE *stream, bool *stopped, octreel_error *error)
 {
     ssize_t size;

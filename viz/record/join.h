@@ -11,7 +11,7 @@
 
 /* Join the chunks in options->folder, and read the view from there; progress, keep_going and context are the caller's.
  * Chunks may overlap. Of the summary only ticks, frames, left_out and total are set. Stopped, it changes nothing, and
- * summary->ticks is below its total. False where anything is missing, which the sentence names, or wrong. */
+ * summary->ticks is below its total. False with an error where anything is missing or wrong. */
 bool join_chunks(film_options *options, film_summary *summary, octreel_error *error);
 
 #endif

@@ -32,7 +32,7 @@ static bool fail_to_write(const live_recording *live, octreel_error *error)
     return error_set(error, "%s: cannot be written: %s", live->path, strerror(errno));
 }
 
-/* What was written is there for good, even where the process dies. */
+/* What was written survives the death of the process. */
 static bool flush(live_recording *live, octreel_error *error)
 {
     if (fflush(live->stream) != 0 || ferror(live->stream))
@@ -41,7 +41,7 @@ static bool flush(live_recording *live, octreel_error *error)
     return true;
 }
 
-/* What tick 0 asks and shows; what is so at every tick stands in the header. */
+/* The queries and shapes of tick 0; those of every tick are in the header. */
 static octree_input first_tick(const octree_session *session)
 {
     octree_input input = {.queries = session->queries, .shapes = session->shapes};
@@ -105,7 +105,7 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
         const size_t wanted = left < (off_t)sizeof buffer ? (size_t)left : sizeof buffer;
         if (fread(buffer, 1, wanted, live->stream) != wanted)
             return error_set(error, "%s: cannot be read", live->path);
-        fwrite(buffer, 1, wanted, out); /* file_writer_close tells */
+        fwrite(buffer, 1, wanted, out); /* errors are reported by file_writer_close() */
         left -= (off_t)wanted;
     }
     return true;
@@ -139,7 +139,7 @@ static bool digest_file(const char *path, uint64_t *digest, octreel_error *error
     return ok || error_set(error, "%s: cannot be read", path);
 }
 
-/* Only now it is known of what session the frames are. */
+/* The session's digest is only known now. */
 static bool sign_frames(const live_recording *live, uint64_t digest, octreel_error *error)
 {
     for (uint64_t tick = 0; tick < live->summary.ticks; tick += live->options.every)

@@ -12,9 +12,9 @@
 
 typedef struct live_recording live_recording;
 
-/* Play tick 0 and open what draws it: of the session its start, and what it asks and shows at tick 0 or at every tick;
- * it has no keys and no edits. All that is given is copied. Of the options, chunk, jobs and resume are not read. Null,
- * and a sentence, on failure. */
+/* Play tick 0 and open what draws it: the session has its start, and the queries and shapes of tick 0 or of every
+ * tick, but no keys and no edits. All arguments are copied. Of the options, chunk, jobs and resume are not read. Null
+ * with an error on failure. */
 live_recording *live_open(const octree_session *start, const film_options *options, octreel_error *error);
 
 /* Make the folder and film tick 0. Where it fails no files are left, and only live_close() is. */
@@ -24,7 +24,7 @@ bool live_begin(live_recording *live, octreel_error *error);
 bool live_tick(live_recording *live, const octree_input *input, octreel_error *error);
 
 /* Write what comes last, and free all memory: session.json with all ticks that were taken, and the page. Where a tick
- * failed, the files are those of a recording that broke off, which --resume completes. False, and a sentence, when that
+ * failed, the files are those of a recording that broke off, which --resume completes. False with an error when that
  * cannot be written. */
 bool live_close(live_recording *live, octreel_error *error);
 

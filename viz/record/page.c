@@ -19,7 +19,7 @@
 typedef struct cutter {
     FILE *out;
     unsigned depth;
-    unsigned cut;         /* the depth of the list whose entries are being left out; 0: none is */
+    unsigned cut;         /* the depth of the list whose entries are being left out, or 0 */
     bool lists[DEPTH];    /* whether a list or an object is open at each depth */
     size_t commas[DEPTH]; /* in it */
     bool quoted, escaped;

@@ -1,4 +1,3 @@
-/* picture.c - see picture.h. */
 #include "picture.h"
 #include "filter.h"
 #include "camera.h"
@@ -76,9 +75,4 @@ bool picture_draw(picture *p, const scene *s, octreel_error *error)
         return false;
     return drawn == &p->frame || image_shrink(drawn, view_samples(&s->view), &p->frame) ||
            error_set(error, "the scene is not of the picture's anti-aliasing");
-}
-
-bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, octreel_error *error)
-{
-    return image_write_png(&p->frame, path, texts, count, error);
 }

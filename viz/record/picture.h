@@ -1,4 +1,4 @@
-/* picture.h - one scene becomes one PNG: a renderer, the frame's pixels and the theme's palette. */
+/* picture.h - one scene becomes one image: a renderer, the frame's pixels and the theme's palette. */
 #ifndef RECORD_PICTURE_H
 #define RECORD_PICTURE_H
 
@@ -21,8 +21,5 @@ void picture_close(picture *p);
 
 /* Draw a scene into p->frame. */
 bool picture_draw(picture *p, const scene *s, octreel_error *error);
-
-/* Write p->frame, with what traces it to its origin. */
-bool picture_write(const picture *p, const char *path, const image_text *texts, size_t count, octreel_error *error);
 
 #endif

@@ -80,8 +80,8 @@ typedef struct film_share {
 /* What is done with each tick of a share, in order. False ends the run. */
 typedef bool film_sink(void *context, const film_step *step, octreel_error *error);
 
-/* Play on to the end of a share and film its ticks. Ends early, and true, where keep_going() says so, which is asked
- * after each tick; it may be null. */
+/* Play on to the end of a share and film its ticks. Ends early, and true, when keep_going(), which is called
+ * after each tick and may be null, returns false. */
 bool playback_run(playback *p, const film_share *share, film_sink *sink, bool (*keep_going)(void *context),
                   void *context, octreel_error *error);
 

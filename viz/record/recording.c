@@ -46,7 +46,7 @@ static bool open_log(recording *r, octreel_error *error)
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
 
-/* Into a new folder. The log comes first: who has opened it has the folder. */
+/* Into a new folder. The log comes first: its lock is the folder's. */
 static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
@@ -61,7 +61,7 @@ static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
     return false;
 }
 
-/* A chunk is not filmed twice unless that is asked for. */
+/* A chunk is not filmed twice unless it is resumed. */
 static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];

@@ -1,4 +1,3 @@
-/* tick_log.c - see tick_log.h. */
 #include "tick_log.h"
 
 #include <errno.h>
@@ -7,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Where a file system knows no locks there is nobody to ask. */
+/* A file system without locks never has it taken. */
 static bool is_taken(int file)
 {
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -55,7 +54,7 @@ static bool give_up(tick_log *log, octreel_error *error)
     return fail_to_write(log, error, cut ? "" : "; its last line is torn");
 }
 
-/* Whether the earlier log goes on with this line. */
+/* Whether this is the next line of the earlier log. */
 static bool is_kept(const tick_log *log, const char *line, size_t size)
 {
     if (log->kept - log->whole < (off_t)size)
@@ -66,7 +65,7 @@ static bool is_kept(const tick_log *log, const char *line, size_t size)
     return true;
 }
 
-/* The earlier log goes on otherwise: from here on it is forgotten. */
+/* The earlier log differs from here on: drop the rest of it. */
 static bool forget(tick_log *log)
 {
     log->kept = 0;

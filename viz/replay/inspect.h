@@ -27,7 +27,7 @@ void inspect_release(inspection *i);
 /* Print the statistics: for people, or as one JSON object on one line. `name` is what the cloud is called there. */
 void inspect_print(const inspection *i, const char *name, bool json, FILE *out);
 
-/* Find the node at an address as it is typed, such as 0/3/7 or root. False, with a sentence, where there is none. */
+/* Find the node at an address as it is typed, such as 0/3/7 or root. False with an error where there is none. */
 bool inspect_find_node(const inspection *i, const char *address, octree_node *node, octreel_error *error);
 
 /* Print one node: its box and, of a leaf, its points. */

@@ -1,4 +1,4 @@
-/* inspect_answers.c - asks the tree of a cloud, and prints its answers by what each kind of query takes and finds. */
+/* inspect_answers.c - queries the tree of a cloud, and prints the answers by the traits of each kind of query. */
 #include "inspect_answers.h"
 #include "inspect.h"
 #include "json_write.h"

@@ -15,7 +15,7 @@ typedef struct inspect_answers {
     size_t count;
 } inspect_answers;
 
-/* Ask a tree. Every point counts, and queries may reach beyond the world. False, and a sentence, where a query does not
+/* Ask a tree. Every point counts, and queries may reach beyond the world. False with an error where a query does not
  * fit or there is no memory; nothing is then to be released. */
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,
                  octreel_error *error);

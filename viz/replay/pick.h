@@ -37,7 +37,7 @@ typedef struct pick {
     size_t count;           /* 0: nothing is drawn within the radius */
 } pick;
 
-/* False, with a sentence, where `path` is no frame of a recording, the recording beside it is not the one that it is
+/* False with an error where `path` is no frame of a recording, the recording beside it is not the one that it is
  * of, or the pixel is outside. */
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error);
 void pick_release(pick *p);

@@ -31,7 +31,7 @@ void replay_close(replay *r);
  * session has no such tick. */
 bool replay_to(replay *r, uint64_t tick, octreel_error *error);
 
-/* The renderer of such scenes, opened at the first call and closed by replay_close(). Null with a sentence. */
+/* The renderer of such scenes, opened at the first call and closed by replay_close(). Null with an error. */
 renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error);
 
 #endif

@@ -206,7 +206,7 @@ static void check_end_of_lines(verifying *v)
                 "ticks.jsonl has lines beyond the session, which has %" PRIu64 " ticks", v->replay.ticks);
 }
 
-/* Whether a file is named as a frame and is none of this recording. */
+/* Whether a file has a frame's name that this recording does not have. */
 static bool is_extra_frame(const verifying *v, const char *name)
 {
     return strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, v->replay.ticks, v->replay.film.every);

@@ -55,7 +55,7 @@ typedef struct verify_options {
     void *context;
 } verify_options;
 
-/* Verify the recording in a folder. False, with a sentence, where it cannot be read, played or drawn. */
+/* Verify the recording in a folder. False with an error where it cannot be read, played or drawn. */
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error);
 
 /* Print a line for each finding, or that the recording is identical; or one JSON object on one line. */

@@ -1,4 +1,5 @@
 #include "verify_line.h"
+#include "array.h"
 #include "file.h"
 #include "json_read.h"
 
@@ -35,27 +36,16 @@ void lines_close(line_reader *reader)
     *reader = (line_reader){0};
 }
 
-static bool make_room(line_reader *reader)
-{
-    if (reader->size < reader->room)
-        return true;
-    const size_t room = reader->room ? 2 * reader->room : 1024;
-    char *grown = realloc(reader->line, room);
-    if (!grown)
-        return false;
-    reader->line = grown;
-    reader->room = room;
-    return true;
-}
-
 line_state lines_next(line_reader *reader, size_t limit)
 {
     reader->size = 0;
     for (int c; (c = getc(reader->stream)) != EOF;) {
         if (reader->size == limit)
             return LINE_LONG;
-        if (!make_room(reader))
+        char *grown = array_reserve(reader->line, reader->size + 1, &reader->room, 1);
+        if (!grown)
             return LINE_TROUBLE;
+        reader->line = grown;
         reader->line[reader->size++] = (char)c;
         if (c == '\n')
             return LINE_WHOLE;

@@ -15,7 +15,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-/* A file that marks a folder as evidence, and tells people what will be removed. */
+/* A file that marks a folder as evidence, and says what will be removed. */
 #define MARKER "evidence.txt"
 static const char marker_beginning[] = "octreel evidence 1\n";
 static const char marker_text[] = "octreel evidence 1\n"
@@ -54,7 +54,7 @@ static size_t fitting_length(const char *stem)
     return length;
 }
 
-/* The word goes before the suffix, which stays as it is: names that were unlike stay so. A name that would be too long
+/* The word goes before the suffix, which stays as it is: different names stay different. A name that would be too long
  * has a digest of itself in place of its end. */
 char *evidence_name(const char *frame, evidence_picture picture)
 {
@@ -164,7 +164,7 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */
 
-/* Only regular files are copied; others are told as trouble of their pair. */
+/* Only regular files are copied; others are reported as unreadable. */
 static bool has_file(const diff_frame *frame)
 {
     struct stat status;

@@ -27,7 +27,7 @@ char *evidence_name(const char *frame, evidence_picture picture);
 /* Whether a file's name is that of such a picture, or of one half written. */
 bool evidence_is_name(const char *name);
 
-/* Write into a folder what can be had: the files that there are, and the difference where both can be read. *written
+/* Write into a folder the files that exist, and the difference where both can be read. *written
  * receives a bit (1 << evidence_picture) for each. Both images are in memory, and of what is drawn a row at a time. */
 bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
                    octreel_error *error);
