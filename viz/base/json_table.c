@@ -98,7 +98,7 @@ json_counted json_counted_at(const void *from)
 
 /* ---- Kinds and choices -------------------------------------------------------------------------------------- */
 
-/* {"range": ...}, {"nearest": ...} or {"radius": ...} */
+/* What an object can be, for an error: {"range": ...}, {"nearest": ...} or {"radius": ...}. */
 static const char *list_kinds(json_name *kinds, char *text, size_t size)
 {
     size_t length = 0;

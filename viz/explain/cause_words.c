@@ -2,6 +2,7 @@
 #include "cause_words.h"
 #include "number.h"
 #include "text.h"
+#include "view_options.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -43,14 +44,7 @@ static const phrase phrases[] = {
     {"edits", "edit", PLAIN},
     {"queries", "query", .plural = "queries", EVERY},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
-    /* Views. */
-    {"color_by", "colouring", PLAIN},
-    {"layers", "layer", PLAIN},
-    {"lod", "level of detail", PLAIN},
-    {"depths", "range of depths", PLAIN},
-    {"leaves", "rule for leaves alone", PLAIN},
-    {"labels", "rule for labels", PLAIN},
-    {"aa", "anti-aliasing", PLAIN},
+    /* Views; the nouns of their options are in view_options.c. */
     {"every", "interval of frames", PLAIN},
     /* Trees. */
     {"nodes.split", "node", .added = "split"},
@@ -86,6 +80,11 @@ static phrase phrase_of(const cause_group *group)
     for (size_t i = 0; i < count; i++)
         if (strcmp(phrases[i].where, group->where) == 0)
             return phrases[i];
+    for (size_t i = 0; view_option_at(i); i++) {
+        const view_option *option = view_option_at(i);
+        if (option->noun && strcmp(option->member.name, group->where) == 0)
+            return (phrase){.where = group->where, .noun = option->noun};
+    }
     const char *last = strrchr(group->where, '.');
     const bool answer = *group->query != 0;
     return (phrase){.where = group->where, .noun = last && answer ? last + 1 : group->where, .minor = answer};

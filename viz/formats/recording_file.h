@@ -1,6 +1,6 @@
 /* recording_file.h - recording.json: the version of a recording, and how it was looked at.
  *
- *   {"octreel": "recording", "version": 2, the view, "theme": "day", "every": 1}
+ *   {"octreel": "recording", "version": 2, the view, "theme": "night", "every": 1}
  * The members of the view are those of view_options.c:
  *   "width": 1280, "height": 720, "camera": "iso", "layers": ["world", "nodes", ...], "color_by": "depth",
  *   "lod": 2, "budget": 250000, "aa": 1, and, where they are not off,
@@ -21,7 +21,7 @@
 /* Write the file. Errors stay with the stream. */
 void recording_write(FILE *out, const view *v, uint64_t every);
 
-/* Read that of a folder: its view, and each how many ticks there is a frame. Options that are missing are off. False,
+/* Read that of a folder: its view and its frame interval (--every). Options that are missing are off. False,
  * with file, line and reason, when it is none. */
 bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error);
 

@@ -45,7 +45,7 @@ static bool no_such(const char *what, const char *text, int length, json_name *n
 
 /* ---- Values of each type ------------------------------------------------------------------------------------ */
 
-static bool refuse(const view_option *option, const char *text, octreel_error *error)
+static bool refuse_value(const view_option *option, const char *text, octreel_error *error)
 {
     return error_set(error, "--%s takes %s, not \"%.200s\"", option->name, option->takes, text);
 }
@@ -74,9 +74,12 @@ static bool parse_whole(const view_option *option, const char *text, view *v, oc
 {
     const char *at = text;
     uint64_t value;
-    if (!whole_parse(&at, (uint64_t)option->member.max, &value) || *at != 0)
-        return refuse(option, text, error);
-    *(uint64_t *)value_of(option, v) = value;
+    if (!whole_parse(&at, (uint64_t)option->member.max, &value) || *at != 0 || (double)value < option->member.min)
+        return refuse_value(option, text, error);
+    if (option->member.codec == &json_int)
+        *(int *)value_of(option, v) = (int)value;
+    else
+        *(uint64_t *)value_of(option, v) = value;
     return true;
 }
 
@@ -84,7 +87,7 @@ static bool parse_number(const view_option *option, const char *text, view *v, o
 {
     double value;
     if (!numbers_parse(text, &value, 1) || !(value >= option->member.min && value <= option->member.max))
-        return refuse(option, text, error);
+        return refuse_value(option, text, error);
     *(double *)value_of(option, v) = value;
     return true;
 }
@@ -96,7 +99,7 @@ static bool parse_size(const view_option *option, const char *text, view *v, oct
     const char *at = text;
     uint64_t width, height;
     if (!whole_parse(&at, INT32_MAX, &width) || *at++ != 'x' || !whole_parse(&at, INT32_MAX, &height) || *at != 0)
-        return refuse(option, text, error);
+        return refuse_value(option, text, error);
     v->width = (int)width;
     v->height = (int)height;
     return true;
@@ -178,7 +181,7 @@ static void write_layers(json_writer *w, const void *from)
 static bool parse_slice(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     if (text[0] < 'x' || text[0] > 'z' || text[1] != '=' || !numbers_parse(text + 2, &v->filter.slice_at, 1))
-        return refuse(option, text, error);
+        return refuse_value(option, text, error);
     v->filter.slice = text[0];
     return true;
 }
@@ -216,7 +219,7 @@ static bool parse_depths(const view_option *option, const char *text, view *v, o
     const bool ends = open && whole_parse(&at, OCTREE_MAX_DEPTH, &to);
     to = open ? to : from;
     if (*at != 0 || from > to || !(begins || ends))
-        return refuse(option, text, error);
+        return refuse_value(option, text, error);
     v->filter.by_depth = true;
     v->filter.min_depth = (unsigned)from;
     v->filter.max_depth = (unsigned)to;
@@ -248,7 +251,7 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
 {
     double corners[6];
     if (!numbers_parse(text, corners, 6))
-        return refuse(option, text, error);
+        return refuse_value(option, text, error);
     for (int i = 0; i < 3; i++)
         if (corners[i] > corners[i + 3])
             return error_set(error, "--region: min must be below max on every axis, not so in \"%.200s\"", text);
@@ -262,7 +265,7 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
 static bool parse_aa(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     if (text[0] == 0 || text[1] != 0 || !strchr("124", text[0]))
-        return refuse(option, text, error);
+        return refuse_value(option, text, error);
     v->aa = text[0] - '0';
     return true;
 }
@@ -301,9 +304,9 @@ static const view_option rows[] = {
      parse_fit, .member.name = "fit", .member.codec = JSON_CODEC(read_fit, write_fit, fits_box)},
     {"layers", "LIST", "layer", "(default all but heat; -text leaves one out, default,visit-heat adds one) of",
      parse_layers, MEMBER("layers", JSON_CODEC(read_layers, write_layers, NULL), layers), .member.required = true,
-     .member.names = view_layer_at},
+     .member.names = view_layer_at, .noun = "layer"},
     {"color-by", "MODE", "colour mode", "what the colour of a node tells (default depth): one of", parse_choice,
-     MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at},
+     MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at, .noun = "colouring"},
     {"diagram", "WHERE", "diagram", "draw the tree as a tree, its root at the top (default none): one of", parse_choice,
      MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",
@@ -312,22 +315,23 @@ static const view_option rows[] = {
     {"depths", "A:B", "levels from 0 to " NUMBER_DIGITS(OCTREE_MAX_DEPTH) " as in 2:5, 2:, :5 or 3",
      "only nodes of depth A to B; A:, :B and A alone will do; the root is 0", parse_depths,
      MEMBER("depths", JSON_CODEC(read_depths, write_depths, NULL), filter),
-     .member.given = offsetof(view, filter.by_depth)},
-    {"leaves", NULL, NULL, "only leaves", parse_switch, MEMBER("leaves", &json_bool, filter.leaves)},
+     .member.given = offsetof(view, filter.by_depth), .noun = "range of depths"},
+    {"leaves", NULL, NULL, "only leaves", parse_switch, MEMBER("leaves", &json_bool, filter.leaves),
+     .noun = "rule for leaves alone"},
     {"region", "BOX", "six numbers as in -10,-10,-10,10,10,10",
      "only nodes that meet x0,y0,z0,x1,y1,z1, and the points in it", parse_region,
      MEMBER("region", &json_box, filter.region), .member.given = offsetof(view, filter.by_region)},
     {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes, where there is room", parse_switch,
-     MEMBER("labels", &json_bool, labels)},
+     MEMBER("labels", &json_bool, labels), .noun = "rule for labels"},
     {"lod", "PX", "pixels from 0 to " MOST_PIXELS,
      "leave out boxes below PX pixels whose ancestor is drawn (default " LOD "; 0: none)", parse_number,
-     MEMBER("lod", &json_interval, lod), .member.max = VIEW_MAX_SIDE},
+     MEMBER("lod", &json_interval, lod), .member.max = VIEW_MAX_SIDE, .noun = "level of detail"},
     {"budget", "N", "a whole number below 2^53",
      "at most N boxes and N points a frame, which says what it leaves out (default " BUDGET "; 0: all)", parse_whole,
      MEMBER("budget", &json_uint64, budget), .member.max = JSON_LARGEST_WHOLE},
     {"aa", "N", "1, 2 or 4 samples on each side of a pixel",
      "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", parse_aa,
-     MEMBER("aa", JSON_CODEC(read_aa, write_aa, NULL), aa), .member.min = 1, .member.max = 4},
+     MEMBER("aa", JSON_CODEC(read_aa, write_aa, NULL), aa), .member.min = 1, .member.max = 4, .noun = "anti-aliasing"},
 };
 
 const view_option *view_option_at(size_t n)

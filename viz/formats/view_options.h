@@ -19,6 +19,7 @@ struct view_option {
     /* Change a view by the text of a value. False, with a sentence, where it does not fit. */
     bool (*parse)(const view_option *option, const char *text, view *v, octreel_error *error);
     json_member member; /* of recording.json; its name is null where it has none */
+    const char *noun;   /* in sentences about a difference: "level of detail"; null: the member's name */
 };
 
 /* The n-th option; null beyond the last. Those of recording.json come in its order. */

@@ -10,6 +10,7 @@
 #include "layer.h"
 #include "recording_file.h"
 #include "folder_files.h"
+#include "view_options.h"
 
 static octree_box random_box(uint64_t *random)
 {
@@ -81,6 +82,48 @@ static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
 
 #define START "{\"octreel\": \"recording\", \"version\": 2,\n\"width\": 160, \"height\": 90,\n"
 #define VIEW START "\"camera\": \"top\", \"layers\": [\"nodes\"]"
+
+static void write_text(const view *v, char text[2048])
+{
+    FILE *stream = fmemopen(text, 2048, "w");
+    assert_non_null(stream);
+    recording_write(stream, v, 1);
+    assert_int_equal(fclose(stream), 0);
+}
+
+/* Two options say nothing of their own in the file: one takes all others over, one is resolved before it is written. */
+static void every_option_of_the_command_line_is_kept(void **state)
+{
+    static const char *const samples[][2] = {
+        {"size", "640x360"}, {"camera", "top"}, {"layers", "nodes"}, {"color-by", "plain"}, {"diagram", "only"},
+        {"slice", "z=7"},    {"depths", "2:3"}, {"leaves", ""},      {"labels", ""},        {"region", "0,0,0,1,2,3"},
+        {"lod", "9"},        {"budget", "77"},  {"aa", "4"},         {"camera-from", NULL}, {"fit", NULL},
+    };
+    const temp_folder *folder = *state;
+    char unchanged[2048], written[2048], again[2048];
+    write_text(&(view){.width = 1, .height = 1}, unchanged);
+    for (size_t i = 0; view_option_at(i); i++) {
+        const char *name = view_option_at(i)->name;
+        view v = {.width = 1, .height = 1}, read;
+        uint64_t every;
+        octreel_error error = {""};
+        size_t n = 0;
+        while (name && n < sizeof samples / sizeof samples[0] && strcmp(samples[n][0], name) != 0)
+            n++;
+        if (n == sizeof samples / sizeof samples[0])
+            fail_msg("no sample of --%s", name);
+        if (!name || !samples[n][1])
+            continue;
+        assert_true(view_option_at(i)->parse(view_option_at(i), samples[n][1], &v, &error));
+        write_text(&v, written);
+        assert_string_not_equal(written, unchanged);
+        assert_true(write_recording_file(&(folder_place){.folder = folder->name}, &v, 1, &error));
+        if (!recording_read(folder->name, &read, &every, &error))
+            fail_msg("--%s: %s", name, error.text);
+        write_text(&read, again);
+        assert_string_equal(again, written);
+    }
+}
 
 static void members_that_are_missing_are_off(void **state)
 {
@@ -216,9 +259,14 @@ static void camera_from_nowhere_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(a_view_that_is_written_is_read_back_to_the_bit),        IN_FOLDER(members_that_are_missing_are_off),
-        IN_FOLDER(what_is_no_view_is_refused_with_line_and_reason),       IN_FOLDER(what_is_no_recording_is_refused),
-        IN_FOLDER(camera_from_takes_the_whole_view_of_another_recording), IN_FOLDER(camera_from_nowhere_is_refused),
+        IN_FOLDER(a_view_that_is_written_is_read_back_to_the_bit),
+        IN_FOLDER(members_that_are_missing_are_off),
+        IN_FOLDER(every_option_of_the_command_line_is_kept),
+
+        IN_FOLDER(what_is_no_view_is_refused_with_line_and_reason),
+        IN_FOLDER(what_is_no_recording_is_refused),
+        IN_FOLDER(camera_from_takes_the_whole_view_of_another_recording),
+        IN_FOLDER(camera_from_nowhere_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

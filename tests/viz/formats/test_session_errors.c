@@ -26,8 +26,8 @@ static void assert_refuses(const char *text, size_t size, const char *sentence)
     snprintf(expected, sizeof expected, "s.json:%s", sentence);
     if (session_parse("s.json", "", text, size, &file, &error))
         fail_msg("accepted instead of: %s", expected);
-    error.text[strlen(expected) < strlen(error.text) ? strlen(expected) : strlen(error.text)] = '\0';
-    assert_string_equal(error.text, expected);
+    if (strncmp(error.text, expected, strlen(expected)) != 0)
+        fail_msg("\"%s\" does not begin with \"%s\"", error.text, expected);
     assert_null(file.session.bodies);
     assert_null(file.session.keys);
     assert_int_equal(file.session.edit_count + file.session.query_count, 0);
