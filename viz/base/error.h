@@ -1,4 +1,4 @@
-/* error.h - sentences about what could not be done. */
+/* error.h - the sentences of errors. */
 #ifndef BASE_ERROR_H
 #define BASE_ERROR_H
 

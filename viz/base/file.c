@@ -1,4 +1,4 @@
-/* file.c - files and their names: read whole, written whole or not at all, copied, told apart. */
+/* file.c - files and their names: read whole, written whole or not at all, copied, compared. */
 #include "file.h"
 
 #include <errno.h>
@@ -149,7 +149,7 @@ bool file_copy_to(const char *from, const char *to, octreel_error *error)
     return ok;
 }
 
-/* ---- Told apart --------------------------------------------------------------------------------------------- */
+/* ---- Compared ----------------------------------------------------------------------------------------------- */
 
 static bool same_streams(FILE *a, FILE *b)
 {
@@ -193,7 +193,7 @@ bool stat_parent(const char *path, struct stat *status)
     return is;
 }
 
-/* Two files of which neither is there: one name in one folder. Folders that are not there either are told by name. */
+/* Neither file exists: one name in one folder. Folders that do not exist either are compared by name. */
 static bool same_name(const char *a, const char *b)
 {
     struct stat folders[2];

@@ -1,4 +1,4 @@
-/* file.h - files and their names: read whole, written whole or not at all, copied, told apart. */
+/* file.h - files and their names: read whole, written whole or not at all, copied, compared. */
 #ifndef BASE_FILE_H
 #define BASE_FILE_H
 
@@ -20,8 +20,8 @@ bool folder_has(const char *folder, const char *name);
  * file or directory", for what is missing, unreadable, a folder, a pipe or a device. */
 bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON]);
 
-/* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. What is there already and is
- * no regular file, a pipe say, is written to as it is. */
+/* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. An
+ * existing path that is not a regular file, such as a pipe, is written directly. */
 typedef struct file_writer {
     FILE *stream;
     const char *path;
@@ -31,7 +31,7 @@ typedef struct file_writer {
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
 bool file_writer_close(file_writer *file, octreel_error *error);
 
-/* Leave no file, and what was there before as it was; always false, so that a caller can return it. */
+/* Leave the path as it was before; always false, so that a caller can return it. */
 bool file_writer_abandon(file_writer *file);
 
 /* Copy a regular file, a block at a time, by way of "<to>.part" and a rename. */
@@ -40,11 +40,11 @@ bool file_copy_to(const char *from, const char *to, octreel_error *error);
 /* A file that a command line names as an output: none may take the place of what is read, nor of another one. */
 typedef struct output_file {
     const char *option; /* as it is typed: "-o" */
-    const char *path;   /* null: there is none */
+    const char *path;   /* null: not written */
 } output_file;
 
 /* False, with a sentence, where an output is this file that is read: the same device and inode, however they are named.
- * What is no regular file, a pipe say, may be both. */
+ * A path that is not a regular file, such as a pipe, may be both. */
 bool output_spares(const output_file *output, const char *input, octreel_error *error);
 
 /* False, with a sentence, where two outputs are one file, be it there already or not. */

@@ -1,5 +1,5 @@
-/* hash_map.h - finds the items of an array by their keys. The map holds their places alone, in a table with open
- * addressing that is at most half full; items begin with their keys, and are never removed one by one.
+/* hash_map.h - finds the items of an array by their keys. The map stores their indices, in a table with open addressing
+ * that is at most half full; items begin with their keys, and are never removed one by one.
  *
  * With `struct cell { uint64_t node; ... } *cells`:
  *   static const hash_map_keys by_node = {sizeof(struct cell), hash_map_hash_id, hash_map_same_id};
@@ -63,7 +63,7 @@ bool hash_map_add(hash_map *map, const hash_map_keys *keys, const void *items);
 /* Make room for `count` items at once. False when there is no memory: the map is then unchanged. */
 bool hash_map_reserve(hash_map *map, const hash_map_keys *keys, const void *items, size_t count);
 
-/* Forget all items, and keep the table. */
+/* Remove all items, and keep the table. */
 void hash_map_clear(hash_map *map);
 
 void hash_map_release(hash_map *map);

@@ -1,4 +1,4 @@
-/* json_read.h - JSON objects from a text, by jansson; what is wrong with one is told with file, line and place. */
+/* json_read.h - JSON objects from a text, by jansson; errors name the file, the line and the place in the object. */
 #ifndef BASE_JSON_READ_H
 #define BASE_JSON_READ_H
 
@@ -20,7 +20,7 @@ typedef struct json_place {
 /* Write "points[3].velocity", cut where it does not fit; "" for the null place. Returns `text`. */
 const char *json_place_format(const json_place *place, char *text, size_t size);
 
-/* A text on its way through its objects. */
+/* A text that is read object by object. */
 typedef struct json_reader {
     const char *name;              /* of the file, for errors */
     const char *at, *limit;        /* the object at hand, and the end of the text */

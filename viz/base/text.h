@@ -1,5 +1,5 @@
-/* text.h - text printed into memory, text of others made fit to be shown, also inside a markup language, words that
- * count, and bytes as text. */
+/* text.h - text printed into memory, foreign text made printable or escaped for a markup language, plurals, and
+ * base64. */
 #ifndef BASE_TEXT_H
 #define BASE_TEXT_H
 

@@ -36,7 +36,7 @@ static int print_help(FILE *out)
     return out == stdout ? EXIT_DONE : EXIT_TROUBLE;
 }
 
-/* Whether a context of this kind can be opened, and who draws in it. */
+/* Whether a context of this kind can be opened, and its renderer. */
 static bool print_renderer(draw_context kind)
 {
     const renderer_choice choice = {.context = kind};

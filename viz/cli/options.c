@@ -174,7 +174,7 @@ void print_view_options(FILE *out)
     }
 }
 
-/* ---- Options of who draws ----------------------------------------------------------------------------------- */
+/* ---- Options of the renderer --------------------------------------------------------------------------------- */
 
 static void print_contexts(FILE *out)
 {

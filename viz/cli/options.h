@@ -62,20 +62,19 @@ typedef struct view_options {
 /* Write them where getopt_long will read them, VIEW_OPTIONS at most; returns their number. */
 size_t list_view_options(struct option *options);
 
-/* Take an option that getopt_long found; false when it is none of a view's. */
+/* Take an option that getopt_long found; false when it is not an option of a view. */
 bool take_view_option(view_options *given, int option);
 
 /* The name of the first of them that was given; null: none was. */
 const char *first_view_option(const view_options *given);
 
-/* Change a command's own default view to the one that was asked for; false, with the sentence said, when a value does
- * not fit. */
+/* Apply them to a command's default view; false, with the sentence printed, when a value does not fit. */
 bool read_view(const view_options *given, view *v);
 
 /* The part of a --help text that those options share. */
 void print_view_options(FILE *out);
 
-/* What draws: --context and --any-renderer. */
+/* The renderer: --context and --any-renderer. */
 enum { OPTION_CONTEXT = VIEW_OPTION - 2, OPTION_ANY_RENDERER };
 bool read_context(const char *text, renderer_choice *choice);
 bool check_renderer(const renderer_choice *choice); /* once all options are read */

@@ -55,7 +55,7 @@ static size_t numbers_of(octree_query_kind kind)
            (members & OCTREE_QUERY_HAS_RADIUS ? 1u : 0u) + (members & OCTREE_QUERY_HAS_K ? 1u : 0u);
 }
 
-/* Fill the members that the query's kind reads; false for a count that is none. */
+/* Fill the members that the query's kind reads; false where k is not a count. */
 static bool set_members(octree_query *query, const double *at)
 {
     const unsigned members = octree_query_about(query->kind)->members;

@@ -23,7 +23,7 @@ typedef struct cloud {
     size_t skipped;         /* points of a PLY or PCD file with a NaN or an infinity, its sign for "no return" */
 } cloud;
 
-/* Who is told, now and then, what part of a file has been read, from 0 to 1. */
+/* Called now and then with the part of the file that has been read, from 0 to 1. */
 typedef struct cloud_watch {
     void (*step)(double part, void *context);
     void *context;
@@ -37,7 +37,7 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error);
 
-/* The names of the formats, for people: "x y z text, PLY and PCD". Returns `text`. */
+/* The names of the formats, as in "PLY and PCD". Returns `text`. */
 #define CLOUD_FORMAT_NAMES 128
 char *cloud_format_names(char text[CLOUD_FORMAT_NAMES]);
 

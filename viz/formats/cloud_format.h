@@ -22,7 +22,7 @@ typedef struct cloud_file {
     size_t room;              /* of out->positions */
 } cloud_file;
 
-/* Each format, in the order in which they are tried; the last is what no other is. */
+/* Each format, in the order in which they are tried; the last takes what no other recognises. */
 #define CLOUD_FORMAT_MAP(X)                                                                                            \
     X(pcd)                                                                                                             \
     X(ply)                                                                                                             \
@@ -43,7 +43,7 @@ CLOUD_FORMAT_MAP(CLOUD_FORMAT_EXTERN)
 /* Append a point; one that is not finite is counted as skipped instead. False when there is no memory. */
 bool cloud_add(cloud_file *file, const double position[3]);
 
-/* Tell who watches, each 65536th time, that `done` of `total` have been read. `times` counts the calls. */
+/* Report at each 65536th call that `done` of `total` have been read. `times` counts the calls. */
 void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total);
 
 /* Write the error's sentence, a printf format, and return false: for the file, a line from 1 on, a byte from 0 on. */

@@ -1,4 +1,4 @@
-/* folder.h - the folder of a recording: made, checked, and filled with files that are there whole or not at all. */
+/* folder.h - the folder of a recording: made, checked, and filled with files written whole or not at all. */
 #ifndef FORMATS_FOLDER_H
 #define FORMATS_FOLDER_H
 
@@ -12,7 +12,7 @@ bool folder_make(const char *folder, octreel_error *error);
 /* The same for a recording. An existing folder must hold no recording and no frames. */
 bool folder_prepare(const char *folder, octreel_error *error);
 
-/* Remove the files of a recording that did not come to its first frame. */
+/* Remove the files of a recording that failed before its first frame. */
 void folder_abandon(const char *folder);
 
 /* The lines of the ticks [first, last) alone, of a recording that is filmed in chunks: "ticks_10_20.jsonl". */
@@ -37,7 +37,7 @@ bool folder_is_unfinished(const char *name);
  * when something killed who wrote them. */
 bool folder_sweep(const char *folder, octreel_error *error);
 
-/* Write a whole file of the folder so. */
+/* Write a file of the folder, whole or not at all. */
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* recording_file.h - recording.json: the version of a recording, and how it was looked at.
+/* recording_file.h - recording.json: the version of a recording, and its view.
  *
  *   {"octreel": "recording", "version": 2, the view, "theme": "night", "every": 1}
  * The members of the view are those of view_options.c:
@@ -22,7 +22,7 @@
 void recording_write(FILE *out, const view *v, uint64_t every);
 
 /* Read that of a folder: its view and its frame interval (--every). Options that are missing are off. False,
- * with file, line and reason, when it is none. */
+ * with file, line and reason, when it is not a recording. */
 bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error);
 
 #endif

@@ -56,7 +56,7 @@ extern const json_codec session_points_codec, session_velocities_codec;
 /* A body: id, position and velocity. */
 extern const json_member session_body_members[];
 
-/* False with the reason when a key is none that the game knows. */
+/* False with the reason when the game does not know a key. */
 bool session_check_keys(const char *keys, octreel_error *error);
 
 /* Room for one more item; null with an error when there is no memory. */

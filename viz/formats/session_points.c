@@ -10,7 +10,7 @@
 
 static const hash_map_keys by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
 
-/* Whether the player has an id that no point may have. */
+/* Whether no point may have the id of the player. */
 static bool is_apart(const octree_player *player)
 {
     return player->kind == OCTREE_PLAYER_KEYS;
@@ -191,7 +191,7 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
                      "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
 }
 
-/* Points at rest are short; a velocity of -0 is none at rest. */
+/* Points without velocity are written short; -0 counts as a velocity. */
 static void write_point(json_writer *w, const octree_body *body)
 {
     if (json_nonzero_vector.is_set(body->velocity)) {

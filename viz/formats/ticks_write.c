@@ -72,7 +72,7 @@ static void write_key(json_writer *w, const void *from)
         json_write_null(w);
 }
 
-/* Places of the player are null where there is none. */
+/* Without a player its positions are null. */
 static void write_place(json_writer *w, const octree_tick *tick, const double place[3])
 {
     if (tick->has_player)

@@ -262,7 +262,6 @@ int main(void)
         IN_FOLDER(a_view_that_is_written_is_read_back_to_the_bit),
         IN_FOLDER(members_that_are_missing_are_off),
         IN_FOLDER(every_option_of_the_command_line_is_kept),
-
         IN_FOLDER(what_is_no_view_is_refused_with_line_and_reason),
         IN_FOLDER(what_is_no_recording_is_refused),
         IN_FOLDER(camera_from_takes_the_whole_view_of_another_recording),
