@@ -1,4 +1,4 @@
-/* point.h - comparing positions. */
+/* point.h - comparing positions and boxes. */
 #ifndef OCTREE_POINT_H
 #define OCTREE_POINT_H
 
@@ -10,10 +10,13 @@ static inline bool same_position(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Whether this is the pair that a collision test leaves out. */
-static inline bool is_self(const octree_point *self, const octree_point *point)
+/* Whether a box can be the world of a tree. */
+static inline bool is_world(const octree_box *box)
 {
-    return self && self->id == point->id && same_position(self->position, point->position);
+    bool good = true;
+    for (int i = 0; i < 3; i++)
+        good &= isfinite(box->min[i]) && isfinite(box->max[i]) && box->min[i] < box->max[i];
+    return good;
 }
 
 static inline bool box_contains(const octree_box *box, const double p[3])

@@ -1,9 +1,9 @@
 /* game.c - the game loop: one tick after another, in the order that game.h states. */
 #include "float_rules.h"
 #include "game_state.h"
-#include "player.h"
 #include "queries.h"
 #include "session.h"
+#include "sweep.h"
 
 #include <string.h>
 
@@ -20,6 +20,168 @@ const char *octree_shape_name(octree_shape_kind kind)
 {
     static const char *const names[OCTREE_SHAPE_KINDS] = {"box", "segment", "point", "label"};
     return (unsigned)kind < OCTREE_SHAPE_KINDS ? names[kind] : NULL;
+}
+
+/* ---- The collision test --------------------------------------------------------------------------------------
+ *
+ * It queries the tree before the step is made, about the step's end and without the player's own point: it finds what
+ * a step that is made and taken back would meet, and nothing has to be undone. Where it is swept, points at rest are
+ * asked of the tree, and bodies that this tick has moved are tested one by one: their way is relative to the player's,
+ * and the tree knows its end alone.
+ */
+
+typedef struct hit_collector {
+    const octree_game *game;
+    point_collector hits;
+} hit_collector;
+
+static bool was_moved(const octree_game *game, const moving_body *body)
+{
+    return body->moved == game->tick.number;
+}
+
+static bool collect_hit(const octree_point *point, void *context)
+{
+    hit_collector *c = context;
+    const moving_body *body = c->game->tick.swept ? bodies_find(&c->game->bodies, point->id) : NULL;
+    return (body && was_moved(c->game, body)) || collect_point(point, &c->hits);
+}
+
+/* The points of the tree; when swept, but for bodies that this tick has moved. */
+static octree_status collide_points(octree_game *game, const octree_point *self)
+{
+    const octree_tick *tick = &game->tick;
+    const double *from = tick->swept ? tick->from : tick->attempt;
+    const octree_search how = game_search(game, &game->tick.hit_cost);
+    hit_collector found = {game, {&game->memory, &game->hits, false}};
+    const octree_status status = octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size,
+                                                      self, &how, collect_hit, &found);
+    return found.hits.failed ? OCTREE_NO_MEMORY : status;
+}
+
+static octree_status collide_moved(octree_game *game)
+{
+    const sweep box = {game->tick.from, game->tick.attempt, game->session->player.box_size};
+    point_collector hits = {&game->memory, &game->hits, false};
+    for (size_t i = 0; i < game->bodies.items.count; i++) {
+        const moving_body *body = &bodies_items(&game->bodies)[i];
+        if (!was_moved(game, body) || body->id == game->session->player.id)
+            continue;
+        game->tick.hit_cost.points++;
+        if (!sweep_touches(&box, body->before, body->position))
+            continue;
+        octree_point hit = {.id = body->id};
+        memcpy(hit.position, body->position, sizeof hit.position);
+        if (!collect_point(&hit, &hits))
+            return OCTREE_NO_MEMORY;
+    }
+    return OCTREE_OK;
+}
+
+/* Where the hits, which are in their order, come from. */
+static octree_status trace_hits(octree_game *game)
+{
+    const octree_point *hits = game->hits.items;
+    game->hit_from.count = 0;
+    for (size_t i = 0; i < game->hits.count; i++) {
+        const moving_body *body = bodies_find(&game->bodies, hits[i].id);
+        const double *from = body && was_moved(game, body) ? body->before : hits[i].position;
+        if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))
+            return OCTREE_NO_MEMORY;
+    }
+    return OCTREE_OK;
+}
+
+/* Collect the points in the player's box into `hits`, by id: about the end of its step or, swept, on the way there. */
+static octree_status collide(octree_game *game, const double to[3])
+{
+    octree_tick *tick = &game->tick;
+    octree_point self = {.id = game->session->player.id};
+    memcpy(self.position, tick->player, sizeof self.position);
+    memcpy(tick->attempt, to, sizeof tick->attempt);
+    tick->hit_cost = (octree_cost){0};
+    game->hits.count = game->visits.count = 0;
+    octree_status status = collide_points(game, &self);
+    if (status == OCTREE_OK && tick->swept)
+        status = collide_moved(game);
+    sort_points(&game->hits, 0);
+    if (status == OCTREE_OK && tick->swept)
+        status = trace_hits(game);
+    if (game->hits.count)
+        tick->events |= OCTREE_EVENT_COLLIDED;
+    return status;
+}
+
+/* ---- The player's step -------------------------------------------------------------------------------------- */
+
+/* The direction of a key's step on an axis; 0 for none. */
+static int direction_of(char key, int axis)
+{
+    return (key == "dwe"[axis]) - (key == "asf"[axis]);
+}
+
+/* The player stays. Swept, the test is made anew for it as for one that waits: what comes its way is not missed. */
+static octree_status refuse_step(octree_game *game, octree_status why, const double to[3])
+{
+    const octree_status status = game_note_refusal(game, game->session->player.id, why, to);
+    return status == OCTREE_OK && game->session->player.sweep ? collide(game, game->tick.player) : status;
+}
+
+/* A step whose end is inside the world and free of hits: it can still meet a full leaf. */
+static octree_status make_step(octree_game *game, const int64_t steps[3], const double to[3])
+{
+    const uint64_t id = game->session->player.id;
+    const octree_status status = game_move(game, game->tick.player, id, to);
+    if (status == OCTREE_NO_MEMORY)
+        return status;
+    if (status != OCTREE_OK)
+        return refuse_step(game, status, to);
+    memcpy(game->steps, steps, sizeof game->steps);
+    memcpy(game->tick.player, to, sizeof game->tick.player);
+    game->tick.events |= OCTREE_EVENT_MOVED;
+    return OCTREE_OK;
+}
+
+/* Note where the player is, and was before the tick: of a body, what edits and motion have made of it. */
+static void find_player(octree_game *game)
+{
+    octree_tick *tick = &game->tick;
+    const octree_player *player = &game->session->player;
+    const moving_body *body = player->kind == OCTREE_PLAYER_BODY ? bodies_find(&game->bodies, player->id) : NULL;
+    if (body)
+        memcpy(tick->player, body->position, sizeof tick->player);
+    tick->has_player = body || player->kind == OCTREE_PLAYER_KEYS;
+    memcpy(tick->from, body && body->moved == tick->number ? body->before : tick->player, sizeof tick->from);
+    memcpy(tick->attempt, tick->player, sizeof tick->attempt);
+    tick->swept = tick->has_player && player->sweep;
+    tick->hit_cost = (octree_cost){0};
+}
+
+/* Make the step of the tick's key, unless the collision test or the tree forbids it. */
+static octree_status step_player(octree_game *game)
+{
+    find_player(game);
+    if (!game->tick.has_player)
+        return OCTREE_OK;
+    const octree_player *player = &game->session->player;
+    if (player->kind != OCTREE_PLAYER_KEYS)
+        return collide(game, game->tick.player);
+    int64_t steps[3];
+    double to[3];
+    for (int i = 0; i < 3; i++) {
+        steps[i] = game->steps[i] + direction_of(game->tick.key, i);
+        to[i] = player->position[i] + (double)steps[i] * player->step;
+    }
+    if (memcmp(steps, game->steps, sizeof steps) == 0)
+        return collide(game, game->tick.player);
+    if (check_position(game->tree, to) != OCTREE_OK) {
+        game->tick.events |= OCTREE_EVENT_REFUSED;
+        return collide(game, game->tick.player);
+    }
+    const octree_status status = collide(game, to);
+    if (status != OCTREE_OK || game->hits.count)
+        return status;
+    return make_step(game, steps, to);
 }
 
 /* ---- The end of a tick -------------------------------------------------------------------------------------- */
@@ -85,7 +247,7 @@ static octree_status finish_tick(octree_game *game, const octree_input *input)
 {
     octree_status status = OCTREE_OK;
     if (game->tick.number == 0 && game->tick.has_player)
-        status = game_collide(game, game->tick.player);
+        status = collide(game, game->tick.player);
     if (status == OCTREE_OK)
         status = ask_and_show(game, input);
     if (status == OCTREE_OK)
@@ -122,7 +284,7 @@ static octree_status start(octree_game *game)
         status = game_load_bodies(game);
     if (status != OCTREE_OK)
         return status;
-    game_find_player(game);
+    find_player(game);
     const octree_input input = session_input(session, 0);
     return finish_tick(game, &input);
 }
@@ -196,7 +358,7 @@ static octree_status step(octree_game *game, char key, const octree_input *given
     if (status == OCTREE_OK)
         status = game_move_bodies(game);
     if (status == OCTREE_OK)
-        status = game_step_player(game);
+        status = step_player(game);
     if (status == OCTREE_OK)
         status = finish_tick(game, input);
     return status;

@@ -1,16 +1,16 @@
-/* sample.c - see sample.h. No libm beyond sqrt: the same points on every machine. */
+/* sample.c - the distributions. No libm beyond sqrt: the same points on every machine. */
 #include "octree/sample.h"
-#include "float_rules.h"
+#include "point.h"
+#include "octree/digest.h"
 
 #include <math.h>
 #include <string.h>
 
 uint64_t octree_random(uint64_t *state)
 {
-    uint64_t x = *state += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return x ^ (x >> 31);
+    const uint64_t before = *state;
+    *state += UINT64_C(0x9e3779b97f4a7c15);
+    return octree_digest_word(before, 0);
 }
 
 double octree_random_unit(uint64_t *state)
@@ -144,9 +144,8 @@ octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree
         return OCTREE_FLOAT_MODE;
     if ((unsigned)kind >= OCTREE_SAMPLE_KINDS)
         return OCTREE_BAD_OPTION;
-    for (int i = 0; i < 3; i++)
-        if (!isfinite(box->min[i]) || !isfinite(box->max[i]) || !(box->min[i] < box->max[i]))
-            return OCTREE_BAD_WORLD;
+    if (!is_world(box))
+        return OCTREE_BAD_WORLD;
     kinds[kind].fill(seed, count, positions);
     for (size_t n = 0; n < count; n++)
         for (int i = 0; i < 3; i++)

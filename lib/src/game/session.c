@@ -1,7 +1,6 @@
 /* session.c - what a game is played from: a session is checked, its bodies are loaded, and the paper's own session. */
 #include "session.h"
 #include "game_state.h"
-#include "player.h"
 #include "search.h"
 
 #include <math.h>
@@ -30,6 +29,11 @@ static octree_status check_player(const octree_player *player, const octree *tre
     if (status == OCTREE_OK && player->kind == OCTREE_PLAYER_KEYS)
         status = check_position(tree, player->position);
     return status;
+}
+
+bool game_is_key(char key)
+{
+    return key && strchr("dweasfn.", key);
 }
 
 static octree_status check_keys(const char *keys)

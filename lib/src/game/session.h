@@ -7,6 +7,8 @@
 /* What a session has for a tick, or for OCTREE_EVERY_TICK; no key. Cost: O(log of what it has). */
 octree_input session_input(const octree_session *session, uint64_t tick);
 
+bool game_is_key(char key);
+
 /* What octree_game_create says of a session whose tree could be made. */
 octree_status game_check_session(const octree_session *session, const octree *tree);
 

@@ -1,5 +1,4 @@
 /* range.c - the points in a closed box: Algorithm 4, and Algorithm 5, which asks for the box about a place. */
-#include "range.h"
 #include "exact.h"
 #include "region.h"
 
@@ -161,12 +160,6 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
         box->max[i] = exact_add_down(center[i], box_size);
     }
     return status;
-}
-
-bool collision_visit(const octree_point *point, void *context)
-{
-    const collision *c = context;
-    return is_self(c->self, point) || c->visit(point, c->context);
 }
 
 octree_status octree_collide_search(const octree *tree, const double center[3], double box_size,

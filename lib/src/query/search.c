@@ -40,3 +40,10 @@ octree_status check_box(const octree_box *box)
     }
     return OCTREE_OK;
 }
+
+bool collision_visit(const octree_point *point, void *context)
+{
+    const collision *c = context;
+    const bool is_self = c->self && c->self->id == point->id && same_position(c->self->position, point->position);
+    return is_self || c->visit(point, c->context);
+}

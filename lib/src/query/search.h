@@ -48,6 +48,15 @@ static inline bool is_within(const metric *m, octree_mode mode, const octree_poi
     return !(square > metric_above(radius_square)) && metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
+/* A visitor that leaves out the pair that collides with the others. */
+typedef struct collision {
+    const octree_point *self; /* may be null */
+    octree_point_visitor visit;
+    void *context;
+} collision;
+
+bool collision_visit(const octree_point *point, void *context);
+
 /* ---- What a query met --------------------------------------------------------------------------------------- */
 
 typedef struct meter {

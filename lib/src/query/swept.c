@@ -19,7 +19,6 @@
  * 128u S, of those ulps times d, and of 2^-1000 for underflow, on either side of R, has room for all: beyond it is
  * surely outside, and below it surely inside.
  */
-#include "range.h"
 #include "region.h"
 #include "sweep.h"
 

@@ -1,6 +1,5 @@
 #include "leaf.h"
 #include "octree/digest.h"
-#include "point.h"
 
 #include <string.h>
 
@@ -70,8 +69,9 @@ static uint32_t slot_of(const octree_point *points, const double position[3], ui
     return slot;
 }
 
-static uint32_t hashed_find(const octree_point *points, const double position[3], uint64_t id)
+uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t id)
 {
+    const octree_point *points = leaf_points(leaf);
     return slots_of(points)[slot_of(points, position, id)] - 1;
 }
 
@@ -121,17 +121,6 @@ static unsigned room_for(uint32_t count)
 static bool is_hashed(const node *leaf)
 {
     return leaf->room == LEAF_HASHED;
-}
-
-uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id)
-{
-    const octree_point *points = leaf_points(leaf);
-    if (is_hashed(leaf))
-        return hashed_find(points, position, id);
-    for (uint32_t i = 0; i < leaf->count; i++)
-        if (points[i].id == id && same_position(points[i].position, position))
-            return i;
-    return LEAF_NONE;
 }
 
 bool leaf_create(store *s, node *leaf, uint32_t count)

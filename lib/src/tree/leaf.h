@@ -7,6 +7,7 @@
 #define OCTREE_LEAF_H
 
 #include "bits.h"
+#include "point.h"
 #include "pool.h"
 
 typedef struct node {
@@ -69,7 +70,17 @@ static inline void leaf_prefetch(const node *leaf)
 }
 
 /* The index of the pair (position, id), or LEAF_NONE. */
-uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id);
+uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t id);
+static inline uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id)
+{
+    const octree_point *points = leaf_points(leaf);
+    if (leaf->room == LEAF_HASHED)
+        return leaf_find_hashed(leaf, position, id);
+    for (uint32_t i = 0; i < leaf->count; i++)
+        if (points[i].id == id && same_position(points[i].position, position))
+            return i;
+    return LEAF_NONE;
+}
 
 /* An empty leaf with room for `count` points. False when there is no memory. */
 bool leaf_create(store *s, node *leaf, uint32_t count);

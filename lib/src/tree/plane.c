@@ -48,11 +48,6 @@ double plane_precise(const axis *a, double t)
     return a->subnormal ? subnormal_of(sum[0] + rest) : (sum[0] + rest) * a->unit;
 }
 
-static bool key_fits(const axis *a, uint32_t key, double x)
-{
-    return plane_at(a, key) <= x && (key + 1 == PLANE_GRID || x < plane_at(a, key + 1));
-}
-
 /* Binary search for the largest key whose plane is at most x. */
 static uint32_t key_search(const axis *a, double x)
 {
@@ -68,16 +63,14 @@ static uint32_t key_search(const axis *a, double x)
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess(a, x);
-    if (!(guess >= 0 && guess < (double)PLANE_GRID))
+    if (!(a->guess_error < 1 && guess >= 0 && guess < (double)PLANE_GRID))
         return key_search(a, x);
-    const uint32_t key = (uint32_t)guess;
-    if (key_fits(a, key, x))
-        return key;
-    if (key > 0 && key_fits(a, key - 1, x))
-        return key - 1;
-    if (key + 1 < PLANE_GRID && key_fits(a, key + 1, x))
-        return key + 1;
-    return key_search(a, x);
+    uint32_t key = (uint32_t)guess;
+    while (key > 0 && plane_at(a, key) > x)
+        key--;
+    while (key + 1 < PLANE_GRID && plane_at(a, key + 1) <= x)
+        key++;
+    return key;
 }
 
 octree_box cell_bounds(const axis axes[3], cell c)

@@ -37,9 +37,8 @@ static octree_status check_def(const octree_def *def)
 {
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    for (int i = 0; i < 3; i++)
-        if (!isfinite(def->world.min[i]) || !isfinite(def->world.max[i]) || !(def->world.min[i] < def->world.max[i]))
-            return OCTREE_BAD_WORLD;
+    if (!is_world(&def->world))
+        return OCTREE_BAD_WORLD;
     if (def->leaf_capacity == 0)
         return OCTREE_BAD_CAPACITY;
     if (def->leaf_capacity == OCTREE_AUTO && def->full_leaf != OCTREE_GROW)

@@ -8,7 +8,6 @@
 
 #include "leaf.h"
 #include "plane.h"
-#include "point.h"
 
 /* How the capacity is chosen under OCTREE_AUTO. Insertion calls this when it is due, and knows no more of it. */
 typedef struct tuning {

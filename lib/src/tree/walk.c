@@ -1,4 +1,6 @@
+/* walk.c - all nodes of a tree, one after the other: for visitors, the validator, statistics and the digest. */
 #include "walk.h"
+#include "exact.h"
 #include "float_rules.h"
 
 static octree_node describe(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
@@ -18,6 +20,8 @@ typedef struct walk {
     const octree *tree;
     octree_node_visitor visit;
     void *context;
+    const node *node; /* being visited, and its cell: for the validator */
+    cell cell;
 } walk;
 
 /* A large tree does not fit the caches: what is below each child is loaded before it is visited. */
@@ -34,9 +38,11 @@ static void prefetch_children(const node *n)
 }
 
 /* Visit a node and what is below it. False when the visitor has stopped the walk. */
-static bool walk_below(const walk *w, const node *n, octree_address address, cell c, const octree_box *box)
+static bool walk_below(walk *w, const node *n, octree_address address, cell c, const octree_box *box)
 {
     const octree_node seen = describe(n, address, c.depth, box);
+    w->node = n;
+    w->cell = c;
     const octree_walk_order order = w->visit(&seen, w->context);
     if (order != OCTREE_WALK_ON || !n->octants)
         return order != OCTREE_WALK_STOP;
@@ -63,8 +69,16 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    walk_below(&(walk){tree, visit, context}, &tree->root, OCTREE_ROOT, root_cell(), &tree->def.world);
+    walk_below(&(walk){.tree = tree, .visit = visit, .context = context}, &tree->root, OCTREE_ROOT, root_cell(),
+               &tree->def.world);
     return OCTREE_OK;
+}
+
+/* The node at a depth of the path to a code. */
+static octree_node describe_on(const octree *tree, const path *p, uint64_t code, unsigned depth)
+{
+    const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, depth));
+    return describe(p->nodes[depth], morton_address(code, depth), depth, &bounds);
 }
 
 octree_status octree_node_at(const octree *tree, octree_address address, octree_node *result)
@@ -80,8 +94,7 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
     const path p = path_to(tree, code);
     if (p.depth < depth)
         return OCTREE_NOT_FOUND;
-    const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, depth));
-    *result = describe(p.nodes[depth], address, depth, &bounds);
+    *result = describe_on(tree, &p, code, depth);
     return OCTREE_OK;
 }
 
@@ -92,9 +105,85 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
         return status;
     const uint64_t code = morton_code(tree->axes, position);
     const path p = path_to(tree, code);
-    const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, p.depth));
-    *result = describe(path_end(&p), morton_address(code, p.depth), p.depth, &bounds);
+    *result = describe_on(tree, &p, code, p.depth);
     return OCTREE_OK;
+}
+
+/* ---- The validator ------------------------------------------------------------------------------------------ */
+
+static const char *check_inner(const octree *tree, const node *n, cell c)
+{
+    uint64_t below = 0;
+    const unsigned children = bits_count8(n->octants);
+    for (unsigned i = 0; i < children; i++) {
+        if (children_of(n)[i].count == 0)
+            return "a node other than the root is empty";
+        below += children_of(n)[i].count;
+    }
+    if (below != n->count)
+        return "a node's count is not the sum of its children's";
+    if (fits_leaf(tree, n->count))
+        return "an inner node would fit one leaf";
+    if (!may_split(tree, c))
+        return "an inner node is deeper than the tree allows";
+    return NULL;
+}
+
+/* Where the points of a leaf may lie. A cell is open at its upper planes, except at the world's maximum faces, which
+ * belong to it. */
+static octree_box points_box(octree_box box, cell c)
+{
+    for (int i = 0; i < 3; i++)
+        if (c.low[i] + cell_size(c.depth) != PLANE_GRID)
+            box.max[i] = exact_step_down(box.max[i]);
+    return box;
+}
+
+static const char *check_leaf(const octree *tree, const node *n, cell c, const octree_box *bounds)
+{
+    const octree_box box = points_box(*bounds, c);
+    if (!fits_leaf(tree, n->count) && may_split(tree, c))
+        return "a leaf that could split is over its capacity";
+    if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
+        return "a leaf is over its capacity under OCTREE_REFUSE";
+    for (uint32_t i = 0; i < n->count; i++) {
+        const octree_point *point = &leaf_points(n)[i];
+        const double *position = point->position;
+        if (!box_contains(&box, position))
+            return box_contains(&tree->def.world, position) ? "a point is not in its leaf's cell"
+                                                            : "a point is outside the world";
+        if (leaf_find(n, position, point->id) != i)
+            return "a pair of position and id is stored twice";
+    }
+    return NULL;
+}
+
+typedef struct validation {
+    walk walk;
+    const char *broken; /* the first invariant that does not hold */
+    octree_address where;
+} validation;
+
+static octree_walk_order check_node(const octree_node *seen, void *context)
+{
+    validation *v = context;
+    const walk *w = &v->walk;
+    v->broken = seen->leaf ? check_leaf(w->tree, w->node, w->cell, &seen->box) : check_inner(w->tree, w->node, w->cell);
+    v->where = seen->address;
+    return v->broken ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+const char *octree_check(const octree *tree, octree_address *where)
+{
+    if (!tree)
+        return "there is no tree";
+    if (!float_mode_is_default())
+        return octree_status_text(OCTREE_FLOAT_MODE);
+    validation v = {.walk = {.tree = tree, .visit = check_node, .context = &v}};
+    walk_below(&v.walk, &tree->root, OCTREE_ROOT, root_cell(), &tree->def.world);
+    if (v.broken && where)
+        *where = v.where;
+    return v.broken;
 }
 
 /* ---- Statistics --------------------------------------------------------------------------------------------- */
