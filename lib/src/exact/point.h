@@ -10,6 +10,11 @@ static inline bool same_position(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+static inline bool is_finite(const double p[3])
+{
+    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+}
+
 /* Whether a box can be the world of a tree. */
 static inline bool is_world(const octree_box *box)
 {

@@ -56,11 +56,6 @@ static bool is_moving(const double velocity[3])
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
 
-bool is_finite_velocity(const double velocity[3])
-{
-    return isfinite(velocity[0]) && isfinite(velocity[1]) && isfinite(velocity[2]);
-}
-
 /* Add a body that is not there yet, at rest at its position at this tick. False when there is no memory. */
 static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
 {
@@ -224,7 +219,7 @@ octree_status game_check_body(const octree_game *game, const octree_body *body)
 {
     if (is_players_id(game, body->id) || bodies_find(&game->bodies, body->id))
         return OCTREE_DUPLICATE;
-    return is_finite_velocity(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
+    return is_finite(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
 octree_status game_add_body(octree_game *game, const octree_body *body, octree_status status)

@@ -33,8 +33,6 @@ static inline moving_body *bodies_items(const bodies *b)
 /* The body with this id, or null. */
 moving_body *bodies_find(const bodies *b, uint64_t id);
 
-bool is_finite_velocity(const double velocity[3]);
-
 /* Change the tree: as octree_insert() and octree_move(). */
 octree_status game_insert(octree_game *game, const double position[3], uint64_t id);
 octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);

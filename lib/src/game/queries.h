@@ -1,4 +1,4 @@
-/* queries.h - the queries of a tick, and what all of its searches met. Private. */
+/* queries.h - the queries of a tick, and the nodes that its searches visited. Private. */
 #ifndef OCTREE_QUERIES_H
 #define OCTREE_QUERIES_H
 
@@ -20,7 +20,7 @@ void sort_points(list *points, size_t first);
 /* A search that adds to `cost` and to the tick's visits. */
 octree_search game_search(octree_game *game, octree_cost *cost);
 
-/* Ask some of a tick's queries, or what its key asks. */
+/* Answer some of a tick's queries, or the query of its key. */
 octree_status game_ask(octree_game *game, const octree_query *queries, size_t count);
 octree_status game_ask_by_key(octree_game *game);
 

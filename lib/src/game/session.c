@@ -118,7 +118,7 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
     return status;
 }
 
-/* ---- What a session has for a tick -------------------------------------------------------------------------- */
+/* ---- The input of a tick ------------------------------------------------------------------------------------ */
 
 /* The first of the items, which ascend, that is of this tick or a later one. */
 static size_t first_from(const void *items, size_t size, size_t count, uint64_t tick)
@@ -166,7 +166,7 @@ static size_t collect_points(octree_game *game, octree_point *points)
     size_t count = 0;
     for (size_t i = 0; i < game->session->body_count; i++) {
         const octree_body *body = &game->session->bodies[i];
-        if (!is_finite_velocity(body->velocity))
+        if (!is_finite(body->velocity))
             continue;
         note_speed(game, body->velocity);
         points[count].id = body->id;
@@ -184,7 +184,7 @@ static octree_status add_bodies(octree_game *game, const octree_status *statuses
         octree_status status = game_check_body(game, body);
         if (status == OCTREE_OK)
             status = *statuses;
-        statuses += is_finite_velocity(body->velocity);
+        statuses += is_finite(body->velocity);
         status = game_add_body(game, body, status);
         if (status == OCTREE_DUPLICATE || status == OCTREE_NO_MEMORY)
             return status;

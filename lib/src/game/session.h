@@ -4,7 +4,8 @@
 
 #include "octree/game.h"
 
-/* What a session has for a tick, or for OCTREE_EVERY_TICK; no key. Cost: O(log of what it has). */
+/* The session's edits, queries and shapes for a tick, or for OCTREE_EVERY_TICK; no key. Cost: O(log of their number).
+ */
 octree_input session_input(const octree_session *session, uint64_t tick);
 
 bool game_is_key(char key);

@@ -47,26 +47,6 @@ static void add_inner(update *u, octree_address address)
     u->out_of_memory |= !list_push(u->memory, &u->to->inner, &address, sizeof address);
 }
 
-static void add_node(octree_stats *stats, uint64_t *sum, const node *n, octree_address address)
-{
-    count_node(stats, n, octree_address_depth(address));
-    *sum += digest_node(n, address);
-}
-
-/* A node and all below it. */
-static void add_nodes(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address)
-{
-    add_node(stats, sum, n, address);
-    if (n->octants == 0 || u->out_of_memory)
-        return;
-    add_inner(u, address);
-    prefetch_below(n);
-    const node *child = children_of(n);
-    for (unsigned octant = 0; octant < 8; octant++)
-        if (n->octants >> octant & 1)
-            add_nodes(u, stats, sum, child++, address << 3 | octant);
-}
-
 /* The subtree that was at this address at the last update, or null. */
 static const subtree *subtree_before(update *u, octree_address address)
 {
@@ -83,7 +63,7 @@ static bool is_touched(update *u, octree_address address)
     const uint64_t *codes = u->to->touched.items;
     const size_t count = u->to->touched.count;
     const unsigned below = 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
-    const uint64_t first = (address ^ UINT64_C(1) << 3 * octree_address_depth(address)) << below;
+    const uint64_t first = morton_of_address(address);
     while (u->next_touched < count && codes[u->next_touched] < first)
         u->next_touched++;
     return u->next_touched < count && codes[u->next_touched] - first < UINT64_C(1) << below;
@@ -95,6 +75,8 @@ static void keep_inner(update *u, const subtree *before)
     for (size_t i = 0; i < before->inner_count && !u->out_of_memory; i++)
         add_inner(u, addresses[before->first_inner + i]);
 }
+
+static void add_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address, bool whole);
 
 static void add_subtree(update *u, const node *n, octree_address address)
 {
@@ -110,7 +92,7 @@ static void add_subtree(update *u, const node *n, octree_address address)
         keep_inner(u, before);
     } else {
         *made = (subtree){.address = address};
-        add_nodes(u, &made->stats, &made->sum, n, address);
+        add_below(u, &made->stats, &made->sum, n, address, true);
     }
     made->first_inner = first_inner;
     made->inner_count = u->to->inner.count - first_inner;
@@ -118,21 +100,25 @@ static void add_subtree(update *u, const node *n, octree_address address)
 
 /* ---- The whole ---------------------------------------------------------------------------------------------- */
 
-/* Add the nodes above the subtrees, in pre-order, and between them the subtrees. */
-static void add_tree(update *u, uint64_t *sum, const node *n, octree_address address)
+/* Add a node and all below it, in pre-order; unless `whole`, subtrees are added to the list of subtrees instead. */
+static void add_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address, bool whole)
 {
     if (u->out_of_memory)
         return;
-    if (n->octants == 0 || n->count <= SUBTREE_POINTS) {
+    if (!whole && (n->octants == 0 || n->count <= SUBTREE_POINTS)) {
         add_subtree(u, n, address);
         return;
     }
-    add_node(&u->to->stats, sum, n, address);
+    count_node(stats, n, octree_address_depth(address));
+    *sum += digest_node(n, address);
+    if (n->octants == 0)
+        return;
     add_inner(u, address);
+    prefetch_below(n);
     const node *child = children_of(n);
     for (unsigned octant = 0; octant < 8; octant++)
         if (n->octants >> octant & 1)
-            add_tree(u, sum, child++, address << 3 | octant);
+            add_below(u, stats, sum, child++, address << 3 | octant, whole);
 }
 
 static void add_stats(octree_stats *to, const octree_stats *of)
@@ -172,7 +158,7 @@ octree_status tree_summary_update(tree_summary *s, arena *memory, const octree *
     if (s->touched.count > 1)
         qsort(s->touched.items, s->touched.count, sizeof(uint64_t), compare_codes);
     s->stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
-    add_tree(&u, &sum, &tree->root, OCTREE_ROOT);
+    add_below(&u, &s->stats, &sum, &tree->root, OCTREE_ROOT, false);
     const subtree *subtrees = s->subtrees.items;
     for (size_t i = 0; i < s->subtrees.count; i++) {
         sum += subtrees[i].sum;

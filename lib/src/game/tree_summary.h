@@ -1,7 +1,7 @@
-/* tree_summary.h - what a game tells of its tree after each tick: digest, statistics, inner nodes. Private.
+/* tree_summary.h - digest, statistics and inner nodes of a game's tree after each tick. Private.
  *
- * A tick touches few places, and all that it changes lies between them and the root. So the tree is seen as subtrees of
- * a few hundred points and the nodes above those; what is known of a subtree is kept until a place in its cell is
+ * A tick touches few places, and only nodes between them and the root change. So the tree is divided into subtrees of
+ * a few hundred points and the nodes above those; the summary of a subtree is kept until a place in its cell is
  * touched.
  */
 #ifndef OCTREE_TREE_SUMMARY_H

@@ -1,7 +1,7 @@
 /* nearest.c - Algorithms 6 and 7: the nearest points, decided by the real numbers.
  *
  * A depth-first search, nearest octant first. It goes straight to the leaf that the target lies in, by integers alone,
- * and measures the nodes on the way on its way back, when most of their other octants are out of reach. A child's
+ * and measures the nodes of that path on its way back, when most of their other octants are out of reach. A child's
  * distance to the target has one term an axis: that of the half that the target lies in or beside, which the child's
  * parent has too, or that of the plane between the halves. So the children ascend like the sums of the subsets of three
  * increments, and the first that is out of reach ends its node.
@@ -113,7 +113,7 @@ static void scan_leaf(search *s, const node *leaf)
         scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN_POINTS ? leaf->count - i : SCAN_POINTS);
 }
 
-/* The octants of the children that a frame has not come to. */
+/* The octants of the children that a frame has not visited yet. */
 static unsigned octants_left(const frame *f)
 {
     unsigned octants = 0;
@@ -151,8 +151,8 @@ static void step(search *s)
     s->open--;
 }
 
-/* Measure a node on the way to the target's leaf, to search it beside the octant that the way took. */
-static frame *measure_way(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
+/* The frame of a node on the path to the target's leaf, from which its other octants are searched. */
+static frame *path_frame(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     frame *f = &s->frames[depth];
     const uint32_t half = cell_size(depth + 1);
@@ -168,8 +168,8 @@ static frame *measure_way(search *s, const node *n, uint64_t code, const uint32_
     return f;
 }
 
-/* The octants of a node that the way to the target's leaf did not take: most often all of them are out of reach. */
-static void search_beside(search *s, frame *f, unsigned depth)
+/* Search the octants of a node that are not on the path to the target's leaf: most often all are out of reach. */
+static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
     if (square_of(f, 1) > reach && square_of(f, 2) > reach && square_of(f, 4) > reach) {
@@ -201,16 +201,16 @@ static unsigned codes_beside(const uint32_t keys[3], unsigned depth, size_t k, u
     return count;
 }
 
-/* Ask for the leaves beside the target's, while that is on its way from memory. */
-static void prefetch_beside(const path *way, uint64_t code, const uint32_t keys[3], size_t k)
+/* Prefetch the leaves beside the target's, while that is being loaded. */
+static void prefetch_beside(const path *p, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
-    const unsigned count = codes_beside(keys, way->depth, k, codes);
+    const unsigned count = codes_beside(keys, p->depth, k, codes);
     for (unsigned i = 0; i < count; i++) {
-        unsigned depth = way->depth;
+        unsigned depth = p->depth;
         while ((codes[i] ^ code) >> 3 * (OCTREE_MAX_DEPTH - depth))
             depth--;
-        const node *n = way->nodes[depth];
+        const node *n = p->nodes[depth];
         while (n && n->octants)
             n = child_at(n, morton_octant(codes[i], depth++));
         if (n)
@@ -228,8 +228,8 @@ static void nearest_keys(const octree *tree, const double target[3], uint32_t ke
 }
 
 /* How many nodes from the root down are cut by no plane within reach of a target of the world: 20 less the highest bit
- * in which the keys of the reach's two ends differ. Keys are trusted up to their doubt, and two more; where they cannot
- * be, none. */
+ * in which the keys of the reach's two ends differ. Keys are trusted up to their error, and two more; where they cannot
+ * be trusted, none. */
 static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
     const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;
@@ -263,25 +263,25 @@ static void run_search(search *s)
     }
     nearest_keys(tree, s->found.metric.target, keys);
     const uint64_t code = morton_interleave(keys);
-    const path way = path_to(tree, code);
-    s->meter.count.nodes += way.depth + 1;
-    for (unsigned depth = 0; s->meter.how->trace && depth <= way.depth; depth++)
+    const path p = path_to(tree, code);
+    s->meter.count.nodes += p.depth + 1;
+    for (unsigned depth = 0; s->meter.how->trace && depth <= p.depth; depth++)
         meter_trace(&s->meter, morton_address(code, depth), OCTREE_TOUCH_VISITED);
-    unsigned depth = way.depth;
-    if (way.nodes[depth]->octants) {
-        depth++; /* its octant for the target is not occupied: it is searched beside it like the others */
+    unsigned depth = p.depth;
+    if (p.nodes[depth]->octants) {
+        depth++; /* its octant for the target is not occupied: its children are searched like those of the others */
     } else {
-        leaf_prefetch(way.nodes[depth]);
-        prefetch_beside(&way, code, keys, s->found.k);
-        scan_leaf(s, way.nodes[depth]);
+        leaf_prefetch(p.nodes[depth]);
+        prefetch_beside(&p, code, keys, s->found.k);
+        scan_leaf(s, p.nodes[depth]);
     }
     const unsigned clear = nodes_out_of_reach(s, keys);
     while (depth-- > 0)
         if (depth >= clear)
-            search_beside(s, measure_way(s, way.nodes[depth], code, keys, depth), depth);
+            search_siblings(s, path_frame(s, p.nodes[depth], code, keys, depth), depth);
         else
             meter_prune(&s->meter, morton_address(code, depth),
-                        way.nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
+                        p.nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
 }
 
 #define NO_RADIUS (-1.0)
@@ -359,17 +359,17 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
     return status;
 }
 
-#define AHEAD 4 /* the caller's arrays are read and written in the order of the tree: so many turns ahead */
+#define AHEAD 4 /* targets: how early the caller's arrays, which are accessed out of order, are prefetched */
 
-static void ask_in_turn(const octree *tree, const double (*targets)[3], const morton_item *turns, size_t count,
-                        const octree_search *how, octree_neighbor *neighbors, bool *found)
+static void search_in_order(const octree *tree, const double (*targets)[3], const morton_item *order, size_t count,
+                            const octree_search *how, octree_neighbor *neighbors, bool *found)
 {
     for (size_t i = 0; i < count; i++) {
         octree_neighbor nearest;
-        const uint32_t place = turns[i].place;
+        const uint32_t place = order[i].place;
         if (i + AHEAD < count) {
-            prefetch(&targets[turns[i + AHEAD].place]);
-            prefetch(&neighbors[turns[i + AHEAD].place]);
+            prefetch(&targets[order[i + AHEAD].place]);
+            prefetch(&neighbors[order[i + AHEAD].place]);
         }
         const bool one = run_query(tree, targets[place], 1, NO_RADIUS, how, &nearest) == 1;
         if (one)
@@ -386,19 +386,19 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     const octree_status status = check_batch(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)
         return status;
-    /* The tree's own allocator, but not its books: queries change nothing of the tree. */
+    /* The tree's allocator, without counting the bytes: queries do not change the tree. */
     const octree_allocator *allocator = &tree->def.allocator;
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
-    morton_item *turns = size < SIZE_MAX ? allocator->allocate(size, allocator->context) : NULL;
-    if (!turns)
+    morton_item *order = size < SIZE_MAX ? allocator->allocate(size, allocator->context) : NULL;
+    if (!order)
         return OCTREE_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
         uint32_t keys[3];
         nearest_keys(tree, targets[i], keys);
-        turns[i] = (morton_item){morton_interleave(keys), (uint32_t)i, false};
+        order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, false};
     }
-    morton_sort(turns, turns + count, count, 0, 0);
-    ask_in_turn(tree, targets, turns, count, &search, neighbors, found);
-    allocator->release(turns, size, allocator->context);
+    morton_sort(order, order + count, count, 0, 0);
+    search_in_order(tree, targets, order, count, &search, neighbors, found);
+    allocator->release(order, size, allocator->context);
     return OCTREE_OK;
 }

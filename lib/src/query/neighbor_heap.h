@@ -25,7 +25,7 @@ typedef struct neighbor_heap {
 neighbor_heap neighbor_heap_make(const metric *m, const octree_search *how, double radius, octree_neighbor *room,
                                  size_t k);
 
-/* The reach of points among which one has this square, whether or not that one is taken. */
+/* Points beyond this square are not among the k nearest, given that some point of the tree has the square `square`. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
 {
     const double reach = metric_above(square);

@@ -1,35 +1,35 @@
 #include "region.h"
 #include "leaf.h"
 
-/* A node on the way, and the octants of its children that are still to come. */
+/* An inner node of the descent, and the octants of its children that are still to be visited. */
 typedef struct frame {
     const node *node;
     octree_address address;
-    uint8_t coming, inside;
+    uint8_t pending, inside;
 } frame;
 
-/* Leaves wait until their points have come from memory; the way to the next ones is found meanwhile. */
-#define WAITING 16
+/* Leaves are queued while their points are being prefetched; the descent goes on meanwhile. */
+#define QUEUE_ROOM 16
 
 typedef struct descent {
     region *region;
     unsigned depth;
     frame frames[OCTREE_MAX_DEPTH + 1];
-    unsigned came, went; /* leaves that began to wait, and that were scanned */
-    const node *waiting[WAITING];
+    unsigned queued, scanned; /* numbers of leaves */
+    const node *queue[QUEUE_ROOM];
 } descent;
 
 /* Every point in and below a node whose cell is inside the region. False when the visitor stopped. */
 static bool visit_all_below(region *r, const node *n)
 {
-    const node *pending[STACK_ROOM];
+    const node *stack[STACK_ROOM];
     size_t size = 0;
-    pending[size++] = n;
+    stack[size++] = n;
     while (size > 0) {
-        const node *next = pending[--size];
+        const node *next = stack[--size];
         r->meter.count.nodes++;
         for (unsigned i = bits_count8(next->octants); i-- > 0;) {
-            pending[size++] = &children_of(next)[i];
+            stack[size++] = &children_of(next)[i];
             prefetch(children_of(next)[i].below);
         }
         if (next->octants)
@@ -71,22 +71,21 @@ static bool scan_leaf(region *r, const node *leaf)
 
 static bool scan_next(descent *d)
 {
-    return scan_leaf(d->region, d->waiting[d->went++ % WAITING]);
+    return scan_leaf(d->region, d->queue[d->scanned++ % QUEUE_ROOM]);
 }
 
-static bool let_wait(descent *d, const node *leaf)
+static bool queue_leaf(descent *d, const node *leaf)
 {
-    const bool go_on = d->came - d->went < WAITING || scan_next(d);
+    const bool go_on = d->queued - d->scanned < QUEUE_ROOM || scan_next(d);
     leaf_prefetch(leaf);
-    d->waiting[d->came++ % WAITING] = leaf;
+    d->queue[d->queued++ % QUEUE_ROOM] = leaf;
     return go_on;
 }
 
-/* The memory of all children is asked for at once. */
 static void prefetch_children(const frame *f)
 {
-    for (unsigned coming = f->coming; coming; coming &= coming - 1)
-        prefetch(child_at(f->node, bits_lowest(coming))->below);
+    for (unsigned pending = f->pending; pending; pending &= pending - 1)
+        prefetch(child_at(f->node, bits_lowest(pending))->below);
 }
 
 static void open_node(descent *d, const node *n, octree_address address, unsigned octant)
@@ -99,14 +98,14 @@ static void open_node(descent *d, const node *n, octree_address address, unsigne
     meter_prune(&r->meter, address, n->octants & ~masks.meets);
 }
 
-/* A node that the region meets. */
-static bool look_at(descent *d, const node *n, octree_address address, unsigned octant, bool inside)
+/* Visit a node that meets the region. */
+static bool visit_node(descent *d, const node *n, octree_address address, unsigned octant, bool inside)
 {
     if (inside)
         return take_whole(d->region, n, address);
     meter_visit(&d->region->meter, address);
     if (n->octants == 0)
-        return let_wait(d, n);
+        return queue_leaf(d, n);
     open_node(d, n, address, octant);
     return true;
 }
@@ -115,19 +114,19 @@ static void descend(region *r, octant_masks root)
 {
     descent d;
     d.region = r;
-    d.depth = d.came = d.went = 0;
-    bool go_on = look_at(&d, &r->tree->root, OCTREE_ROOT, 0, root.inside & 1);
+    d.depth = d.queued = d.scanned = 0;
+    bool go_on = visit_node(&d, &r->tree->root, OCTREE_ROOT, 0, root.inside & 1);
     while (go_on && d.depth > 0) {
         frame *f = &d.frames[d.depth];
-        if (!f->coming) {
+        if (!f->pending) {
             d.depth--;
             continue;
         }
-        const unsigned octant = bits_lowest(f->coming);
-        f->coming &= (uint8_t)(f->coming - 1);
-        go_on = look_at(&d, child_at(f->node, octant), f->address << 3 | octant, octant, f->inside >> octant & 1);
+        const unsigned octant = bits_lowest(f->pending);
+        f->pending &= (uint8_t)(f->pending - 1);
+        go_on = visit_node(&d, child_at(f->node, octant), f->address << 3 | octant, octant, f->inside >> octant & 1);
     }
-    while (go_on && d.went < d.came)
+    while (go_on && d.scanned < d.queued)
         go_on = scan_next(&d);
 }
 

@@ -1,17 +1,17 @@
-/* region.h - visiting the points in a region of space: a box, a ball, or the way of a box. Private.
+/* region.h - visiting the points in a region of space: a box, a ball, or the volume that a moving box sweeps. Private.
  *
- * A region is described by three functions of its `shape`. The traversal is depth first; a shape keeps what it knows of
- * the cell at each depth, so that a child's cell follows from its parent's.
+ * A region is described by three functions of its `shape`. The traversal is depth first; a shape keeps its state
+ * for the cell at each depth, so that a child's follows from its parent's.
  */
 #ifndef OCTREE_REGION_H
 #define OCTREE_REGION_H
 
 #include "search.h"
 
-/* How a region lies to the octants of a cell: a bit an octant. */
+/* How a region meets the octants of a cell, one bit per octant. */
 typedef struct octant_masks {
-    uint8_t meets;  /* some of it may lie there */
-    uint8_t inside; /* all that lies there is in it */
+    uint8_t meets;  /* the octant may intersect the region */
+    uint8_t inside; /* the octant lies within the region */
 } octant_masks;
 
 /* Of the two halves of a cell on an axis: the octants in the lower one, and in the upper. */
@@ -44,8 +44,8 @@ typedef struct key_box {
 
 typedef struct box_shape {
     const octree_box *box;
-    key_box near;                     /* of the box: what does not meet it is left out */
-    key_box whole;                    /* of the box widened by epsilon: what is inside is taken whole */
+    key_box near;                     /* of the box: cells that do not meet it are pruned */
+    key_box whole;                    /* of the box widened by epsilon: cells inside it are taken whole */
     int32_t low[OCTREE_MAX_DEPTH][3]; /* of the cell at each depth */
 } box_shape;
 

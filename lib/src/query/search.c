@@ -17,8 +17,7 @@ octree_status check_finite(const double position[3])
 {
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    const bool finite = isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]);
-    return finite ? OCTREE_OK : OCTREE_NOT_FINITE;
+    return is_finite(position) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
 octree_status check_length(double length)

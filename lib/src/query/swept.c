@@ -1,5 +1,5 @@
-/* swept.c - what a box touches on its way from one place to another: the box around the whole step by keys, its hull by
- * doubles where their error allows, and the points that are left exactly.
+/* swept.c - the points that a moving box touches: tested against the box around the whole step by keys, against the
+ * hull of the step by doubles where their error allows, and the remaining points exactly.
  *
  * The box position +- r goes from a by d. What it touches is a convex body whose faces are those of the box around the
  * whole step, and six more: a face's normal is across two of its edges, and these are the axes and d (a zonotope). On
@@ -27,7 +27,7 @@ typedef struct hull_faces {
     int i, j;
     double step_i, step_j;       /* d */
     double lowest;               /* side of the world's lowest corner */
-    double per_key_i, per_key_j; /* what one key more on an axis takes from it, and adds to it */
+    double per_key_i, per_key_j; /* its decrease and increase for each key on an axis */
     double reach, whole;         /* R and the band; R without it, maybe negative */
 } hull_faces;
 
@@ -53,28 +53,28 @@ static double scale_for(const octree *tree, const sweep *box)
     return ldexp(1.0, -(exponent < -1000 ? -1000 : exponent > 1021 ? 1021 : exponent));
 }
 
-/* The world as seen from where the step begins, on one axis; scaled. */
-typedef struct outlook {
+/* The step and the world on one axis, relative to where the step begins; scaled. */
+typedef struct axis_view {
     double step, low, high;
-    double far;   /* the way to the farther end */
-    double doubt; /* how far a plane may be off, at most */
-} outlook;
+    double far;   /* distance of the farther end */
+    double error; /* the largest error of a plane */
+} axis_view;
 
-static outlook look_along(const metric *m, const axis *a, double start, double end)
+static axis_view view_axis(const metric *m, const axis *a, double start, double end)
 {
-    outlook o = {
+    axis_view o = {
         .step = end - start, .low = metric_scaled(m, a->min) - start, .high = metric_scaled(m, a->max) - start};
     o.far = larger(fabs(o.low), fabs(o.high));
-    o.doubt = metric_scaled(m, largest_on(a)) * 0x1p-50 + m->scale * 0x1p-1000 * 0x1p-72;
+    o.error = metric_scaled(m, largest_on(a)) * 0x1p-50 + m->scale * 0x1p-1000 * 0x1p-72;
     return o;
 }
 
-static hull_faces make_faces(const outlook view[3], double size, int i, int j)
+static hull_faces make_faces(const axis_view view[3], double size, int i, int j)
 {
-    const outlook *x = &view[i], *y = &view[j];
+    const axis_view *x = &view[i], *y = &view[j];
     const double level = size * (fabs(x->step) + fabs(y->step));
     const double sum = fabs(x->step) * y->far + fabs(y->step) * x->far + level;
-    const double band = sum * 0x1p-46 + (fabs(x->step) * y->doubt + fabs(y->step) * x->doubt) + 0x1p-1000;
+    const double band = sum * 0x1p-46 + (fabs(x->step) * y->error + fabs(y->step) * x->error) + 0x1p-1000;
     return (hull_faces){
         .i = i,
         .j = j,
@@ -96,12 +96,12 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
         moves[i] = box->from[i] != box->to[i];
     if (moves[0] + moves[1] + moves[2] < 2)
         return false;
-    outlook view[3];
+    axis_view view[3];
     const double scale = scale_for(tree, box);
     const metric end = metric_make(scale, is_subnormal_world(tree), box->to);
     h->metric = metric_make(scale, is_subnormal_world(tree), box->from);
     for (int i = 0; i < 3; i++)
-        view[i] = look_along(&h->metric, &tree->axes[i], h->metric.scaled[i], end.scaled[i]);
+        view[i] = view_axis(&h->metric, &tree->axes[i], h->metric.scaled[i], end.scaled[i]);
     h->face_count = 0;
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -150,13 +150,13 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
 {
     swept_shape *s = shape;
     const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
-    if ((around.meets & (around.meets - 1)) == 0) /* one octant: its own will tell more */
+    if ((around.meets & (around.meets - 1)) == 0) /* a single octant: its children are tested instead */
         return (octant_masks){around.meets, 0};
     const octant_masks between = hull_octants(&s->hull, s->around.low[depth], depth);
     return (octant_masks){around.meets & between.meets, around.inside & between.inside};
 }
 
-/* Of a point in the box around the step. */
+/* Whether a point in the box around the step is touched. */
 static bool is_touched(const swept_shape *s, const double p[3])
 {
     bool sure = true;
@@ -187,18 +187,18 @@ static void run_query(const octree *tree, const sweep *box, const octree_box *ar
     swept_shape shape;
     shape.around = box_shape_make(tree, around, around);
     shape.box = *box;
-    const bool slanting = hull_make(&shape.hull, tree, box);
+    const bool diagonal = hull_make(&shape.hull, tree, box);
     region r = {
         .tree = tree,
         .shape = &shape,
-        .enter = slanting ? enter : box_shape_enter, /* along an axis the box around the step is all */
-        .scan = slanting ? scan : box_shape_scan,
+        .enter = diagonal ? enter : box_shape_enter, /* along an axis the box around the step is exact */
+        .scan = diagonal ? scan : box_shape_scan,
         .visit = collision_visit,
         .context = visitor,
         .meter = {.how = how},
     };
     octant_masks root = box_shape_root(&shape.around, tree);
-    if (slanting)
+    if (diagonal)
         root.inside = 0;
     region_search(&r, root);
 }

@@ -80,7 +80,7 @@ static void collect_items(bulk *b)
     }
 }
 
-/* Statuses are then OK, or say why a point is not among the items. */
+/* Collect and sort the items. Sets each point's status: OK, or why it is not among the items. */
 static octree_status load(bulk *b)
 {
     if (!float_mode_is_default())
@@ -123,15 +123,20 @@ static unsigned share_out(const morton_item *items, size_t count, unsigned depth
     return octants;
 }
 
-/* Load the points, make the new root from them, and put it in the place of the old one if it differs. */
-static octree_status change_many(bulk *b, octree_status (*change)(bulk *b, node *root))
+/* Load the points, make the new root from them, and put it in the place of the old one if it differs. *changed (may be
+ * null) receives the difference in the number of points. */
+static octree_status change_many(bulk b, octree_status (*change)(bulk *b, node *root), size_t *changed)
 {
-    octree *tree = b->tree;
+    octree *tree = b.tree;
+    if (!tree || (!b.points && b.point_count))
+        return OCTREE_NULL_ARGUMENT;
     const node old = tree->root;
     node root = old;
-    octree_status status = load(b);
+    octree_status status = load(&b);
     if (status == OCTREE_OK)
-        status = change(b, &root);
+        status = change(&b, &root);
+    if (status == OCTREE_OK && changed)
+        *changed = root.count > old.count ? root.count - old.count : old.count - root.count;
     if (status == OCTREE_OK && root.count != old.count) {
         tree->root = root;
         tree->version++;
@@ -139,8 +144,8 @@ static octree_status change_many(bulk *b, octree_status (*change)(bulk *b, node 
     } else {
         node_release_unshared(&tree->store, &root, &old);
     }
-    list_release(&tree->store.memory, &b->repetitions, sizeof(repetition));
-    give_items(b, b->items);
+    list_release(&tree->store.memory, &b.repetitions, sizeof(repetition));
+    give_items(&b, b.items);
     return status;
 }
 
@@ -188,7 +193,7 @@ static bool inseparable(const octree *tree, cell c, const morton_item *items, si
     return true;
 }
 
-/* What a cell becomes that stores nothing but the items. */
+/* Make the node of a cell that holds only the items. */
 static bool build(bulk *b, cell c, morton_item *items, size_t count, node *made)
 {
     const octree_def *def = &b->tree->def;
@@ -243,8 +248,8 @@ static bool add_to_leaf(bulk *b, const node *old, cell c, morton_item *items, si
     return ok;
 }
 
-/* What a node becomes with the items added. False when there is no memory; what was made is in *made then. */
-static bool add(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made)
+/* Make a node's successor with the items added. False when there is no memory; *made then holds what was made. */
+static bool insert_below(bulk *b, const node *old, cell c, morton_item *items, size_t count, node *made)
 {
     *made = *old;
     if (count == 0)
@@ -267,7 +272,7 @@ static bool build_children(bulk *b, const node *old, cell c, morton_item *items,
         if (!(octants >> octant & 1))
             continue;
         const node *before = old ? child_at(old, octant) : NULL;
-        if (!add(b, before ? before : &empty, cell_child(c, octant), items, shares[octant], group))
+        if (!insert_below(b, before ? before : &empty, cell_child(c, octant), items, shares[octant], group))
             return false;
         made->count += group->count;
         items += shares[octant];
@@ -318,7 +323,7 @@ static bool drop_repetitions(bulk *b)
 }
 
 /* A repeated point is a duplicate, unless the first one was refused, as it would then be too. */
-static void judge_repetitions(const bulk *b)
+static void set_repeated_statuses(const bulk *b)
 {
     const repetition *all = b->repetitions.items;
     for (size_t i = 0; b->statuses && i < b->repetitions.count; i++)
@@ -331,30 +336,26 @@ static octree_status insert_items(bulk *b, node *root)
         return OCTREE_NO_MEMORY;
     if (b->count > UINT32_MAX - b->tree->root.count)
         return OCTREE_TOO_MANY;
-    if (!add(b, &b->tree->root, root_cell(), b->items, b->count, root))
+    if (!insert_below(b, &b->tree->root, root_cell(), b->items, b->count, root))
         return OCTREE_NO_MEMORY;
-    judge_repetitions(b);
+    set_repeated_statuses(b);
     return OCTREE_OK;
 }
 
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted)
 {
-    if (!tree || (!points && count))
-        return OCTREE_NULL_ARGUMENT;
-    const uint32_t before = tree->root.count;
-    bulk b = {.tree = tree, .points = points, .point_count = count, .statuses = statuses};
-    const octree_status status = change_many(&b, insert_items);
-    if (status == OCTREE_OK && inserted)
-        *inserted = tree->root.count - before;
-    tune_if_due(tree);
+    const bulk b = {.tree = tree, .points = points, .point_count = count, .statuses = statuses};
+    const octree_status status = change_many(b, insert_items, inserted);
+    if (status == OCTREE_OK)
+        tune_if_due(tree);
     return status;
 }
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
 /* A leaf of the points that are not marked as gone. */
-static bool make_rest(bulk *b, const node *old, const bool *gone, uint32_t left, node *made)
+static bool make_remaining(bulk *b, const node *old, const bool *gone, uint32_t left, node *made)
 {
     if (!leaf_create(&b->tree->store, made, left))
         return false;
@@ -382,7 +383,7 @@ static bool take_from_leaf(bulk *b, const node *old, const morton_item *items, s
             left--;
         }
     }
-    const bool ok = left == old->count || make_rest(b, old, gone, left, made);
+    const bool ok = left == old->count || make_remaining(b, old, gone, left, made);
     arena_give(memory, gone, old->count + 1);
     return ok;
 }
@@ -413,8 +414,8 @@ static bool keep_children(bulk *b, const node *old, const node children[8], uint
     return group != NULL;
 }
 
-/* What a node of this depth becomes without the items. False when there is no memory; nothing was made then. */
-static bool take(bulk *b, const node *old, unsigned depth, const morton_item *items, size_t count, node *made)
+/* Make the successor of a node of this depth without the items. Without memory false, and nothing is allocated. */
+static bool remove_below(bulk *b, const node *old, unsigned depth, const morton_item *items, size_t count, node *made)
 {
     *made = *old;
     if (!old->octants)
@@ -432,7 +433,7 @@ static bool take(bulk *b, const node *old, unsigned depth, const morton_item *it
             continue;
         children[octant] = *child;
         if (ok && shares[octant] > 0)
-            ok = take(b, child, depth + 1, items, shares[octant], &children[octant]);
+            ok = remove_below(b, child, depth + 1, items, shares[octant], &children[octant]);
         left -= child->count - children[octant].count;
     }
     if (ok && left == old->count)
@@ -447,18 +448,12 @@ static bool take(bulk *b, const node *old, unsigned depth, const morton_item *it
 
 static octree_status remove_items(bulk *b, node *root)
 {
-    return take(b, &b->tree->root, 0, b->items, b->count, root) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    return remove_below(b, &b->tree->root, 0, b->items, b->count, root) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed)
 {
-    if (!tree || (!points && count))
-        return OCTREE_NULL_ARGUMENT;
-    const uint32_t before = tree->root.count;
-    bulk b = {.tree = tree, .points = points, .point_count = count, .statuses = statuses};
-    const octree_status status = change_many(&b, remove_items);
-    if (status == OCTREE_OK && removed)
-        *removed = before - tree->root.count;
-    return status;
+    return change_many((bulk){.tree = tree, .points = points, .point_count = count, .statuses = statuses}, remove_items,
+                       removed);
 }

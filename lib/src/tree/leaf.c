@@ -102,13 +102,6 @@ static void hashed_remove(octree_point *points, uint32_t count, uint32_t index)
     slots_of(points)[slot] = index + 1;
 }
 
-static void hashed_replace(octree_point *points, uint32_t index, const octree_point *point)
-{
-    clear_slot(points, slot_of(points, points[index].position, points[index].id));
-    points[index] = *point;
-    slots_of(points)[slot_of(points, point->position, point->id)] = index + 1;
-}
-
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
 /* Room grows by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
@@ -217,10 +210,12 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
 
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point)
 {
-    if (is_hashed(leaf))
-        hashed_replace(leaf->below, index, point);
-    else
+    if (!is_hashed(leaf)) {
         leaf_points(leaf)[index] = *point;
+        return;
+    }
+    hashed_remove(leaf->below, leaf->count--, index);
+    leaf_put_hashed(leaf, point);
 }
 
 void node_gather(node *leaf, const node *from, const octree_point *except)

@@ -63,7 +63,7 @@ static uint32_t key_search(const axis *a, double x)
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess(a, x);
-    if (!(a->guess_error < 1 && guess >= 0 && guess < (double)PLANE_GRID))
+    if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess >= 0 && guess < (double)PLANE_GRID))
         return key_search(a, x);
     uint32_t key = (uint32_t)guess;
     while (key > 0 && plane_at(a, key) > x)

@@ -9,7 +9,7 @@
 #include "leaf.h"
 #include "plane.h"
 
-/* How the capacity is chosen under OCTREE_AUTO. Insertion calls this when it is due, and knows no more of it. */
+/* How the capacity is chosen under OCTREE_AUTO. A function pointer, so that insertion does not depend on tune.c. */
 typedef struct tuning {
     octree_status (*choose)(octree *tree, const octree_mix *mix); /* null: the capacity is fixed */
     octree_mix mix;
