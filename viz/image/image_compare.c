@@ -233,18 +233,6 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
         add_pixel(&difference->counted, x, r->first + y, c);
 }
 
-/* The number of equal pixels before the first that differs in its bytes. */
-static int run_alike(const uint8_t *a, const uint8_t *b, int count, size_t pixel_size)
-{
-    const size_t size = (size_t)count * pixel_size;
-    size_t at = 0;
-    while (at + 8 <= size && memcmp(a + at, b + at, 8) == 0)
-        at += 8;
-    while (at < size && a[at] == b[at])
-        at++;
-    return (int)(at / pixel_size);
-}
-
 /* Of `count` pixels from (x, y) on. Where equal bytes mean equal colours, only pixels of unlike bytes are read. */
 static void count_span(image_comparison *c, const rows *r, int x, int y, int count)
 {
@@ -256,7 +244,8 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
     for (int i = 0, some; i < count; i += some) {
         some = count - i;
         if (c->stored_alike) {
-            i += run_alike(at_a + (size_t)i * size, at_b + (size_t)i * size, some, size);
+            const size_t at = (size_t)i * size;
+            i += (int)(image_bytes_alike(at_a + at, at_b + at, (size_t)some * size) / size);
             some = i < count;
         }
         samples_read(r->a, n + (size_t)i, some, c->difference.channel_range, a);

@@ -22,13 +22,9 @@ static uint64_t color_word(const image *image, size_t n)
 static size_t run_end(const image *image, size_t start, size_t pixel_count)
 {
     const size_t step = image_pixel_size(image);
-    size_t at = (start + 1) * step;
-    size_t size = pixel_count * step;
-    while (at + 8 <= size && memcmp(image->pixels + at, image->pixels + at - step, 8) == 0)
-        at += 8;
-    while (at < size && image->pixels[at] == image->pixels[at - step])
-        at++;
-    return at / step;
+    const uint8_t *first = image->pixels + start * step;
+    const size_t rest = (pixel_count - start - 1) * step;
+    return start + 1 + image_bytes_alike(first + step, first, rest) / step;
 }
 
 static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool wide)

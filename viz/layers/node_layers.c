@@ -79,7 +79,9 @@ static void add_points(tree_walk *w, const octree_node *leaf)
         if (takes_point(w, &leaf->points[i]))
             some[count++] = leaf->points[i];
     sort_points(some, count);
-    scene_add_points(s, layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width), some, count);
+    for (size_t i = 0; i < count; i++)
+        scene_add_mark(s, some[i].id, some[i].position, SHAPE_SQUARE,
+                       layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width));
     s->tally.points += count;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
         thin_points(w);

@@ -100,24 +100,6 @@ void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[
                                      .style = {.layer = (uint8_t)layer, .role = (uint8_t)role}});
 }
 
-void scene_add_points(scene *s, scene_style style, const octree_point *points, size_t count)
-{
-    if (count == 0 || !view_shows(&s->view, style.layer))
-        return;
-    void *grown = grow(s, s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
-    if (!grown)
-        return;
-    s->markers.items = grown;
-    for (size_t i = 0; i < count; i++) {
-        const double *at = points[i].position;
-        const bool finite = all_finite(at, 3);
-        s->markers.items[s->markers.count] =
-            (scene_marker){.id = points[i].id, .at = {at[0], at[1], at[2]}, .style = style};
-        s->markers.count += finite;
-        s->refused += !finite;
-    }
-}
-
 void scene_add_label(scene *s, scene_label label)
 {
     if (admits(s, label.style, all_finite(label.at, 3)))

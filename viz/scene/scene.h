@@ -142,9 +142,6 @@ void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape
 
 void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[2], unsigned layer, unsigned role);
 
-/* A marker on each of many points, with their ids. */
-void scene_add_points(scene *s, scene_style style, const octree_point *points, size_t count);
-
 /* The middle of a box, without overflow of large extents. */
 static inline void scene_box_middle(const octree_box *box, double middle[3])
 {
