@@ -16,14 +16,14 @@
 
 /* ---- What all have ------------------------------------------------------------------------------------------ */
 
-/* Ids of an answer's parts: its place among the tick's, and a neighbour's rank or a chord of a ball. Markers have their
- * point's. */
+/* Ids of an answer's parts: its index among the tick's answers, and a neighbour's rank or a chord of a ball. Markers
+ * have their point's id. */
 static uint64_t part_id(size_t place, size_t part)
 {
     return (uint64_t)place << 32 | (uint64_t)part;
 }
 
-/* Smaller where there are many: they would hide each other, and what they lie on. `half` is half their size. */
+/* Marks are smaller when there are many, so that they hide less. `half` is half their size. */
 static void mark_points(scene *s, const octree_answer *answer, view_layer own, scene_shape shape, unsigned half)
 {
     const unsigned size = answer->count <= FEW_MARKS ? half : answer->count <= MANY_MARKS ? half / 2 : 1;
@@ -32,7 +32,7 @@ static void mark_points(scene *s, const octree_answer *answer, view_layer own, s
         scene_add_mark(s, answer->points[i].id, answer->points[i].position, shape, style);
 }
 
-/* The answer that an element is of; null where there is none. "query (answer 2 of 3)" is said of it. */
+/* Describe the answer that an element belongs to, such as "query (answer 2 of 3)". Null when there is none. */
 static const octree_answer *say_query(description *d, const char *what, uint64_t place)
 {
     const octree_answer *answer = place < d->tick->answer_count ? &d->tick->answers[place] : NULL;
@@ -92,7 +92,7 @@ const layer_type layer_RANGE = {.add_answer = add_range,
 
 /* ---- Radius ------------------------------------------------------------------------------------------------- */
 
-/* The point at a part of the way round the circle about a centre that does not leave the plane of two axes. */
+/* A point on the great circle around the ball's centre that is normal to an axis. */
 static void point_on_circle(const octree_answer *ball, int plane, int part, double position[3])
 {
     double cosine, sine;
@@ -163,7 +163,7 @@ static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
     return crowded;
 }
 
-/* The ranks of the first few, each beside its neighbour; where two would overlap, that of the nearer alone. */
+/* The ranks of the first few, each beside its neighbour, except those that would overlap a nearer one's. */
 static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_style style)
 {
     double pixels[NUMBERED_RANKS][2];
@@ -174,7 +174,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
         if (!camera_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
             continue;
         numbered++;
-        snprintf(rank.text, sizeof rank.text, " %zu", i + 1); /* the blank keeps clear of a marker */
+        snprintf(rank.text, sizeof rank.text, " %zu", i + 1); /* the blank leaves room for a marker */
         scene_add_label(s, rank);
     }
 }

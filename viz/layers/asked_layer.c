@@ -9,7 +9,7 @@ static bool applies(const layer_source *in)
     return in->asked != 0;
 }
 
-/* Bold, in the colour of the path to it in the diagram; and where it appears small, a mark that is seen. */
+/* Bold, in the colour of its path in the diagram; with a mark when it is small on screen. */
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     octree_node node;

@@ -1,9 +1,9 @@
 /* diagram.c - the layer of the diagram: the tree drawn as a tree, the paper's Figure 2.
  *
  * A row a level, the root at the top. Nodes that have room are drawn one by one, with a line from each to its parent:
- * inner nodes as squares, leaves as squares of half the side; in the colours of the space view, and those that the
- * view's filter leaves out in grey. Levels that have no room are folded: bars that tell how many nodes stand in a
- * column of the picture, each doubling a sixteenth of the row higher. See diagram_slots.h for what stands where.
+ * inner nodes as squares, leaves as squares of half the side; in the colours of the space view, or grey if the view's
+ * filter hides them. Levels that do not fit are folded into bars that show how many nodes are in a column of the
+ * picture: each doubling is a sixteenth of the row higher. See diagram_slots.h for the layout.
  */
 #include "diagram_slots.h"
 #include "layer_type.h"
@@ -20,19 +20,19 @@
 
 /* In units. */
 #define NODE 6      /* the side of an inner node; a leaf's is half as long */
-#define RING 2      /* that the ring around a node on the path is larger than what is in it, both sides together */
-#define EDGE 8      /* around the diagram, where it has no words */
+#define RING 2      /* by which the ring around a node on the path is larger than the node, both sides together */
+#define EDGE 8      /* the margin of a diagram without words */
 #define NARROWEST 2 /* of a slot */
 #define BAR 2       /* the width of a bar */
 
-/* The room that words take, in units; a diagram smaller than the last two has none. */
+/* Room for words, in units; a diagram smaller than the last two has no words. */
 enum { WORDS_LEFT = 26, WORDS_RIGHT = 54, WORDS_ABOVE = 24, WORDS_BELOW = 24, WORDS_WIDTH = 150, WORDS_HEIGHT = 120 };
 
 #define BAR_STEPS 16       /* of a bar's height; as high as a row */
-#define ROWS_AT_ONCE 4     /* so that rows seldom move when the tree grows deeper */
+#define ROWS_AT_ONCE 4     /* rows are added in steps, so that they seldom move when the tree grows deeper */
 #define MOST_DIGITS 999999 /* a longer number is rounded */
 
-/* Ids of panels: a node's address; and what is no node, whose highest bit is that of no address. */
+/* Ids of panels: a node's address; those of other panels have a highest bit that no address has. */
 #define GROUND_ID UINT64_C(0)
 #define BAR_ID (UINT64_C(1) << 61)  /* and the depth above 32 bits of the column */
 #define PATH_ID (UINT64_C(1) << 62) /* and the depth; with a bit of 32 the ring that keeps mark and node apart */
@@ -51,8 +51,8 @@ typedef struct diagram {
     double top, pitch;  /* of the rows */
     unsigned rows;
     uint64_t next_label;
-    bool words;                       /* there is room for them */
-    octree_address path;              /* the node to which the path from the root is shown; 0 for none */
+    bool words;                       /* there is room for words */
+    octree_address path;              /* the node at the end of the path that is shown; 0: no path */
     octree_node end;                  /* that node */
     stop stops[OCTREE_MAX_DEPTH + 1]; /* the nodes on it */
 } diagram;
@@ -64,8 +64,8 @@ static unsigned rows_of(const octree *tree, unsigned depth)
     return rows < most ? rows : most;
 }
 
-/* Measure the area of the picture, and arrange the tree in it. False where there is no room, or no memory; the scene
- * says which. */
+/* Measure the area of the picture, and arrange the tree in it. False when there is no room, or no memory
+ * (s->out_of_memory). */
 static bool arrange(diagram *d)
 {
     scene *s = d->scene;
@@ -134,14 +134,14 @@ static int by_walk(const void *node, const void *visit)
     return p != q ? (p < q ? -1 : 1) : (depth_a > depth_b) - (depth_a < depth_b);
 }
 
-/* How the tick met a node; null where it did not. */
+/* The tick's visit of a node, or null. */
 static const octree_visit *find_visit(const octree_tick *tick, octree_address node)
 {
     return tick && tick->visit_count ? bsearch(&node, tick->visits, tick->visit_count, sizeof *tick->visits, by_walk)
                                      : NULL;
 }
 
-/* The line to a node from above: as in the space view bold where it was looked into, dashed where it was left out. */
+/* The line to a node from its parent: bold if visited, dashed if pruned, as in the space view. */
 static scene_style met_style(const diagram *d, octree_address node, theme_role role)
 {
     const octree_visit *visit = find_visit(d->in->tick, node);
@@ -178,7 +178,7 @@ static void add_line(const diagram *d, octree_address child, const stop *from, c
                                                 .style = style});
 }
 
-/* A ring around a node on the path, which a dark one keeps apart from the node's own colour. */
+/* A ring around a node on the path, separated from the node by a dark ring. */
 static void add_ring(const diagram *d, unsigned depth, double x, const double size[2])
 {
     const double y = row_at(d, depth);
@@ -197,7 +197,8 @@ static void add_node(diagram *d, const diagram_node *node, double x, const doubl
     d->scene->tally.drawn++;
 }
 
-/* The nodes that have room, and the lines between them; or those on the path, which are to lie on top. */
+/* The nodes that are drawn one by one, and the lines between them; or only those on the path, which are drawn on top.
+ */
 static void add_nodes(diagram *d, bool on_path)
 {
     stop stops[OCTREE_MAX_DEPTH + 1]; /* of the ancestors: parents come before their children */
@@ -234,7 +235,7 @@ static void add_path(const diagram *d)
 
 /* ---- Levels that are folded --------------------------------------------------------------------------------- */
 
-/* What stands in a column of a level. */
+/* The nodes in a column of a level. */
 typedef struct bar {
     size_t nodes, points;
     bool shown; /* some of them, by the view's filter */
@@ -281,7 +282,7 @@ static void add_bar(const folding *f, unsigned depth, size_t column, const bar *
     d->scene->tally.folded += b->nodes;
 }
 
-/* How many nodes stand in each column of the picture; and where the path leads through them. */
+/* Count the nodes in each column, draw the bars, and find the path's position in them. */
 static void add_bars(diagram *d)
 {
     const diagram_slots *slots = &d->slots;
@@ -341,7 +342,7 @@ static void write_rows(diagram *d)
     }
 }
 
-/* Where the path leads to. An address that is too long is cut: the diagram shows all of it. */
+/* The node at the end of the path. A long address is cut: the diagram shows the whole path. */
 static void write_end(diagram *d)
 {
     const octree_node *end = &d->end;
@@ -360,7 +361,7 @@ static void write_end(diagram *d)
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
 
-/* The path leads to the player's leaf; in a tree alone to the node that is asked for. */
+/* The path leads to the player's leaf, or in a tree alone to the requested node. */
 static void find_path(diagram *d)
 {
     const layer_source *in = d->in;
@@ -375,7 +376,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     diagram d = {.scene = s, .in = in, .window = layout_diagram(&s->view)};
     if (!view_shows(&s->view, own))
         return;
-    /* What the space view may have drawn beyond its area is covered. */
+    /* Covers what the space view has drawn beyond its area. */
     scene_add_rectangle(s, GROUND_ID, (int[]){(int)d.window.x, (int)d.window.y},
                         (int[]){(int)d.window.width, (int)d.window.height}, own, ROLE_BACKGROUND);
     if (!arrange(&d))

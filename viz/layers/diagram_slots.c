@@ -7,8 +7,8 @@
 
 /* ---- Which nodes -------------------------------------------------------------------------------------------- */
 
-/* The deepest level that may have room, shares not yet rounded up: there are as many as leaves of the tree that is cut
- * off there, and empty octants where they count. */
+/* The deepest level that may fit, before shares are rounded up: the shares are the leaves of the tree cut off there,
+ * and its empty octants if they count. */
 static unsigned deepest_possible(const octree_stats *stats, unsigned empty, size_t room)
 {
     size_t leaves = 0, inner = 0; /* above */
@@ -84,7 +84,7 @@ static unsigned empty_octants(const diagram_node *node)
 /* From the last node to the first: a node's children are behind it. Returns the share of the root's octants. */
 static uint64_t add_shares(diagram_slots *slots)
 {
-    uint64_t below[OCTREE_MAX_DEPTH + 2] = {0}; /* of the nodes of a depth that wait for their parent */
+    uint64_t below[OCTREE_MAX_DEPTH + 2] = {0}; /* the sums of each depth, until their parent comes */
     for (size_t i = slots->count; i-- > 0;) {
         diagram_node *node = &slots->nodes[i];
         const unsigned depth = node->depth;
@@ -97,7 +97,7 @@ static uint64_t add_shares(diagram_slots *slots)
 
 /* ---- Slots -------------------------------------------------------------------------------------------------- */
 
-/* How far a node's slot has been dealt out. */
+/* How much of a node's slot has been assigned to its octants. */
 typedef struct dealing {
     const diagram_node *node;
     unsigned octant; /* the next one */
@@ -130,7 +130,7 @@ static void place_nodes(diagram_slots *slots)
     }
 }
 
-/* Take the levels that may have room, and drop those that have none. */
+/* Take the levels that may fit, and drop those that do not. */
 static bool arrange(diagram_slots *slots, const octree *tree, unsigned empty, size_t room)
 {
     slots->empty = empty;

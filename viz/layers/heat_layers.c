@@ -1,5 +1,5 @@
-/* heat_layers.c - the layers of what the leaves have seen since tick 0: a mark in the middle of each, the larger and
- * lighter the more. */
+/* heat_layers.c - the layers of heat: a mark in the middle of each leaf, larger and lighter the more visits or points
+ * it had since tick 0. */
 #include "heat_layers.h"
 #include "layer_type.h"
 
@@ -10,7 +10,7 @@ unsigned heat_step(uint64_t amount, unsigned shift)
     return theme_step(amount >> shift, shift);
 }
 
-/* What the walk over the leaves carries with it. */
+/* The context of the walk over the leaves. */
 typedef struct heat_walk {
     scene *scene;
     const layer_source *in;
@@ -22,7 +22,7 @@ static unsigned shift_of(view_layer layer)
     return layer == LAYER_VISIT_HEAT ? HEAT_VISITS_SHIFT : HEAT_POINTS_SHIFT;
 }
 
-/* No larger than half of what is seen of its leaf: marks do not cover each other. */
+/* At most half of its leaf's size on screen, so that marks do not cover each other. */
 static uint8_t mark_width(const scene *s, const octree_box *leaf, unsigned step)
 {
     const double most = camera_box_pixels(&s->camera, leaf) / (2 * s->unit);

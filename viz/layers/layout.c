@@ -10,7 +10,7 @@ int panel_width(const view *v)
     return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
 }
 
-/* What the column of text leaves. */
+/* The picture without the column of text. */
 static camera_window rest_of(const view *v)
 {
     const int column = panel_width(v);

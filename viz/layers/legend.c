@@ -33,7 +33,7 @@ static unsigned layers_in_frame(const scene *s)
     return layers;
 }
 
-/* The colours of nodes are those of the diagram too, and so is what tells how they were met. */
+/* The diagram uses the colours of nodes too, and marks visited and pruned ones. */
 static bool is_in_diagram(const scene *s, view_layer layer)
 {
     return view_shows(&s->view, LAYER_DIAGRAM) &&
@@ -80,7 +80,7 @@ static void leave_out(legend *l, size_t place)
     l->count -= end - place;
 }
 
-/* Leave out lines until there are so many, and return how many more are needed that have no room. */
+/* Leave out lines until at most `room` are left, and return how many are missing beyond those dropped by worth. */
 static size_t make_fit(legend *l, size_t room)
 {
     for (legend_worth least = WORTH_ABSENT; least > WORTH_FULL; least--)

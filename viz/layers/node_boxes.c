@@ -17,7 +17,7 @@ void add_node_box(scene *s, const octree_node *node, scene_style style)
     scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth});
 }
 
-/* Those above it are met before it is: one of them is shown, unless the filter begins with this one. */
+/* Whether an ancestor is shown: a tick visits them too, unless the filter hides them. */
 static bool lies_in_a_shown_one(const view_filter *f, unsigned depth)
 {
     return !f->leaves && depth > (f->by_depth ? f->min_depth : 0);

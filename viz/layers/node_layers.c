@@ -1,5 +1,4 @@
-/* node_layers.c - the layers of a tree's nodes and points: those that the view shows, no smaller and no more than it
- * says.
+/* node_layers.c - the layers of a tree's nodes and points, within the view's filter, lod and budget.
  */
 #include "layer_type.h"
 #include "layout.h"
@@ -11,7 +10,7 @@
 
 #define FEW_POINTS 32 /* of a leaf: sorted on the stack */
 
-/* What the walk over the nodes carries with it. */
+/* The context of the walk over the nodes. */
 typedef struct tree_walk {
     scene *scene;
     octree_box world;
@@ -19,13 +18,14 @@ typedef struct tree_walk {
     size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* boxes in the scene */
     int deepest;                           /* boxes below are beyond the budget */
     uint64_t sieve;                        /* points whose digest has one of these bits are beyond the budget */
-    bool drawn[OCTREE_MAX_DEPTH + 2];      /* on the way from the root: a box of this depth + 1 or less is drawn; */
-    bool small[OCTREE_MAX_DEPTH + 2];      /* and one is smaller than the view's lod */
+    bool drawn[OCTREE_MAX_DEPTH +
+               2]; /* by depth + 1, on the way from the root: whether a box up to that depth is drawn */
+    bool small[OCTREE_MAX_DEPTH + 2]; /* and whether one is smaller than the view's lod */
 } tree_walk;
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* Leave out about every other one of the points that are in the scene. */
+/* Remove about every other point from the scene. */
 static void thin_points(tree_walk *w)
 {
     scene *s = w->scene;
@@ -91,7 +91,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Leave out the deepest level that is in the scene: what is shown is a whole number of levels. */
+/* Remove the deepest level from the scene, so that only whole levels are shown. */
 static void drop_level(tree_walk *w)
 {
     scene *s = w->scene;
@@ -124,7 +124,7 @@ static void add_box(tree_walk *w, const octree_node *node)
         drop_level(w);
 }
 
-/* What is in a small box is small too: it is measured once on the way down. */
+/* Boxes inside a small box are small too, and need not be measured. */
 static bool is_small(const tree_walk *w, const octree_node *node)
 {
     const scene *s = w->scene;
@@ -160,8 +160,8 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 
 /* ---- Labels ------------------------------------------------------------------------------------------------- */
 
-/* Write the path of a node into the middle of its box, where it fits the picture of the box (it would be taken for
- * another's) and covers no other. */
+/* Write the path of a node into the middle of its box, if it fits into the box on screen, so that it is clear whose it
+ * is, and covers no other. */
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
     scene_label label = {.id = box->id, .style = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1}};

@@ -1,4 +1,4 @@
-/* panel.c - the layer of text: the column at the left, which tells what this tick is about. */
+/* panel.c - the text layer: the column at the left, which describes the tick. */
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
@@ -43,7 +43,7 @@ static void write_statistics(pen *p, const octree *tree, const octree_stats *sta
     write_row(p, "leaf", "up to %zu", octree_definition(tree).leaf_capacity);
 }
 
-/* Whether there is somebody whom keys move. */
+/* Whether the player is moved by keys. */
 static bool has_keys(const layer_source *in)
 {
     return in->session->player.kind == OCTREE_PLAYER_KEYS;
@@ -58,7 +58,7 @@ static const char *key_meaning(char key)
     return "";
 }
 
-/* What is said of a tick without events. */
+/* The words for a tick without events. */
 static const char *quiet_word(const layer_source *in)
 {
     if (in->tick->key == 'n')
@@ -82,7 +82,7 @@ static void write_events(pen *p, const layer_source *in)
     write_line(p, MARGIN, role, words[0] ? words : quiet_word(in));
 }
 
-/* In the colours of what is drawn of them. */
+/* In the colours of the answers' layers. */
 static void write_answers(pen *p, const layer_source *in)
 {
     for (size_t i = 0; i < in->answer_count; i++) {
@@ -102,7 +102,7 @@ static void write_refusals(pen *p, const octree_tick *tick)
         write_row(p, "", "and %zu more", tick->refusal_count - 2);
 }
 
-/* A few keys before and after this tick's, which stands in brackets. */
+/* A few keys before and after this tick's, which is in brackets. */
 static void write_keys(pen *p, const layer_source *in)
 {
     const uint64_t now = in->tick->number;
@@ -221,7 +221,7 @@ static void write_small(pen *p, const scene_tally *tally)
     }
 }
 
-/* What of the tree is there, where it is not all of it. */
+/* How many nodes and points are shown, if not all. */
 static void write_shown(pen *p, const scene_tally *tally)
 {
     const view *v = &p->scene->view;
@@ -251,12 +251,12 @@ static void write_left_out(pen *p)
     p->value = ROLE_TEXT;
     if (p->scene->view.labels && tally->labels < tally->nodes)
         write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
-    p->y = p->y == begin ? before : p->y; /* all is there */
+    p->y = p->y == begin ? before : p->y; /* nothing is left out */
 }
 
 /* ---- The column --------------------------------------------------------------------------------------------- */
 
-/* Rows that the picture is too low for are counted in the place of the first. */
+/* Rows that do not fit are replaced by a line that counts them. */
 static void end_rows(pen *p)
 {
     scene *s = p->scene;
@@ -282,7 +282,7 @@ static void end_rows(pen *p)
     write_line(p, MARGIN, ROLE_WARNING, text);
 }
 
-/* Where there may be one. */
+/* If the session has a player. */
 static void write_player(pen *p, const layer_source *in)
 {
     if (in->tick->has_player)
@@ -323,7 +323,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
     write_answers(p, in);
 }
 
-/* Where there is no room for the column, the most important of its lines, on the picture itself. */
+/* When there is no room for the column, its most important lines are written on the picture. */
 static void add_lines(scene *s, const layer_source *in, const char *title)
 {
     pen p = {.scene = s, .y = 4, .name = ROLE_FAINT, .value = ROLE_TEXT};

@@ -68,7 +68,7 @@ static void pick_corner(const octree_box *box, unsigned corner, double position[
         position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
 }
 
-/* The ways that met: of the corners of the player's box, which is drawn at both ends, and of each hit that moved. */
+/* The swept ways: of the corners of the player's box, which is drawn at both ends, and of each hit that moved. */
 static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, scene_style style)
 {
     const octree_box start = box_about(tick->from, box_size), end = box_about(tick->attempt, box_size);
@@ -82,8 +82,8 @@ static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, s
         add_way(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
 }
 
-/* The box that was tested, crossed out, and a cross on everything in it. A box that appears small is a blot, of which
- * only the colour tells what it is: so a larger cross lies on it, whatever its size. */
+/* The box that was tested, crossed out, and a cross on everything in it. A box that is small on screen is hard to
+ * recognize, so a large cross of fixed size is drawn on it. */
 static void add_collision(scene *s, const layer_source *in, view_layer own)
 {
     const octree_tick *tick = in->tick;

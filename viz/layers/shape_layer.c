@@ -25,7 +25,7 @@ static void add_label(scene *s, uint64_t id, const octree_shape *shape, scene_st
     scene_label label = {.id = id, .in_world = true, .style = style};
     label.style.width = 1;
     memcpy(label.at, shape->at, sizeof label.at);
-    snprintf(label.text, sizeof label.text, " %s", shape->text); /* the blank keeps clear of a marker */
+    snprintf(label.text, sizeof label.text, " %s", shape->text); /* the blank leaves room for a marker */
     scene_add_label(s, label);
 }
 

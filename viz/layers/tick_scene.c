@@ -18,8 +18,8 @@ view_layer layer_of_query(octree_query_kind kind)
     return layers[kind];
 }
 
-/* Where keys play it is known what will be asked: the session's queries, and the nearest point by a key. What else a
- * session will ask is not: then it is what has been asked so far. */
+/* With a player moved by keys the queries are known in advance: the session's, and the nearest point by a key.
+ * Otherwise only those asked so far are known. */
 static bool is_asked(const layer_source *in, view_layer layer)
 {
     const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;
@@ -51,7 +51,7 @@ static void add_layer(scene *s, const layer_source *in, view_layer layer)
             type->add_answer(s, &in->answers[i], i, layer);
 }
 
-/* Where the diagram takes the place of the space view, the panel is the one other layer. */
+/* Under DIAGRAM_ONLY the panel is the only other layer. */
 static bool build(scene *s, layer_source *in, const double player[3])
 {
     const view *v = in->view;
@@ -94,7 +94,7 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .answer_count = about->answer_count,
                        .title = about->title,
                        .asked = about->node};
-    double center[3]; /* what a camera follows where nobody plays */
+    double center[3]; /* what the camera follows without a player */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
     return build(s, &in, center);
 }

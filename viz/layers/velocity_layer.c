@@ -1,7 +1,7 @@
 /* velocity_layer.c - the layer of velocities: for each point that moves and that the view shows an arrow with its id,
- * from where it is along its velocity, up to the world's bounds, where it bounces. What is beyond the view's budget is
- * left out and counted, which is a thousandth of that of points, since more could not be told apart; and so is what is
- * shorter than the view's lod. */
+ * from where it is along its velocity, up to the world's bounds, where it bounces. Arrows beyond the budget, a
+ * thousandth of the view's since more would be indistinct, and arrows shorter than the view's lod are left out and
+ * counted. */
 #include "velocity_layer.h"
 #include "layer_type.h"
 #include "node_boxes.h"
@@ -28,7 +28,7 @@ unsigned velocity_ticks(const octree_game *game)
     return ticks;
 }
 
-/* Where it comes to in so many ticks, or meets the bounds before. */
+/* Its position after so many ticks, or where it meets the bounds before. */
 static void go_on(const octree_body *body, const octree_box *world, double ticks, double end[3])
 {
     int stops = -1; /* the axis whose bound it meets */
@@ -87,7 +87,7 @@ static size_t count_arrows(const scene *s, const octree_game *game, double ticks
     return count;
 }
 
-/* None is too few to say anything. */
+/* At least one, so that there is something to see. */
 static size_t most_arrows(const view *v)
 {
     return v->budget ? (size_t)ceil((double)v->budget / CROWD) : SIZE_MAX;

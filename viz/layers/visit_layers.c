@@ -1,5 +1,4 @@
-/* visit_layers.c - the layers of what a tick's questions met: nodes left out, nodes looked into, leaves of what was
- * found. */
+/* visit_layers.c - the layers of a tick's queries: nodes pruned, nodes visited, leaves with hits. */
 #include "layer_type.h"
 #include "node_boxes.h"
 
@@ -11,7 +10,7 @@ static bool is_pruned(const octree_visit *visit)
     return visit->touch == OCTREE_TOUCH_PRUNED;
 }
 
-/* A node keeps the colour that it has in the tree. What was looked into is bold, what was left out is dashed. */
+/* A node keeps its colour in the tree. Visited nodes are bold, pruned ones dashed. */
 static void add_met(scene *s, const layer_source *in, view_layer own)
 {
     const bool pruned = own == LAYER_PRUNED;
@@ -39,7 +38,7 @@ static void add_pruned_legend(legend *l, const layer_source *in)
     legend_add(l, SIGN_DASHES, "%zu pruned", in->tick->touched[OCTREE_TOUCH_PRUNED]);
 }
 
-/* What was taken whole has a line of its own where one has no room for both counts. */
+/* Nodes taken whole have a line of their own if both counts do not fit into one. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = in->tick->touched[OCTREE_TOUCH_TAKEN];

@@ -1,4 +1,5 @@
-/* world_layer.c - the world's box, what of it the view shows, and numbers along the edges of what the camera frames. */
+/* world_layer.c - the world's box, the view's slice and region, and axes with numbers along the box that the camera
+ * frames. */
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
@@ -14,7 +15,7 @@
 #define DIGITS 9          /* of a number */
 #define FIRST_ID 1000     /* of the first axis's ticks */
 
-/* The axes of one scene: the box that they run along, and where words are already. */
+/* The axes of one scene: the box that they run along, and the room that labels use. */
 typedef struct axes {
     scene *scene;
     const octree_box *box;
@@ -48,7 +49,7 @@ static double side_length(const camera *c, int axis)
     return 2 * c->half[axis] * c->zoom / (c->perspective ? fmax(middle, c->near) : 1);
 }
 
-/* The distance between numbers; 0 where there is room for none, or none is short enough. */
+/* The distance between numbers; 0 when there is no room or they would need too many digits. */
 static double step_of(const axes *a, int axis)
 {
     const double extent = a->box->max[axis] - a->box->min[axis];
@@ -96,7 +97,7 @@ static void add_tick(axes *a, int axis, double at, uint64_t id)
         text_add_on_ground(s, &number, ROLE_BACKGROUND);
 }
 
-/* An axis that is seen end on would have all of its numbers at one place. */
+/* An axis seen end on would have all its numbers at one place. */
 static bool is_end_on(const axes *a, int axis)
 {
     double end[3], pixels[2][2];
@@ -118,7 +119,7 @@ static void add_ticks(axes *a, int axis)
         add_tick(a, axis, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
-/* The letter at the end of an axis, whose way must be seen to be named. Numbers keep away from it. */
+/* The letter at the end of an axis that is not seen end on. Numbers do not cover it. */
 static void add_letter(axes *a, int axis)
 {
     if (is_end_on(a, axis))
@@ -134,7 +135,7 @@ static void add_letter(axes *a, int axis)
     }
 }
 
-/* Where the box is not the world's, its edges are not drawn otherwise. */
+/* If the box is not the world's, nothing else draws its edges. */
 static void add_edge(axes *a, int axis)
 {
     double end[3];
