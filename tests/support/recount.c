@@ -234,7 +234,7 @@ static void add_leaves(recount *all, const octree_game *game)
         add_leaf(all, tree, &tick->hits[i]);
     for (size_t a = 0; a < tick->answer_count; a++) {
         const octree_answer *answer = &tick->answers[a];
-        const bool points = answer->kind == OCTREE_QUERY_RANGE || answer->kind == OCTREE_QUERY_RADIUS;
+        const bool points = !octree_query_about(answer->kind)->neighbors;
         for (size_t i = 0; i < answer->count; i++)
             add_leaf(all, tree, points ? &answer->points[i] : &answer->neighbors[i].point);
     }

@@ -8,7 +8,7 @@
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
-/* The points found about a target with their distances: the nearest points, as many as were found. */
+/* The points of a ball with their distances: they are the nearest points to its centre, as many as it holds. */
 static octree_status find_distances(const octree *tree, const octree_query *query, size_t count, octree_answer *nearest)
 {
     octree_query by_distance = *query;
@@ -22,8 +22,7 @@ static octree_status ask(const octree *tree, const octree_query *query, inspect_
     octree_answer *answer = &result->answers[result->count], *nearest = &result->nearest[result->count];
     result->count++; /* released with the result from here on */
     octree_status status = octree_query_answer(tree, query, NULL, NULL, answer);
-    const octree_query_traits *about = octree_query_about(query->kind);
-    if (status == OCTREE_OK && !about->neighbors && about->members & OCTREE_QUERY_HAS_TARGET)
+    if (status == OCTREE_OK && octree_query_about(query->kind)->members & OCTREE_QUERY_HAS_RADIUS)
         status = find_distances(tree, query, answer->count, nearest);
     return status;
 }

@@ -1,8 +1,8 @@
 /* layer.h - the layers of a scene, one row each.
  *
- * To add a layer: a row here, a file in viz/layers with its layer_type (layer_type.h), its test, and a frame in
- * golden/. Data that a tick lacks is added to octree_tick first; a new colour is a row of theme.h; a curve of a
- * recording's page is a line of CURVES in viz/record/page/facts.js.
+ * To add a layer: a row here, a file in viz/layers with its layer_type (layer_type.h), its test, a row in the tables of
+ * test_describe, test_legend and golden_frames. Data that a tick lacks is added to octree_tick first; a new colour is a
+ * row of theme.h; a curve of a recording's page is a line of CURVES in viz/record/page/facts.js.
  */
 #ifndef SCENE_LAYER_H
 #define SCENE_LAYER_H

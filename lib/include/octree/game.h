@@ -61,12 +61,13 @@ typedef enum octree_query_member {
     OCTREE_QUERY_HAS_BOX = 1,
     OCTREE_QUERY_HAS_TARGET = 2,
     OCTREE_QUERY_HAS_K = 4,
-    OCTREE_QUERY_HAS_RADIUS = 8,
+    OCTREE_QUERY_HAS_RADIUS = 8, /* with the target: a closed ball. Another shape takes a bit of its own */
 } octree_query_member;
 
 /* One line per kind of query: its name, the members it reads, which of them bears the kind's name in session files,
  * whether it is answered with neighbours (else with points), and its meaning. A new kind is a line here and its
- * function in lib/src/game/queries.c. */
+ * function ask_NAME() in lib/src/game/queries.c. To see it: a row of viz/scene/layer.h with the kind's name and its
+ * layer_type in viz/layers; to ask it by octreel inspect: a row of viz/cli/query_options.c. */
 #define OCTREE_QUERY_MAP(X)                                                                                            \
     X(RANGE, range, OCTREE_QUERY_HAS_BOX, OCTREE_QUERY_HAS_BOX, false, "the points in a box")                          \
     X(NEAREST, nearest, OCTREE_QUERY_HAS_TARGET, OCTREE_QUERY_HAS_TARGET, true, "the point nearest to a place")        \

@@ -10,7 +10,7 @@ static size_t home_of(const bodies *b, uint64_t id)
     return (size_t)octree_digest_word(OCTREE_DIGEST_START, id) & (b->slot_count - 1);
 }
 
-/* The slot of an id, or the empty one where the search ends. There are slots. */
+/* The slot of an id, or the empty one where the search ends. Precondition: slot_count > 0. */
 static size_t slot_of(const bodies *b, uint64_t id)
 {
     size_t slot = home_of(b, id);
@@ -56,7 +56,7 @@ static bool is_moving(const double velocity[3])
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
 
-/* Add a body that is not there yet, at rest at its position at this tick. False when there is no memory. */
+/* Add a body whose id is not in use, which starts from its position at this tick. False when there is no memory. */
 static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
 {
     if (!make_slots(b, memory, b->items.count + 1))
