@@ -52,14 +52,17 @@ static bool takes_point(tree_walk *w, const octree_point *point)
     return !out;
 }
 
-/* Insertion sort where there are few: they are often in order already. */
+/* Points are often in order already. Else insertion sort where there are few. */
 static void sort_points(octree_point *points, size_t count)
 {
-    if (count > FEW_POINTS) {
+    size_t sorted = 1;
+    while (sorted < count && octree_compare_points(&points[sorted - 1], &points[sorted]) <= 0)
+        sorted++;
+    if (sorted < count && count > FEW_POINTS) {
         qsort(points, count, sizeof *points, octree_compare_points);
         return;
     }
-    for (size_t i = 1; i < count; i++) {
+    for (size_t i = sorted; i < count; i++) {
         const octree_point it = points[i];
         size_t at = i;
         for (; at > 0 && octree_compare_points(&points[at - 1], &it) > 0; at--)
@@ -79,9 +82,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
         if (takes_point(w, &leaf->points[i]))
             some[count++] = leaf->points[i];
     sort_points(some, count);
-    for (size_t i = 0; i < count; i++)
-        scene_add_mark(s, some[i].id, some[i].position, SHAPE_SQUARE,
-                       layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width));
+    scene_add_points(s, some, count, SHAPE_SQUARE, layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width));
     s->tally.points += count;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
         thin_points(w);

@@ -136,9 +136,10 @@ void scene_add_marker(scene *s, scene_marker marker);
 void scene_add_label(scene *s, scene_label label);
 void scene_add_panel(scene *s, scene_panel panel);
 
-/* A segment in the world, a marker, and a rectangle of the picture. */
+/* A segment in the world, a marker, the markers of points, and a rectangle of the picture. */
 void scene_add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style);
 void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style);
+void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style);
 
 void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[2], unsigned layer, unsigned role);
 

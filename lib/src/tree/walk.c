@@ -139,6 +139,18 @@ static octree_box points_box(octree_box box, cell c)
     return box;
 }
 
+/* Whether a leaf holds a point before its own index too. Ids are compared first: they differ sooner than positions. */
+static bool is_repeated(const node *n, uint32_t index)
+{
+    const octree_point *points = leaf_points(n), *point = &points[index];
+    if (n->room == LEAF_HASHED)
+        return leaf_find(n, point->position, point->id) != index;
+    for (uint32_t i = 0; i < index; i++)
+        if (points[i].id == point->id && same_position(points[i].position, point->position))
+            return true;
+    return false;
+}
+
 static const char *check_leaf(const octree *tree, const node *n, cell c, const octree_box *bounds)
 {
     const octree_box box = points_box(*bounds, c);
@@ -147,12 +159,11 @@ static const char *check_leaf(const octree *tree, const node *n, cell c, const o
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
     for (uint32_t i = 0; i < n->count; i++) {
-        const octree_point *point = &leaf_points(n)[i];
-        const double *position = point->position;
+        const double *position = leaf_points(n)[i].position;
         if (!box_contains(&box, position))
             return box_contains(&tree->def.world, position) ? "a point is not in its leaf's cell"
                                                             : "a point is outside the world";
-        if (leaf_find(n, position, point->id) != i)
+        if (is_repeated(n, i))
             return "a pair of position and id is stored twice";
     }
     return NULL;
