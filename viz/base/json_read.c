@@ -35,7 +35,7 @@ static void skip_blanks(const char **at, const char *limit)
         ++*at;
 }
 
-/* Read the value at *at, which is moved behind it; null at the end of the text. jansson gives values without their
+/* Read the value at *at, which is moved past it; null at the end of the text. jansson gives values without their
  * places, but it tells where one ends. */
 static json_t *take_value(const char **at, const char *limit)
 {

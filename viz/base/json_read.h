@@ -33,7 +33,7 @@ typedef struct json_reader {
 /* Pass over blanks. False at the end of the text. */
 bool json_next_object(json_reader *r);
 
-/* Read the object at hand with `read`, and go to behind it. Numbers are doubles alone: -0 keeps its sign, and integers
+/* Read the object at hand with `read`, and go past it. Numbers are doubles alone: -0 keeps its sign, and integers
  * end where doubles cease to hold each of them. `alone`: nothing may follow it. */
 typedef bool json_object_reader(json_reader *r, json_t *object);
 bool json_read_object(json_reader *r, bool alone, json_object_reader *read);

@@ -55,7 +55,7 @@ void json_member_begin_array(json_writer *writer, const char *key);
 /* What comes next, the end of an array or object too, begins a new line. */
 void json_write_newline(json_writer *writer);
 
-/* End the line behind a value that stands alone, as the objects of a stream do; the next one starts afresh. */
+/* End the line after a value that stands alone, as the objects of a stream do; the next one starts afresh. */
 void json_write_end_line(json_writer *writer);
 
 #endif

@@ -12,17 +12,17 @@
 /* Read the decimal number that starts at begin, no blanks before it, and never look at limit or beyond: a sign or
  * none, digits with a point or none, an exponent or none ("1", "-.5", "+2.", "1e-3"). *end is the first character
  * that is not part of it. False when there is none (*end is then begin: so for "nan", "inf" and the like; of "0x10"
- * it reads the 0) or when it is beyond the largest double (*end is then behind it); *value is then untouched. */
+ * it reads the 0) or when it is beyond the largest double (*end is then after it); *value is then untouched. */
 bool number_parse(const char *begin, const char *limit, const char **end, double *value);
 
 /* True when begin starts with what C prints for a NaN or an infinity, in any case: "nan", "-nan(ind)", "inf",
- * "Infinity". *end is the first character behind it, or begin. */
+ * "Infinity". *end is the first character after it, or begin. */
 bool number_parse_nonfinite(const char *begin, const char *limit, const char **end);
 
 /* Read a whole text as `count` numbers with commas between. False, and *values may then be changed, when it is none. */
 bool numbers_parse(const char *text, double *values, size_t count);
 
-/* Read a decimal whole number at *text, which is moved behind it. False on a sign, no digits, or more than `max`. */
+/* Read a decimal whole number at *text, which is moved past it. False on a sign, no digits, or more than `max`. */
 bool whole_parse(const char **text, uint64_t max, uint64_t *value);
 
 /* The digits of a macro that is a plain number, for text that is put together when it is compiled. */

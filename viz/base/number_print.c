@@ -65,7 +65,7 @@ enum {
 #define FRACTION_ONE (UINT64_C(1) << FRACTION_BITS)
 
 /* From the first on, half of a number's last bit is above the last of the fraction's; up to the other, the 15th digit
- * lies behind the point. */
+ * lies after the point. */
 #define SMALLEST_PLAIN 0x1p-7
 #define LARGEST_PLAIN 1e14
 
@@ -98,7 +98,7 @@ static expansion expand(double value)
     return x;
 }
 
-/* Take the next digit behind the point; zeros before the first are not significant. */
+/* Take the next digit after the point; zeros before the first are not significant. */
 static void take_digit(expansion *x)
 {
     x->rest *= 10;

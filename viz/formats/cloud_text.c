@@ -101,7 +101,7 @@ static bool fail_coordinate(const cloud_file *file, size_t number, cloud_span li
     return cloud_fail_word(file, number, column, "is not a number");
 }
 
-/* Read one point. The separator behind each coordinate must be like the first: decimal commas, as in "1,5;2,5;3,5"
+/* Read one point. The separator after each coordinate must be like the first: decimal commas, as in "1,5;2,5;3,5"
  * or "1,5 2,5 3,5", would pass for other points. */
 static bool parse_point(const cloud_file *file, size_t number, cloud_span line, double position[3])
 {

@@ -14,7 +14,7 @@ struct view_option {
     const char *name;  /* on the command line, without dashes; null: it is in recording.json alone */
     const char *value; /* what stands for its value in the help; null: it takes none */
     const char *takes; /* what fits, in words: "pixels as in 1280x720"; of a choice what it is one of: "camera" */
-    const char *help;  /* behind it come the names, where member.names has some */
+    const char *help;  /* followed by the names, where member.names has some */
 
     /* Change a view by the text of a value. False, with a sentence, where it does not fit. */
     bool (*parse)(const view_option *option, const char *text, view *v, octreel_error *error);

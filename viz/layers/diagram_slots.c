@@ -81,7 +81,7 @@ static unsigned empty_octants(const diagram_node *node)
     return empty;
 }
 
-/* From the last node to the first: a node's children are behind it. Returns the share of the root's octants. */
+/* From the last node to the first: a node's children come after it. Returns the share of the root's octants. */
 static uint64_t add_shares(diagram_slots *slots)
 {
     uint64_t below[OCTREE_MAX_DEPTH + 2] = {0}; /* the sums of each depth, until their parent comes */

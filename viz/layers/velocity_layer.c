@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-#define PART 10      /* of the world's longest side: the fastest arrow */
-#define CROWD 1000.0 /* boxes and points for which there is one arrow: some hundreds can be told apart */
+#define PART 10                /* of the world's longest side: the fastest arrow */
+#define BOXES_PER_ARROW 1000.0 /* boxes and points for which there is one arrow: some hundreds can be told apart */
 
 unsigned velocity_ticks(const octree_game *game)
 {
@@ -90,7 +90,7 @@ static size_t count_arrows(const scene *s, const octree_game *game, double ticks
 /* At least one, so that there is something to see. */
 static size_t most_arrows(const view *v)
 {
-    return v->budget ? (size_t)ceil((double)v->budget / CROWD) : SIZE_MAX;
+    return v->budget ? (size_t)ceil((double)v->budget / BOXES_PER_ARROW) : SIZE_MAX;
 }
 
 static void add(scene *s, const layer_source *in, view_layer own)

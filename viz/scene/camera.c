@@ -14,10 +14,10 @@
 #define FOCAL 1.6       /* of the following camera: focal length in half windows */
 
 /* Limits of the quick test in is_seen_below(): how far a box may be off the view axis, relative to its depth, and how
- * far from the eye, for rounding errors to stay below DOUBT pixels. */
+ * far from the eye, for rounding errors to stay below ROUNDING pixels. */
 #define ASIDE 1e3
 #define FARTHEST 1e100
-#define DOUBT 1e-6
+#define ROUNDING 1e-6
 
 /* Taylor series on [0, pi/4], where eight terms are beyond a double's precision. */
 static void turn_octant(double angle, double *cosine, double *sine)
@@ -186,7 +186,7 @@ double camera_box_pixels(const camera *c, const octree_box *box)
  *   zoom (d.right - x / depth d.forward) / (depth + d.forward)
  * in x, and likewise in y. The numerator is largest, in size, at two opposite corners; the denominator lies between the
  * depths of the nearest and the farthest corner. This bounds the box's size on screen within their quotient, nearly 1
- * for a small box. Rounding errors are far below DOUBT when no corner is beside or behind the eye. */
+ * for a small box. Rounding errors are far below ROUNDING when no corner is beside or behind the eye. */
 static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
 {
     double middle[3], half[3], across = 0, along = 0;
@@ -198,7 +198,7 @@ static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
     }
     const double x = camera_dot(middle, c->right), y = camera_dot(middle, c->up),
                  depth = camera_dot(middle, c->forward);
-    const double reach = half_span(c->forward, half), most = ASIDE * depth, doubt = DOUBT * (1 + pixels);
+    const double reach = half_span(c->forward, half), most = ASIDE * depth, slack = ROUNDING * (1 + pixels);
     const bool before = depth - reach > 2 * c->near && depth < FARTHEST && fabs(x) < most && fabs(y) < most;
     if (!before)
         return camera_box_pixels(c, box) < pixels;
@@ -207,9 +207,9 @@ static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
         along += fabs(c->up[i] * depth - y * c->forward[i]) * half[i];
     }
     const double widest = 2 * c->zoom * (across > along ? across : along);
-    if (widest < (pixels - doubt) * (depth - reach) * depth)
+    if (widest < (pixels - slack) * (depth - reach) * depth)
         return true;
-    return !(widest > (pixels + doubt) * (depth + reach) * depth) && camera_box_pixels(c, box) < pixels;
+    return !(widest > (pixels + slack) * (depth + reach) * depth) && camera_box_pixels(c, box) < pixels;
 }
 
 bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)

@@ -280,7 +280,7 @@ typedef struct octree_input {
     size_t shape_count;
 } octree_input;
 
-/* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes behind
+/* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes after
  * it. The arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
  * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create, of which nothing is played. A
  * body that cannot be inserted or moved, for its place or its velocity, is no error: it is a refusal of the tick. */

@@ -73,7 +73,7 @@ static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64
     return true;
 }
 
-/* Empty a slot and close the gap: entries behind it move up unless that would take them before their home. */
+/* Empty a slot and close the gap: entries after it move up unless that would take them before their home. */
 static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;

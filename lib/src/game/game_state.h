@@ -17,7 +17,7 @@
     X(shapes, shape_count, octree_shape)                                                                               \
     X(movers, mover_count, octree_body)
 
-/* And those behind them: where each hit was, when swept; the points and the neighbours of all answers. */
+/* And those after them: where each hit was, when swept; the points and the neighbours of all answers. */
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \

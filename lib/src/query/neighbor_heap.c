@@ -90,7 +90,7 @@ static inline void sink(const neighbor_heap *h, const octree_neighbor *item, siz
     items[at] = *item;
 }
 
-/* Put an item behind the others: what is nearer sinks below it. */
+/* Put an item after the others: what is nearer sinks below it. */
 static inline void rise(const neighbor_heap *h, const octree_neighbor *item, size_t at, bool two)
 {
     octree_neighbor *items = h->items;
