@@ -175,8 +175,8 @@ static size_t collect_points(octree_game *game, octree_point *points)
     return count;
 }
 
-/* `statuses` are those of the points collected. A duplicate id makes octree_game_create() fail, so that its point, which
- * is in the tree by then, does no harm. */
+/* `statuses` are those of the points collected. A duplicate id makes octree_game_create() fail, so that its point,
+ * which is in the tree by then, does no harm. */
 static octree_status add_bodies(octree_game *game, const octree_status *statuses)
 {
     for (size_t i = 0; i < game->session->body_count; i++) {
