@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # embed_page.cmake - a page as C arrays: the HTML with its style and scripts put where it names them, cut in two where
 # facts go.  cmake -D SOURCE=page/index.html -D OUTPUT=page_html.c -P embed_page.cmake  makes page_html_head and
 # page_html_tail, which page_html.h declares.

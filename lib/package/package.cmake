@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What makes a library of ours a package for others: its public names alone, and the rules of cmake --install for its
 # headers, its pkg-config file and its CMake package. Nothing that is installed knows where it was built, so that an
 # installed tree may be moved.
@@ -66,5 +67,6 @@ function(install_package target name)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig_folder})
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/${name}-config-version.cmake
           DESTINATION ${cmake_folder})
+  install(FILES ${PROJECT_SOURCE_DIR}/lib/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name})
   install(EXPORT ${name}-targets NAMESPACE ${name}:: DESTINATION ${cmake_folder})
 endfunction()

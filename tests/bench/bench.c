@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bench.c - octree-bench: its command line, and the workloads one after the other. */
 #include "program.h"
 #include "report.h"

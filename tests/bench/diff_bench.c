@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* diff_bench.c - octreel-diff-bench: octreel diff beside cmp, odiff and ImageMagick on the same pictures, in turn. */
 #include "png_read.h"
 #include "png_write.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* filmed_scenes.c - see filmed_scenes.h. */
 #include "filmed_scenes.h"
 #include "octree/sample.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* filmed_scenes.h - what octreel-bench films: the scenes and the goals of its table. */
 #ifndef BENCH_FILMED_SCENES_H
 #define BENCH_FILMED_SCENES_H

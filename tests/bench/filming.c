@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* filming.c - see filming.h. */
 #include "filming.h"
 #include "film.h"

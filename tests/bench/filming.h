@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* filming.h - a scene filmed by one of those that octreel-bench compares, each time in a process of its own. */
 #ifndef BENCH_FILMING_H
 #define BENCH_FILMING_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* measure.c - one operation, timed on several trees in turn, their answers compared. */
 #include "measure.h"
 #include "measuring.h"

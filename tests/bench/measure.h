@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* measure.h - one operation, timed on several trees in turn, their answers compared. */
 #ifndef BENCH_MEASURE_H
 #define BENCH_MEASURE_H

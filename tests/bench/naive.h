@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* naive.h - how one would film without giving it much thought: the yardstick of octreel-bench.
  *
  * The scene of a tick through OSMesa into its own buffer: twelve GL_LINES a box, a GL_POINT a marker, GL's own

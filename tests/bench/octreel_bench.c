@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* octreel_bench.c - octreel-bench: its command line, and its table of frames a second beside the naive way's. */
 #include "filming.h"
 #include "measuring.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ops.c - the operations of the bench, and the trees that each is measured on. */
 #include "ops.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ops.h - the operations of the bench, and the trees that each is measured on. */
 #ifndef BENCH_OPS_H
 #define BENCH_OPS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* peer.h - one face for every tree that the bench measures: the octree and its peers.
  *
  * Each function takes a whole array, so that what is timed is the tree and not the call. A null function is an

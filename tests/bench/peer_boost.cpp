@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 // peer_boost.cpp - Boost.Geometry's R-tree: packed for what does not change, quadratic and R* for what does.
 #include "peer.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 // peer_nanoflann.cpp - nanoflann's static k-d tree in doubles with its default leaf. It keeps no points of its own; an
 // id is a place in the array it was built from.
 #include "peer.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* peer_octree.c - the octree as the bench sees it: default capacity and depth, leaves that grow. */
 #include "peer.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* peers.c - the trees that are in this build. */
 #include "peers.h"
 

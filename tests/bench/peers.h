@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* peers.h - the trees that are in this build. */
 #ifndef BENCH_PEERS_H
 #define BENCH_PEERS_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # plot.gp - cost against the number of points, a panel an operation, from what `octree-bench --json` printed:
 #   gnuplot -e "results='bench.jsonl'; picture='cost.svg'" tests/bench/plot.gp
 # The title of a panel has the exponent e of the octree's cost ~ n^e, fitted to all sets; needs two sizes at least.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report.c - what was measured: a table for people, a JSON object a line for programs. */
 #include "report.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report.h - what was measured: a table for people, a JSON object a line for programs. */
 #ifndef BENCH_REPORT_H
 #define BENCH_REPORT_H

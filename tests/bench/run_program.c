@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* run_program.c - see run_program.h. */
 #include "run_program.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* run_program.h - a program run as a child: how long it took, how much memory, and how it ended. */
 #ifndef BENCH_RUN_PROGRAM_H
 #define BENCH_RUN_PROGRAM_H

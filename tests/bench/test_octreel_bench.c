@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_octreel_bench.c - what octreel-bench says of a filming of a few frames: its times mean nothing. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* workload.c - what every tree is asked: one set of points, changes to it and targets, the same for all. */
 #include "workload.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* workload.h - what every tree is asked: one set of points, changes to it and targets, the same for all. */
 #ifndef BENCH_WORKLOAD_H
 #define BENCH_WORKLOAD_H

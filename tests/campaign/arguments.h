@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* arguments.h - random arguments for operations: on points, beside them by a double or two, between them, far away. One
  * random number a statement: compilers differ in the order within.
  */

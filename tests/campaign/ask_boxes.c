@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ask_boxes.c - boxes, at rest and on their way: ranges and collisions. */
 #include "arguments.h"
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ask_neighbors.c - nearest points and balls, decided by the real numbers; and what may stand for them with an epsilon
  * or in FAST mode.
  */

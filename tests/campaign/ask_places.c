@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ask_places.c - what lies at a place: find, contains, the leaf. */
 #include "arguments.h"
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* campaign.c - octree-campaign: random operations on trees of every scene, each answer held against a scan of all
  * points.
  */

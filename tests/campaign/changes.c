@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* changes.c - random changes, the same to the tree and to the model, some of them with an allocation that fails first.
  */
 #include "arguments.h"

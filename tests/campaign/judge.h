@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* judge.h - what a visitor was called with, held against what belongs to the answer. */
 #ifndef CAMPAIGN_JUDGE_H
 #define CAMPAIGN_JUDGE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* model.h - what a tree must hold and refuse: a plain list of points, and the paper's rule of full leaves without a
  * tree.
  */

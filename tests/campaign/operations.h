@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* operations.h - all that a campaign does to a tree and asks of it. */
 #ifndef CAMPAIGN_OPERATIONS_H
 #define CAMPAIGN_OPERATIONS_H

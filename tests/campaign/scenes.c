@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* scenes.c - see scenes.h. */
 #include "scenes.h"
 

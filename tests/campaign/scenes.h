@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* scenes.h - worlds, and the places in them where a campaign puts its points: one table of all that is ordinary and all
  * that is extreme.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* trial.h - the life of one tree: a scene, a tree, and the model that says what it must hold and answer.
  */
 #ifndef CAMPAIGN_TRIAL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* fuzz_cloud.c - libFuzzer entry of the point-cloud readers: the first byte chooses the file's name, the rest is the
  * file. Build with clang -fsanitize=fuzzer,address,undefined.
  */

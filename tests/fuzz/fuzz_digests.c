@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* fuzz_digests.c - libFuzzer entry of the reader of digest files: what is read is written, and reads back the same.
  * Build with clang -fsanitize=fuzzer,address,undefined.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* fuzz_png.c - libFuzzer entry of the PNG reader and of comparing what it reads. The first byte tells what the rest is:
  * a file as it is, a file whose checksums are put right, so that what is behind them is reached, or a recipe for a
  * legal file. Build with clang -fsanitize=fuzzer,address,undefined; no input may take more memory than the reader

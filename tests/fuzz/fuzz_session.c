@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* fuzz_session.c - libFuzzer entry of the session reader and writer: what is read is written, and reads back to the
  * same bytes. Build with clang -fsanitize=fuzzer,address,undefined; run with
  * ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=32 -malloc_limit_mb=64, for inputs may ask for a

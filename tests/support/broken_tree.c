@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "broken_tree.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* broken_tree.h - a tree that breaks an invariant: no call of the library can make one. */
 #ifndef BROKEN_TREE_H
 #define BROKEN_TREE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* brute.h - a plain array of points that answers by linear scan: the oracle that cannot be wrong about structure.
  */
 #ifndef BRUTE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* counting_allocator.h - an allocator for tests: counts every byte, checks every release, fails on demand.
  */
 #ifndef COUNTING_ALLOCATOR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* extreme_worlds.h - worlds at the edges of doubles, and the boxes of cells in them. */
 #ifndef EXTREME_WORLDS_H
 #define EXTREME_WORLDS_H

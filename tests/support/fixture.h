@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* fixture.h - what every test program of the library needs: cmocka, small trees, random numbers, neighbours of a
  * double.
  */

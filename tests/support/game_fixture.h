@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* game_fixture.h - a small session and the steps of playing one, for tests of the game.
  */
 #ifndef GAME_FIXTURE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "inner_nodes.h"
 
 #include <stdlib.h>

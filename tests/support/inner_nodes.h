@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* inner_nodes.h - the inner nodes of a tree before and after a tick, against which its splits and merges are held. */
 #ifndef INNER_NODES_H
 #define INNER_NODES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* paper.c - see paper.h. Where the paper's text is silent or at fault, a comment says what is done here. */
 #include "paper.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* paper.h - Algorithms 1 to 7 of "3D Spatial Partitioning and Collision Detection using Octrees", as printed.
  *
  * Recursive, eight child pointers, the paper's names. Printing is left out. A point's id is carried along so that a

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "paper_game.h"
 
 #include <string.h>

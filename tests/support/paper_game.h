@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* paper_game.h - the paper's game loop upon its own algorithms, to compare with octree/game.h tick by tick.
  *
  * It plays sessions without velocities, edits and queries: the paper has none. Two things are done as in our game,

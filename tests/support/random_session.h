@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* random_session.h - sessions made of random numbers, the same for the same seed.
  *
  * All coordinates are multiples of 1/4 of modest size, so that plain double arithmetic on them is exact.

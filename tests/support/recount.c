@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "recount.h"
 
 #include <stdlib.h>

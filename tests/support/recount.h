@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recount.h - what a tick's questions met, counted anew: by a walk over all nodes that looks at their boxes alone.
  *
  * Comparisons are plain ones of doubles: true for boxes and balls whose faces and squares are exact, as those of small

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_readers.c - many threads ask one tree at once. Built with ThreadSanitizer, which ends the program with a failure
  * when two of them touch the same memory and one of them writes.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recorder_threads.c - a program and the worker that films it share nothing but what is handed over. Built with
  * ThreadSanitizer: the recorder and the library, whose every access is watched; what draws is taken as it is.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* frames.h - the scenes that pictures are measured on, and how unlike two pictures are. */
 #ifndef TRADEOFF_FRAMES_H
 #define TRADEOFF_FRAMES_H

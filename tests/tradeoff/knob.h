@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob.h - what trades speed for accuracy: one table of knobs, one file each. */
 #ifndef TRADEOFF_KNOB_H
 #define TRADEOFF_KNOB_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_float.c - what would be lost if coordinates were floats, as in most point files and libraries: the tree keeps
  * doubles.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_leaf.c - leaf capacity, greatest depth and AUTO: time for memory, and one operation for another. */
 #include <math.h>
 #include <string.h>

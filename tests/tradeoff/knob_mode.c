@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_mode.c - exact against FAST: what decides between distances that doubles cannot tell apart. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_nearest_epsilon.c - epsilon of nearest neighbours: a ratio of distances for time. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_picture.c - samples a pixel, and boxes too small to show: time for nearness to the picture that has all. */
 #include <math.h>
 #include <string.h>

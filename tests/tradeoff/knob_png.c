@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_png.c - how a frame is compressed: time for bytes, and nothing of the picture. */
 #include <math.h>
 #include <png.h>

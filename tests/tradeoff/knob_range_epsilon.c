@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_range_epsilon.c - epsilon of boxes and balls: points too many for time. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_sweep.c - collision at the ends of a step against collision all the way, by speed. */
 #include <math.h>
 #include <string.h>

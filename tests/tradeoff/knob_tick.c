@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* knob_tick.c - the length of a tick: one flight, played in 1, 2, 4 ... 64 steps. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* mirrored.c - see mirrored.h. */
 #include "mirrored.h"
 

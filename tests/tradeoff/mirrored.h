@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* mirrored.h - near ties: places mirrored about a target, some of them a double or two aside.
  */
 #ifndef TRADEOFF_MIRRORED_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* must.h - calls of the library that cannot fail here. */
 #ifndef TRADEOFF_MUST_H
 #define TRADEOFF_MUST_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* neighbors.c - see neighbors.h. */
 #include "neighbors.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* neighbors.h - searches for the nearest points: timed, counted, and held against the truth. */
 #ifndef TRADEOFF_NEIGHBORS_H
 #define TRADEOFF_NEIGHBORS_H

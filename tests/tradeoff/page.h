@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* page.h - tradeoff.html: all knobs on one page that needs no other file. */
 #ifndef TRADEOFF_PAGE_H
 #define TRADEOFF_PAGE_H

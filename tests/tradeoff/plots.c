@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* plots.c - see plots.h. */
 #include "plots.h"
 

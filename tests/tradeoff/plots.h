@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* plots.h - the picture of a knob: gnuplot runs plots/<knob>.gp on its CSV file. */
 #ifndef TRADEOFF_PLOTS_H
 #define TRADEOFF_PLOTS_H

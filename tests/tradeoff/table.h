@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* table.h - what was measured of one knob: rows of numbers under named columns, and which column bounds which. */
 #ifndef TRADEOFF_TABLE_H
 #define TRADEOFF_TABLE_H

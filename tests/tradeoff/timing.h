@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* timing.h - how long work takes: processor time of this process, contestants in turn, the median of some rounds. */
 #ifndef TRADEOFF_TIMING_H
 #define TRADEOFF_TIMING_H

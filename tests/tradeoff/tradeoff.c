@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tradeoff.c - octree-tradeoff: its command line, and the knobs one after the other. */
 #include <errno.h>
 #include <getopt.h>

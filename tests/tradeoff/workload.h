@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* workload.h - the scenes that knobs are measured on: points, targets, and the true neighbours of each target. */
 #ifndef TRADEOFF_WORKLOAD_H
 #define TRADEOFF_WORKLOAD_H

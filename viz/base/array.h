@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* array.h - growing arrays: items, a count and the room there is, which doubles. */
 #ifndef BASE_ARRAY_H
 #define BASE_ARRAY_H

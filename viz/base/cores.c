@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cores.c - how many processors this machine has. */
 #include "cores.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cores.h - how many processors this machine has. */
 #ifndef BASE_CORES_H
 #define BASE_CORES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* error.c - sentences about what could not be done. */
 #include "error.h"
 

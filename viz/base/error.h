@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* error.h - the sentences of errors. */
 #ifndef BASE_ERROR_H
 #define BASE_ERROR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* file.c - files and their names: read whole, written whole or not at all, copied, compared. */
 #include "file.h"
 

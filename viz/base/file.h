@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* file.h - files and their names: read whole, written whole or not at all, copied, compared. */
 #ifndef BASE_FILE_H
 #define BASE_FILE_H

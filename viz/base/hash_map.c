@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "hash_map.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* hash_map.h - finds the items of an array by their keys. The map stores their indices, in a table with open addressing
  * that is at most half full; items begin with their keys, and are never removed one by one.
  *

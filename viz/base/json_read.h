@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* json_read.h - JSON objects from a text, by jansson; errors name the file, the line and the place in the object. */
 #ifndef BASE_JSON_READ_H
 #define BASE_JSON_READ_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "json_table.h"
 #include "octree/octree.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* json_table.h - structures as JSON objects: one table of members, by which an object is both read and written. */
 #ifndef BASE_JSON_TABLE_H
 #define BASE_JSON_TABLE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* json_write.h - JSON onto a stream, value after value; commas are put where they belong.
  *
  * Numbers are the shortest that read back to the same double, whatever the locale. Everything stays on one line but

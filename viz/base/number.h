@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* number.h - doubles as decimal text and back, whatever the locale.
  *
  * Reading is correctly rounded; what number_print() wrote reads back to the same bits.

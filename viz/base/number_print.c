@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* number_print.c - doubles as the shortest decimal text that reads back, whatever the locale. Numbers of everyday size
  * are taken apart by integers alone, all others by printf: with printf alone, recording 100,000 points takes twice as
  * long. */

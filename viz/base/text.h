@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* text.h - text printed into memory, foreign text made printable or escaped for a markup language, plurals, and
  * base64. */
 #ifndef BASE_TEXT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_accept.c - octreel accept: new frames become the reference. */
 #include "command.h"
 #include "command_line.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
 #include "command.h"
 #include "command_line.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_digest.c - octreel digest: the pixels of many frames as a small text file. */
 #include "command.h"
 #include "command_line.h"

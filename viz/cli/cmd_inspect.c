@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_inspect.c - octreel inspect: the tree of a point cloud: its statistics, a picture, a node, answers to queries. */
 #include "command.h"
 #include "command_line.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_join.c - octreel join: a recording that was filmed in chunks becomes whole. */
 #include "command.h"
 #include "command_line.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_pick.c - octreel pick: what is drawn at a pixel of a frame. */
 #include "command.h"
 #include "command_line.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_record.c - octreel record: film a session into a folder. */
 #include "command.h"
 #include "command_line.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cmd_verify.c - octreel verify: play a recording again, and say what is not the same. */
 #include "command.h"
 #include "command_line.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* command.h - the commands of octreel: each is defined in the cmd_*.c of its name, and main.c has the table. */
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* command_line.c - one loop over the options for all commands. */
 #include "command_line.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* command_line.h - reads the command line of a command: its own options, and those that commands share. */
 #ifndef CLI_COMMAND_LINE_H
 #define CLI_COMMAND_LINE_H

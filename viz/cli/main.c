@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* main.c - octreel's command line: a table of commands. */
 #include "command.h"
 #include "options.h"

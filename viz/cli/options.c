@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "options.h"
 #include "number.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* options.h - the values of options, and the options that all commands that draw share. */
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H

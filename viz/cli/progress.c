@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* progress.c - a progress bar, and pending signals. */
 #include "progress.h"
 

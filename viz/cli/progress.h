@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* progress.h - how far a long task is, shown on a terminal; and signals that ask to end it. */
 #ifndef CLI_PROGRESS_H
 #define CLI_PROGRESS_H

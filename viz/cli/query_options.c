@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* query_options.c - one table of the options that are queries; their numbers are read by what each kind of query takes.
  */
 #include "query_options.h"

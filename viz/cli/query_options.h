@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* query_options.h - queries on a command line: --nearest, --radius, --range. */
 #ifndef CLI_QUERY_OPTIONS_H
 #define CLI_QUERY_OPTIONS_H

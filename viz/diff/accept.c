@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* accept.c - references are compared with new frames, and replaced by them. */
 #include "accept.h"
 #include "digest_file.h"

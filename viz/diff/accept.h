@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* accept.h - new frames become the reference. */
 #ifndef DIFF_ACCEPT_H
 #define DIFF_ACCEPT_H

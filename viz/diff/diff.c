@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* diff.c - frames are paired by name, and the pairs compared on all cores. */
 #include "diff.h"
 #include "digest_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* diff.h - two sides are compared frame by frame, and each pair gets its finding. */
 #ifndef DIFF_DIFF_H
 #define DIFF_DIFF_H

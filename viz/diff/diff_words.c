@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* diff_words.c - findings in lines for people. */
 #include "diff_words.h"
 #include "text.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* diff_words.h - what a comparison found, in lines for people. Each is printed without its end. */
 #ifndef DIFF_WORDS_H
 #define DIFF_WORDS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* digest_file.c - files of digests, read and written. */
 #include "digest_file.h"
 #include "parallel.h"

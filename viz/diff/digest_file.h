@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* digest_file.h - the pixels of many frames as a text file of a few kilobytes, to be compared with instead of pictures.
  *
  *   octreel-digests 1

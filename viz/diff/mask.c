@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* mask.c - masks as run lengths. */
 #include "mask.h"
 #include "array.h"

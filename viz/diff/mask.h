@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* mask.h - which pixels of a frame are left out of a comparison, packed: many frames may wait to be compared. */
 #ifndef DIFF_MASK_H
 #define DIFF_MASK_H

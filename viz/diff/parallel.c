@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* parallel.c - a loop over threads. */
 #include "parallel.h"
 #include "cores.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* parallel.h - independent pieces of work on all cores. */
 #ifndef DIFF_PARALLEL_H
 #define DIFF_PARALLEL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* side.c - what a path stands for, and its frames. */
 #include "side.h"
 #include "array.h"

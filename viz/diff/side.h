@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* side.h - one of the two things that are compared: a picture, a folder of them, a recording, or a file of digests. */
 #ifndef DIFF_SIDE_H
 #define DIFF_SIDE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* box_lines.h - the lines in the world that the edges of boxes lie on: boxes with equal lines may share edges. Boxes
  * and lines are kept from one scene to the next, and changed lines are marked. For this folder. */
 #ifndef DRAW_BOX_LINES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* canvas.h - turns the quads of a frame into colour indices, with as little work for the rasteriser as possible. For
  * this folder.
  *

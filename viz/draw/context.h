@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* context.h - the kinds of off-screen GL contexts: their names, and the interface that renderer.c draws through.
  * context_osmesa.c and context_egl.c are one kind each; CMake chooses which of them are built. */
 #ifndef DRAW_CONTEXT_H

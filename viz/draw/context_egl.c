@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* context_egl.c - EGL without a display, a surface or a configuration, opened at run time: draws off-screen with
  * versions of Mesa that no longer have OSMesa. EGL may choose a graphics card, so the software device is requested when
  * devices can be listed. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* context_osmesa.c - Mesa's off-screen context. The library is opened at run time: without it there is an error
  * message, and the program still starts. */
 #include "context.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* edges.c - a box has twelve edges, and in a tree most are shared. They are grouped by the line that they lie on, whose
  * doubles are compared exactly, and each line is swept once. Most are dropped before: a tree's boxes come from the root
  * down, and an edge on a parent's edge is covered by it. A line keeps its edges from frame to frame unless a box on it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* edges.h - the edges of a scene's boxes, each once, as maximal segments. For this folder. */
 #ifndef DRAW_EDGES_H
 #define DRAW_EDGES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "paint.h"
 #include "layer.h"
 #include "letters.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* paint.h - a scene as flat quads in painter's order: the whole picture, before any GL. For this folder. */
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H

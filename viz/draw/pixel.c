@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pixel.c - a picture's quads are drawn again with numbers for colours, so that every sample has the same winner as in
  * the picture. For one pixel, the quads that may cover it are drawn one by one. */
 #include "pixel.h"

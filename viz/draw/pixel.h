@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pixel.h - which elements are drawn where: at each sample, at one pixel, and by which layers. */
 #ifndef DRAW_PIXEL_H
 #define DRAW_PIXEL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* project.h - world geometry through the camera: clipped, cut into bands of depth, in pixels; all in doubles. For this
  * folder. */
 #ifndef DRAW_PROJECT_H

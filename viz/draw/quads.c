@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "quads.h"
 #include "array.h"
 #include "layer.h"

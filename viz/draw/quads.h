@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* quads.h - the flat quads that a scene is painted with, in painter's order. For this folder.
  *
  * Coordinates are in 1/256 pixel, y down, snapped. Visibility is decided here, not by GL: layers in their

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* renderer.c - quads into a framebuffer object, and its pixels back. GL rasterises and decides nothing else.
  *
  * The framebuffer has one channel, which holds the index of a colour: a frame is read back as it is written to a file.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* renderer.h - draws scenes.
  *
  * A renderer holds one off-screen context and draws scenes of one size into indices of the theme's colours. Under

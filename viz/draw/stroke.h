@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stroke.h - lines and marks as quads of whole 1/256 samples. For this folder. */
 #ifndef DRAW_STROKE_H
 #define DRAW_STROKE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* changes.c - how the points of a tree change from tick to tick. */
 #include "changes.h"
 #include "array.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* changes.h - how the points of a tree change from tick to tick: read and compared by id, kept as batches, and turned
  * into a session's edits. Private to this folder. */
 #ifndef EMBED_CHANGES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* queue.c - ticks on their way from the program's thread to the one that films. */
 #include "queue.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* queue.h - ticks on their way from the program's thread to the one that films: bounded in number and in bytes. Private
  * to this folder. */
 #ifndef EMBED_QUEUE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recorder.c - ticks are checked, compared with those before them, and handed on to the ring or to what films them. */
 #include "octreel/recorder.h"
 #include "error.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_filmer.c - a thread that films ticks as a program handed them over. */
 #include "session_filmer.h"
 #include "error.h"

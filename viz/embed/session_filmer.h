@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_filmer.h - a thread that films ticks as a program handed them over: those of a queue as they come, those of a
  * ring when they are wanted.
  *

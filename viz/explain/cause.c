@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause.c - two sessions played tick by tick. */
 #include "cause.h"
 #include "array.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause.h - two sessions played side by side: in what they differ, at which ticks, and how. */
 #ifndef EXPLAIN_CAUSE_H
 #define EXPLAIN_CAUSE_H

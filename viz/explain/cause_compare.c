@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_compare.c - two objects of JSON, member by member; see cause_compare.h. */
 #include "cause_compare.h"
 

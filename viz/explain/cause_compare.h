@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_compare.h - two objects of JSON are compared member by member; two sessions, two views and two ticks are
  * compared as the objects that are written of them. Each adds facts; where there is no memory for it
  * facts->out_of_memory is set.

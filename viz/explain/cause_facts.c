@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_facts.c - facts, grouped by where they are and how they changed. */
 #include "cause_facts.h"
 #include "array.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_facts.h - in what two recordings differ, as a list of facts. Of two values the first is the reference's.
  *
  * A fact says where: the path of a member of a session file, of recording.json or of a line of ticks.jsonl, such as

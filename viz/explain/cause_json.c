@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_json.c - an explanation as JSON. */
 #include "cause_json.h"
 #include "text.h"

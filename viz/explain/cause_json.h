@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_json.h - why two recordings differ, as JSON.
  *
  *   {"session": [group ...], "view": [group ...], "compared": 253, "differing": 212, "first": 41, "last": 252,

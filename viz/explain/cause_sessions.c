@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_sessions.c - sessions and views, compared as the files that are written of them. See cause_compare.h. */
 #include "cause_compare.h"
 #include "session_file.h"

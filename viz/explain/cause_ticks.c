@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_ticks.c - two ticks of the same number, compared as their lines in ticks.jsonl, and their trees. See
  * cause_compare.h. */
 #include "cause_compare.h"

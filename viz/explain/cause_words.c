@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_words.c - sentences from facts, by a table of phrases. */
 #include "cause_words.h"
 #include "number.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cause_words.h - why two recordings differ, in sentences. */
 #ifndef EXPLAIN_CAUSE_WORDS_H
 #define EXPLAIN_CAUSE_WORDS_H

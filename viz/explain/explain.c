@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* explain.c - two sides are explained pair by pair; recordings are played for it. */
 #include "explain.h"
 #include "cause_words.h"

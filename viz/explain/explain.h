@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* explain.h - why two sides differ: a sentence for each pair, and a headline.
  *
  * Two recordings are explained by their sessions, which are played side by side; other frames by their text chunks.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ignored_layers.c - masks of layers, from the scenes of both recordings. */
 #include "ignored_layers.h"
 #include "layer.h"

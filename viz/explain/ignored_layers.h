@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ignored_layers.h - where layers are seen in the frames of a recording, so that they can be left out of a comparison.
  */
 #ifndef EXPLAIN_IGNORED_LAYERS_H

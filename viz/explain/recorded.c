@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recorded.c - the files of a recording that is explained. */
 #include "recorded.h"
 #include "frame_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recorded.h - a recording that is explained: its session and view, and whether its files agree with them. */
 #ifndef EXPLAIN_RECORDED_H
 #define EXPLAIN_RECORDED_H

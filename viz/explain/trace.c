@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* trace.c - which elements are drawn at the pixels that differ. */
 #include "trace.h"
 #include "array.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* trace.h - the pixels in which two frames of a tick differ, traced to the elements that are drawn there. */
 #ifndef EXPLAIN_TRACE_H
 #define EXPLAIN_TRACE_H

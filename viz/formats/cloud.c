@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "cloud_format.h"
 #include "file.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cloud.h - the points of a file: `x y z` text, PLY and PCD, in double precision.
  *
  * Text: one point a line, its first three columns; columns are separated by blanks and tabs, by commas or by

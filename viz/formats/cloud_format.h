@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cloud_format.h - the formats of point clouds, and what their readers share: the file in memory, its lines and words,
  * its binary numbers, the growing result and the sentence of an error. Private to cloud*.c.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cloud_pcd.c - the points of a PCD file, version 0.5 to 0.7, the format of the Point Cloud Library. */
 #include "cloud_format.h"
 #include "number.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cloud_ply.c - the vertices of a PLY file (Greg Turk, "The PLY Polygon File Format", 1994), ascii or binary. */
 #include "cloud_format.h"
 

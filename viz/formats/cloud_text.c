@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* cloud_text.c - points as text: a line each, its first three columns x y z. */
 #include "cloud_format.h"
 #include "number.h"

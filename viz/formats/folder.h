@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* folder.h - the folder of a recording: made, checked, and filled with files written whole or not at all. */
 #ifndef FORMATS_FOLDER_H
 #define FORMATS_FOLDER_H

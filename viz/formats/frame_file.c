@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "frame_file.h"
 #include "ticks_write.h"
 #include "image_digest.h"

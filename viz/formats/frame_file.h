@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* frame_file.h - the frame of a tick as a file of a recording: its name, what traces it to the tick that made it, and
  * whether the one that is there is that one. */
 #ifndef FORMATS_FRAME_FILE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "recording_file.h"
 #include "file.h"
 #include "session_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recording_file.h - recording.json: the version of a recording, and its view.
  *
  *   {"octreel": "recording", "version": 2, the view, "theme": "night", "every": 1}

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_file.c - session files: read, written, and sessions that own their arrays. */
 #include "session_file.h"
 #include "file.h"

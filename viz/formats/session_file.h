@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_file.h - sessions as files: a stream of JSON objects, the header and then objects of one tick each.
  *
  * The header; all but its first two members may be left out:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_items.c - edits, queries and shapes: lists of objects of one kind among several, each with a member that
  * bears its kind's name. */
 #include "array.h"

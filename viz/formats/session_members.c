@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "session_members.h"
 
 #include <inttypes.h>

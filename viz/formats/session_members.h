@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_members.h - the members of a session file, one row each, by which they are read and written. Private to
  * session_*.c.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_points.c - the points of a session file: listed, from a file of points, or a sample; and velocities by id. */
 #include "cloud.h"
 #include "hash_map.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "ticks_write.h"
 #include "json_table.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* ticks_write.h - a tick as one line of ticks.jsonl. Each fact is a row of line_members in ticks_write.c, and by what
  * is written ticks are verified and compared: a new one needs nothing else. */
 #ifndef FORMATS_TICKS_WRITE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "view_options.h"
 #include "layer.h"
 #include "number.h"

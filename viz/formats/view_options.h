@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* view_options.h - the options of a view, one row each, by which the command line, recording.json and programs that
  * record themselves go; comparisons go by recording.json. A new option is a member of `view` and a row in
  * view_options.c.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* image.h - a picture in memory. Knows neither GL nor trees.
  *
  * An image is either indexed (one byte a pixel into a palette) or RGB (three samples a pixel, of 8 bits or, when it was

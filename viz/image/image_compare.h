@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* image_compare.h - where two images differ, and by how much: counted, judged and drawn. */
 #ifndef IMAGE_IMAGE_COMPARE_H
 #define IMAGE_IMAGE_COMPARE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "image_digest.h"
 #include "octree/digest.h"
 #include "png_read.h"

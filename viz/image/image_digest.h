@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* image_digest.h - one number for the size and the colours of a picture. */
 #ifndef IMAGE_IMAGE_DIGEST_H
 #define IMAGE_IMAGE_DIGEST_H

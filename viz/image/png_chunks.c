@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "png_chunks.h"
 
 #include <stdint.h>

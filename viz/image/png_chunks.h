@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* png_chunks.h - size and texts of PNG files, read chunk by chunk without decoding pixels. */
 #ifndef IMAGE_PNG_CHUNKS_H
 #define IMAGE_PNG_CHUNKS_H

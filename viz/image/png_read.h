@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* png_read.h - PNG files of every kind to images: whole, or row by row. */
 #ifndef IMAGE_PNG_READ_H
 #define IMAGE_PNG_READ_H

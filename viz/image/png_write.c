@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "png_write.h"
 #include "file.h"
 #include "text.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* png_write.h - pictures to PNG files, which are written completely or not at all. */
 #ifndef IMAGE_PNG_WRITE_H
 #define IMAGE_PNG_WRITE_H

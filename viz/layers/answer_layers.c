@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* answer_layers.c - the layers of a tick's queries: what was asked, and what was found. */
 #include "layer_type.h"
 #include "number.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* asked_layer.c - the layer of the node of a tree that is asked for. */
 #include "layer_type.h"
 #include "node_boxes.h"

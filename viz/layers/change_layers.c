@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* change_layers.c - the layers of what happened to the tree's nodes: merges, splits, and what must never happen. */
 #include "layer_type.h"
 #include "node_boxes.h"

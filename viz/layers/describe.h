@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* describe.h - a description in words of an element of a tick's scene: the node, point, query or event that its id
  * stands for. Each layer describes its own elements (layer_type.h).
  */

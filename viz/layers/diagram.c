@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* diagram.c - the layer of the diagram: the tree drawn as a tree, the paper's Figure 2.
  *
  * A row a level, the root at the top. Nodes that have room are drawn one by one, with a line from each to its parent:

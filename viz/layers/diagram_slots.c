@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "diagram_slots.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* diagram_slots.h - the diagram's layout: which nodes are drawn one by one, and where across the picture each stands.
  *
  * A node has a slot, an interval within 0 to 1, which is divided among its octants in Morton order. The share of a leaf

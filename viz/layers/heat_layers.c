@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* heat_layers.c - the layers of heat: a mark in the middle of each leaf, larger and lighter the more visits or points
  * it had since tick 0. */
 #include "heat_layers.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* heat_layers.h - the scales of the heat layers. */
 #ifndef LAYERS_HEAT_LAYERS_H
 #define LAYERS_HEAT_LAYERS_H

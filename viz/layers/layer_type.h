@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* layer_type.h - what a layer does. The file of a layer in this folder defines a layer_type of its row in layer.h, such
  * as layer_RANGE; scenes, the legend and `octreel pick` use nothing else.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* legend.h - what colours and lines mean, at the foot of the column. Layers add their lines (layer_type.h). */
 #ifndef LAYERS_LEGEND_H
 #define LAYERS_LEGEND_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "node_boxes.h"
 
 theme_role node_role(const view *v, unsigned depth, size_t points)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* node_boxes.h - boxes of nodes, for the layers that show some of them; and how too many points are thinned out. */
 #ifndef LAYERS_NODE_BOXES_H
 #define LAYERS_NODE_BOXES_H

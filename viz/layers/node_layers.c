@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* node_layers.c - the layers of a tree's nodes and points, within the view's filter, lod and budget.
  */
 #include "layer_type.h"

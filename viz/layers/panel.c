@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* panel.c - the text layer: the column at the left, which describes the tick. */
 #include "layer_type.h"
 #include "layout.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pen.h - writing into the column of text at the left, line by line. */
 #ifndef LAYERS_PEN_H
 #define LAYERS_PEN_H

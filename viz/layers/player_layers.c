@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* player_layers.c - the layers of the player, and of its collision box and what is in it. */
 #include "layer_type.h"
 #include "node_boxes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* shape_layer.c - the layer of what a session shows beside its points. Ids are places among the tick's shapes. */
 #include "layer_type.h"
 #include "text.h"

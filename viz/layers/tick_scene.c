@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tick_scene.c - the table of layers, and scenes made by it. */
 #include "tick_scene.h"
 #include "layer_type.h"

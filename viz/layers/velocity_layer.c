@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* velocity_layer.c - the layer of velocities: for each point that moves and that the view shows an arrow with its id,
  * from where it is along its velocity, up to the world's bounds, where it bounces. Arrows beyond the budget, a
  * thousandth of the view's since more would be indistinct, and arrows shorter than the view's lod are left out and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* velocity_layer.h - the scale of the arrows. */
 #ifndef LAYERS_VELOCITY_LAYER_H
 #define LAYERS_VELOCITY_LAYER_H

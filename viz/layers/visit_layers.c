@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* visit_layers.c - the layers of a tick's queries: nodes pruned, nodes visited, leaves with hits. */
 #include "layer_type.h"
 #include "node_boxes.h"

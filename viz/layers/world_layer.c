@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* world_layer.c - the world's box, the view's slice and region, and axes with numbers along the box that the camera
  * frames. */
 #include "layer_type.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* film.c - a session, or one tree, becomes pictures in files. */
 #include "film.h"
 #include "cores.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* film.h - a session becomes a recording: every tick played, drawn and written. */
 #ifndef RECORD_FILM_H
 #define RECORD_FILM_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* film_options.h - how a session is filmed, and what came of it. */
 #ifndef RECORD_FILM_OPTIONS_H
 #define RECORD_FILM_OPTIONS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* film_report.c - the summary printed after filming. */
 #include "film_report.h"
 #include "json_write.h"

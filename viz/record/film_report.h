@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* film_report.h - the summary printed after filming. */
 #ifndef RECORD_FILM_REPORT_H
 #define RECORD_FILM_REPORT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* folder_files.c - the files of a recording that are written once, and to which recording a folder belongs. */
 #include "folder_files.h"
 #include "frame_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* folder_files.h - the files of a recording that are written once: the session, the view and the renderer; and
  * whether a folder that is not empty may be filmed into. */
 #ifndef RECORD_FOLDER_FILES_H

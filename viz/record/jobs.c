@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* jobs.c - a recording by several processes. */
 #include "jobs.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* jobs.h - a recording by several processes, since contexts in threads of one process do not scale.
  *
  * Each process plays the whole session and films a share of its ticks, every N-th frame; the one that started them

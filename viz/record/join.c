@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* join.c - a recording that was filmed in chunks becomes whole. */
 #include "join.h"
 #include "folder_files.h"

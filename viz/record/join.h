@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* join.h - a recording that was filmed in chunks becomes whole.
  *
  * Each tick must have its line in a chunk, and each frame must be there, whole, and of its tick, of the scene that the

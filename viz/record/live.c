@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* live.c - a session in the making becomes a recording. */
 #include "live.h"
 #include "frame_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* live.h - a session in the making becomes a recording: each tick is drawn and written when it comes, and the session
  * is written last. The recording is that of film_session() with the session that came out.
  *

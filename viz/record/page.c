@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* page.c - index.html: a recording as a page to scrub through. */
 #include "page.h"
 #include "file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* page.h - index.html: a recording as a page to scrub through, which opens from the disk. */
 #ifndef RECORD_PAGE_H
 #define RECORD_PAGE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* page_html.h - the page of page/index.html, its style and scripts inside, as CMake makes bytes of it: what comes
  * before a recording's facts, and what comes after them. */
 #ifndef RECORD_PAGE_HTML_H

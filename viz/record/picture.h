@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* picture.h - one scene becomes one image: a renderer, the frame's pixels and the theme's palette. */
 #ifndef RECORD_PICTURE_H
 #define RECORD_PICTURE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* playback.c - a session played: each of its ticks becomes a scene, a frame and a line of ticks.jsonl. */
 #include "playback.h"
 #include "frame_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* playback.h - a session played: each of its ticks becomes a scene, a frame and a line of ticks.jsonl.
  *
  *   playback p;

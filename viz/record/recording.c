@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recording.c - a recording while it is made, by one process or several. */
 #include "recording.h"
 #include "page.h"

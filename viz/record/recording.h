@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recording.h - a recording while it is made, by one process or several: its folder, the files that are written once,
  * its lines, and what they add up to. Private to this folder. */
 #ifndef RECORD_RECORDING_H

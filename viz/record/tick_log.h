@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tick_log.h - ticks.jsonl while it grows: whole lines, whatever happens. */
 #ifndef RECORD_TICK_LOG_H
 #define RECORD_TICK_LOG_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* inspect.c - builds the tree of a point cloud; prints its statistics and nodes. */
 #include "inspect.h"
 #include "file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* inspect.h - the tree of a point cloud, its statistics and its nodes. */
 #ifndef REPLAY_INSPECT_H
 #define REPLAY_INSPECT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* inspect_answers.c - queries the tree of a cloud, and prints the answers by the traits of each kind of query. */
 #include "inspect_answers.h"
 #include "inspect.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* inspect_answers.h - queries that the tree of a cloud answers, and what each answer cost. */
 #ifndef REPLAY_INSPECT_ANSWERS_H
 #define REPLAY_INSPECT_ANSWERS_H

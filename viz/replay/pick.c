@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pick.c - finds what is drawn at a pixel of a frame; prints it for people and as JSON. */
 #include "pick.h"
 #include "frame_file.h"

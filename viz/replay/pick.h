@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pick.h - what is drawn at a pixel of a recording's frame: plays the session to its tick, makes the scene again, and
  * names the elements at that pixel. */
 #ifndef REPLAY_PICK_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* replay.c - opens a recording and plays it to a tick. */
 #include "replay.h"
 #include "folder_files.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* replay.h - opens a recording and plays it to any tick: its game, and the scene of its frame.
  *
  *   replay r;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* verify.c - plays a recording again and compares it tick by tick; prints what was found. */
 #include "verify.h"
 #include "frame_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* verify.h - plays a recording again and compares it with what its session makes.
  *
  * The facts, the draw lists and the pixels are compared tick by tick, up to the first tick that differs. How a frame is

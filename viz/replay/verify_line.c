@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "verify_line.h"
 #include "array.h"
 #include "file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* verify_line.h - reads ticks.jsonl line by line, whatever it holds, and finds in what a line differs. */
 #ifndef REPLAY_VERIFY_LINE_H
 #define REPLAY_VERIFY_LINE_H

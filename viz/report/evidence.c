@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* evidence.c - the folder of evidence, and the pictures in it. */
 #include "evidence.h"
 #include "file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* evidence.h - a folder that shows what a comparison found: pictures of each pair that differs, and report.html. */
 #ifndef REPORT_EVIDENCE_H
 #define REPORT_EVIDENCE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* evidence_page.h - the page of evidence/report.html, its style and scripts inside, as CMake made bytes of it: what
  * comes before the facts and pictures of a comparison, and what comes after. */
 #ifndef REPORT_EVIDENCE_PAGE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report.c - a comparison as text for people. */
 #include "report.h"
 #include "diff_words.h"

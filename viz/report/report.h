@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report.h - what a comparison found, for people and for programs. */
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H

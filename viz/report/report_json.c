@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report_json.c - a comparison as JSON. */
 #include "report_json.h"
 #include "cause_json.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report_json.h - members of JSON that more than one report has. */
 #ifndef REPORT_REPORT_JSON_H
 #define REPORT_REPORT_JSON_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report_junit.c - a comparison as JUnit's XML: see report.h.
  *
  * A time is wanted by readers of it and not known: it is 0. The line with ATTACHMENT shows a picture in GitLab and in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report_markdown.c - a comparison for the page of a CI job: see report.h. */
 #include "report.h"
 #include "diff_words.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report_page.c - report.html of a folder of evidence: see report.h.
  *
  * Between the page's two halves go the facts, a line of JSON for the whole and one for each frame that differs, and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* No libm beyond sqrt, fabs, floor, fmod and fmax: the same camera on every machine. */
 #include "camera.h"
 #include "filter.h"

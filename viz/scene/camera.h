@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* camera.h - from world coordinates to pixels, in doubles.
  *
  * A camera frames a box: the world, or the box that its view fits. Positions are first taken relative to the lowest

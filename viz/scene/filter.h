@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* filter.h - which nodes and points of a tree a view shows.
  *
  * A node is shown when it passes every part of the filter:

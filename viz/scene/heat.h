@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* heat.h - how often each node of a game was visited, and how many points it held, since tick 0. It is updated tick by
  * tick and depends on the session alone, not on the view.
  */

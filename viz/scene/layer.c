@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* layer.c - the table of layers, and lists of them as people type them. */
 #include "layer.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* layer.h - the layers of a scene, one row each.
  *
  * To add a layer: a row here, a file in viz/layers with its layer_type (layer_type.h), its test, a row in the tables of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* scene.h - the draw list of one tick: what a frame shows, as plain arrays, without any GPU.
  *
  * World geometry (boxes, segments, markers, letters) is in world coordinates and is drawn through the camera; panels

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "theme.h"
 
 #define ROLE_NAME(role, name, r, g, b) name,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* theme.h - what the colours mean, and the fixed table of 256 that a frame is made of.
  *
  * A role has eight shades, from 0 (near, full colour) to 7 (far, towards the background): the colour of a pixel is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* view.h - how a scene is viewed: size, camera, layers, colours and filter. recording.json stores it. */
 #ifndef SCENE_VIEW_H
 #define SCENE_VIEW_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* digest.h - one 64-bit digest for trees, scenes and pixels: the same on every machine, not for cryptography.
  *
  * Start with OCTREE_DIGEST_START and feed words or bytes; the order counts.

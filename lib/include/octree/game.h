@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* game.h - the paper's game loop: a player moves through a bounded world of points, tick by tick.
  *
  * A session is all that is needed to play; playing it twice gives the same ticks on every machine. Tick 0 is the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* octree.h - a dynamic point octree in double precision.
  *
  * The tree stores points (a position and the caller's 64-bit id) in a closed box, the world. A leaf that is full

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* sample.h - seeded point distributions: one workload for sessions, tests and benches.
  *
  * The same kind, seed, box and index give the same point on every machine: integers, additions, products and square

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bits.h - small integer tricks: counting bits, and Morton order. */
 #ifndef OCTREE_BITS_H
 #define OCTREE_BITS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "exact.h"
 
 /* A finite double as mantissa * 2^exponent, the mantissa an integer below 2^53, and a sign. */

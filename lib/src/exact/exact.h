@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* exact.h - sums that are not rounded.
  *
  * exact_sum holds any sum of up to 2^20 products of two doubles, as a fixed-point number wide enough for the smallest

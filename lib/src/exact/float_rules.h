@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* float_rules.h - what floating-point arithmetic must be for the library's answers to hold. Included by every source
  * that computes.
  *

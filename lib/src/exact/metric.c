@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "metric.h"
 #include "exact.h"
 #include "point.h"

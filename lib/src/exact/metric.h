@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* metric.h - squared distances in doubles that neither overflow nor underflow in any world, with a proven error.
  *
  * Coordinates are first multiplied by a power of two that brings the world's extent near 1. For points of the world

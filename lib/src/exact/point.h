@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* point.h - comparing positions and boxes. */
 #ifndef OCTREE_POINT_H
 #define OCTREE_POINT_H

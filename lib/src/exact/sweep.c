@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* Relative to the box's middle the point goes from u = p - a to w = q - b, where p, q are the point's ends and a, b the
  * box's. On an axis on which it goes downwards by d = u - w > 0, it is within the size r from enter = (u - r) / d to
  * leave = (u + r) / d; upwards everything is mirrored. It is touched when the three intervals and 0..1 have a moment in

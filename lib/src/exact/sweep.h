@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* sweep.h - whether a moving box touches a moving point. */
 #ifndef OCTREE_SWEEP_H
 #define OCTREE_SWEEP_H

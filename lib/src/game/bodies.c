@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "bodies.h"
 #include "float_rules.h"
 #include "game_state.h"

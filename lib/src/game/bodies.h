@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bodies.h - the points of a game by id: edits, and where their velocities take them. Private. */
 #ifndef OCTREE_BODIES_H
 #define OCTREE_BODIES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* game.c - the game loop: one tick after another, in the order that game.h states. */
 #include "float_rules.h"
 #include "game_state.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* game_state.h - a game's insides, which its files share. Private. */
 #ifndef OCTREE_GAME_STATE_H
 #define OCTREE_GAME_STATE_H

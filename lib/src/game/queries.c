@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* queries.c - what can be asked of a tree: the table of kinds, checking, asking, and the queries of a tick.
  */
 #include "queries.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* queries.h - the queries of a tick, and the nodes that its searches visited. Private. */
 #ifndef OCTREE_QUERIES_H
 #define OCTREE_QUERIES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* sample.c - the distributions. No libm beyond sqrt: the same points on every machine. */
 #include "octree/sample.h"
 #include "point.h"

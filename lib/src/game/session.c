@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session.c - what a game is played from: a session is checked, its bodies are loaded, and the paper's own session. */
 #include "session.h"
 #include "game_state.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session.h - checking a session and loading its bodies. Private. */
 #ifndef OCTREE_SESSION_H
 #define OCTREE_SESSION_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "tree_summary.h"
 #include "walk.h"
 

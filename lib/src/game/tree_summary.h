@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tree_summary.h - digest, statistics and inner nodes of a game's tree after each tick. Private.
  *
  * A tick touches few places, and only nodes between them and the root change. So the tree is divided into subtrees of

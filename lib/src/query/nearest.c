@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* nearest.c - Algorithms 6 and 7: the nearest points, decided by the real numbers.
  *
  * A depth-first search, nearest octant first. It goes straight to the leaf that the target lies in, by integers alone,

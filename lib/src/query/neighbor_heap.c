@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "neighbor_heap.h"
 #include "search.h"
 

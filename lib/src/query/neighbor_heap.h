@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* neighbor_heap.h - the k nearest neighbours found so far, decided by the real numbers. Private.
  *
  * A heap in the caller's array, the farthest on top. Squared distances in doubles decide whenever their proven error

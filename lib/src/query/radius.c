@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* radius.c - the points in a closed ball. */
 #include "region.h"
 

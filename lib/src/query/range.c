@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* range.c - the points in a closed box: Algorithm 4, and Algorithm 5, which asks for the box about a place. */
 #include "exact.h"
 #include "region.h"

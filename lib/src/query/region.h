@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* region.h - visiting the points in a region of space: a box, a ball, or the volume that a moving box sweeps. Private.
  *
  * A region is described by three functions of its `shape`. The traversal is depth first; a shape keeps its state

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* search.h - what all queries share: checked arguments, counts and traces of what they met. Private. */
 #ifndef OCTREE_SEARCH_H
 #define OCTREE_SEARCH_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* swept.c - the points that a moving box touches: tested against the box around the whole step by keys, against the
  * hull of the step by doubles where their error allows, and the remaining points exactly.
  *

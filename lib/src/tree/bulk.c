@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* bulk.c - many points inserted or removed at once. They are sorted by Morton code, and each node that changes is made
  * anew from its old self and its share of them; nodes that do not change are shared with the old tree. The new root
  * takes the place of the old one at the end, so that the change either happens or does not.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* change.c - single changes. Algorithm 1: a point goes down to its leaf; a full leaf splits, refuses or grows.
  * Algorithm 2: a point is removed; nodes whose points now fit one leaf merge. A move is both, or stays in its leaf. */
 #include "tree.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* leaf.h - the nodes of a tree, and the points of those that are leaves.
  *
  * Up to 64 points lie in a block of the tree's pool. A larger leaf is hashed: it has a block of its own with a hash

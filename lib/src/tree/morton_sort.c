@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A radix sort from the world down to small cells, whose items soon fit a cache. */
 #include "morton_sort.h"
 #include "plane.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* morton_sort.h - sorting points by their Morton codes. */
 #ifndef OCTREE_MORTON_SORT_H
 #define OCTREE_MORTON_SORT_H

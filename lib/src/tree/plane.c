@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "plane.h"
 
 /* sum[0] + sum[1] = a + b, without error (Knuth's TwoSum). */

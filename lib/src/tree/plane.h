@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* plane.h - planes, cells, Morton codes and addresses: one closed form for insertion, queries and drawing.
  *
  * Each axis of the world is cut by 2^21 + 1 grid planes. A cell of depth d spans 2^(21-d) of the gaps between them on

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* pool.h - where memory comes from: an arena (the caller's allocator and its byte count), pools, growing arrays.
  *
  * A pool hands out blocks of 1 to 64 equal units from large slabs, with one free list for each size. A tree has two:

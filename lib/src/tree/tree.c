@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 #include "tree.h"
 #include "float_rules.h"
 #include "metric.h"

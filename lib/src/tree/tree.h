@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tree.h - the tree itself: its making, its definition, and the path from its root to a leaf.
  *
  * Canonical form: a node is an inner node exactly when it holds more points than the capacity and its cell can be

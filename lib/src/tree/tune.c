@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tune.c - the leaf capacity by a cost model: the weighted counts of what operations visit in trial trees. */
 #include "tree.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* walk.c - all nodes of a tree, one after the other: for visitors, the validator, statistics and the digest. */
 #include "walk.h"
 #include "exact.h"

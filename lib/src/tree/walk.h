@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* walk.h - what is added up over all nodes of a tree: its statistics and its digest. */
 #ifndef OCTREE_WALK_H
 #define OCTREE_WALK_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact.c - nearest neighbours, collisions and distances against whole-number arithmetic that cannot round. */
 #include "fixture.h"
 

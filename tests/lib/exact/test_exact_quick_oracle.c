@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_quick_oracle.c - the quick oracle says what the exact one says: at every scale, and where they differ by
  * less than any rounding.
  */

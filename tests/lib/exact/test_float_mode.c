@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_float_mode.c - a thread whose floating-point mode is not the default gets its own status, and never a wrong
  * answer.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_game_sweep.c - swept ticks against exact rationals: points that move past a player that moves, at every
  * scale of doubles. */
 #include "fixture.h"

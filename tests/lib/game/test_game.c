@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game.c - the game loop: the default session, the player's steps, keys, and what create refuses. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_bodies.c - bodies that move, edits, queries, and the order of all these within a tick. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_load.c - bodies that a session begins with, which are loaded at once, are in the game as if each had been
  * inserted after the other: by edits of the first tick.
  */

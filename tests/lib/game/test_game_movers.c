@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_movers.c - the bodies that a tick says move: which, where from, and how they go on. */
 #include "fixture.h"
 

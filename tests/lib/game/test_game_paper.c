@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_paper.c - our game against the paper's loop upon the paper's algorithms: the same positions, collisions and
  * nearest neighbours at every tick. Where the paper's text is at fault the difference is shown. */
 #include "fixture.h"

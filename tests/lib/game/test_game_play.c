@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_play.c - ticks whose edits and queries were not in the session: the same as in a session that has them. */
 #include "fixture.h"
 

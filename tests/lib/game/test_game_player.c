@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_player.c - games without a player, and games whose player is a body that edits move. */
 #include "fixture.h"
 

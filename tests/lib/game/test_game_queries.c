@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* The table of query kinds, and asking a tree outside of a game. */
 #include "counting_allocator.h"
 #include "fixture.h"

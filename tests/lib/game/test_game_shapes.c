@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_shapes.c - what a tick shows beside the points: handed through, and nothing else to the game. */
 #include "fixture.h"
 

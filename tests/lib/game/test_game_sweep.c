@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_sweep.c - collisions on the way of a tick: nothing is tunnelled, whoever moves. test_game_ticks.c has
  * random sessions, test_exact_game_sweep.c the truth to the last bit. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_ticks.c - what every tick of every session promises, on random sessions with moving bodies, edits and
  * queries; and that playing twice is playing the same. */
 #include "fixture.h"

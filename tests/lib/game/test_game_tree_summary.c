@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_tree_summary.c - what a tick says of its tree, looking at what changed alone, is what a look at all of it
  * says: in trees of many thousand points, of which a tick touches none, a few, a cell full, or nearly all.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_game_visits.c - what a tick says that its questions met, held against a walk over all nodes. */
 #include "fixture.h"
 

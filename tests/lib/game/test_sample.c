@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_sample.c - the seeded distributions: in the box, the same everywhere, of the shapes that their names say. */
 #include "fixture.h"
 

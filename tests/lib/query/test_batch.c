@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_batch.c - nearest points in batches: target by target what a single search says, in any order of targets.
  */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_collect.c - the points of a range in an array of the caller's: all that fit, counted, in order where asked.
  */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_collide.c - Algorithm 5: who is within the box, decided exactly, the tree unchanged. */
 #include "fixture.h"
 

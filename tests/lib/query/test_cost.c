@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cost.c - the cost report: counted by hand on a small tree, added up, the same every time, and free to leave out.
  */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_epsilon.c - epsilon for neighbours, boxes and balls, and FAST: within their bounds, and worth having.
  *
  * Whole coordinates and dyadic epsilons keep every square here exact; test_exact_epsilon.c has the rest.

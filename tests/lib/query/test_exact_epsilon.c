@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_epsilon.c - what epsilon and FAST promise, by whole-number arithmetic: ratios, lengths, and their edges.
  */
 #include "fixture.h"

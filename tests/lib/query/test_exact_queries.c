@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_queries.c - k nearest, balls and the nearest within a radius against whole-number arithmetic.
  */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_shapes.c - for the same contents, leaf capacity and depth never change an answer: every capacity from 1 to
  * 64 at every depth from 0 to 21 says what a scan says that decides by whole numbers.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_swept.c - swept boxes against exact rationals: grazing, near misses, and every scale of doubles. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_swept_hull.c - slanting steps: nodes beside the way are left out, and no point on it is, at any scale.
  * test_swept.c and test_exact_swept.c have what is touched.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_nearest.c - Algorithms 6 and 7: the true nearest point, ties, and who is left out. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_nearest_k.c - the k nearest points: how many, in which order, who is left out, whatever the shape of the tree.
  */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_radius.c - the points in a closed ball, and the nearest of them: the sphere itself counts, by the real numbers.
  */
 #include "fixture.h"

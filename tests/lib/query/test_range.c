@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_range.c - Algorithm 4: closed boxes, counts, early stops. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_subnormal.c - a world of whole numbers times 2^-1074, where all coordinates are subnormal and products with them
  * take a way of their own, answers as the world of those numbers does, at the same cost. test_exact_queries.c has the
  * truth about both.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_swept.c - collision on the way: walls are never tunnelled, whatever the step. test_exact_swept.c has the truth
  * about grazing and extreme scales.
  */

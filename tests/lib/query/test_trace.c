@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_trace.c - the trace of a query names each node that it met, once, and why the others were left out. */
 #include "fixture.h"
 

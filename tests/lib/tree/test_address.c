@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_address.c - addresses and their text. */
 #include "fixture.h"
 

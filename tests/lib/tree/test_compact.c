@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_compact.c - a tree that is laid out anew: the same nodes and points, in no more memory than a fresh one. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_create.c - the definition table, and null for every pointer that a public function requires. */
 #include "fixture.h"
 

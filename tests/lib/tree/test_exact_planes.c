@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_exact_planes.c - the planes of cells against the real ones. */
 #include "exact_oracle.h"
 #include "extreme_worlds.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_find.c - Algorithm 3: exact coordinates, the lowest id, the bits that were stored. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_insert.c - Algorithm 1: what is taken, where it goes, what is refused. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_many.c - many insertions or removals at once are the same as one after the other, in statuses and in nodes. */
 #include "fixture.h"
 

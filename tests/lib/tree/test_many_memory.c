@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_many_memory.c - memory when many points change at once: failures leave no trace, and a point has its bound. */
 #include "fixture.h"
 

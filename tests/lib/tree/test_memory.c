@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_memory.c - the allocator contract: every byte comes back, and every failure leaves the tree as it was. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_million.c - a million points, equal or not: linear memory, constant time a point, and 64 KiB of stack for all of
  * it, the tests themselves included.
  */

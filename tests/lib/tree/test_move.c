@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_move.c - a point arrives or stays. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_nodes.c - walk, locate and node_at: every point in the leaf that is drawn around it, the same nodes whatever
  * the order of changes. Addresses are in test_address.c. */
 #include "fixture.h"

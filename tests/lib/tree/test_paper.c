@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_paper.c - the tree against the transcription of the paper's algorithms: where the paper is right they agree, and
  * where its text is at fault the difference is shown. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_planes.c - the box of a cell: monotone, nested, never overflowing, and the paper's centres where those are
  * exact. test_exact_planes.c holds the planes against the real ones.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_remove.c - Algorithm 2: removal by position and id, and the merge that follows. */
 #include "fixture.h"
 

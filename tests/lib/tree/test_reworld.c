@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_reworld.c - the same points in another world: as if the tree had been built there, or nothing has happened. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_tune.c - a leaf capacity chosen for the points and a mix of operations: only the nodes change, never an answer.
  */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* exact_oracle.c - see exact_oracle.h. */
 #include "exact_oracle.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* exact_oracle.h - real squared distances as whole numbers of GMP: the truth about near ties and extreme scales.
  *
  * Every finite double is a whole multiple of 2^-1074; scaled by that, sums and squares are exact.

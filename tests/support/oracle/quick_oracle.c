@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* quick_oracle.c - see quick_oracle.h.
  *
  * Where long doubles have 64 bits and 15 of exponent, sums and squares of doubles neither overflow nor underflow: a

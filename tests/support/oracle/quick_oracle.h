@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* quick_oracle.h - what exact_oracle.h decides, a hundred times faster: by long doubles of 64 bits and a wide exponent,
  * whose rounding is bounded, and by exact_oracle.h itself where that bound cannot tell. It owes nothing to the library.
  */

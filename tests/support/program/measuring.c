@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* measuring.c - see measuring.h. */
 #include "measuring.h"
 

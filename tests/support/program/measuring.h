@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* measuring.h - what a time is, and which of several is told. */
 #ifndef MEASURING_H
 #define MEASURING_H

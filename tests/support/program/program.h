@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* program.h - what the benches, the campaign and the trade-off have in common as commands: a sentence and status 2 for
  * what cannot be done, and the reading of arguments.
  */

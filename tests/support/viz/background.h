@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* background.h - octreel run beside a test, which watches it and sends it signals. */
 #ifndef BACKGROUND_H
 #define BACKGROUND_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* browser.c - see browser.h. */
 #include "browser.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* browser.h - headless Chromium: what becomes of a page that is opened from the disk. */
 #ifndef BROWSER_H
 #define BROWSER_H

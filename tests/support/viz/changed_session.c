@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* changed_session.c - see changed_session.h. */
 #include "changed_session.h"
 

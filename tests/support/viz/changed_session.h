@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* changed_session.h - a random session and the same with one change, for tests that ask what the change is. */
 #ifndef CHANGED_SESSION_H
 #define CHANGED_SESSION_H

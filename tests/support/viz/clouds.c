@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* clouds.c - point-cloud files for tests. */
 #include "clouds.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* clouds.h - point-cloud files for tests: putting them together, and what must come of them. */
 #ifndef CLOUDS_H
 #define CLOUDS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* column.c - see column.h. */
 #include "column.h"
 #include "fixture.h"

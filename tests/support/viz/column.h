@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* column.h - the words and swatches beside a picture, as tests look at them. */
 #ifndef SUPPORT_VIZ_COLUMN_H
 #define SUPPORT_VIZ_COLUMN_H

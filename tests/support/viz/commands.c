@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* commands.c - see commands.h. */
 #define _XOPEN_SOURCE 700 /* pseudo terminals */
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* commands.h - the program octreel, or a line of shell, run as a child: what it says, and how it ends. */
 #ifndef COMMANDS_H
 #define COMMANDS_H

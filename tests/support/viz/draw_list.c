@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* draw_list.c - see draw_list.h. */
 #include "draw_list.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* draw_list.h - what a scene has in a layer, for tests. */
 #ifndef DRAW_LIST_H
 #define DRAW_LIST_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* drive_report.js - uses a page of evidence as people do, and says what it shows: a line "what<tab>value" each. It waits
  * for what the page tells of itself, and never for a time in which it should be done. */
 "use strict";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* drive_viewer.js - uses a recording's page as people do, and says what it shows: a line "what<tab>value" each. */
 "use strict";
 

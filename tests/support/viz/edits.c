@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* edits.c - see edits.h. */
 #define _XOPEN_SOURCE 700
 

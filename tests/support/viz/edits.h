@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* edits.h - recordings that somebody changed by hand, for tests. The test fails where there is nothing to change. */
 #ifndef EDITS_H
 #define EDITS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* files.h - files and folders within the folder of a test.
  *
  * Every function but file_exists() fails the test when it cannot do its job.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* film_again.c - see film_again.h. */
 #include "film_again.h"
 

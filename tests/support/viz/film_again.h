@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* film_again.h - what a recorder made is the recording of its session, for tests. */
 #ifndef FILM_AGAIN_H
 #define FILM_AGAIN_H

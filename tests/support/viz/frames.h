@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* frames.h - renderers and frames for tests.
  */
 #ifndef FRAMES_H

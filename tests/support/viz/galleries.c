@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* galleries.c - see galleries.h. */
 #include "galleries.h"
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* galleries.h - folders of small pictures for tests of comparisons, and sides opened on them. */
 #ifndef GALLERIES_H
 #define GALLERIES_H

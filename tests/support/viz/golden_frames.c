@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* golden_frames.c - see golden_frames.h. */
 #include "golden_frames.h"
 #include "view_options.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* golden_frames.h - the frames of golden/: each shows one thing. */
 #ifndef GOLDEN_FRAMES_H
 #define GOLDEN_FRAMES_H

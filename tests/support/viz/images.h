@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* images.h - pictures for the tests of viz/image. */
 #ifndef IMAGES_H
 #define IMAGES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* moving_tree.c - see moving_tree.h. */
 #include "moving_tree.h"
 

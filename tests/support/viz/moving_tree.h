@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* moving_tree.h - a program with a tree of its own, for tests of what records it: points come, move, change places and
  * go, and it asks and shows something at every tick.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* naive_compare.c - see naive_compare.h. */
 #include <setjmp.h>
 #include <stdarg.h>

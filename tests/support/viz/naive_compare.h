@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* naive_compare.h - the oracle of image comparison: pixel by pixel, straight from the definitions, in long double. */
 #ifndef NAIVE_COMPARE_H
 #define NAIVE_COMPARE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* png_by_hand.c - see png_by_hand.h. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* png_by_hand.h - PNG files made and taken apart chunk by chunk with zlib alone, so that libpng is not its own witness.
  */
 #ifndef PNG_BY_HAND_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recordings.c - see recordings.h. */
 #include "recordings.h"
 #include "png_read.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recordings.h - recordings for tests: made small, and looked through. */
 #ifndef RECORDINGS_H
 #define RECORDINGS_H

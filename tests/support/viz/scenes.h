@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* scenes.h - scenes for tests: by hand, of games, and of games that are moved and scaled.
  */
 #ifndef SCENES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_variant.c - see session_variant.h. */
 #include "session_variant.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* session_variant.h - a small session, the same with one change, and the line that says in what they differ. */
 #ifndef SESSION_VARIANT_H
 #define SESSION_VARIANT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stored_png.c - see stored_png.h. */
 #include "stored_png.h"
 #include "images.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stored_png.h - random pictures, stored by libpng in every way that PNG knows. */
 #ifndef STORED_PNG_H
 #define STORED_PNG_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* temp_folder.c - see temp_folder.h. */
 #include "temp_folder.h"
 

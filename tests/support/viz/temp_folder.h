@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* temp_folder.h - a folder of its own for a test, so that what is left behind can be counted.
  *
  * cmocka_unit_test_setup_teardown(test, temp_folder_make, temp_folder_remove) puts a temp_folder into *state.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tick_lines.c - see tick_lines.h. */
 #include "tick_lines.h"
 

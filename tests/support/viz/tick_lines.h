@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* tick_lines.h - lines of ticks.jsonl, held against the ticks of a game. */
 #ifndef TICK_LINES_H
 #define TICK_LINES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* traced.c - see traced.h. */
 #include "traced.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* traced.h - octreel run call by call: what would be left if it were killed at one of them can be looked at. */
 #ifndef TRACED_H
 #define TRACED_H

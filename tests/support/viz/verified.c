@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* verified.c - see verified.h. */
 #include "verified.h"
 

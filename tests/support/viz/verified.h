@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* verified.h - a short recording, and what verifying says of it, for tests. */
 #ifndef VERIFIED_H
 #define VERIFIED_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* xml_check.c - see xml_check.h. */
 #include "xml_check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* xml_check.h - whether a text is XML, by a small reader of its own: elements, attributes, text and references. */
 #ifndef XML_CHECK_H
 #define XML_CHECK_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # float.gp - what rounding to float does by the distance from the origin.
 set multiplot layout 1,3
 set key inside top left

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # leaf.gp - time and memory by leaf capacity, with what AUTO chose; and time by the greatest depth.
 set multiplot layout 1,3
 set key inside top right

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # mode.gp - wrong answers per million by scene, how far wrong, and what exactness costs.
 set multiplot layout 1,3
 set style data histogram

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # nearest-epsilon.gp - the ratio found against the ratio proven, and what it saves.
 set multiplot layout 1,2
 set xlabel "epsilon"

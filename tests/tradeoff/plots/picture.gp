@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # picture.gp - nearness to the picture with 16 x 16 samples and nothing left out, against time and primitives.
 set multiplot layout 1,3
 set key inside bottom right

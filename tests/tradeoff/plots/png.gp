@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # png.gp - bytes against time of the encoder, by way of storing and level.
 set multiplot layout 1,words(scenes)
 ways = "indexed-rle indexed rgb rgb-adaptive"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # range-epsilon.gp - how far outside, how many too many, and what it saves.
 set multiplot layout 1,3
 set key inside top left maxrows 7 font ",8"

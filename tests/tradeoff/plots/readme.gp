@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # readme.gp - the two pictures of the README, from what octree-tradeoff wrote into a folder. What they show is counted and
 # not timed: the same on every machine.
 #   gnuplot -e "folder='build/tradeoff'" tests/tradeoff/plots/readme.gp && cp build/tradeoff/readme-*.png tests/tradeoff/

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # style.gp - what all plots share. `csv`, `png` and `scenes` (names with blanks between) are given.
 if (!exists("size_x")) { size_x = 1240 }
 if (!exists("size_y")) { size_y = 560 }

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # sweep.gp - collisions missed by speed, and what the sweep costs.
 set multiplot layout 1,2
 set key inside top left

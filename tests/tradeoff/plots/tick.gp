@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # tick.gp - one flight in more and more ticks: who flies past, how far the stop is off, and what it takes.
 set multiplot layout 1,3
 set key inside top right

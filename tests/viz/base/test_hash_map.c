@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_hash_map.c - items of an array found by their keys. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_json_write.c - JSON onto a stream, and finding places in a JSON text. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_number.c - doubles as text and back. */
 #include <setjmp.h>
 #include <stdarg.h>

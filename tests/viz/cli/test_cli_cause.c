@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_cause.c - octreel diff of two recordings: the cause in words and as JSON, and exit statuses. */
 #include <stdlib.h>
 #include <string.h>

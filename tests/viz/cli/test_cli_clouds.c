@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_clouds.c - octreel inspect: clouds that cannot be read, places that cannot be written, and how far it is. */
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_context.c - octreel's --context: who draws, what is said where nobody can, and that a renderer which is not
  * llvmpipe draws only where it is asked for. */
 #include <stdio.h>

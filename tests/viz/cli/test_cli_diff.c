@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_diff.c - octreel diff and digest: exit statuses, what is said, JSON, and what is refused. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_evidence.c - octreel diff -o, --junit and --markdown: which files they leave, what they say of them, and
  * what is trouble. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_inspect.c - octreel inspect: its statistics add up, its nodes lie within each other, and what it refuses. */
 #include <stdio.h>
 #include <stdlib.h>

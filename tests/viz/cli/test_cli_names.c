@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_names.c - names on the command line: empty ones, and those that a terminal would obey. */
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_outputs.c - what octreel writes does not take the place of what it reads, nor one of its files that of
  * another, however they are named; and a command that is refused leaves nothing. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_pick.c - octreel pick: what it says of pixels whose elements the camera tells, and how it ends. */
 #include "commands.h"
 #include "edits.h"

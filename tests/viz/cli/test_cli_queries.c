@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_queries.c - octreel inspect asked on its command line: its answers are those of a scan over all points. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_record.c - octreel and octreel record: what the command line takes, says and refuses. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cli_verify.c - octreel verify: what it says, and how it ends. */
 #include <stdio.h>
 #include <string.h>

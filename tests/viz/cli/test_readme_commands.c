@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_readme_commands.c - the README's lines on films and clouds are run as they stand there, one after the other. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_readme_job.c - the README's job for GitHub: its lines are run as they stand there, but for the one that installs
  * and builds. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_accept.c - octreel accept: what becomes the reference, what goes, and what is left alone. */
 #include "commands.h"
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_diff.c - two sides: which frame belongs to which, and what is found of each pair. */
 #include "galleries.h"
 #include "ignored_layers.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_digest_file.c - files of digests: written, read back, compared with pictures, and refused with a line. */
 #include "digest_file.h"
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_row_by_row.c - pictures that are read and compared row by row, beside the same held whole. */
 #include "diff.h"
 #include "images.h"

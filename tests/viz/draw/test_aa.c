@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_aa.c - anti-aliasing: what a picture is made of, that letters stay crisp, and how large it may be. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_canvas.c - what is not sent to the rasteriser, or not sent again, is drawn all the same. */
 #include "frames.h"
 #include "canvas.h"

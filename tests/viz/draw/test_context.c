@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_context.c - contexts: each kind that is built draws the same, beside one of another kind too; llvmpipe alone. */
 #include "frames.h"
 

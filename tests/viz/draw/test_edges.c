@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_edges.c - the merged edges of boxes against every unit stretch of a small grid, and against counting. */
 #include "scenes.h"
 #include "edges.h"

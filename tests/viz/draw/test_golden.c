@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_golden.c - the frames of golden/ are drawn as they were: exactly.
  *
  * All are drawn into the folder golden/ of the build's tests and compared with the references as octreel diff does it;

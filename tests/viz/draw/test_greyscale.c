@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_greyscale.c - with the picture turned to greys, a collision is still told from free flight: by what is drawn,
  * and not by the colour that it is drawn in.
  *

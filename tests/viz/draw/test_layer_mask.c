@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_layer_mask.c - where layers are seen in a picture. */
 #include "frames.h"
 #include "layer.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_line_styles.c - lines that are bold, and lines that are cut out of what lies beneath: what pixels they light. */
 #include "frames.h"
 #include "layer.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_pixel.c - all elements of one pixel: what is on top, what it covers, and what is there by another's paint. */
 #include "frames.h"
 #include "golden_frames.h"

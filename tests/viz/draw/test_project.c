@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_project.c - clipping and cutting of segments, against long double, against sampling, and at 1e300. */
 #include "scenes.h"
 #include "project.h"

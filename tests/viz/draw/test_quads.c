@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_quads.c - painter's order, and the quads of a whole scene before any GL. */
 #include "scenes.h"
 #include "paint.h"

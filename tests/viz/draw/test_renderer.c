@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_renderer.c - renderers: which sizes they take, and that the same scene is the same frame. */
 #include "frames.h"
 #include "layer.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_same_bytes.c - a recording is the same bytes, renderer.json aside: filmed twice, played again from its own
  * session.json, by the library or the program, through any context, on
  * however many threads and on whatever processor. */

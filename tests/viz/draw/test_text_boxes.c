@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_text_boxes.c - text lights no pixel outside the boxes that are told of it. */
 #include "frames.h"
 #include "letters.h"

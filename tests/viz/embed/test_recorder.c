@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recorder.c - a program records itself: what comes out is the recording of what its tree was. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recorder_crash.c - what is left of the recording of a program that is killed. It forks, which it may while it
  * has drawn nothing: hence a program of its own.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recorder_errors.c - what a recorder refuses: each with its own status and a sentence, and nothing lost. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recorder_memory.c - the n-th allocation of a call fails, n = 0, 1, 2 ...: the call says so, and nothing is lost.
  *
  * The linker hands the program's allocations to the functions below (see tests/CMakeLists.txt). They fail in the thread

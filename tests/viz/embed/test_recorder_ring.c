@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recorder_ring.c - the last ticks of a program, kept until it wants them filmed. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cause.c - one seeded change to a random session: the cause is that change and nothing else, and what follows
  * from it is what brute force finds. A number in its arguments is that of the seeds. */
 #include <inttypes.h>

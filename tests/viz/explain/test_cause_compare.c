@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cause_compare.c - two objects of JSON are compared member by member, those that nobody has words for too. */
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cause_members.c - whatever member of a session file is changed, the frames that differ have that as their cause,
  * and never another version of octreel. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cause_sessions.c - in what two sessions differ, and the line that says so: every part of a session in turn. */
 #include "fixture.h"
 #include "session_variant.h"

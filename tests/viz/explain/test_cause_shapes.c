@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cause_shapes.c - in which shapes two sessions differ, and the line that says so. */
 #include <string.h>
 

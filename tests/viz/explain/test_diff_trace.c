@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_diff_trace.c - the pixels in which two frames differ belong to elements: to those that differ. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_explain.c - why two recordings differ, frame by frame: what their files say, and where they are not believed. */
 #include <stdlib.h>
 #include <string.h>

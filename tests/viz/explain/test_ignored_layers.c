@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_ignored_layers.c - what a layer shows is left out of a comparison, wherever it is in the frames of a recording.
  */
 #include <stdio.h>

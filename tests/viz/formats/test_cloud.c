@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cloud.c - opening point-cloud files, and points as text. */
 #include "clouds.h"
 #include "temp_folder.h"

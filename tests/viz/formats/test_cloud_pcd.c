@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cloud_pcd.c - the PCD reader. */
 #include "clouds.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_cloud_ply.c - the PLY reader. */
 #include "clouds.h"
 

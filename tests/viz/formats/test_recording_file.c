@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recording_file.c - the view in recording.json: what is written is read back, and what is none is refused. */
 #include <stdio.h>
 #include <stdlib.h>

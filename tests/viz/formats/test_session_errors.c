@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_session_errors.c - what is no session, and the sentence that says so. */
 #include <setjmp.h>
 #include <stdarg.h>

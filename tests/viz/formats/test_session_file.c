@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_session_file.c - sessions from files. */
 #include "fixture.h"
 #include "octree/sample.h"

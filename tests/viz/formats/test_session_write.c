@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_session_write.c - sessions to files and back, copies of sessions, and other keys for them. */
 #include "fixture.h"
 #include "octree/sample.h"

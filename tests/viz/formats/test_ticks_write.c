@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_ticks_write.c - a tick as one line of JSON: all that it was, and back to the bit. */
 #include <float.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_view_options.c - the rows of the options of a view. */
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_compare.c - counting and judging the difference of two images, against an oracle that goes pixel by pixel. */
 #include "images.h"
 #include "naive_compare.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_draw_difference.c - the picture of a difference: what glows in it, what is blue, and how it is written. */
 #include "fixture.h"
 #include "images.h"

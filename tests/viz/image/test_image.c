@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_image.c - images in memory: creation, digests, palettes and drawn differences. */
 #include "images.h"
 #include "image_digest.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_png_read.c - PNG files of every kind to pixels: the legal ones without loss, the hostile ones with a sentence.
  */
 #include "images.h"

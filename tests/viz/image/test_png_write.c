@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_png_write.c - images to PNG files: what is in them, byte by byte, and what is left when writing fails. */
 #include "images.h"
 #include "png_by_hand.h"

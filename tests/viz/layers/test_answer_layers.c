@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_answer_layers.c - what a tick asked, in its draw list: each answer in the layer of its kind, and nothing else.
  */
 #include "scenes.h"

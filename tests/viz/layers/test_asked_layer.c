@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_asked_layer.c - the node that inspect is asked for: marked in the space view, named in the legend. */
 #include "scenes.h"
 

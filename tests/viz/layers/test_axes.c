@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_axes.c - the numbers along the edges of the world: round, where they say, apart from each other. */
 #include "scenes.h"
 #include "camera.h"

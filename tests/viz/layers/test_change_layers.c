@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_change_layers.c - splits, merges and a broken invariant in the draw list: each where it is, and nothing else. */
 #include "scenes.h"
 

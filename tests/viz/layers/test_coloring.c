@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_coloring.c - what the colour of a node tells, and that the legend explains it. */
 #include "scenes.h"
 #include "brute.h"

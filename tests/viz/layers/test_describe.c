@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_describe.c - every element that a tick can show is told in words, of what it is about. */
 #include "describe.h"
 #include "scenes.h"

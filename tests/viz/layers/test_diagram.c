@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_diagram.c - the tree drawn as a tree: each node once or in a bar, in its colour, and the way to one of them;
  * counted again by walking the tree. */
 #include "scenes.h"

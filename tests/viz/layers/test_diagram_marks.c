@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_diagram_marks.c - how the tick met nodes in the diagram: bold and dashed lines, as a recount has them. */
 #include "scenes.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_labels.c - the paths on nodes: right, at their nodes, none on another, and none left out without a reason. */
 #include "scenes.h"
 #include "brute.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_legend.c - which layers the legend explains, and which it leaves out where there is no room for all. */
 #include "scenes.h"
 #include "brute.h"

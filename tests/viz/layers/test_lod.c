@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_lod.c - what is left out because it is small or because there is too much of it: exactly that, and the frame
  * says so. */
 #include "scenes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_panel.c - the words and swatches beside a picture: what they tell, and that they fit their place. */
 #include "scenes.h"
 #include "brute.h"

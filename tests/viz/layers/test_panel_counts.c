@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_panel_counts.c - every number that the column tells of a tick is that of its line in ticks.jsonl, and that of a
  * recount from the points alone: by looking at each of them, and by dividing the world among them again. What the
  * tick met is held so in test_visit_layers.c, what is left out in test_lod.c. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_velocity_layer.c - arrows of points that move: those and nothing else, each along its point's velocity, and
  * what is left out is told. */
 #include "scenes.h"

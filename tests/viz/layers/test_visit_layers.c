@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_visit_layers.c - what a tick's questions met, in its draw list and in words, held against a recount. */
 #include "scenes.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_chunks.c - a session filmed in chunks: what one leaves, what it refuses, and how they become the same bytes as
  * one film. What is missing or wrong is named. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_film.c - a session becomes a recording: its frames, what traces them to their ticks, and its lines. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_film_report.c - the lines that record prints for ffmpeg: run in a shell, they make of every frame what they
  * say. */
 #include <inttypes.h>

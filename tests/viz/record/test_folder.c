@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_folder.c - the folder of a recording: made with its parents, refused untouched, filled with whole files. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_full_disk.c - writing that fails at any byte: a sentence that names the file, and nothing half written. */
 #include <stdio.h>
 #include <string.h>

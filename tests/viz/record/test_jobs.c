@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_jobs.c - a recording by several processes: the bytes of one, whatever becomes of the processes. */
 #include <signal.h>
 #include <stdio.h>

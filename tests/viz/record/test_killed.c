@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_killed.c - a kill at any call: every frame that is there is whole, and the recording is completed to the bytes
  * of one that was left alone.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_page.c - index.html of a recording: the facts of ticks.jsonl, safe within a page that needs nothing else;
  * there whole or not at all. What the page does with them is test_page_shown.c. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_page_shown.c - index.html in headless Chromium: it opens from the disk, steps, plays and filters, and shows
  * what ticks.jsonl says. */
 #include <stdio.h>

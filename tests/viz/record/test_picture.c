@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_picture.c - what pixels a scene lights, and which it leaves alone. */
 #include "frames.h"
 #include "layer.h"

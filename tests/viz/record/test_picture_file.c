@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_picture_file.c - a picture as a file: opaque, without gamma, and its pixels are those that were drawn. */
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_recorded_ticks.c - a recording is opened and played to any of its ticks: the scenes are those of its frames. */
 #include "recordings.h"
 #include "layer.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_resume.c - a recording that was stopped or broke off, completed to the bytes of one that was not; what is there
  * is believed for its pixels and not for its name. */
 #include <fcntl.h>

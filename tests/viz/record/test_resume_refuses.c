@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_resume_refuses.c - what octreel record --resume, and a chunk, do not touch: files of somebody else, of another
  * session or view, and folders that say nothing of what was to be filmed. */
 #include <stdio.h>

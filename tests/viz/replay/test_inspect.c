@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_inspect.c - the world of a cloud at its extremes, and the tree that is built in it. */
 #include <float.h>
 #include <math.h>

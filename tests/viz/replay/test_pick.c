@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_pick.c - which element is seen at a sample: against the frame itself, against scenes of one element, and against
  * the places of boxes, which are found by the camera alone. */
 #include "frames.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_replay.c - sessions replay to the same ticks.jsonl and the same scenes on every machine and compiler: to the
  * digests in replay_digests.txt, a line a tick. tests/viz/same_ticks_everywhere runs this under the compilers at hand,
  * with FMA and without.

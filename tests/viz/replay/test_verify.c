@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_verify.c - verifying: a recording is identical to what its session makes; a session and a view that were changed
  * by hand are found, and what cannot be verified is trouble. */
 #include <stdio.h>

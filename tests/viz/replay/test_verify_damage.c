@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_verify_damage.c - verifying: no byte of a recording can change unnoticed, and none does harm. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_verify_frames.c - verifying: frames that are missing, torn, exchanged, painted over, too many, or drawn by
  * another renderer are found and told apart. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_verify_lines.c - verifying: what was changed by hand in ticks.jsonl is found, and the fact that differs is
  * named. */
 #include <stdio.h>

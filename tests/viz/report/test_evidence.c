@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_evidence.c - the folder of evidence: which pictures are left of each finding, what is in them, and into which
  * folders they go. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_report_page.c - report.html in headless Chromium: it says the cause, steps from difference to difference,
  * swipes, blinks and zooms, says what was left out, and loads nothing. */
 #include <stdio.h>

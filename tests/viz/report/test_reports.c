@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_reports.c - JUnit's XML and Markdown: what they say, and that no name can break them. */
 #include <stdio.h>
 #include <stdlib.h>

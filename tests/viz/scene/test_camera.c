@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_camera.c - the cameras: turns, bases, what they hold in view, and that neither place nor scale matters. */
 #include "scenes.h"
 

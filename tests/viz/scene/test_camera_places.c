@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_camera_places.c - cameras where lines run through the eye: inside a node, on a plane, on an edge, at a point,
  * looking any way, straight up too. */
 #include "frames.h"

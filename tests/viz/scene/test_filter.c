@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_filter.c - what a view shows of a tree: every node and point that passes its filter, and no other. */
 #include "scenes.h"
 #include "brute.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_fit.c - the box that a fitting camera frames: the points that are shown at tick 0. */
 #include "scenes.h"
 #include "brute.h"

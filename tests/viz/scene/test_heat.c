@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_heat.c - what nodes have seen since tick 0: counted anew from the ticks, drawn on a fixed scale, the same
  * however many of the ticks are filmed.
  */

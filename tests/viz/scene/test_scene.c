@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_scene.c - the draw list of a tick, without any picture: what is in it, how often, and where. What the tick asked
  * is in test_answer_layers.c. */
 #include "scenes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_scene_digest.c - the digest of a draw list tells any two lists apart, and nothing but the list changes it. */
 #include "scenes.h"
 

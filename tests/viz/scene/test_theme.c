@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_theme.c - what the colours may mean, how they fade, and what is left of them without red, green or any hue. */
 #include "fixture.h"
 #include "theme.h"

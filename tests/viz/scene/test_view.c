@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* test_view.c - names of layers, lists of them, and the unit of lines and text. */
 #include "scenes.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* error.h - what could not be done, and why: the one type of error of all that films. */
 #ifndef OCTREEL_ERROR_H
 #define OCTREEL_ERROR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* recorder.h - record a program from inside: hand over its tree, and what it asked of it, once a tick of its own loop.
  *
  * A recorder keeps a session in the making: what changed in the tree since the last tick becomes the session's edits,

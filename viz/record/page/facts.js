@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* facts.js - what the recording says: the lines of ticks.jsonl, read one by one when they are wanted. */
 "use strict";
 

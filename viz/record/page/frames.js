@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* frames.js - the pictures: decoded before they are shown, and only a few of them kept. */
 "use strict";
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* page.js - where the viewer is, how it gets elsewhere, and what follows from that. The place is in the address:
  * #t=41&filter=collided,full. */
 "use strict";

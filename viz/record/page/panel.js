@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* panel.js - the facts of one tick, beside its frame: all that its line of ticks.jsonl has, in its order and under its
  * names, so that a new fact needs no change here. */
 "use strict";

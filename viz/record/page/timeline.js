@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* timeline.js - a lane an event and a lane a curve, above each other on one scale of ticks, with the tick marked. */
 "use strict";
 

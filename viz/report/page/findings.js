@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* findings.js - what was found, as the page has it, and in words. */
 "use strict";
 

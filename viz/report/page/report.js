@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* report.js - which frame is looked at and how, the keys that change that, and what is said beside it. The place is in
  * the address: #frame=frame_000041.png&mode=blink. */
 "use strict";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* stage.js - the pictures of one frame: in panes that show the same part of them, one over the other or beside. */
 "use strict";
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 // The library from C++: a game of the default session, and a lambda that visits points.
 #include <octree/game.h>
 #include <octree/octree.h>

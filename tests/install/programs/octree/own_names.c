@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* A program may have functions of any name. These have names that the library has inside, and it never calls them. */
 #include <octree/octree.h>
 
