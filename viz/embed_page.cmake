@@ -29,13 +29,11 @@ math(EXPR behind "${cut} + 7")
 string(SUBSTRING "${page}" 0 ${cut} head)
 string(SUBSTRING "${page}" ${behind} -1 tail)
 
-# Bytes and not a string literal, of which C promises 4095 characters and no more.
-string(REPEAT "." 80 row) # sixteen bytes
+include(${CMAKE_CURRENT_LIST_DIR}/c_bytes.cmake)
 set(source "#include \"${name}.h\"\n")
 foreach(part head tail)
   string(HEX "${${part}}" bytes)
-  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
-  string(REGEX REPLACE "(${row})" "\\1\n" bytes "${bytes}")
+  c_bytes(bytes "${bytes}")
   string(APPEND source "\nconst unsigned char ${name}_${part}[] = {\n${bytes}\n};\n"
                        "const size_t ${name}_${part}_size = sizeof ${name}_${part};\n")
 endforeach()

@@ -1,41 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* session_file.h - sessions as files: a stream of JSON objects, the header and then objects of one tick each.
- *
- * The header; all but its first two members may be left out:
- *   {"octreel": "session", "version": 1,
- *    "world": {"min": [-1000, -1000, -1000], "max": [1000, 1000, 1000]},
- *    "tree": {"capacity": 8, "depth": 21, "full": "refuse" or "grow"},
- *    "player": {"id": 0, "position": [0, 0, 0], "step": 50, "box_size": 30, "sweep": false},
- *              or {"id": 7, "body": true, "box_size": 30, "sweep": false}, or null,
- *    "points": a list of [x, y, z], [x, y, z, id] and {"id": 7, "position": [x, y, z], "velocity": [vx, vy, vz]},
- *              or {"file": "cloud.pcd"}, or {"sample": "clustered", "count": 2000, "seed": 1},
- *    "velocities": [[id, vx, vy, vz], ...], or {"speed": 5, "seed": 1} for random ones within +-speed on each axis,
- *    "keys": "wwdn.", "ticks": 100, "queries": asked at every tick, "shapes": shown at every tick}
- * Without "ticks" the session goes on to the last tick that has an object of its own. What is shown for world, tree and
- * player is what they have when they are left out; but position is the world's centre, step a fortieth of its longest
- * side, and box_size three fifths of step. With "sweep": true collisions are tested all the way from tick to tick, and
- * not at the end of the step alone. With "body": true the player is the point with its id, whenever there is one: edits
- * and velocity move it, keys do not, and it has neither "position" nor "step". With null there is nobody, and nothing
- * collides. A byte order mark may stand before all.
- *
- * Then, where there are any, the ticks in ascending order:
- *   {"tick": 3, "edits": [{"insert": {"id": 9, "position": [x, y, z], "velocity": [vx, vy, vz]}}, {"remove": 9},
- *                         {"move": {"id": 9, "position": [x, y, z]}}], "queries": [...], "shapes": [...]}
- *
- * A query is one of
- *   {"range": {"min": [...], "max": [...]}}    the points in a box; with "at": "player" it is relative to the player
- *   {"radius": 200, "at": [x, y, z]}           the points at a distance of at most 200
- *   {"nearest": [x, y, z]}                     the nearest point
- *   {"knearest": 8, "at": [x, y, z]}           the 8 nearest points
- * and "player" may stand for [x, y, z]: neighbours are then others than the player itself.
- *
- * A shape is shown, and is nothing else to the game; it is one of
- *   {"box": {"min": [...], "max": [...]}}, {"segment": [[x, y, z], [x, y, z]]}, {"point": [x, y, z]} and
- *   {"label": "up to 46 printable ASCII characters", "at": [x, y, z]}
- *
- * A point without an id has its place in the list for an id, counted from 1 and passing over that of a player who is no
- * body. Ids are unique, that player's included. "velocities" replace those of the points. Points may lie outside the
- * world: the game refuses them at tick 0.
+ * session.txt, which is installed, says what they hold.
  */
 #ifndef FORMATS_SESSION_FILE_H
 #define FORMATS_SESSION_FILE_H
