@@ -5,7 +5,11 @@
 #include "recording_file.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
+
+#define MOST_TURN 360 /* degrees */
+#define MOST_ZOOM 1e6
 
 /* ---- Names to choose from ----------------------------------------------------------------------------------- */
 
@@ -90,6 +94,8 @@ static bool parse_number(const view_option *option, const char *text, view *v, o
     if (!numbers_parse(text, &value, 1) || !(value >= option->member.min && value <= option->member.max))
         return refuse_value(option, text, error);
     *(double *)value_of(option, v) = value;
+    if (option->member.given)
+        *(bool *)((char *)v + option->member.given) = true;
     return true;
 }
 
@@ -175,6 +181,41 @@ static void write_layers(json_writer *w, const void *from)
         if (*(const unsigned *)from >> i & 1)
             json_write_string(w, view_layer_at(i));
     json_write_end_array(w);
+}
+
+static bool parse_look(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    double look[2];
+    if (!numbers_parse(text, look, 2) || !(fabs(look[0]) <= MOST_TURN && fabs(look[1]) <= 90))
+        return refuse_value(option, text, error);
+    v->look.given = true;
+    v->look.azimuth = look[0];
+    v->look.elevation = look[1];
+    return true;
+}
+
+static bool read_look(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    double look[2];
+    if (!json_is_array(value) || json_array_size(value) != 2)
+        return json_expected(r, value, at, "an azimuth and an elevation in degrees as in [30, 22]");
+    if (!json_read_numbers(r, value, at, 0, 2, look))
+        return false;
+    if (!(fabs(look[0]) <= MOST_TURN && fabs(look[1]) <= 90))
+        return json_fail(r, at, "must be an azimuth from -360 to 360 and an elevation from -90 to 90");
+    memcpy(into, look, sizeof look);
+    return true;
+}
+
+static void write_look(json_writer *w, const void *from)
+{
+    json_write_numbers(w, from, 2);
+}
+
+static bool parse_center(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    v->center.given = numbers_parse(text, v->center.place, 3);
+    return v->center.given || refuse_value(option, text, error);
 }
 
 /* ---- What of the tree is shown ------------------------------------------------------------------------------ */
@@ -303,6 +344,17 @@ static const view_option rows[] = {
      .member.required = true, .member.names = camera_at},
     {"fit", "WHAT", "fit", "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
      parse_fit, .member.name = "fit", .member.codec = JSON_CODEC(read_fit, write_fit, fits_box)},
+    {"look", "AZ,EL", "an azimuth from -360 to 360 and an elevation from -90 to 90 as in 30,22",
+     "where the eye is: degrees from -y towards +x, and above the ground (iso: 30,22)", parse_look,
+     MEMBER("look", JSON_CODEC(read_look, write_look, NULL), look.azimuth), .member.given = offsetof(view, look.given),
+     .noun = "direction of view"},
+    {"center", "X,Y,Z", "three numbers as in 100,0,0", "what the camera looks at, in place of the middle or the player",
+     parse_center, MEMBER("center", &json_vector, center.place), .member.given = offsetof(view, center.given),
+     .noun = "center of view"},
+    {"zoom", "TIMES", "a number from 0.001 to 1000000",
+     "how much larger all appears than the camera makes it (default 1)", parse_number,
+     MEMBER("zoom", &json_interval, zoom.times), .member.min = 0.001, .member.max = MOST_ZOOM,
+     .member.given = offsetof(view, zoom.given)},
     {"layers", "LIST", "layer",
      "(default: all about the tick itself; -text leaves one out, default,visit-heat adds one) of", parse_layers,
      MEMBER("layers", JSON_CODEC(read_layers, write_layers, NULL), layers), .member.required = true,

@@ -127,13 +127,15 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
     measure(&c, v->fit == FIT_BOX ? &v->focus : world);
     double target[3] = {0, 0, 0};
-    if (v->camera == CAMERA_FOLLOW)
-        camera_unit(&c, player, target);
+    if (v->center.given || v->camera == CAMERA_FOLLOW)
+        camera_unit(&c, v->center.given ? v->center.place : player, target);
     const double distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
-    aim(&c, cameras[v->camera].azimuth + orbit, cameras[v->camera].elevation);
+    aim(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
+        v->look.given ? v->look.elevation / 360 : cameras[v->camera].elevation);
     const double smaller = window.width < window.height ? window.width : window.height;
     c.zoom = v->camera == CAMERA_FOLLOW ? FOCAL * smaller / 2 : fit(&c, window, distance);
+    c.zoom *= v->zoom.given ? v->zoom.times : 1;
     stand(&c, target, distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2;

@@ -62,7 +62,19 @@ typedef struct view {
     view_camera camera;
     view_fit fit;
     octree_box focus; /* under FIT_BOX: the box */
-    unsigned layers;  /* bit 1 << view_layer: layer.h */
+    struct {
+        bool given;
+        double azimuth, elevation; /* degrees, of the eye: azimuth from -y towards +x, elevation from -90 to 90 */
+    } look;                        /* in place of the camera's own direction */
+    struct {
+        bool given;
+        double place[3]; /* in world coordinates */
+    } center;            /* what the camera looks at, in place of the middle of what it frames, or of the player */
+    struct {
+        bool given;
+        double times; /* the size that the camera gives to everything; above 0 */
+    } zoom;
+    unsigned layers; /* bit 1 << view_layer: layer.h */
     view_coloring coloring;
     view_diagram diagram;
     view_filter filter;

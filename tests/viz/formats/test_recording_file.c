@@ -33,6 +33,16 @@ static view random_view(uint64_t *random)
     v.fit = random_below(random, 2) ? FIT_BOX : FIT_WORLD;
     if (v.fit == FIT_BOX)
         v.focus = random_box(random);
+    v.look.given = random_below(random, 2);
+    if (v.look.given) {
+        v.look.azimuth = random_between(random, -360, 360);
+        v.look.elevation = random_between(random, -90, 90);
+    }
+    v.center.given = random_below(random, 2);
+    for (int i = 0; v.center.given && i < 3; i++)
+        v.center.place[i] = random_between(random, -1e6, 1e6);
+    v.zoom.given = random_below(random, 2);
+    v.zoom.times = v.zoom.given ? random_between(random, 0.001, 1e6) : 0;
     v.filter.slice = "\0xyz"[random_below(random, 4)];
     v.filter.slice_at = v.filter.slice ? random_between(random, -1, 1) : 0;
     v.filter.leaves = random_below(random, 2);
@@ -58,6 +68,10 @@ static void assert_same_view(const view *a, const view *b)
     assert_true(a->labels == b->labels && a->lod == b->lod && a->budget == b->budget &&
                 view_samples(a) == view_samples(b));
     assert_memory_equal(&a->focus, &b->focus, sizeof a->focus);
+    assert_true(a->look.given == b->look.given && a->look.azimuth == b->look.azimuth &&
+                a->look.elevation == b->look.elevation);
+    assert_true(a->zoom.given == b->zoom.given && a->zoom.times == b->zoom.times);
+    assert_true(a->center.given == b->center.given && same_position(a->center.place, b->center.place));
     const view_filter *f = &a->filter, *g = &b->filter;
     assert_true(f->slice == g->slice && f->slice_at == g->slice_at && f->leaves == g->leaves);
     assert_true(f->by_depth == g->by_depth && f->min_depth == g->min_depth && f->max_depth == g->max_depth);
@@ -96,9 +110,10 @@ static void write_text(const view *v, char text[2048])
 static void every_option_of_the_command_line_is_kept(void **state)
 {
     static const char *const samples[][2] = {
-        {"size", "640x360"}, {"camera", "top"}, {"layers", "nodes"}, {"color-by", "plain"}, {"diagram", "only"},
-        {"slice", "z=7"},    {"depths", "2:3"}, {"leaves", ""},      {"labels", ""},        {"region", "0,0,0,1,2,3"},
-        {"lod", "9"},        {"budget", "77"},  {"aa", "4"},         {"camera-from", NULL}, {"fit", NULL},
+        {"size", "640x360"}, {"camera", "top"},   {"layers", "nodes"}, {"color-by", "plain"}, {"diagram", "only"},
+        {"slice", "z=7"},    {"depths", "2:3"},   {"leaves", ""},      {"labels", ""},        {"region", "0,0,0,1,2,3"},
+        {"lod", "9"},        {"budget", "77"},    {"aa", "4"},         {"camera-from", NULL}, {"fit", NULL},
+        {"look", "10,-5"},   {"center", "1,2,3"}, {"zoom", "2.5"},
     };
     const temp_folder *folder = *state;
     char unchanged[2048], written[2048], again[2048];
@@ -148,7 +163,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {START "\"theme\": \"night\"}", "the member \"camera\" is missing"},
         {VIEW, "recording.json:3: "},
         {VIEW "} x", "recording.json:3: "},
-        {VIEW ",\n\"zoom\": 3}", "recording.json:4: unknown member \"zoom\""},
+        {VIEW ",\n\"tilt\": 3}", "recording.json:4: unknown member \"tilt\""},
         {VIEW ", \"version\": 3}", "duplicate"},
         {"{\"octreel\": \"recording\", \"version\": 3}", "version: expected a whole number from 1 to 2, found 3"},
         {"{\"octreel\": \"recording\", \"version\": 1}",
@@ -161,6 +176,10 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {START "\"camera\": \"iso\", \"layers\": 7}", "layers: expected a list of layers, found 7"},
         {VIEW ", \"color_by\": null}", "color_by: expected one of depth, occupancy, plain, found null"},
         {VIEW ", \"diagram\": \"above\"}", "diagram: expected one of none, beside, only, found \"above\""},
+        {VIEW ", \"look\": [10]}", "look: expected an azimuth and an elevation"},
+        {VIEW ", \"look\": [10, 91]}", "look: must be an azimuth from -360 to 360 and an elevation from -90 to 90"},
+        {VIEW ", \"center\": [1, 2]}", "center: expected three numbers"},
+        {VIEW ", \"zoom\": 0}", "zoom: expected a number"},
         {VIEW ", \"slice\": {}}", "slice: expected an axis"},
         {VIEW ", \"slice\": {\"w\": 1}}", "slice: expected an axis"},
         {VIEW ", \"slice\": {\"x\": 1, \"y\": 1}}", "slice: expected an axis"},
@@ -225,7 +244,8 @@ static void camera_from_takes_the_whole_view_of_another_recording(void **state)
     const place a = place_in(*state, "a"), b = place_in(*state, "b"), c = place_in(*state, "c"),
                 d = place_in(*state, "d");
     film("record --keys ww %s -o %s",
-         "--size 200x100 --camera side --fit points --slice x=0 --depths 1:3 --leaves --color-by plain --layers -text "
+         "--size 200x100 --camera side --look 20,5 --center 1,2,3 --zoom 1.5 --fit points --slice x=0 --depths 1:3 "
+         "--leaves --color-by plain --layers -text "
          "--diagram beside "
          "--region -900,-900,-900,500,500,500",
          a.path);

@@ -28,7 +28,7 @@ static void every_row_is_whole_and_found_by_its_name(void **state)
         assert_non_null(option->help);
         assert_non_null(option->parse);
     }
-    assert_null(view_option_named("zoom"));
+    assert_null(view_option_named("camera-at"));
 }
 
 /* Names are taken as they are, and no others. */
@@ -61,6 +61,12 @@ static void values_that_do_not_fit_are_refused(void **state)
         {"size", "640x-1", "--size"},
         {"fit", "box", "there is no fit \"box\"; there are world, points"},
         {"layers", "nodes,walls,text", "there is no layer \"walls\"; there are world, nodes, "},
+        {"look", "30", "--look takes an azimuth from -360 to 360 and an elevation from -90 to 90 as in 30,22"},
+        {"look", "30,90.5", "--look"},
+        {"look", "361,0", "--look"},
+        {"center", "1,2", "--center takes three numbers"},
+        {"zoom", "0", "--zoom takes a number from 0.001 to 1000000, not \"0\""},
+        {"zoom", "inf", "--zoom"},
         {"slice", "w=1", "--slice takes an axis and a place as in z=100, not \"w=1\""},
         {"slice", "x=1,2", "--slice"},
         {"depths", ":", "--depths takes levels from 0 to 21"},

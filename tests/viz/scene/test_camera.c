@@ -180,6 +180,42 @@ static void only_the_orbit_turns_and_only_the_follower_moves(void **state)
     }
 }
 
+static void assert_in_the_middle(const camera *c, const double place[3])
+{
+    double pixel[2];
+    assert_true(camera_pixel(c, place, pixel));
+    assert_true(fabs(pixel[0] - (window.x + window.width / 2)) < 1e-9);
+    assert_true(fabs(pixel[1] - (window.y + window.height / 2)) < 1e-9);
+}
+
+/* At the center zoom moves nothing; elsewhere every distance on the picture is that many times as long. */
+static void a_look_a_center_and_a_zoom_take_the_place_of_the_cameras_own(void **state)
+{
+    (void)state;
+    const octree_box world = {{-10, 0, 5}, {30, 80, 9}};
+    const double player[3] = {1, 2, 6}, other[3] = {3, 7, 8};
+    for (int kind = 0; kind < CAMERA_COUNT; kind++) {
+        view v = view_of(440, 320, (view_camera)kind, VIEW_ALL_LAYERS);
+        v.look.given = v.center.given = true;
+        v.look.azimuth = 90;
+        v.look.elevation = 0;
+        for (int i = 0; i < 3; i++)
+            v.center.place[i] = (double[3]){4, 70, 6}[i];
+        double near[2], far[2];
+        const camera c = camera_make(&v, window, &world, player, 77);
+        assert_true(same_position(c.forward, (double[3]){-1, 0, 0})); /* the eye is on the side of +x */
+        assert_in_the_middle(&c, v.center.place);
+        assert_true(camera_pixel(&c, other, near));
+        v.zoom.given = true;
+        v.zoom.times = 3;
+        const camera closer = camera_make(&v, window, &world, player, 0);
+        assert_in_the_middle(&closer, v.center.place);
+        assert_true(camera_pixel(&closer, other, far));
+        for (int i = 0; i < 2; i++)
+            assert_true(fabs((far[i] - c.middle[i]) - 3 * (near[i] - c.middle[i])) < 1e-9);
+    }
+}
+
 /* Multiples of 1/8 stay exact at 1e15, whose neighbours are 1/8 apart, and under any power of two. */
 static void assert_same_pixels_elsewhere(view_camera kind, double scale, double offset)
 {
@@ -267,6 +303,7 @@ int main(void)
         cmocka_unit_test(the_axes_point_where_the_names_of_the_cameras_say),
         cmocka_unit_test(the_camera_that_follows_looks_at_the_player),
         cmocka_unit_test(only_the_orbit_turns_and_only_the_follower_moves),
+        cmocka_unit_test(a_look_a_center_and_a_zoom_take_the_place_of_the_cameras_own),
         cmocka_unit_test(a_box_is_below_just_what_it_appears_smaller_than),
         cmocka_unit_test(neither_place_nor_scale_changes_a_bit_of_a_pixel),
     };
