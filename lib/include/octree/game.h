@@ -54,7 +54,8 @@ typedef enum octree_edit_kind { OCTREE_EDIT_INSERT, OCTREE_EDIT_REMOVE, OCTREE_E
 typedef struct octree_edit {
     uint64_t tick;
     octree_edit_kind kind;
-    octree_body body; /* remove reads the id alone; move reads id and position, and keeps the velocity */
+    octree_body body; /* remove reads the id alone; move reads id and position, and keeps the velocity: that of
+                         octree_tick.movers, turned where the body has bounced */
 } octree_edit;
 
 /* The members of octree_query that a kind reads, as bits. */

@@ -151,6 +151,17 @@ static octree_body body_at(const moving_body *body, const octree_box *world, uin
     return now;
 }
 
+/* Let a body go on from another place, with the velocity that it has at this tick. */
+static void restart(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
+{
+    const octree_body now = body_at(body, world, tick);
+    for (int i = 0; i < 3; i++)
+        if (now.velocity[i] != 0) /* 0 is also what is said of one that is too fast to follow */
+            body->velocity[i] = now.velocity[i];
+    memcpy(body->origin, place, sizeof body->origin);
+    body->since = tick;
+}
+
 /* ---- Changes of the tree ------------------------------------------------------------------------------------ */
 
 static void touch(octree_game *game, const double place[3])
@@ -258,8 +269,7 @@ static octree_status move_body(octree_game *game, const octree_edit *edit)
         status = game_move(game, body->position, body->id, edit->body.position);
     if (status == OCTREE_OK) {
         body_store(body, edit->body.position, game->tick.number);
-        memcpy(body->origin, edit->body.position, sizeof body->origin);
-        body->since = origin_tick(game);
+        restart(body, &game->session->tree.world, edit->body.position, origin_tick(game));
     }
     return note_unless_done(game, edit->body.id, status, edit->body.position);
 }

@@ -140,6 +140,60 @@ static void edits_begin_and_end_motion(void **state)
     octree_game_destroy(game);
 }
 
+enum { BOUNCING = 4 };
+
+/* Where a tick after `before` a body must be that an edit has put here. */
+static void assert_goes_on(const octree_game *game, const octree_body *before, const double put[3])
+{
+    double next[3];
+    for (int axis = 0; axis < 3; axis++)
+        next[axis] = mirrored(put[axis] + before->velocity[axis], -10, 10);
+    assert_true(same_position(find_mover(game, before->id)->position, next));
+}
+
+/* A body that is moved goes on as its tick before said: turned on the axes where it had bounced, or was about to. */
+static void a_move_undoes_no_bounce(void **state)
+{
+    (void)state;
+    static const octree_body bodies[BOUNCING] = {{.id = 1, .position = {5, 5, 9}, .velocity = {0, 0, 2}},
+                                                 {.id = 2, .position = {9, 0, -9}, .velocity = {2, 0.5, -3}},
+                                                 {.id = 3, .position = {9, 3, 3}, .velocity = {1, 0, 0}},
+                                                 {.id = 4, .position = {0, 4, 0}, .velocity = {39, 0, 0}}};
+    octree_edit edits[BOUNCING];
+    for (size_t i = 0; i < BOUNCING; i++)
+        edits[i] = (octree_edit){0, OCTREE_EDIT_MOVE, {.id = bodies[i].id, .position = {1, 2, -3}}};
+    for (uint64_t when = 0; when < 6; when++) {
+        octree_session session = small_session(bodies, BOUNCING);
+        session.tree.full_leaf = OCTREE_GROW;
+        octree_game *game = start_game(&session);
+        for (uint64_t tick = 0; tick < when; tick++)
+            play_key(game, '.');
+        octree_body before[BOUNCING];
+        for (size_t i = 0; i < BOUNCING; i++)
+            before[i] = *find_mover(game, bodies[i].id);
+        const octree_input input = {.edits = edits, .edit_count = BOUNCING};
+        assert_int_equal(octree_game_play(game, &input), OCTREE_OK);
+        for (size_t i = 0; i < BOUNCING; i++)
+            assert_goes_on(game, &before[i], edits[i].body.position);
+        octree_game_destroy(game);
+    }
+}
+
+/* At rest, since nobody can tell where it is on its way, it has lost no velocity. */
+static void a_move_lets_a_body_go_on_that_was_too_fast_to_follow(void **state)
+{
+    (void)state;
+    static const octree_body body[] = {{.id = 3, .position = {7, 5, 5}, .velocity = {0, 1.7e308, 0}}};
+    static const octree_edit move = {0, OCTREE_EDIT_MOVE, {.id = 3, .position = {1, 2, 3}}};
+    octree_session session = small_session(body, 1);
+    octree_game *game = start_game(&session);
+    play_key(game, '.');
+    assert_int_equal(play_key(game, '.')->mover_count, 0);
+    assert_int_equal(octree_game_play(game, &(octree_input){.edits = &move, .edit_count = 1}), OCTREE_OK);
+    assert_true(fabs(find_mover(game, 3)->velocity[1]) == 1.7e308);
+    octree_game_destroy(game);
+}
+
 static void a_body_that_its_leaf_refuses_is_told_where_it_stays(void **state)
 {
     (void)state;
@@ -180,6 +234,8 @@ int main(void)
         cmocka_unit_test(bodies_at_rest_and_the_player_do_not_move),
         cmocka_unit_test(a_body_too_fast_to_follow_is_at_rest),
         cmocka_unit_test(edits_begin_and_end_motion),
+        cmocka_unit_test(a_move_undoes_no_bounce),
+        cmocka_unit_test(a_move_lets_a_body_go_on_that_was_too_fast_to_follow),
         cmocka_unit_test(a_body_that_its_leaf_refuses_is_told_where_it_stays),
         cmocka_unit_test(the_fastest_body_is_known_from_the_start),
     };
