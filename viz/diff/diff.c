@@ -215,6 +215,8 @@ static void judge(diff_pair *pair, const reading of[2], const image_tolerance *t
         pair->about[i] = (frame_digest){.width = about->width, .height = about->height};
         pair->transparent = pair->transparent || about->transparent;
     }
+    pair->other_color_space =
+        image_source_about(of[0].source)->color_space != image_source_about(of[1].source)->color_space;
     if (!pair->difference.same_size)
         pair->finding = FOUND_SIZE;
     else if (image_same(&pair->difference))

@@ -56,6 +56,7 @@ typedef struct diff_pair {
     diff_finding finding;
     frame_digest about[2];       /* the sizes, and the digests where one side has no pixels; zero: not looked at */
     bool transparent;            /* the background shows in one of them */
+    bool other_color_space;      /* they differ in gamma or profile, which changes no pixel */
     image_difference difference; /* where both were decoded */
     pixel_mask mask;             /* what the layers that are left out cover */
     char *trouble;               /* the error of what is unreadable; owned */

@@ -108,6 +108,14 @@ size_t diff_count_different(const diff_result *result)
     return count;
 }
 
+size_t diff_count_color_spaces(const diff_result *result)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < result->count; i++)
+        count += result->pairs[i].other_color_space;
+    return count;
+}
+
 void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdict)
 {
     const size_t *found = result->found, different = diff_count_different(result);

@@ -29,4 +29,7 @@ bool diff_is_listed(diff_finding finding);
 /* Pairs that differ; unreadable ones do not count. */
 size_t diff_count_different(const diff_result *result);
 
+/* Pairs whose pictures differ in gamma or colour profile, which is ignored. */
+size_t diff_count_color_spaces(const diff_result *result);
+
 #endif

@@ -31,6 +31,8 @@ typedef struct image {
     int channels;          /* 1: indices into the palette; 3: r, g, b */
     bool wide;             /* a sample has 16 bits, in this machine's byte order, not 8; channels is then 3 */
     bool transparent;      /* the file that it was read from has transparent pixels: they were laid over a background */
+    uint64_t color_space;  /* a digest of what its file says of the meaning of samples, which no pixel here depends on:
+                              gamma, profiles and the like; 0: nothing */
     image_palette palette; /* read when channels is 1 */
     uint8_t *pixels;       /* width * height * image_pixel_size() bytes, owned */
 } image;

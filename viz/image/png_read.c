@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "png_read.h"
+#include "octree/digest.h"
 
 #include <errno.h>
 #include <png.h>
@@ -78,10 +79,13 @@ static bool run(image_source *s, step *task, void *context)
     return true;
 }
 
+/* libpng keeps these as they are, and applies none. */
+static const uint8_t color_chunks[] = "gAMA\0cHRM\0sRGB\0iCCP\0cICP";
+
 /* Strict, because a damaged file must not be compared as a picture: a wrong CRC of any chunk and
  * broken streams are errors. The Adler-32 within the stream, a fifth of the time, is skipped if libpng was built with
- * that option (Debian 12's, not 13's): the CRCs are over the same bytes. Chunks that affect no pixel here (gamma,
- * profiles, texts) are skipped without unpacking them. */
+ * that option (Debian 12's, not 13's): the CRCs are over the same bytes. Chunks that affect no pixel here are skipped,
+ * but for those that say what samples mean, which are kept packed. */
 static void set_rules(png_structp png, FILE *file)
 {
     png_set_read_fn(png, file, read_bytes);
@@ -93,11 +97,29 @@ static void set_rules(png_structp png, FILE *file)
     png_set_chunk_malloc_max(png, LARGEST_CHUNK);
     png_set_chunk_cache_max(png, MOST_TEXTS);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, color_chunks, (sizeof color_chunks) / 5);
     /* check_size() tests the sides: libpng's own test says only "Invalid IHDR data". */
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
 }
 
 /* ---- What comes before the pixels ---------------------------------------------------------------------------- */
+
+/* Whatever their order. */
+static uint64_t digest_color_chunks(png_structp png, png_infop info)
+{
+    png_unknown_chunkp chunks = NULL;
+    const int count = png_get_unknown_chunks(png, info, &chunks);
+    uint64_t sum = 0;
+    for (int i = 0; i < count; i++) {
+        uint64_t digest = OCTREE_DIGEST_START;
+        for (size_t j = 0; j < 4; j++)
+            digest = octree_digest_word(digest, chunks[i].name[j]);
+        for (size_t j = 0; j < chunks[i].size; j++)
+            digest = octree_digest_word(digest, chunks[i].data[j]);
+        sum += digest;
+    }
+    return sum;
+}
 
 static bool is_indexed(const image_source *s)
 {
@@ -189,6 +211,7 @@ static void begin(png_structp png, png_infop info, void *context)
     png_read_info(png, info);
     check_size(png, info, s);
     set_conversion(png, info, s);
+    s->about.color_space = digest_color_chunks(png, info);
     s->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     s->about.width = (int)png_get_image_width(png, info);
@@ -235,32 +258,34 @@ static bool fits_bytes(const uint8_t *samples, size_t count)
 }
 
 /* 16 bits a sample are kept only if needed, so that equal pictures are stored alike. */
-static void narrow_where_exact(image *out)
+static void narrow_where_exact(image *band, size_t samples)
 {
-    const size_t count = 3 * (size_t)out->width * (size_t)out->height;
-    if (!fits_bytes(out->pixels, count))
+    const size_t count = samples * (size_t)band->width * (size_t)band->height;
+    if (!band->wide || !fits_bytes(band->pixels, count))
         return;
     for (size_t i = 0; i < count; i++)
-        out->pixels[i] = out->pixels[2 * i];
-    out->wide = false;
+        band->pixels[i] = band->pixels[2 * i];
+    band->wide = false;
 }
 
-/* From what libpng delivered to what an image holds. */
-static void convert(image_source *s, const image *band)
+/* From what libpng delivered to what an image holds. Laying over rounds to the samples' depth, so that what 8 bits hold
+ * is narrowed before it. */
+static void convert(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
     if (s->samples == 1)
         s->beyond = s->beyond || !image_has_colors(band); /* libpng lets indices beyond the palette pass */
-    if (s->samples == 4 && !band->wide)
-        lay_over(band->pixels, count, s->background);
-    if (s->samples == 4 && band->wide)
-        lay_over_wide(band->pixels, count, s->background);
+    if (s->samples == 4) {
+        narrow_where_exact(band, 4);
+        (band->wide ? lay_over_wide : lay_over)(band->pixels, count, s->background);
+    }
+    narrow_where_exact(band, 3);
 }
 
 /* The rows to read, and where their pixels go. */
 typedef struct band_request {
     image_source *source;
-    const image *band;
+    image *band;
 } band_request;
 
 /* After the last rows, read to the end of the file. */
@@ -289,8 +314,6 @@ static bool read_whole(image_source *s)
         return fail(s, strerror(ENOMEM));
     if (!run(s, decode, &(band_request){s, &s->about}))
         return false;
-    if (s->about.wide)
-        narrow_where_exact(&s->about);
     s->next_y = 0;
     return true;
 }

@@ -9,10 +9,10 @@
 #define IMAGE_WHITE ((image_color){255, 255, 255})
 
 /* Read any PNG without loss: palettes, and greys of up to 8 bits, become indexed images, the others RGB ones, with 16
- * bits a sample only where 8 cannot hold them. What is transparent is laid over white; gamma and colour profiles are
- * ignored. Refused are irregular files, files that are cut short or fail a checksum, sides beyond IMAGE_MAX_SIDE, and
- * more pixels than the file's size can encode: memory stays within 8 bytes a pixel, and within 8300 times the file's
- * size. On failure the image is zeroed. */
+ * bits a sample only where 8 cannot hold them. What is transparent is laid over white; gamma and colour profiles
+ * change no pixel (image.color_space tells them apart). Refused are irregular files, files that are cut short or fail a
+ * checksum, sides beyond IMAGE_MAX_SIDE, and more pixels than the file's size can encode: memory stays within 8 bytes a
+ * pixel, and within 8300 times the file's size. On failure the image is zeroed. */
 bool image_read_png(const char *path, image *image, octreel_error *error);
 
 /* The same over a given background. */

@@ -83,6 +83,7 @@ void diff_print_tolerance(FILE *out, const diff_report *report)
 {
     const image_tolerance *t = &report->result->options.tolerance;
     const image_color ground = report->result->options.background;
+    const size_t other_spaces = diff_count_color_spaces(report->result);
     bool first = true;
     if (t->max_pixels) {
         separate(out, &first);
@@ -111,6 +112,9 @@ void diff_print_tolerance(FILE *out, const diff_report *report)
         fputs("compared exactly", out);
     if (any_transparent(report->result))
         fprintf(out, "; transparent pixels lie over #%02x%02x%02x", ground.r, ground.g, ground.b);
+    if (other_spaces)
+        fprintf(out, "; gamma and colour profiles, which differ in %zu frame%s, are ignored", other_spaces,
+                plural(other_spaces));
 }
 
 void diff_report_text(FILE *out, const diff_report *report)

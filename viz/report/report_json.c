@@ -37,8 +37,9 @@ static void write_layers(json_writer *w, const char *layers)
     }
 }
 
-static void write_tolerance(json_writer *w, const diff_options *options)
+static void write_tolerance(json_writer *w, const diff_result *result)
 {
+    const diff_options *options = &result->options;
     const image_tolerance *t = &options->tolerance;
     const image_color ground = options->background;
     char color[8];
@@ -60,6 +61,7 @@ static void write_tolerance(json_writer *w, const diff_options *options)
     json_write_end_object(w);
     snprintf(color, sizeof color, "#%02x%02x%02x", ground.r, ground.g, ground.b);
     json_member_text(w, "background", color);
+    json_member_integer(w, "color_spaces_ignored", diff_count_color_spaces(result));
 }
 
 static void write_tally(json_writer *w, const char *key, const image_tally *t)
@@ -163,7 +165,7 @@ void diff_json_summary(json_writer *w, const diff_report *report)
         json_member_text(w, "trouble", why->trouble);
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
-    write_tolerance(w, &report->result->options);
+    write_tolerance(w, result);
     write_counts(w, result);
 }
 

@@ -257,6 +257,67 @@ static void wide_files_of_narrow_pictures_become_narrow(void **state)
     image_release(&image);
 }
 
+/* A picture of one row with these bytes a sample, each of which 16 bits hold twice. */
+static void save_row(const char *path, int depth, int color_type, const uint8_t *samples, size_t count)
+{
+    static const uint8_t filter_none = 0;
+    png_bytes file, rows = {.size = 0};
+    png_bytes_put(&rows, &filter_none, 1);
+    for (size_t i = 0; i < count; i++)
+        png_bytes_put(&rows, (uint8_t[]){samples[i], samples[i]}, depth == 16 ? 2 : 1);
+    png_put_header(&file, (uint32_t)count / (uint32_t)samples_of(color_type), 1, depth, color_type, false);
+    png_put_rows_and_end(&file, &rows);
+    png_bytes_save(&file, file.size, path);
+}
+
+/* Laying alpha over rounds, to 8 bits here and to 16 there: the depth of a file must not show. */
+static void what_is_transparent_is_the_same_picture_in_8_and_16_bits(void **state)
+{
+    static const uint8_t samples[] = {10, 20, 30, 100, 200, 3, 77, 1, 255, 128, 0, 254, 9, 8, 7, 0, 1, 2, 3, 255};
+    static const int types[] = {GREY_ALPHA, RGB_ALPHA};
+    const char *path = temp_file(*state, "a.png");
+    for (int i = 0; i < 2; i++) {
+        save_row(path, 8, types[i], samples, sizeof samples);
+        image narrow = assert_read(path);
+        save_row(path, 16, types[i], samples, sizeof samples);
+        image wide = assert_read(path);
+        assert_false(wide.wide);
+        assert_true(wide.transparent && narrow.transparent);
+        assert_memory_equal(wide.pixels, narrow.pixels, 3 * (size_t)narrow.width);
+        image_release(&narrow);
+        image_release(&wide);
+    }
+}
+
+static uint64_t color_space_of(const char *path, const char *type, const char *data, size_t size)
+{
+    png_bytes file, rows = {.size = 0};
+    png_bytes_put(&rows, "\0\7\7\7", 4);
+    png_put_header(&file, 1, 1, 8, RGB, false);
+    if (*type)
+        png_put_chunk(&file, type, data, size);
+    png_put_chunk(&file, "tEXt", "Comment\0no colour", 17);
+    png_put_rows_and_end(&file, &rows);
+    png_bytes_save(&file, file.size, path);
+    image image = assert_read(path);
+    const uint64_t color_space = image.color_space;
+    image_release(&image);
+    return color_space;
+}
+
+static void what_samples_mean_is_kept_as_one_number(void **state)
+{
+    const char *path = temp_file(*state, "a.png");
+    const uint64_t screen = color_space_of(path, "gAMA", "\0\0\xb1\x8f", 4);
+    const uint64_t linear = color_space_of(path, "gAMA", "\0\1\x86\xa0", 4);
+    const uint64_t standard = color_space_of(path, "sRGB", "\0", 1);
+    const uint64_t profile = color_space_of(path, "iCCP", "name\0\0 what only libpng would look into", 38);
+    assert_int_equal(color_space_of(path, "", "", 0), 0);
+    assert_int_equal(color_space_of(path, "gAMA", "\0\0\xb1\x8f", 4), screen);
+    assert_true(screen && linear && standard && profile);
+    assert_true(screen != linear && screen != standard && linear != standard && profile != standard);
+}
+
 static void assert_unreadable(const char *path, const char *reason)
 {
     image image;
@@ -472,6 +533,8 @@ int main(void)
         WITH_FOLDER(every_legal_kind_lies_over_the_background_asked_for),
         WITH_FOLDER(size_is_told_of_files_that_begin_and_end_as_png),
         WITH_FOLDER(wide_files_of_narrow_pictures_become_narrow),
+        WITH_FOLDER(what_is_transparent_is_the_same_picture_in_8_and_16_bits),
+        WITH_FOLDER(what_samples_mean_is_kept_as_one_number),
         WITH_FOLDER(pixels_that_a_file_is_too_short_for_are_refused),
         WITH_FOLDER(pipe_is_refused_without_waiting),
         WITH_FOLDER(missing_file_and_folder_are_told_apart),

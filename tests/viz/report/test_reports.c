@@ -9,6 +9,7 @@
 #include "text.h"
 #include "fixture.h"
 #include "galleries.h"
+#include "png_by_hand.h"
 #include "report.h"
 #include "xml_check.h"
 
@@ -230,6 +231,44 @@ static void markdown_survives_any_name(void **state)
     free(text);
 }
 
+/* Give a picture a gamma. */
+static void add_gamma(const char *path)
+{
+    png_bytes plain, made = {.size = 0};
+    png_bytes_load(&plain, path);
+    const size_t begin = png_chunk_at(&plain, 8).next;
+    png_bytes_put(&made, plain.data, begin);
+    png_put_chunk(&made, "gAMA", "\0\1\x86\xa0", 4);
+    png_bytes_put(&made, plain.data + begin, plain.size - begin);
+    png_bytes_save(&made, made.size, path);
+}
+
+static bool report_json(FILE *out, const diff_report *report)
+{
+    diff_report_json(out, report);
+    return true;
+}
+
+static void a_gamma_that_is_ignored_is_told(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
+    comparison_of made = compare(a.path, b.path, NULL);
+    char *text = report_text(&made, NULL, diff_report_markdown);
+    assert_null(strstr(text, "gamma"));
+    free(text);
+    comparison_release(&made);
+    add_gamma(place_below(b.path, "2.png").path);
+    made = compare(a.path, b.path, NULL);
+    assert_int_equal(made.result.verdict, DIFF_SAME);
+    text = report_text(&made, NULL, diff_report_markdown);
+    assert_says(text, "gamma and colour profiles, which differ in 1 frame, are ignored");
+    free(text);
+    text = report_text(&made, NULL, report_json);
+    assert_says(text, "\"color_spaces_ignored\": 1");
+    free(text);
+    comparison_release(&made);
+}
+
 #define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -245,6 +284,7 @@ int main(void)
         WITH_FOLDER(markdown_of_no_difference_has_no_table),
         WITH_FOLDER(markdown_lists_the_first_and_counts_the_rest),
         cmocka_unit_test(markdown_survives_any_name),
+        WITH_FOLDER(a_gamma_that_is_ignored_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
