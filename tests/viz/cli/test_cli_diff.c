@@ -140,7 +140,8 @@ static void json_tells_all_of_it(void **state)
     command_result result = run_octreel(NULL, "diff %s %s --json --ignore 0,0,1,4 --max-pixels 1", p.a.path, p.b.path);
     assert_int_equal(result.status, 1);
     json_t *object = json_read(result.out);
-    assert_members(object, "verdict reference compared tolerance background frames found findings");
+    assert_members(object,
+                   "verdict reference compared tolerance background color_spaces_ignored frames found findings");
     assert_string_equal(json_string_value(json_member(object, "verdict")), "different");
     assert_string_equal(json_string_value(json_member(json_member(object, "reference"), "kind")), "picture");
     const json_t *tolerance = json_member(object, "tolerance");
