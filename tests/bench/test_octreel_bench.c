@@ -8,13 +8,19 @@
 #include <string.h>
 
 #include "commands.h"
+#include "temp_folder.h"
 #include "tick_lines.h"
+
+static command_result run_bench(const char *arguments)
+{
+    return run_script("%s %s", shell_quote(OCTREEL_BENCH).text, arguments);
+}
 
 static void json_tells_who_filmed_what_how_fast(void **state)
 {
     static const char *const who[] = {"naive", "octreel"};
     (void)state;
-    command_result run = run_script("'%s' --json --scene S --frames 6 --rounds 1 --folder .", OCTREEL_BENCH);
+    command_result run = run_bench("--json --scene S --frames 6 --rounds 1 --folder .");
     assert_done(&run);
     const char *line = strtok(run.out, "\n");
     for (int i = 0; i < 2; i++, line = strtok(NULL, "\n")) {
@@ -34,7 +40,7 @@ static void json_tells_who_filmed_what_how_fast(void **state)
 static void table_holds_every_figure_against_its_goal(void **state)
 {
     (void)state;
-    command_result run = run_script("'%s' --scene S --frames 6 --rounds 1 --folder .", OCTREEL_BENCH);
+    command_result run = run_bench("--scene S --frames 6 --rounds 1 --folder .");
     assert_done(&run);
     const char *row = strstr(run.out, "octreel");
     assert_non_null(row);
@@ -47,20 +53,22 @@ static void table_holds_every_figure_against_its_goal(void **state)
 
 static void nothing_is_left_of_its_frames(void **state)
 {
-    (void)state;
-    command_result run = run_script("mkdir bench_folder && '%s' --scene S --frames 6 --rounds 1 --folder bench_folder "
-                                    ">bench_table && rm bench_table && rmdir bench_folder",
-                                    OCTREEL_BENCH);
+    temp_folder *folder = *state;
+    char arguments[128];
+    snprintf(arguments, sizeof arguments, "--scene S --frames 6 --rounds 1 --folder %s", folder->name);
+    command_result run = run_bench(arguments);
     assert_done(&run);
+    assert_int_equal(temp_folder_count(folder), 0);
     command_release(&run);
 }
 
 static void unknown_words_are_refused_with_a_sentence(void **state)
 {
-    static const char *const wrong[] = {"--scene XXL", "--frames 2", "--rounds 0", "--folder /no/such/folder", "word"};
+    static const char *const wrong[] = {"--json --scene XXL", "--json --frames 2", "--json --rounds 0",
+                                        "--json --folder /no/such/folder", "--json word"};
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        command_result run = run_script("'%s' --json %s", OCTREEL_BENCH, wrong[i]);
+        command_result run = run_bench(wrong[i]);
         assert_int_equal(run.status, 2);
         assert_string_equal(run.out, "");
         assert_int_equal(strncmp(run.err, "octreel-bench: ", 15), 0);
@@ -74,7 +82,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(json_tells_who_filmed_what_how_fast),
         cmocka_unit_test(table_holds_every_figure_against_its_goal),
-        cmocka_unit_test(nothing_is_left_of_its_frames),
+        cmocka_unit_test_setup_teardown(nothing_is_left_of_its_frames, temp_folder_make, temp_folder_remove),
         cmocka_unit_test(unknown_words_are_refused_with_a_sentence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -41,13 +41,26 @@ static void list_scenes(const table *t, char *list, size_t room)
     }
 }
 
+/* As gnuplot has it between apostrophes. The plots hand names of files to a shell, so that they get plain ones only. */
+static void put_quoted(const char *folder, char *quoted, size_t room)
+{
+    size_t used = 0;
+    for (; *folder != '\0'; folder++) {
+        if (used + 3 > room)
+            stop("the folder's name is too long");
+        if (*folder == '\'')
+            quoted[used++] = '\'';
+        quoted[used++] = *folder;
+    }
+    quoted[used] = '\0';
+}
+
 void plot(const knob *k, const table *t, const char *folder)
 {
-    char values[10000], scenes[1024], script[4200];
+    char values[10000], scenes[1024], script[4200], quoted[8192];
     list_scenes(t, scenes, sizeof scenes);
-    if (strchr(folder, '\''))
-        stop("gnuplot cannot write to a folder with an apostrophe in its name");
-    snprintf(values, sizeof values, "csv='%s/%s.csv'; png='%s/%s.png'; scenes='%s'", folder, k->name, folder, k->name,
+    put_quoted(folder, quoted, sizeof quoted);
+    snprintf(values, sizeof values, "cd '%s'; csv='%s.csv'; png='%s.png'; scenes='%s'", quoted, k->name, k->name,
              scenes);
     snprintf(script, sizeof script, "%s/%s.gp", OCTREEL_PLOTS, k->name);
     char *const arguments[] = {"gnuplot", "-e", values, OCTREEL_PLOTS "/style.gp", script, NULL};

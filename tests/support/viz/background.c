@@ -36,7 +36,7 @@ background start_octreel(const char *format, ...)
     char line[LINE];
     int ends[2];
     va_list values;
-    const int used = snprintf(line, sizeof line, "exec '%s' ", octreel_program());
+    const int used = snprintf(line, sizeof line, "exec %s ", octreel_program());
     va_start(values, format);
     const int length = vsnprintf(line + used, sizeof line - (size_t)used, format, values);
     va_end(values);
@@ -53,15 +53,32 @@ background start_octreel(const char *format, ...)
     return (background){pid, ends[0]};
 }
 
-void wait_for_file(const char *path)
+/* Its end stays to be waited for. */
+static bool has_ended(pid_t pid)
+{
+    siginfo_t ended = {.si_pid = 0};
+    return waitid(P_PID, (id_t)pid, &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == pid;
+}
+
+bool file_comes(const background *b, const char *path)
 {
     const struct timespec pause = {0, 1000000};
     for (int i = 0; i < MILLISECONDS; i++) {
-        if (file_exists(path))
-            return;
+        const bool ended = has_ended(b->pid); /* asked first: the file may be the last that it wrote */
+        if (file_exists(path) || ended)
+            return file_exists(path);
         nanosleep(&pause, NULL);
     }
-    fail_msg("%s does not come", path);
+    return false;
+}
+
+void wait_for_file(background *b, const char *path)
+{
+    if (file_comes(b, path))
+        return;
+    kill(b->pid, SIGKILL);
+    const command_result result = end_of(b);
+    fail_msg("%s does not come; octreel ended with status %d: %s", path, result.status, result.err);
 }
 
 static pid_t parent_of(const char *pid)

@@ -16,8 +16,11 @@ typedef struct background {
 /* Start octreel with the arguments that a format gives, in a process group of its own. */
 background start_octreel(const char *format, ...);
 
-/* Wait until there is a file of this name, half a minute at most; the test fails when it does not come. */
-void wait_for_file(const char *path);
+/* Wait until there is a file of this name. False when octreel ends without it, and after half a minute. */
+bool file_comes(const background *b, const char *path);
+
+/* The same; the test fails where that is false. */
+void wait_for_file(background *b, const char *path);
 
 /* A child of a process, the place-th of those that there are; 0 when there are no more, or no /proc to ask. */
 pid_t child_of(pid_t parent, unsigned place);

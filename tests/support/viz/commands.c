@@ -200,9 +200,26 @@ command_result run_octreel(const command_setting *setting, const char *format, .
     return run(setting == NULL ? &plain : setting, arguments);
 }
 
+/* Between apostrophes all is plain but an apostrophe, which goes between two such pieces. */
+shell_word shell_quote(const char *text)
+{
+    shell_word word = {"'"};
+    size_t used = 1;
+    for (; *text != '\0'; text++) {
+        const char *piece = *text == '\'' ? "'\\''" : (char[]){*text, '\0'};
+        assert_true(used + strlen(piece) + sizeof "'" <= sizeof word.text);
+        strcpy(word.text + used, piece);
+        used += strlen(piece);
+    }
+    strcpy(word.text + used, "'");
+    return word;
+}
+
 const char *octreel_program(void)
 {
-    return OCTREEL_PROGRAM;
+    static shell_word word;
+    word = shell_quote(OCTREEL_PROGRAM);
+    return word.text;
 }
 
 command_result run_shell(const char *line)

@@ -24,7 +24,14 @@ typedef struct command_result {
  * the program cannot be run. */
 command_result run_octreel(const command_setting *setting, const char *format, ...);
 
-/* The path of octreel, for lines of a shell. */
+/* A word of a shell's line that is read as some text, whatever is in it. */
+typedef struct shell_word {
+    char text[2048];
+} shell_word;
+
+shell_word shell_quote(const char *text);
+
+/* The path of octreel as such a word: folders have any names. */
 const char *octreel_program(void);
 
 /* Run a line as a shell does. The test fails when there is no shell. */

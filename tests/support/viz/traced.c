@@ -54,9 +54,9 @@ static bool is_watched(long call)
 
 static _Noreturn void become_traced(const char *arguments)
 {
-    char line[2048];
+    char line[4096];
     const int nowhere = open("/dev/null", O_WRONLY);
-    snprintf(line, sizeof line, "exec '%s' %s", octreel_program(), arguments);
+    snprintf(line, sizeof line, "exec %s %s", octreel_program(), arguments);
     setenv("ASAN_OPTIONS", "detect_leaks=0", 1); /* leaks cannot be looked for in a process that is traced */
     dup2(nowhere, STDOUT_FILENO);
     if (ptrace(PTRACE_TRACEME, 0, NULL, NULL) != 0)

@@ -29,7 +29,7 @@ static void an_empty_name_is_refused_in_one_sentence(void **state)
     gallery_write(place_in(folder, "a.png").path, 1, 0);
     file_write_text(place_in(folder, "p.xyz").path, "1 2 3\n");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        command_result result = run_script("cd %s && env -u CI '%s' %s", folder->name, octreel_program(), rows[i][0]);
+        command_result result = run_script("cd %s && env -u CI %s %s", folder->name, octreel_program(), rows[i][0]);
         assert_trouble(&result, rows[i][1]);
         assert_int_equal(temp_folder_count(folder), 2);
     }

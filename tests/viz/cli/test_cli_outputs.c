@@ -16,7 +16,7 @@ static const char points[] = "0 0 0\n1 2 3\n4 5 6\n";
 static command_result run_in(void **state, const char *arguments)
 {
     const temp_folder *own = *state;
-    return run_script("cd %s && '%s' %s", own->name, octreel_program(), arguments);
+    return run_script("cd %s && %s %s", own->name, octreel_program(), arguments);
 }
 
 static void do_in(void **state, const char *arguments)

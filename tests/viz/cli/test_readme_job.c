@@ -45,7 +45,7 @@ static int prepare_job(void **state)
     const char *folder = ((temp_folder *)j->folder)->name;
     j->yaml = read_block();
     file_write_text(place_in(j->folder, "my.json").path, SESSION("5"));
-    command_result result = run_script("cd %s && mkdir -p build/bin && ln -s '%s' build/bin/octreel && "
+    command_result result = run_script("cd %s && mkdir -p build/bin && ln -s %s build/bin/octreel && "
                                        "build/bin/octreel record my.json -o reference 2>&1",
                                        folder, octreel_program());
     assert_done(&result);

@@ -369,10 +369,10 @@ static void four_chunks_in_four_processes_are_the_bytes_of_one_film(void **state
     command_result result = run_octreel(NULL, "record --size 160x90 --camera orbit -o %s", whole.path);
     assert_done(&result);
     command_release(&result);
-    result = run_script(
-        "for t in :64 64:128 128:192 192:256; do '%s' record --size 160x90 --camera orbit --ticks $t -o %s & "
-        "pids=\"$pids $!\"; done; for p in $pids; do wait $p || exit; done",
-        octreel_program(), chunks.path);
+    result =
+        run_script("for t in :64 64:128 128:192 192:256; do %s record --size 160x90 --camera orbit --ticks $t -o %s & "
+                   "pids=\"$pids $!\"; done; for p in $pids; do wait $p || exit; done",
+                   octreel_program(), chunks.path);
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "join %s --json", chunks.path);
@@ -390,10 +390,10 @@ static void gnu_parallel_films_the_chunks(void **state)
     command_result result = run_octreel(NULL, "record --size 160x90 -o %s", whole.path);
     assert_done(&result);
     command_release(&result);
-    result = run_script(
-        "parallel \"'%s'\" record --size 160x90 --jobs 1 -o %s --ticks {}:'{= $_ += 64 =}' ::: $(seq 0 64 252) && '%s' "
-        "join %s",
-        octreel_program(), chunks.path, octreel_program(), chunks.path);
+    result = run_script("export program=%s; parallel '\"$program\"' record --size 160x90 --jobs 1 -o %s --ticks {}:'{= "
+                        "$_ += 64 =}' ::: "
+                        "$(seq 0 64 252) && \"$program\" join %s",
+                        octreel_program(), chunks.path, chunks.path);
     assert_int_equal(result.status, 0); /* parallel may ask to be cited */
     command_release(&result);
     assert_same_folders(whole.path, chunks.path, NULL);
@@ -409,7 +409,7 @@ static void slurm_tasks_film_the_chunks(void **state)
     result = run_script(
         "task='a=$((SLURM_ARRAY_TASK_ID * 64)) && \"$program\" record --size 160x90 --jobs 1 \\\n"
         "    -o %s --ticks $a:$((a + 64))'\n"
-        "export program='%s'; for i in 0 1 2 3; do SLURM_ARRAY_TASK_ID=$i sh -c \"$task\" & pids=\"$pids $!\"; done; "
+        "export program=%s; for i in 0 1 2 3; do SLURM_ARRAY_TASK_ID=$i sh -c \"$task\" & pids=\"$pids $!\"; done; "
         "for p in $pids; do wait $p || exit; done; \"$program\" join %s",
         chunks.path, octreel_program(), chunks.path);
     assert_done(&result);

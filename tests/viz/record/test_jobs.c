@@ -133,7 +133,7 @@ static void job_that_is_killed_is_named(void **state)
 {
     const place session = long_session(state), folder = place_in(*state, "film");
     background b = start_octreel("record %s --size 160x90 --jobs 2 -o %s", session.path, folder.path);
-    wait_for_file(frame_place(folder.path, 2).path);
+    wait_for_file(&b, frame_place(folder.path, 2).path);
     const pid_t job = child_of(b.pid, 1);
     if (job == 0) {
         kill(-b.pid, SIGKILL);
@@ -162,7 +162,7 @@ static void film_of_several_jobs_that_is_stopped_says_how_to_go_on(void **state)
         const place folder = place_in(*state, name);
         background b =
             start_octreel("record %s --size 160x90 --jobs %d -o %s", session.path, i % 2 == 0 ? 2 : 1, folder.path);
-        wait_for_file(frame_place(folder.path, 4).path);
+        wait_for_file(&b, frame_place(folder.path, 4).path);
         kill(i < 2 ? b.pid : -b.pid, sent); /* to one, as kill does, or to all, as a terminal does */
         command_result result = end_of(&b);
         assert_int_equal(result.status, 128 + sent);
@@ -184,7 +184,7 @@ static void stopped_film_of_several_jobs_is_resumed(void **state)
 {
     const place session = long_session(state), folder = place_in(*state, "film");
     background b = start_octreel("record %s --size 160x90 --every 100 --jobs 2 -o %s", session.path, folder.path);
-    wait_for_file(frame_place(folder.path, 300).path);
+    wait_for_file(&b, frame_place(folder.path, 300).path);
     kill(b.pid, SIGTERM);
     command_result result = end_of(&b);
     command_release(&result);
@@ -197,7 +197,7 @@ static void kill_of_the_whole_leaves_no_job_behind(void **state)
     const struct timespec while_frames_end = {0, 200000000};
     const place session = long_session(state), folder = place_in(*state, "film");
     background b = start_octreel("record %s --size 160x90 --every 100 --jobs 2 -o %s", session.path, folder.path);
-    wait_for_file(frame_place(folder.path, 300).path);
+    wait_for_file(&b, frame_place(folder.path, 300).path);
     kill(b.pid, SIGKILL);
     command_result result = end_of(&b); /* at the end of all who could write to stderr */
     assert_int_equal(result.status, 128 + SIGKILL);
@@ -218,7 +218,7 @@ static void ignored_signals_stay_ignored(void **state)
     signal(SIGHUP, SIG_IGN); /* as under nohup */
     background b = start_octreel("record --size 160x90 --jobs 2 -o %s", folder.path);
     signal(SIGHUP, SIG_DFL);
-    wait_for_file(frame_place(folder.path, 4).path);
+    wait_for_file(&b, frame_place(folder.path, 4).path);
     kill(-b.pid, SIGHUP);
     command_result result = end_of(&b);
     assert_done(&result);

@@ -74,7 +74,7 @@ static void folder_that_is_not_there_is_not_resumed(void **state)
     command_result result = run_octreel(NULL, "record --resume -o %s", folder.path);
     assert_trouble(&result, "holds no recording that could be resumed (recording.json is missing)");
     assert_false(file_exists(folder.path));
-    result = run_script("'%s' record --resume -o ''", octreel_program());
+    result = run_script("%s record --resume -o ''", octreel_program());
     assert_trouble(&result, "the folder's name is empty");
 }
 

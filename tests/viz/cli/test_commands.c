@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/* test_commands.c - what tests run commands with: names of folders hold any characters, and what ended is not waited
+ * for. */
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "background.h"
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+
+static void quoted_words_are_read_as_they_are(void **state)
+{
+    static const char *const texts[] = {"plain", "",    "a (b) 'c' d", "'", "''", "$HOME `x` \\ \" * ~ # & ;",
+                                        "-n",    "a\nb"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        command_result result = run_script("printf '<%%s>' %s", shell_quote(texts[i]).text);
+        char expected[64];
+        snprintf(expected, sizeof expected, "<%s>", texts[i]);
+        assert_done(&result);
+        assert_string_equal(result.out, expected);
+        command_release(&result);
+    }
+}
+
+static void program_in_a_folder_of_an_odd_name_is_run(void **state)
+{
+    const place odd = place_in(*state, "a (b) 'c' d");
+    const shell_word folder = shell_quote(odd.path), link = shell_quote(place_below(odd.path, "octreel").path);
+    command_result result =
+        run_script("mkdir %s && ln -s %s %s && %s --help", folder.text, octreel_program(), link.text, link.text);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void program_that_has_ended_is_not_waited_for(void **state)
+{
+    struct timespec started, now;
+    const place never = place_in(*state, "never");
+    background b = start_octreel("--help");
+    clock_gettime(CLOCK_MONOTONIC, &started);
+    assert_false(file_comes(&b, never.path));
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    assert_true(now.tv_sec - started.tv_sec < 10); /* of the half minute that a file may take */
+    command_result result = end_of(&b);
+    assert_done(&result);
+    command_release(&result);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quoted_words_are_read_as_they_are),
+        IN_FOLDER(program_in_a_folder_of_an_odd_name_is_run),
+        IN_FOLDER(program_that_has_ended_is_not_waited_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
