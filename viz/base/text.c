@@ -64,6 +64,11 @@ const char *plural(uint64_t count)
     return count == 1 ? "" : "s";
 }
 
+const char *plural_verb(uint64_t count)
+{
+    return count == 1 ? "s" : "";
+}
+
 /* ---- Into other languages ------------------------------------------------------------------------------------ */
 
 static const char *numbered(char c, char room[ESCAPE_ROOM])

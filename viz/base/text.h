@@ -31,8 +31,9 @@ size_t utf8_length(const unsigned char *at);
 /* Put a question mark in the place of every byte that is not printable ASCII. Returns `text`. */
 char *make_printable(char *text);
 
-/* "s", or "" for 1. */
+/* The end of a noun behind a count, "s" or "" for 1; and of its verb, "" or "s" for 1: "1 frame differs". */
 const char *plural(uint64_t count);
+const char *plural_verb(uint64_t count);
 
 /* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
 #define ESCAPE_ROOM 16

@@ -8,6 +8,7 @@
 #include "inspect_answers.h"
 #include "number.h"
 #include "progress.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -121,7 +122,8 @@ static bool draw(const report *r, octreel_error *error)
     if (drawn.over_budget)
         fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);
     if (drawn.left_out)
-        fprintf(stderr, "octreel: %" PRIu64 " elements are too far off to be in %s\n", drawn.left_out, a->picture);
+        fprintf(stderr, "octreel: %" PRIu64 " element%s too far off to be in %s\n", drawn.left_out,
+                plural(drawn.left_out), a->picture);
     return true;
 }
 

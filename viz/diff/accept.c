@@ -110,7 +110,7 @@ static bool check_overlap(const accepting *a, octreel_error *error)
 {
     const size_t references = a->reference.count;
     return references == 0 || a->options->name_count > 0 || a->counts[REMOVED] < references ||
-           error_set(error, "%s: all its %zu references would go, for %s has none of their names", a->reference.path,
+           error_set(error, "%s: all its references (%zu) would go, for %s has none of their names", a->reference.path,
                      references, a->frames.path);
 }
 

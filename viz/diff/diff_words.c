@@ -46,8 +46,10 @@ static void print_pixels(FILE *out, const diff_pair *pair)
     const image_difference *d = &pair->difference;
     const uint64_t all = (uint64_t)pair->about[0].width * (uint64_t)pair->about[0].height;
     if (d->counted.pixels != d->unlike.pixels)
-        fprintf(out, "%" PRIu64 " pixels count; ", d->counted.pixels);
-    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixels differ", d->unlike.pixels, all);
+        fprintf(out, "%" PRIu64 " pixel%s count%s; ", d->counted.pixels, plural(d->counted.pixels),
+                plural_verb(d->counted.pixels));
+    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixel%s differ%s", d->unlike.pixels, all, plural(all),
+            plural_verb(d->unlike.pixels));
     print_forgiven(out, d);
     print_worst(out, d);
 }

@@ -345,8 +345,8 @@ static void print_extent(FILE *out, const cause *c)
     else if (c->differing == c->compared - c->first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->first);
     else
-        fprintf(out, "%" PRIu64 " of %" PRIu64 " ticks differ, the first is %" PRIu64, c->differing, c->compared,
-                c->first);
+        fprintf(out, "%" PRIu64 " of %" PRIu64 " ticks differ%s, the first is %" PRIu64, c->differing, c->compared,
+                plural_verb(c->differing), c->first);
 }
 
 /* What follows from another point, key, edit or query: what the first tick that differs shows of it. */

@@ -3,6 +3,7 @@
  * it had since tick 0. */
 #include "heat_layers.h"
 #include "layer_type.h"
+#include "text.h"
 
 #include <inttypes.h>
 
@@ -74,9 +75,10 @@ static void describe(description *d, const described *element)
 {
     const heat_cell seen = heat_at(d->heat, element->id);
     if (element->style.layer == LAYER_VISIT_HEAT)
-        say(d, "visited in %" PRIu64 " of %" PRIu64 " ticks, ", seen.visits, d->tick->number + 1);
+        say(d, "visited in %" PRIu64 " of %" PRIu64 " tick%s, ", seen.visits, d->tick->number + 1,
+            plural(d->tick->number + 1));
     else
-        say(d, "%" PRIu64 " points in all ticks together, ", seen.points);
+        say(d, "%" PRIu64 " point%s in all ticks together, ", seen.points, plural(seen.points));
     say_node(d, element->id);
 }
 

@@ -3,6 +3,7 @@
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -230,9 +231,9 @@ static void write_shown(pen *p, const scene_tally *tally)
         return;
     write_filter(p, &v->filter);
     if (view_shows(v, LAYER_NODES))
-        write_row(p, "shown", "%zu nodes", tally->nodes);
+        write_row(p, "shown", "%zu node%s", tally->nodes, plural(tally->nodes));
     if (view_shows(v, LAYER_POINTS))
-        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "%zu points", tally->points);
+        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "%zu point%s", tally->points, plural(tally->points));
 }
 
 /* A line for each thing that leaves something out or folds it, and how much is shown. */

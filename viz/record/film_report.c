@@ -98,10 +98,11 @@ static void report_counts(FILE *out, const film_summary *summary, const char *fo
 static void report_left_out(FILE *out, const film_summary *summary)
 {
     if (summary->left_out)
-        fprintf(out, "%" PRIu64 " elements are not in their frames: they are too far off to be drawn\n",
-                summary->left_out);
+        fprintf(out, "%" PRIu64 " element%s too far off to be drawn: the frames lack what is so far away\n",
+                summary->left_out, plural(summary->left_out));
     if (summary->over_budget)
-        fprintf(out, "%" PRIu64 " frames leave out what is beyond --budget\n", summary->over_budget);
+        fprintf(out, "%" PRIu64 " frame%s leave%s out what is beyond --budget\n", summary->over_budget,
+                plural(summary->over_budget), plural_verb(summary->over_budget));
 }
 
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
@@ -152,8 +153,8 @@ void film_report_stopped(FILE *out, const film_summary *summary, const film_opti
         fputs("octreel: stopped before a tick was filmed\n", out);
         return;
     }
-    fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " ticks; to go on: octreel record --resume",
-            summary->ticks, summary->total);
+    fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " tick%s; to go on: octreel record --resume",
+            summary->ticks, summary->total, plural(summary->total));
     if (options->last != 0)
         fprintf(out, " --ticks %" PRIu64 ":%" PRIu64, options->first, options->first + summary->total);
     fputs(" -o ", out);

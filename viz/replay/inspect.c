@@ -216,8 +216,8 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
         fprintf(out, "  skipped   %zu without finite coordinates\n", i->skipped);
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
-    fprintf(out, "  nodes     %zu, %zu of them leaves; deepest %u; fullest leaf %zu point%s\n", stats->nodes,
-            stats->leaves, stats->depth, stats->largest_leaf, plural(stats->largest_leaf));
+    fprintf(out, "  nodes     %zu, %zu of them %s; deepest %u; fullest leaf %zu point%s\n", stats->nodes, stats->leaves,
+            stats->leaves == 1 ? "a leaf" : "leaves", stats->depth, stats->largest_leaf, plural(stats->largest_leaf));
     fprintf(out, "  memory    %zu bytes, %.1f a point\n", stats->memory,
             stats->points ? (double)stats->memory / (double)stats->points : 0.0);
     print_histograms(out, i->tree, stats);
@@ -285,8 +285,8 @@ static void print_node(const octree_node *node, const char *name, FILE *out)
 {
     char address[OCTREE_ADDRESS_TEXT];
     fprintf(out, "%s\n", name);
-    fprintf(out, "%s: %s of %zu points at depth %u\n", octree_address_format(node->address, address),
-            node->leaf ? "leaf" : "inner node", node->count, node->depth);
+    fprintf(out, "%s: %s of %zu point%s at depth %u\n", octree_address_format(node->address, address),
+            node->leaf ? "leaf" : "inner node", node->count, plural(node->count), node->depth);
     print_box(out, "  box", &node->box);
     for (size_t i = 0; node->leaf && i < node->count; i++)
         inspect_print_point(&node->points[i], NULL, out);

@@ -3,6 +3,7 @@
 #include "inspect_answers.h"
 #include "inspect.h"
 #include "json_write.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -148,6 +149,7 @@ static void print_question(const shown_answer *shown, FILE *out)
 static void print_answer(const shown_answer *shown, FILE *out)
 {
     const char *note = note_of(shown);
+    const octree_cost *cost = &shown->answer->cost;
     print_question(shown, out);
     fprintf(out, ": %zu found\n", shown->answer->count);
     if (note)
@@ -155,10 +157,10 @@ static void print_answer(const shown_answer *shown, FILE *out)
     for (size_t i = 0; i < shown->answer->count; i++)
         inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
     fprintf(out,
-            "  cost: %" PRIu64 " nodes visited, %" PRIu64 " of them leaves; %" PRIu64 " points compared; %" PRIu64
-            " nodes pruned\n",
-            shown->answer->cost.nodes, shown->answer->cost.leaves, shown->answer->cost.points,
-            shown->answer->cost.pruned);
+            "  cost: %" PRIu64 " node%s visited, %" PRIu64 " of them %s; %" PRIu64 " point%s compared; %" PRIu64
+            " node%s pruned\n",
+            cost->nodes, plural(cost->nodes), cost->leaves, cost->leaves == 1 ? "a leaf" : "leaves", cost->points,
+            plural(cost->points), cost->pruned, plural(cost->pruned));
 }
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */

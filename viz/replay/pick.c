@@ -6,6 +6,7 @@
 #include "json_write.h"
 #include "replay.h"
 #include "png_read.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -195,7 +196,7 @@ static void print_heading(FILE *out, const pick *p)
     char color[COLOR_TEXT];
     fprintf(out, "%s: tick %" PRIu64 ", pixel (%d, %d)", p->path, p->tick, p->asked[0], p->asked[1]);
     if (p->count == 0)
-        fprintf(out, ": nothing is drawn there, nor within %d pixels\n", p->radius);
+        fprintf(out, ": nothing is drawn there, nor within %d pixel%s\n", p->radius, plural((uint64_t)p->radius));
     else if (distance(p) > 0)
         fprintf(out, ": nothing is drawn there; %.1f pixels away, at (%d, %d), %s:\n", distance(p), p->pixel[0],
                 p->pixel[1], print_color(p, color));

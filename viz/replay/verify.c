@@ -112,8 +112,8 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
         v->report->findings[v->report->count++] = differs;
     else if (state == LINE_NONE)
         add_finding(v, VERIFY_LINES, step->tick,
-                    "ticks.jsonl ends before it: %" PRIu64 " of %" PRIu64 " lines are missing",
-                    v->replay.ticks - step->tick, v->replay.ticks);
+                    "ticks.jsonl ends before it, and lacks %" PRIu64 " of %" PRIu64 " line%s",
+                    v->replay.ticks - step->tick, v->replay.ticks, plural(v->replay.ticks));
     else
         add_finding(v, VERIFY_LINES, step->tick,
                     state == LINE_TORN ? "its line in ticks.jsonl is torn: the file ends within it"
@@ -134,9 +134,9 @@ static void find_pixels(verifying *v, const char *path, uint64_t tick)
     v->report->pixels = unlike.pixels;
     const verify_report *r = v->report;
     const bool same = strcmp(r->drawn_by, r->drawn_now) == 0;
-    add_finding(v, VERIFY_PIXELS, tick, "%" PRIu64 " pixels from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s",
-                unlike.pixels, unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y, r->drawn_by,
-                same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
+    add_finding(v, VERIFY_PIXELS, tick, "%" PRIu64 " pixel%s from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s",
+                unlike.pixels, plural(unlike.pixels), unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y,
+                r->drawn_by, same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
 static void find_frame(verifying *v, const char *sentence, uint64_t tick)
@@ -204,7 +204,8 @@ static void check_end_of_lines(verifying *v)
     if (lines_next(&v->lines, 0) == LINE_NONE)
         return;
     add_finding(v, VERIFY_LINES, v->replay.ticks,
-                "ticks.jsonl has lines beyond the session, which has %" PRIu64 " ticks", v->replay.ticks);
+                "ticks.jsonl has lines beyond the session, which has %" PRIu64 " tick%s", v->replay.ticks,
+                plural(v->replay.ticks));
 }
 
 /* Whether a file has a frame's name that this recording does not have. */

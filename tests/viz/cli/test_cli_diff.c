@@ -57,6 +57,7 @@ static void tolerance_is_printed_with_every_verdict(void **state)
         {"--max-delta 0.0026", "forgiven: colours within 0.0026 YIQ\n", 1},
         {"--ignore 0,0,3,16 --ignore 3,3,9,1", "the 3x16 pixels at (0,0), the 9x1 pixels at (3,3)\n", 0},
         {"--ignore 0,0,3,16", "2 of 384 pixels differ, 3 more in what is ignored; worst 0.0027 YIQ at (3,3)", 1},
+        {"--ignore 0,0,4,16", "1 of 384 pixels differs, 4 more in what is ignored; worst 0.0027 YIQ at (4,3)", 1},
         {"--ignore 24,0,9,9 --ignore 0,15,9,9",
          "forgiven: the 9x9 pixels at (24,0), outside every frame that was compared, the 9x9 pixels at (0,15)\n", 1},
         {"--ignore 0,16,1,1", "forgiven: the 1x1 pixels at (0,16), outside every frame that was compared\n", 1},

@@ -264,6 +264,39 @@ static void sheet_has_at_most_25_frames_of_all(void **state)
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
+/* What is said of so many of everything. */
+static void assert_counted(uint64_t count, const char *joined, const char *stopped)
+{
+    const film_summary summary = {
+        .ticks = count, .frames = count, .total = count, .left_out = count, .over_budget = count};
+    const film_options options = {.folder = "f"};
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    film_report_joined(out, &summary, &options, false);
+    film_report_stopped(out, &summary, &options);
+    assert_int_equal(fclose(out), 0);
+    if (strncmp(text, joined, strlen(joined)) != 0 || !strstr(text, stopped))
+        fail_msg("it says\n%s", text);
+    free(text);
+}
+
+static void one_of_anything_is_told_in_the_singular(void **state)
+{
+    (void)state;
+    assert_counted(1,
+                   "f: 1 tick, 1 frame\n"
+                   "1 element too far off to be drawn: the frames lack what is so far away\n"
+                   "1 frame leaves out what is beyond --budget\n",
+                   "octreel: stopped after 1 of 1 tick; ");
+    assert_counted(2,
+                   "f: 2 ticks, 2 frames\n"
+                   "2 elements too far off to be drawn: the frames lack what is so far away\n"
+                   "2 frames leave out what is beyond --budget\n",
+                   "octreel: stopped after 2 of 2 ticks; ");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -273,6 +306,7 @@ int main(void)
         IN_FOLDER(printed_lines_survive_names_that_shells_and_ffmpeg_read_otherwise),
         IN_FOLDER(program_prints_the_lines),
         cmocka_unit_test(folders_are_named_so_that_a_shell_finds_them),
+        cmocka_unit_test(one_of_anything_is_told_in_the_singular),
         cmocka_unit_test(sheet_has_at_most_25_frames_of_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -100,7 +100,7 @@ static void lines_that_are_missing_torn_or_too_many_are_found(void **state)
     const place folder = film_short(*state), lines = place_below(folder.path, "ticks.jsonl");
     char *last = copy_line(folder.path, SHORT_TICKS - 1);
     replace_line(folder.path, SHORT_TICKS - 1, "");
-    assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "1 of 14 lines are missing");
+    assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "lacks 1 of 14 lines");
     for (size_t cut = 1; cut < strlen(last); cut += 40) {
         size_t size;
         char *text = file_read(lines.path, &size);
@@ -120,7 +120,7 @@ static void lines_that_are_missing_torn_or_too_many_are_found(void **state)
     free(before);
     free(last);
     cut_file(folder.path, "ticks.jsonl", 0);
-    assert_found(&folder, VERIFY_LINES, 0, "14 of 14 lines are missing");
+    assert_found(&folder, VERIFY_LINES, 0, "lacks 14 of 14 lines");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)

@@ -174,7 +174,7 @@ class Viewer {
         this.timeline.choose(this.filter);
         const count = this.recording.count(this.filter);
         byId("filtered").textContent = this.filter === 0 ? "" :
-            `${grouped(count)} ${count === 1 ? "tick" : "ticks"} ${this.filterNames().join(" or ")}: n and p go from one to the next.`;
+            `${counted(count, "tick")} ${this.filterNames().join(" or ")}: n and p go from one to the next.`;
     }
 
     showPlaying()
@@ -296,7 +296,7 @@ function describeRecording(recording)
 {
     const {width, height, camera} = recording.about, folder = folderName();
     const frames = recording.filmed.reduce((count, filmed, i) => count + (filmed === i ? 1 : 0), 0);
-    const parts = [`${grouped(recording.length)} ticks`, `${grouped(frames)} frames`, `${width} × ${height}`, camera];
+    const parts = [counted(recording.length, "tick"), counted(frames, "frame"), `${width} × ${height}`, camera];
     byId("about").append(element("strong", folder), " ", parts.filter(Boolean).join(" · "));
     document.title = folder ? `${folder} – Octreel` : "Octreel recording";
     byId("stage").style.setProperty("--ratio", width / height || 16 / 9);

@@ -26,6 +26,12 @@ function grouped(number)
     return number.toLocaleString("en");
 }
 
+/* "1 tick", "2 ticks". */
+function counted(count, noun)
+{
+    return `${grouped(count)} ${noun}${count === 1 ? "" : "s"}`;
+}
+
 /* The digits of ticks.jsonl: a number's shortest text, minus zero included. */
 function textOf(value)
 {
