@@ -21,10 +21,16 @@ static const char help[] =
     "          octreel accept golden frames frame_000041.png frame_000042.png\n"
     "          octreel accept frames.digests frames\n";
 
+#define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING)
+
 int cmd_accept(int argc, char **argv)
 {
-    const command_line line = {
-        .name = "accept", .help = help, .least = 2, .most = INT_MAX, .takes = "a reference and what is new"};
+    const command_line line = {.name = "accept",
+                               .help = help,
+                               .least = 2,
+                               .most = INT_MAX,
+                               .takes = "a reference and what is new, each a PNG, a folder of PNGs or a recording",
+                               .inputs = {FILE_KIND(MISSING) | FILE_KIND(DIGESTS) | SIDE, FILE_KIND(DIGESTS) | SIDE}};
     const int status = command_line_read(&line, argc, argv);
     octreel_error error;
     if (status != COMMAND_GO_ON)

@@ -3,9 +3,11 @@
 #include "command.h"
 #include "command_line.h"
 #include "explain.h"
+#include "hint.h"
 #include "ignored_layers.h"
 #include "number.h"
 #include "report.h"
+#include "view_options.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,6 +87,17 @@ static bool read_rectangle(const command_option *option, const char *text, void 
     return true;
 }
 
+static bool refuse_layer(const command_option *option, const char *bad)
+{
+    char meant[HINT_TEXT];
+    const size_t length = strcspn(bad, ",");
+    hint h = hint_for(bad, length);
+    for (int i = 0; view_layer_at(i); i++)
+        hint_offer(&h, view_layer_at(i));
+    return refuse("--%s takes names of layers with commas between, and \"%.*s\" is none%s%s record --help lists them",
+                  option->name, (int)length, bad, hint_text(&h, "", meant), hint_program());
+}
+
 static bool read_layers(const command_option *option, const char *text, void *into)
 {
     arguments *a = into;
@@ -92,8 +105,7 @@ static bool read_layers(const command_option *option, const char *text, void *in
     if (a->options.mask)
         return refuse("--%s is given once, with commas between the names of several layers", option->name);
     if (!view_layers_parse(text, &a->layers, &bad))
-        return refuse("--%s takes names of layers with commas between, and \"%.*s\" is none", option->name,
-                      (int)strcspn(bad, ","), bad);
+        return refuse_layer(option, bad);
     a->options.mask = ignore_layers;
     a->options.mask_context = &a->layers;
     a->options.layers = text;
@@ -116,9 +128,9 @@ static const command_option options[] = {
     {"ignore-layer", read_layers, 0, 0, 0, 0},
     {"causes", read_causes, 0, sizeof(uint64_t), 0, UINT32_MAX},
     {"background", read_color, OPTION_VALUE(arguments, options.background), 0, 0},
-    {"output", read_name, OPTION_VALUE(arguments, folder), 0, 0},
-    {"junit", read_name, OPTION_VALUE(arguments, junit), 0, 0},
-    {"markdown", read_name, OPTION_VALUE(arguments, markdown), 0, 0},
+    {"output", read_folder, OPTION_VALUE(arguments, folder), 0, 0},
+    {"junit", read_file, OPTION_VALUE(arguments, junit), 0, 0},
+    {"markdown", read_file, OPTION_VALUE(arguments, markdown), 0, 0},
     {0},
 };
 
@@ -242,6 +254,8 @@ static int compare(const arguments *a, const char *paths[2])
     return status;
 }
 
+#define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING) | FILE_KIND(DIGESTS)
+
 int cmd_diff(int argc, char **argv)
 {
     arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
@@ -252,7 +266,8 @@ int cmd_diff(int argc, char **argv)
                                .json = &a.json,
                                .least = 2,
                                .most = 2,
-                               .takes = "a reference and what is compared with it"};
+                               .takes = "two sides, each a PNG, a folder of PNGs, a recording or a file of digests",
+                               .inputs = {SIDE, SIDE}};
     int status = command_line_read(&line, argc, argv);
     if (a.folder && !a.causes_said)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */

@@ -38,9 +38,7 @@ static int digest_it(const char *folder, const char *path, image_color backgroun
     if (!diff_side_open(&side, folder, &error))
         return trouble("%s", error.text);
     int status = EXIT_DONE;
-    if (side.kind == DIFF_DIGESTS)
-        status = trouble("%s: it is a file of digests already", folder);
-    else if (side.count == 0)
+    if (side.count == 0)
         status = trouble("%s: there is no PNG in it", folder);
     else if (!diff_side_spared(&side, &output, &error) || !digest_all(&side, background, &error) ||
              !write_file(&side, path, &error))
@@ -55,7 +53,7 @@ typedef struct arguments {
 } arguments;
 
 static const command_option options[] = {
-    {"output", read_name, OPTION_VALUE(arguments, path), 0, 0},
+    {"output", read_file, OPTION_VALUE(arguments, path), 0, 0},
     {"background", read_color, OPTION_VALUE(arguments, background), 0, 0},
     {0},
 };
@@ -69,7 +67,8 @@ int cmd_digest(int argc, char **argv)
                                .arguments = &a,
                                .least = 1,
                                .most = 1,
-                               .takes = "one folder of frames"};
+                               .takes = "one folder of frames",
+                               .inputs = {FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING)}};
     const int status = command_line_read(&line, argc, argv);
     return status == COMMAND_GO_ON ? digest_it(argv[optind], a.path, a.background) : status;
 }

@@ -87,13 +87,13 @@ static bool read_node(const command_option *option, const char *text, void *into
 }
 
 static const command_option options[] = {
-    {"output", read_name, OPTION_VALUE(arguments, picture), 0, 0},
+    {"output", read_picture, OPTION_VALUE(arguments, picture), 0, 0},
     {"capacity", read_whole, OPTION_VALUE(arguments, def.leaf_capacity), 1, UINT32_MAX},
     {"depth", read_depth, OPTION_VALUE(arguments, def.max_depth), 0, OCTREE_MAX_DEPTH},
     {"full", read_full, OPTION_VALUE(arguments, def.full_leaf), 0, 0},
     {"world", read_world, 0, sizeof(arguments), 0, 0},
     {"node", read_node, OPTION_VALUE(arguments, node), 0, 0},
-    {"nodes", read_name, OPTION_VALUE(arguments, nodes), 0, 0},
+    {"nodes", read_file, OPTION_VALUE(arguments, nodes), 0, 0},
     {0},
 };
 
@@ -237,17 +237,15 @@ int cmd_inspect(int argc, char **argv)
                                .view = &a.view_options,
                                .queries = &a.queries,
                                .least = 1,
-                               .most = INT_MAX,
-                               .takes = "a point cloud"};
+                               .most = 1,
+                               .takes = "one point cloud",
+                               .inputs = {FILE_KIND(CLOUD)},
+                               .several = "*.pcd"};
     a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
     const int status = command_line_read(&line, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
-    if (argc - optind > 1)
-        return trouble("inspect takes one cloud, not also \"%s\"; for several: for f in *.pcd; do octreel inspect "
-                       "\"$f\" -o \"$f.png\"; done",
-                       argv[optind + 1]);
     a.cloud = argv[optind];
     const bool ok = check_picture(&a) && read_view(&a.view_options, &a.view) && check_outputs(&a);
     return ok ? inspect_it(&a) : EXIT_TROUBLE;

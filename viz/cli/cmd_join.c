@@ -40,8 +40,13 @@ static int join_it(const char *folder, bool json)
 int cmd_join(int argc, char **argv)
 {
     bool json = false;
-    const command_line line = {
-        .name = "join", .help = help, .json = &json, .least = 1, .most = 1, .takes = "the folder of one recording"};
+    const command_line line = {.name = "join",
+                               .help = help,
+                               .json = &json,
+                               .least = 1,
+                               .most = 1,
+                               .takes = "the folder of one recording",
+                               .inputs = {FILE_KIND(RECORDING)}};
     const int status = command_line_read(&line, argc, argv);
     return status == COMMAND_GO_ON ? join_it(argv[optind], json) : status;
 }

@@ -64,7 +64,8 @@ int cmd_pick(int argc, char **argv)
                                .renderer = &pick.renderer,
                                .least = 3,
                                .most = 3,
-                               .takes = "a frame and two coordinates, as in frames/frame_000041.png 312 200"};
+                               .takes = "a frame and two coordinates, as in frames/frame_000041.png 312 200",
+                               .inputs = {FILE_KIND(PNG)}};
     const int status = command_line_read(&line, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;

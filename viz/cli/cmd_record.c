@@ -3,6 +3,7 @@
 #include "command.h"
 #include "command_line.h"
 #include "film.h"
+#include "file.h"
 #include "film_report.h"
 #include "number.h"
 #include "progress.h"
@@ -58,7 +59,7 @@ static bool read_ticks(const command_option *option, const char *text, void *int
 }
 
 static const command_option options[] = {
-    {"output", read_text, OPTION_VALUE(arguments, film.folder), 0, 0},
+    {"output", read_folder, OPTION_VALUE(arguments, film.folder), 0, 0},
     {"keys", read_text, OPTION_VALUE(arguments, keys), 0, 0},
     {"every", read_whole, OPTION_VALUE(arguments, film.every), 1, 1000000000},
     {"ticks", read_ticks, OPTION_VALUE(arguments, film), 0, 0},
@@ -141,6 +142,12 @@ static int play(arguments *a)
     return status;
 }
 
+static bool is_current(const char *folder)
+{
+    struct stat named, current;
+    return stat(folder, &named) == 0 && stat(".", &current) == 0 && same_file(&named, &current);
+}
+
 int cmd_record(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_default()}};
@@ -153,14 +160,16 @@ int cmd_record(int argc, char **argv)
                                .renderer = &a.film.renderer,
                                .view = &a.view,
                                .most = 1,
-                               .takes = "one session"};
+                               .takes = "one session",
+                               .inputs = {FILE_KIND(SESSION)}};
     const int status = command_line_read(&line, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
-    if (!*a.film.folder)
-        return trouble("the folder's name is empty");
+    if (is_current(a.film.folder) && file_kind_of(a.film.folder) != KIND_RECORDING)
+        return trouble("-o takes a folder of its own for the frames, and \"%s\" is the current one: -o frames, say",
+                       a.film.folder);
     a.session = argv[optind];
     return read_film(&a) ? play(&a) : EXIT_TROUBLE;
 }

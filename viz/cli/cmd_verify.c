@@ -51,7 +51,8 @@ int cmd_verify(int argc, char **argv)
                                .renderer = &renderer,
                                .least = 1,
                                .most = 1,
-                               .takes = "the folder of one recording"};
+                               .takes = "the folder of one recording",
+                               .inputs = {FILE_KIND(RECORDING)}};
     const int status = command_line_read(&line, argc, argv);
     return status == COMMAND_GO_ON ? verify_it(argv[optind], &renderer, json) : status;
 }

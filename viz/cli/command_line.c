@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* command_line.c - one loop over the options for all commands. */
 #include "command_line.h"
+#include "hint.h"
 
+#include <limits.h>
 #include <string.h>
 
 #define MOST_OPTIONS 64
 #define OWN_OPTION 1024 /* the first of getopt's numbers for a command's own */
+
+/* Numbers beyond letters, which are what getopt says of short options. */
+enum { OPTION_JSON = VIEW_OPTION - 4, OPTION_HELP };
 
 static void list_options(const command_line *line, struct option all[MOST_OPTIONS])
 {
@@ -24,14 +29,14 @@ static void list_options(const command_line *line, struct option all[MOST_OPTION
         all[count++] = drawing[1];
     }
     if (line->json)
-        all[count++] = (struct option){"json", no_argument, NULL, 'j'};
-    all[count++] = (struct option){"help", no_argument, NULL, 'h'};
+        all[count++] = (struct option){"json", no_argument, NULL, OPTION_JSON};
+    all[count++] = (struct option){"help", no_argument, NULL, OPTION_HELP};
     all[count] = (struct option){NULL, 0, NULL, 0};
 }
 
 static int print_help(const command_line *line)
 {
-    fputs(line->help, stdout);
+    hint_write_commands(stdout, line->help);
     if (line->queries)
         print_query_options(stdout);
     if (line->view)
@@ -39,7 +44,7 @@ static int print_help(const command_line *line)
     if (line->renderer)
         print_renderer_options(stdout);
     if (line->more_help)
-        fputs(line->more_help, stdout);
+        hint_write_commands(stdout, line->more_help);
     return EXIT_DONE;
 }
 
@@ -69,11 +74,8 @@ static bool read_option(const command_line *line, int option)
         return read_context(optarg, line->renderer);
     case OPTION_ANY_RENDERER:
         return line->renderer->any_renderer = true;
-    case 'j':
+    case OPTION_JSON:
         return *line->json = true;
-    case '?': /* getopt has said what is wrong */
-        fprintf(stderr, "octreel %s --help tells what it takes\n", line->name);
-        return false;
     case 'o':
         return read_own(line, find_output(line));
     default: /* a digit, as in -10 */
@@ -81,25 +83,142 @@ static bool read_option(const command_line *line, int option)
     }
 }
 
-int command_line_read(const command_line *line, int argc, char **argv)
+/* ---- What does not fit --------------------------------------------------------------------------------------- */
+
+/* "--s could be --size or --slice"; false where fewer than two options begin so. */
+static bool tell_ambiguous(const command_line *line, const struct option *all, const char *name, size_t length)
 {
-    const char *letters = line->no_negative ? "h0123456789" : find_output(line) ? "o:h" : "h";
+    char could[256] = "";
+    size_t used = 0, found = 0;
+    for (; all->name; all++)
+        if (strncmp(all->name, name, length) == 0 && used < sizeof could) {
+            used += (size_t)snprintf(could + used, sizeof could - used, "%s--%s", found ? ", " : "", all->name);
+            found++;
+        }
+    if (found < 2)
+        return false;
+    trouble("%s: --%.*s could be each of %s", line->name, (int)length, name, could);
+    return true;
+}
+
+static const struct option *find_option(const struct option *all, int number)
+{
+    while (all->name && all->val != number)
+        all++;
+    return all->name ? all : NULL;
+}
+
+/* An option that getopt does not know, or whose value is missing or too much. */
+static int refuse_option(const command_line *line, const struct option *all, bool missing, const char *typed)
+{
+    char meant[HINT_TEXT];
+    const bool letter = optopt > 0 && optopt < 128;
+    const struct option *known = find_option(all, letter ? find_output(line) : optopt);
+    if (missing)
+        return trouble("%s%s takes a value, and has none; %s %s --help tells more", letter ? "-" : "--",
+                       letter ? (char[]){(char)optopt, 0} : known->name, hint_program(), line->name);
+    if (letter)
+        return trouble("%s has no option -%c; %s %s --help lists all", line->name, optopt, hint_program(), line->name);
+    if (optopt)
+        return trouble("--%s takes no value", known->name);
+    const char *name = typed + 2;
+    const size_t length = strcspn(name, "=");
+    hint h = hint_for(name, length);
+    if (tell_ambiguous(line, all, name, length))
+        return EXIT_TROUBLE;
+    for (const struct option *o = all; o->name; o++)
+        hint_offer(&h, o->name);
+    return trouble("%s has no option --%.*s%s%s %s --help lists all", line->name, (int)length, name,
+                   hint_text(&h, "--", meant), hint_program(), line->name);
+}
+
+/* A value that is an option: the option before it has none. */
+static bool is_option(const char *value)
+{
+    return (strncmp(value, "--", 2) == 0 && value[2]) || strcmp(value, "-o") == 0 || strcmp(value, "-h") == 0;
+}
+
+static int read_options(const command_line *line, int argc, char **argv, bool *has_output)
+{
+    const char *letters = line->no_negative ? ":h0123456789" : find_output(line) ? ":o:h" : ":h";
+    const int output = find_output(line);
     struct option all[MOST_OPTIONS];
     list_options(line, all);
     optind = 1;
+    opterr = 0;
     for (int option; (option = getopt_long(argc, argv, letters, all, NULL)) != -1;) {
-        if (option == 'h')
+        if (option == 'h' || option == OPTION_HELP)
             return print_help(line);
+        if (option == '?' || option == ':')
+            return refuse_option(line, all, option == ':', argv[optind - 1]);
+        if (optarg && optarg == argv[optind - 1] && is_option(optarg))
+            return trouble("%s takes a value, and \"%s\" is an option", argv[optind - 2], optarg);
         if (!read_option(line, option))
             return EXIT_TROUBLE;
+        *has_output = *has_output || option == 'o' || (output && option == output);
     }
+    return COMMAND_GO_ON;
+}
+
+static int refuse_surplus(const command_line *line, const char *word, bool has_output)
+{
+    const int output = find_output(line);
+    const bool is_input = line->inputs[0] >> file_kind_of(word) & 1;
+    if (output && !has_output && !is_input && is_meant_for(line->options[output - OWN_OPTION].read, word))
+        return trouble("%s takes %s, not also \"%s\", did you mean -o %s?", line->name, line->takes, word, word);
+    if (line->several)
+        return trouble("%s takes %s, not also \"%s\"; for several: for f in %s; do %s %s \"$f\" -o \"$f.png\"; done",
+                       line->name, line->takes, word, line->several, hint_program(), line->name);
+    return trouble("%s takes %s, not also \"%s\"; %s %s --help tells more", line->name, line->takes, word,
+                   hint_program(), line->name);
+}
+
+/* A file of a recording stands for its folder where that is taken. */
+static bool refuse_part(const command_line *line, const char *path, file_kind kind)
+{
+    const char *slash = strrchr(path, '/');
+    char folder[PATH_MAX] = ".";
+    if (slash)
+        snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
+    return file_kind_of(folder) == KIND_RECORDING &&
+           !refuse("%s is %s, and %s takes %s: %s", path, file_kind_rows[kind].words, line->name, line->takes, folder);
+}
+
+static bool check_input(const command_line *line, const char *path, file_kinds taken)
+{
+    const file_kind kind = file_kind_of(path);
+    const file_kind_row *row = &file_kind_rows[kind];
+    if (kind == KIND_UNKNOWN || taken >> kind & 1)
+        return true;
+    if (kind == KIND_MISSING)
+        return refuse("%s: there is no such file or folder", path);
+    if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_part(line, path, kind))
+        return false;
+    return refuse("%s is %s, and %s takes %s; %s%s%s%s%s", path, row->words, line->name, line->takes,
+                  row->command ? hint_program() : "", row->command ? " " : "", row->command ? row->command : "",
+                  row->command ? " " : "", row->use);
+}
+
+static bool check_inputs(const command_line *line, char **paths, int count)
+{
+    for (int i = 0; i < count && i < 2; i++)
+        if (line->inputs[i] && !check_input(line, paths[i], line->inputs[i]))
+            return false;
+    return true;
+}
+
+int command_line_read(const command_line *line, int argc, char **argv)
+{
+    bool has_output = false;
+    const int status = read_options(line, argc, argv, &has_output);
     const int count = argc - optind;
+    if (status != COMMAND_GO_ON)
+        return status;
     if (count > line->most)
-        return trouble("%s takes %s, not also \"%s\"; octreel %s --help tells more", line->name, line->takes,
-                       argv[optind + line->most], line->name);
+        return refuse_surplus(line, argv[optind + line->most], has_output);
     if (count < line->least)
-        return trouble("%s takes %s; octreel %s --help tells more", line->name, line->takes, line->name);
+        return trouble("%s takes %s; %s %s --help tells more", line->name, line->takes, hint_program(), line->name);
     if (!check_names(line->name, argv + optind, count) || (line->renderer && !check_renderer(line->renderer)))
         return EXIT_TROUBLE;
-    return COMMAND_GO_ON;
+    return check_inputs(line, argv + optind, count) ? COMMAND_GO_ON : EXIT_TROUBLE;
 }

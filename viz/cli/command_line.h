@@ -3,6 +3,7 @@
 #ifndef CLI_COMMAND_LINE_H
 #define CLI_COMMAND_LINE_H
 
+#include "file_kind.h"
 #include "options.h"
 #include "query_options.h"
 
@@ -19,8 +20,10 @@ typedef struct command_line {
     view_options *view;
     query_options *queries; /* --nearest, --radius, --range */
 
-    int least, most;   /* arguments beside the options */
-    const char *takes; /* what these are: "one session" */
+    int least, most;      /* arguments beside the options */
+    const char *takes;    /* what these are: "one session" */
+    file_kinds inputs[2]; /* of the first of them; 0: it is no file */
+    const char *several;  /* files of which one makes a PNG, and all of which may be given: "*.pcd"; may be null */
 } command_line;
 
 /* Read all options; optind is then the first argument. Returns COMMAND_GO_ON, or the command's exit status: help was

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* main.c - octreel's command line: a table of commands. */
+/* main.c - octreel's command line: a table of commands, and help on each. */
 #include "command.h"
+#include "file_kind.h"
+#include "hint.h"
 #include "options.h"
+#include "session_text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -25,15 +28,26 @@ static const command commands[] = {
 
 #define COMMANDS (sizeof commands / sizeof commands[0])
 
+/* What help is about beside commands. */
+static const struct {
+    const char *name, *text, *line;
+} topics[] = {
+    {"session", session_text, "the session files that record takes: a world, points, keys, edits, queries"},
+};
+
+#define TOPICS (sizeof topics / sizeof topics[0])
+
 static int print_help(FILE *out)
 {
-    fputs("octreel - an octree you can watch\n\nusage: octreel COMMAND [OPTION ...]\n\n", out);
+    hint_write_commands(out, "octreel - an octree you can watch\n\nusage: octreel COMMAND [OPTION ...]\n\n");
     for (size_t i = 0; i < COMMANDS; i++)
         fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].line);
-    fputs("\n  octreel COMMAND --help   what a command takes\n"
-          "  octreel --version        the version, and who would draw\n\n"
-          "Exit status: 0 done, 1 finding, 2 trouble; stopped by a signal, that signal's (130 for Ctrl-C).\n",
-          out);
+    hint_write_commands(out, "\n  octreel help COMMAND     what a command takes; also octreel COMMAND --help\n");
+    for (size_t i = 0; i < TOPICS; i++)
+        fprintf(out, "  %s help %-12s %s\n", hint_program(), topics[i].name, topics[i].line);
+    hint_write_commands(
+        out, "  octreel --version        the version, and who would draw\n\n"
+             "Exit status: 0 done, 1 finding, 2 trouble; stopped by a signal, that signal's (130 for Ctrl-C).\n");
     return out == stdout ? EXIT_DONE : EXIT_TROUBLE;
 }
 
@@ -63,27 +77,67 @@ static int print_version(void)
     return found ? EXIT_DONE : EXIT_TROUBLE;
 }
 
+static const command *find_command(const char *name)
+{
+    for (size_t i = 0; i < COMMANDS; i++)
+        if (strcmp(name, commands[i].name) == 0)
+            return &commands[i];
+    return NULL;
+}
+
+/* `help`: on what help was asked for. */
+static int refuse_word(const char *word, bool help)
+{
+    static const char *const other_words[] = {"help", "--help", "--version"};
+    char meant[HINT_TEXT];
+    hint h = hint_for(word, strlen(word));
+    for (size_t i = 0; i < COMMANDS; i++)
+        hint_offer(&h, commands[i].name);
+    for (size_t i = 0; help && i < TOPICS; i++)
+        hint_offer(&h, topics[i].name);
+    for (size_t i = 0; !help && i < sizeof other_words / sizeof other_words[0]; i++)
+        hint_offer(&h, other_words[i]);
+    const file_kind kind = help || h.name ? KIND_UNKNOWN : file_kind_of(word);
+    if (file_kind_rows[kind].command)
+        return trouble("there is no command \"%s\", which is %s; %s %s %s", word, file_kind_rows[kind].words,
+                       hint_program(), file_kind_rows[kind].command, file_kind_rows[kind].use);
+    if (!help && *word == '-' && !h.name)
+        return trouble("a command comes first, and \"%s\" is an option; %s help lists them", word, hint_program());
+    return trouble("there is no %s \"%s\"%s%s help lists all", help ? "help on" : "command", word,
+                   hint_text(&h, "", meant), hint_program());
+}
+
+/* On nothing, a command or a topic. */
+static int help(int argc, char **argv)
+{
+    static char option[] = "--help";
+    if (argc == 1)
+        return print_help(stdout);
+    if (argc > 2)
+        return trouble("help takes one command, not also \"%s\"", argv[2]);
+    for (size_t i = 0; i < TOPICS; i++)
+        if (strcmp(argv[1], topics[i].name) == 0)
+            return fputs(topics[i].text, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
+    const command *found = find_command(argv[1]);
+    return found ? found->run(2, (char *[]){argv[0], option, NULL}) : refuse_word(argv[1], true);
+}
+
 static int run(int argc, char **argv)
 {
     if (argc < 2)
         return print_help(stderr);
-    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
-        return print_help(stdout);
+    if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
+        return help(argc - 1, argv + 1);
     if (strcmp(argv[1], "--version") == 0)
         return print_version();
-    for (size_t i = 0; i < COMMANDS; i++) {
-        if (strcmp(argv[1], commands[i].name) == 0) {
-            static char name[] = "octreel"; /* what getopt's own messages begin with */
-            argv[1] = name;
-            return commands[i].run(argc - 1, argv + 1);
-        }
-    }
-    return trouble("there is no command \"%s\"; octreel --help lists them", argv[1]);
+    const command *found = find_command(argv[1]);
+    return found ? found->run(argc - 1, argv + 1) : refuse_word(argv[1], false);
 }
 
 /* Output that could not be written is a failure, whatever the command returned. */
 int main(int argc, char **argv)
 {
+    hint_set_program(argc > 0 ? argv[0] : NULL);
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return status;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "options.h"
+#include "hint.h"
 #include "number.h"
 #include "view_options.h"
 
@@ -8,6 +9,8 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 
 /* One line, whatever the names of files in it hold. */
 static void say(const char *format, va_list arguments)
@@ -84,6 +87,80 @@ bool read_name(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
     return read_text(option, text, into) && check_name(option_typed(option, typed), text);
+}
+
+/* What a name's ending says of it. */
+typedef enum name_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } name_kind;
+
+static name_kind name_kind_of(const char *path)
+{
+    static const struct {
+        const char *endings;
+        name_kind kind;
+    } rows[] = {
+        {".png", NAME_PNG},
+        {".jpg.jpeg.gif.bmp.webp.tif.tiff.svg", NAME_PICTURE},
+        {".mp4.webm.mkv.avi.mov.apng", NAME_FILM},
+        {".json.jsonl.txt.csv.xml.html.md.pdf.digests.ply.pcd.xyz", NAME_FILE},
+    };
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    const size_t length = dot ? strlen(dot) : 0;
+    for (size_t i = 0; length > 1 && i < sizeof rows / sizeof rows[0]; i++)
+        for (const char *at = rows[i].endings; *at; at += 1 + strcspn(at + 1, "."))
+            if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
+                return rows[i].kind;
+    return NAME_OPEN;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+bool is_meant_for(command_option_reader *reader, const char *path)
+{
+    const name_kind kind = name_kind_of(path);
+    return reader == read_picture ? kind == NAME_PNG : kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
+}
+
+bool read_folder(const command_option *option, const char *text, void *into)
+{
+    char typed[OPTION_TYPED];
+    const name_kind kind = name_kind_of(text);
+    if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
+        return **(const char **)into != 0;
+    return refuse("%s takes the name of a folder, and \"%s\" is that of a %s%s", option_typed(option, typed), text,
+                  kind == NAME_FILE   ? "file"
+                  : kind == NAME_FILM ? "film"
+                                      : "picture",
+                  kind == NAME_FILM ? ": ffmpeg makes films of the frames in it" : "");
+}
+
+static bool read_file_name(const command_option *option, const char *text, void *into)
+{
+    char typed[OPTION_TYPED];
+    return read_name(option, text, into) &&
+           (!is_folder(text) ||
+            refuse("%s takes the name of a file, and \"%s\" is a folder", option_typed(option, typed), text));
+}
+
+bool read_picture(const command_option *option, const char *text, void *into)
+{
+    char typed[OPTION_TYPED];
+    const name_kind kind = name_kind_of(text);
+    return read_file_name(option, text, into) &&
+           (kind == NAME_OPEN || kind == NAME_PNG ||
+            refuse("%s takes the name of a PNG, and \"%s\" is none", option_typed(option, typed), text));
+}
+
+bool read_file(const command_option *option, const char *text, void *into)
+{
+    char typed[OPTION_TYPED];
+    const name_kind kind = name_kind_of(text);
+    return read_file_name(option, text, into) &&
+           (kind == NAME_OPEN || kind == NAME_FILE ||
+            refuse("%s writes text, and \"%s\" is the name of a picture", option_typed(option, typed), text));
 }
 
 bool read_whole(const command_option *option, const char *text, void *into)
@@ -177,20 +254,21 @@ void print_view_options(FILE *out)
 
 /* ---- Options of the renderer --------------------------------------------------------------------------------- */
 
-static void print_contexts(FILE *out)
+static const char *context_at(int n)
 {
-    for (int i = 0; draw_context_name((draw_context)i); i++)
-        fprintf(out, "%s%s", i ? ", " : "", draw_context_name((draw_context)i));
+    return draw_context_name((draw_context)n);
 }
 
 bool read_context(const char *text, renderer_choice *choice)
 {
     if (draw_context_parse(text, &choice->context))
         return true;
-    fprintf(stderr, "octreel: there is no context \"%s\"; there are ", text);
-    print_contexts(stderr);
-    fputc('\n', stderr);
-    return false;
+    char known[64], meant[HINT_TEXT];
+    hint h = hint_for(text, strlen(text));
+    for (int i = 0; context_at(i); i++)
+        hint_offer(&h, context_at(i));
+    return refuse("there is no context \"%s\"%sthere are %s", text, hint_text(&h, "", meant),
+                  json_list_names(context_at, known, sizeof known));
 }
 
 bool check_renderer(const renderer_choice *choice)
@@ -202,8 +280,8 @@ bool check_renderer(const renderer_choice *choice)
 
 void print_renderer_options(FILE *out)
 {
-    fputs("      --context NAME    what draws off-screen: ", out);
-    print_contexts(out);
+    char known[64];
+    fprintf(out, "      --context NAME    what draws off-screen: %s", json_list_names(context_at, known, sizeof known));
     fputs(" (default auto: the first of these that there is)\n"
           "      --any-renderer    with --context egl: draw with a graphics card too. Frames are then the same for\n"
           "                        the same card and driver; those of llvmpipe are the same everywhere\n",

@@ -40,11 +40,17 @@ struct command_option {
 #define OPTION_TYPED 32
 const char *option_typed(const command_option *option, char text[OPTION_TYPED]);
 
-command_option_reader read_flag;  /* bool: the option takes no value */
-command_option_reader read_text;  /* const char * */
-command_option_reader read_name;  /* the same, of a file or folder: not empty */
-command_option_reader read_whole; /* an integer type */
-command_option_reader read_color; /* image_color, as RRGGBB or #RRGGBB */
+command_option_reader read_flag;    /* bool: the option takes no value */
+command_option_reader read_text;    /* const char * */
+command_option_reader read_name;    /* the same, of a file or folder: not empty */
+command_option_reader read_folder;  /* the same, of a folder that is written: not named as a file */
+command_option_reader read_picture; /* the same, of a PNG that is written: not a folder, nor named as another file */
+command_option_reader read_file;    /* the same, of another file: not a folder, nor named as a picture */
+command_option_reader read_whole;   /* an integer type */
+command_option_reader read_color;   /* image_color, as RRGGBB or #RRGGBB */
+
+/* Whether a path without an option can be meant for -o, by the option's reader. */
+bool is_meant_for(command_option_reader *reader, const char *path);
 
 /* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
 bool check_names(const char *command, char *const *names, int count);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* digest_file.c - files of digests, read and written. */
 #include "digest_file.h"
+#include "file_kind.h"
 #include "parallel.h"
 #include "text.h"
 #include "file.h"

@@ -16,9 +16,6 @@
 
 #include <stdio.h>
 
-/* What such a file begins with. */
-#define DIGEST_FILE_BEGINNING "octreel-digests "
-
 /* Read the file at side->path into side. False with file, line and reason when it is invalid. */
 bool digest_file_read(diff_side *side, octreel_error *error);
 

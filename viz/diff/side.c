@@ -3,6 +3,7 @@
 #include "side.h"
 #include "array.h"
 #include "digest_file.h"
+#include "file_kind.h"
 #include "frame_file.h"
 
 #include <dirent.h>
@@ -12,6 +13,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 const char *diff_kind_name(diff_kind kind)
 {
@@ -83,24 +85,20 @@ static bool read_folder(diff_side *side, octreel_error *error)
     return ok;
 }
 
-/* Told by the first bytes, so that a damaged picture is reported by the PNG reader. */
 static bool read_file(diff_side *side, octreel_error *error)
 {
-    char first[sizeof DIGEST_FILE_BEGINNING] = "";
-    FILE *file = fopen(side->path, "rb");
-    if (!file)
-        return error_set(error, "%s: %s", side->path, strerror(errno));
-    const size_t size = fread(first, 1, sizeof first - 1, file);
-    fclose(file);
-    if (size >= 4 && memcmp(first, "\x89PNG", 4) == 0) {
+    switch (file_kind_of(side->path)) {
+    case KIND_PNG:
         side->kind = DIFF_PICTURE;
         return diff_side_add(side, base_name(side->path), (frame_digest){0}, error);
-    }
-    if (strcmp(first, DIGEST_FILE_BEGINNING) == 0) {
+    case KIND_DIGESTS:
         side->kind = DIFF_DIGESTS;
         return digest_file_read(side, error);
+    default:
+        if (access(side->path, R_OK) != 0)
+            return error_set(error, "%s: %s", side->path, strerror(errno));
+        return error_set(error, "%s: it is no PNG, no folder and no file of digests", side->path);
     }
-    return error_set(error, "%s: it is no PNG, no folder and no file of digests", side->path);
 }
 
 bool diff_side_open(diff_side *side, const char *path, octreel_error *error)

@@ -46,6 +46,16 @@ static const cloud_format *choose_format(const cloud_file *file)
     return formats[FORMATS - 1];
 }
 
+bool cloud_begins(const unsigned char *bytes, size_t size)
+{
+    octreel_error ignored;
+    const cloud_file file = {.name = "", .bytes = bytes, .size = size, .error = &ignored};
+    for (int i = 0; size > 0 && i < FORMATS; i++)
+        if (formats[i]->recognise && formats[i]->recognise(&file))
+            return true;
+    return size > 0 && cloud_text_begins(&file);
+}
+
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
 static bool parse_filled(cloud_file *file)

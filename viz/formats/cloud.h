@@ -38,6 +38,11 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error);
 
+/* Whether these are the first bytes of a cloud: the header of one of the formats, or a text whose first line is a
+ * point.
+ */
+bool cloud_begins(const unsigned char *bytes, size_t size);
+
 /* The names of the formats, as in "PLY and PCD". Returns `text`. */
 #define CLOUD_FORMAT_NAMES 128
 char *cloud_format_names(char text[CLOUD_FORMAT_NAMES]);

@@ -39,6 +39,9 @@ typedef struct cloud_format {
 CLOUD_FORMAT_MAP(CLOUD_FORMAT_EXTERN)
 #undef CLOUD_FORMAT_EXTERN
 
+/* Whether the first line of a text that is no comment or header holds a point. */
+bool cloud_text_begins(const cloud_file *file);
+
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
 /* Append a point; one that is not finite is counted as skipped instead. False when there is no memory. */

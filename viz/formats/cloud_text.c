@@ -132,16 +132,39 @@ static bool parse_point(const cloud_file *file, size_t number, cloud_span line, 
     return true;
 }
 
-static bool parse_text(cloud_file *file)
+/* The lines, without the mark that some editors put before UTF-8. */
+static cloud_lines lines_of(const cloud_file *file)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
     cloud_lines lines = cloud_lines_of(file);
+    if (file->size >= 3 && memcmp(lines.at, byte_order_mark, 3) == 0)
+        lines.at += 3;
+    return lines;
+}
+
+bool cloud_text_begins(const cloud_file *file)
+{
+    cloud_lines lines = lines_of(file);
+    cloud_span line;
+    double position[3];
+    for (bool first = true; cloud_next_line(&lines, &line);) {
+        line.begin = skip_blanks(line);
+        if (is_over(line))
+            continue;
+        if (!first || !is_header(line))
+            return parse_point(file, lines.number, line, position);
+        first = false;
+    }
+    return false;
+}
+
+static bool parse_text(cloud_file *file)
+{
+    cloud_lines lines = lines_of(file);
     cloud_span line;
     bool first = true;
     if (!cloud_check_text(file))
         return false;
-    if (file->size >= 3 && memcmp(lines.at, byte_order_mark, 3) == 0)
-        lines.at += 3;
     while (cloud_next_line(&lines, &line)) {
         double position[3];
         cloud_tell(file, lines.number, (uint64_t)(lines.at - (const char *)file->bytes), file->size);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "view_options.h"
+#include "file_kind.h"
+#include "hint.h"
 #include "layer.h"
 #include "number.h"
 #include "recording_file.h"
@@ -40,12 +42,15 @@ static const char *fit_at(int n)
     return (size_t)n < sizeof names / sizeof names[0] ? names[n] : NULL;
 }
 
-/* "there is no camera "x"; there are iso, top ..." */
+/* "there is no camera "x"; there are iso, top ...", or "... "iss", did you mean iso? ..." */
 static bool no_such(const char *what, const char *text, int length, json_name *names, octreel_error *error)
 {
-    char known[320];
-    return error_set(error, "there is no %s \"%.*s\"; there are %s", what, length < 100 ? length : 100, text,
-                     json_list_names(names, known, sizeof known));
+    char known[320], meant[HINT_TEXT];
+    hint h = hint_for(text, (size_t)length);
+    for (int i = 0; names(i); i++)
+        hint_offer(&h, names(i));
+    return error_set(error, "there is no %s \"%.*s\"%sthere are %s", what, length < 100 ? length : 100, text,
+                     hint_text(&h, "", meant), json_list_names(names, known, sizeof known));
 }
 
 /* ---- Values of each type ------------------------------------------------------------------------------------ */
@@ -117,7 +122,10 @@ static bool parse_size(const view_option *option, const char *text, view *v, oct
 static bool parse_camera_from(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     uint64_t every;
-    (void)option;
+    const file_kind kind = file_kind_of(text);
+    if (file_kind_rows[kind].words && kind != KIND_RECORDING)
+        return error_set(error, "%s is %s, and --%s takes the folder of a recording", text, file_kind_rows[kind].words,
+                         option->name);
     return recording_read(text, v, &every, error);
 }
 

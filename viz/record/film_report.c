@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* film_report.c - the summary printed after filming. */
 #include "film_report.h"
+#include "hint.h"
 #include "json_write.h"
 #include "text.h"
 
@@ -9,26 +10,12 @@
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* A word as a shell reads it. */
-static void put_word(FILE *out, const char *text)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+:,";
-    if (*text && strspn(text, plain) == strlen(text)) {
-        fputs(text, out);
-        return;
-    }
-    fputs(*text == '-' ? "'./" : "'", out);
-    for (; *text; text++)
-        fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
-    putc('\'', out);
-}
-
 /* A command of ffmpeg's that is run in the folder, so that it reads no name but its own. Frames are found by a pattern:
  * a numbered sequence would end at the first gap. With "./" cd does not look elsewhere. */
 static void put_command(FILE *out, const char *folder, const char *arguments)
 {
     fputs(folder[0] == '/' ? "    (cd " : "    (cd ./", out);
-    put_word(out, folder);
+    hint_write_word(out, folder);
     fprintf(out, " && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' %s)\n", arguments);
 }
 
@@ -107,9 +94,9 @@ static void report_left_out(FILE *out, const film_summary *summary)
 
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
 {
-    fprintf(out, "a chunk, from tick %" PRIu64 " to %" PRIu64 "; when all chunks are there: octreel join ",
-            options->first, options->first + summary->ticks - 1);
-    put_word(out, options->folder);
+    fprintf(out, "a chunk, from tick %" PRIu64 " to %" PRIu64 "; when all chunks are there: %s join ", options->first,
+            options->first + summary->ticks - 1, hint_program());
+    hint_write_word(out, options->folder);
     putc('\n', out);
 }
 
@@ -153,11 +140,11 @@ void film_report_stopped(FILE *out, const film_summary *summary, const film_opti
         fputs("octreel: stopped before a tick was filmed\n", out);
         return;
     }
-    fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " tick%s; to go on: octreel record --resume",
-            summary->ticks, summary->total, plural(summary->total));
+    fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " tick%s; to go on: %s record --resume",
+            summary->ticks, summary->total, plural(summary->total), hint_program());
     if (options->last != 0)
         fprintf(out, " --ticks %" PRIu64 ":%" PRIu64, options->first, options->first + summary->total);
     fputs(" -o ", out);
-    put_word(out, options->folder);
+    hint_write_word(out, options->folder);
     putc('\n', out);
 }

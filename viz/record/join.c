@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* join.c - a recording that was filmed in chunks becomes whole. */
 #include "join.h"
+#include "hint.h"
 #include "folder_files.h"
 #include "frame_file.h"
 #include "page.h"
@@ -99,8 +100,8 @@ static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
     frame_origin origin = {.tick = j->summary->ticks, .session = j->session_digest, .scene = scene};
     char name[FRAME_NAME];
     if (!folder_has(j->options->folder, frame_name(origin.tick, name)))
-        return error_set(error, "%s: %s is missing; octreel record --resume films what is missing", j->options->folder,
-                         name);
+        return error_set(error, "%s: %s is missing; %s record --resume films what is missing", j->options->folder, name,
+                         hint_program());
     if (!frame_check(j->options->folder, &origin, error))
         return false;
     j->summary->frames++;
@@ -171,8 +172,8 @@ static bool join_all(joining *j, bool *stopped, octreel_error *error)
         if (!join_chunk(j, &j->chunks[i], stopped, error))
             return false;
     return *stopped || j->summary->ticks == j->summary->total ||
-           error_set(error, "%s: no chunk has tick %" PRIu64 "; octreel record --resume films what is missing",
-                     j->options->folder, j->summary->ticks);
+           error_set(error, "%s: no chunk has tick %" PRIu64 "; %s record --resume films what is missing",
+                     j->options->folder, j->summary->ticks, hint_program());
 }
 
 /* ---- All of it ---------------------------------------------------------------------------------------------- */
@@ -195,7 +196,7 @@ static bool write_ticks(joining *j, octreel_error *error)
 static bool check_renderer_file(const char *folder, octreel_error *error)
 {
     return folder_has(folder, "renderer.json") ||
-           error_set(error, "%s: renderer.json is missing; octreel record --resume writes it", folder);
+           error_set(error, "%s: renderer.json is missing; %s record --resume writes it", folder, hint_program());
 }
 
 bool join_chunks(film_options *options, film_summary *summary, octreel_error *error)

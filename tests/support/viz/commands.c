@@ -70,12 +70,14 @@ static channel open_output(const command_setting *setting)
     return made;
 }
 
-/* A program and the arguments of a line, in place; the path of the program comes first. */
+/* What octreel is called, as where PATH has it. */
+static char called[] = "octreel";
+
+/* octreel and the arguments of a line, in place. */
 static void split(char *line, char *arguments[ARGUMENTS])
 {
-    static char program[] = OCTREEL_PROGRAM;
     size_t count = 0;
-    arguments[count++] = program;
+    arguments[count++] = called;
     for (char *word = strtok(line, " "); word != NULL; word = strtok(NULL, " ")) {
         assert_true(count < ARGUMENTS - 1);
         arguments[count++] = word;
@@ -124,7 +126,7 @@ static void become_program(const command_setting *setting, char **arguments, int
     const bool ready = dup2(out, STDOUT_FILENO) >= 0 && dup2(err, STDERR_FILENO) >= 0 && leave_leaks() &&
                        set_environment(setting) && set_limit(setting->file_limit);
     if (ready)
-        execv(arguments[0], arguments);
+        execv(arguments[0] == called ? OCTREEL_PROGRAM : arguments[0], arguments);
     _exit(127);
 }
 

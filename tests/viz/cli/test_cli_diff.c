@@ -97,7 +97,7 @@ static void trouble_is_said_and_is_status_2(void **state)
         assert_trouble(&result, bad[i][1]);
     }
     command_result result = run_octreel(NULL, "diff %s", p.a.path);
-    assert_trouble(&result, "diff takes a reference and what is compared with it");
+    assert_trouble(&result, "diff takes two sides");
     result = run_octreel(NULL, "diff %s %s", p.a.path, folder.path);
     assert_trouble(&result, "a picture is compared with a picture");
     result = run_octreel(NULL, "diff %s %s", p.a.path, text.path);
@@ -206,7 +206,7 @@ static void digest_writes_what_diff_takes(void **state)
     result = run_octreel(NULL, "diff %s %s", file.path, folder.path);
     assert_ends(&result, 1, "2.png: pixels differ: digest ");
     result = run_octreel(NULL, "digest %s", file.path);
-    assert_trouble(&result, "a file of digests already");
+    assert_trouble(&result, "is a file of digests, and digest takes one folder");
     result = run_octreel(NULL, "digest");
     assert_trouble(&result, "digest takes one folder");
     result = run_octreel(NULL, "digest %s -o %s/missing/x", folder.path, folder.path);

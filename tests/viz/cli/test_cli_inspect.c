@@ -328,7 +328,8 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--region 9,9,9,10,10,10", "outside the world"},
         {"--depth 2:5", "--depths"},
         {"--depth 3 --depths 4", "the tree ends at depth 3"},
-        {"second.txt third.txt", "inspect takes one cloud, not also \"second.txt\"; for several: for f in *.pcd; do "},
+        {"second.txt third.txt",
+         "inspect takes one point cloud, not also \"second.txt\"; for several: for f in *.pcd; do "},
         {"--node root --node 3", "--node names one node, not root and 3"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
@@ -339,7 +340,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         assert_int_equal(temp_folder_count(*state), 1);
     }
     command_result result = run_octreel(NULL, "inspect -o %s", picture.path);
-    assert_trouble(&result, "takes a point cloud");
+    assert_trouble(&result, "takes one point cloud");
 }
 
 static void what_is_said_of_a_picture_is_refused_without_one(void **state)

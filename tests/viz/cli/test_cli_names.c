@@ -23,7 +23,7 @@ static void an_empty_name_is_refused_in_one_sentence(void **state)
         {"join ''", "join takes a name"},
         {"pick '' 1 1", "pick takes a name"},
         {"accept '' a.png", "accept takes a name"},
-        {"record -o ''", "the folder's name is empty"},
+        {"record -o ''", "-o takes a name"},
     };
     const temp_folder *folder = *state;
     gallery_write(place_in(folder, "a.png").path, 1, 0);

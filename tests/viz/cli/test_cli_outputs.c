@@ -44,13 +44,13 @@ static void assert_text(void **state, const char *name, const char *expected)
 
 static void cloud_is_not_replaced(void **state)
 {
-    file_write_text(place_in(*state, "p.xyz").path, points);
-    assert_int_equal(link(place_in(*state, "p.xyz").path, place_in(*state, "linked").path), 0);
-    assert_refused(state, "inspect p.xyz -o p.xyz", "-o p.xyz is the same file as p.xyz, which is read");
-    assert_refused(state, "inspect p.xyz -o ./p.xyz", "-o ./p.xyz is the same file as p.xyz, which is read");
-    assert_refused(state, "inspect p.xyz --nodes p.xyz", "--nodes p.xyz is the same file as p.xyz");
-    assert_refused(state, "inspect p.xyz --nodes linked", "--nodes linked is the same file as p.xyz");
-    assert_text(state, "p.xyz", points);
+    file_write_text(place_in(*state, "p").path, points);
+    assert_int_equal(link(place_in(*state, "p").path, place_in(*state, "linked").path), 0);
+    assert_refused(state, "inspect p -o p", "-o p is the same file as p, which is read");
+    assert_refused(state, "inspect p -o ./p", "-o ./p is the same file as p, which is read");
+    assert_refused(state, "inspect p --nodes p", "--nodes p is the same file as p");
+    assert_refused(state, "inspect p --nodes linked", "--nodes linked is the same file as p");
+    assert_text(state, "p", points);
 }
 
 static void two_outputs_of_inspect_are_two_files(void **state)
@@ -62,12 +62,23 @@ static void two_outputs_of_inspect_are_two_files(void **state)
     assert_refused(state, "inspect p.xyz -o ./n --nodes n", "--nodes n is the same file as -o ./n");
 }
 
+/* A frame by another name, which says nothing of a picture. */
+static void link_both(void **state)
+{
+    static const char *const folders[] = {"a", "b"};
+    for (size_t i = 0; i < 2; i++) {
+        const place folder = place_in(*state, folders[i]);
+        assert_int_equal(link(place_below(folder.path, "2.png").path, place_below(folder.path, "two").path), 0);
+    }
+}
+
 static void frames_are_not_replaced_by_their_digests(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
     gallery_make(*state, "b", "1.png 2.png");
-    assert_refused(state, "digest a -o a/2.png", "-o a/2.png is the same file as a/2.png, which is read");
-    assert_refused(state, "digest a/1.png -o a/1.png", "-o a/1.png is the same file as a/1.png, which is read");
+    link_both(state);
+    assert_refused(state, "digest a -o a/two", "-o a/two is the same file as a/2.png, which is read");
+    assert_refused(state, "digest a/2.png -o ./a/two", "-o ./a/two is the same file as a/2.png, which is read");
     assert_same_folders(place_in(*state, "a").path, place_in(*state, "b").path, NULL);
     for (int i = 0; i < 2; i++)
         do_in(state, "digest a -o a/digests"); /* one's own file beside the frames, for the second time too */
@@ -84,11 +95,12 @@ static void reports_do_not_replace_what_is_compared(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
     gallery_make(*state, "b", "1.png 2.png");
+    link_both(state);
     do_in(state, "digest a -o a.dig");
     char *before = file_read(place_in(*state, "a.dig").path, NULL);
     assert_refused(state, "diff a.dig b --junit a.dig", "--junit a.dig is the same file as a.dig, which is read");
-    assert_refused(state, "diff a/1.png b/2.png --markdown b/2.png", "--markdown b/2.png is the same file as b/2.png");
-    assert_refused(state, "diff a b --junit b/2.png", "--junit b/2.png is the same file as b/2.png, which is read");
+    assert_refused(state, "diff a/1.png b/2.png --markdown b/two", "--markdown b/two is the same file as b/2.png");
+    assert_refused(state, "diff a b --junit b/two", "--junit b/two is the same file as b/2.png, which is read");
     assert_text(state, "a.dig", before);
     assert_same_folders(place_in(*state, "a").path, place_in(*state, "b").path, NULL);
     free(before);

@@ -52,20 +52,13 @@ static void no_command_is_help_on_stderr(void **state)
     command_release(&result);
 }
 
-/* getopt says what is wrong, and a second line where to read on. */
 static void unknown_and_unfinished_options_are_refused(void **state)
 {
     static const char *const arguments[] = {"record --bogus -o", "record -x -o", "inspect --bogus -o"};
     const place folder = place_in(*state, "film");
     for (size_t i = 0; i < sizeof arguments / sizeof arguments[0]; i++) {
         command_result result = run_octreel(NULL, "%s %s", arguments[i], folder.path);
-        assert_int_equal(result.status, 2);
-        assert_string_equal(result.out, "");
-        assert_true(strstr(result.err, "bogus") != NULL || strstr(result.err, "'x'") != NULL);
-        assert_non_null(strstr(result.err, "--help"));
-        if (strncmp(result.err, "octreel", 7) != 0)
-            fail_msg("who says \"%s\"?", result.err);
-        command_release(&result);
+        assert_trouble(&result, i == 1 ? "has no option -x; octreel record --help" : "has no option --bogus; octreel");
     }
     command_result result = run_octreel(NULL, "record -o");
     assert_int_equal(result.status, 2);
@@ -136,7 +129,7 @@ static void command_lines_that_make_no_sense_are_refused_in_one_sentence(void **
                                           {"rec", "\"rec\""},
                                           {"record", "-o"},
                                           {"record --json", "-o"},
-                                          {"record a.json", "-o"},
+                                          {"record a.json", "a.json: there is no such file"},
                                           {"record a.json b.json -o x", "b.json"},
                                           {"record --output=", "empty"},
                                           {"record absent.json -o x", "absent.json"}};

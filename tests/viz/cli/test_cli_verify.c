@@ -131,7 +131,7 @@ static void what_cannot_be_verified_is_trouble(void **state)
     } rows[] = {
         {"", "one recording"},
         {"a b", "one recording"},
-        {"nowhere", "nowhere/recording.json: cannot be opened"},
+        {"nowhere", "nowhere: there is no such file or folder"},
         {"nowhere --context glx", "there is no context \"glx\""},
         {"nowhere --any-renderer", "--context egl"},
     };

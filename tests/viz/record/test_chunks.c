@@ -426,7 +426,7 @@ static void command_lines_of_chunks_that_make_no_sense_are_refused(void **state)
         {"record --ticks -1:5 -o x", "-1:5"},   {"record --ticks 5:6:7 -o x", "5:6:7"},
         {"record --ticks 253: -o x", "252"},    {"record --jobs 0 -o x", "--jobs"},
         {"record --jobs 257 -o x", "256"},      {"join", "one recording"},
-        {"join a b", "one recording"},          {"join absent", "absent/recording.json"},
+        {"join a b", "one recording"},          {"join absent", "absent: there is no such"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

@@ -75,7 +75,7 @@ static void folder_that_is_not_there_is_not_resumed(void **state)
     assert_trouble(&result, "holds no recording that could be resumed (recording.json is missing)");
     assert_false(file_exists(folder.path));
     result = run_script("%s record --resume -o ''", octreel_program());
-    assert_trouble(&result, "the folder's name is empty");
+    assert_trouble(&result, "-o takes a name");
 }
 
 static void same_words_again_resume_what_has_just_begun(void **state)
@@ -96,7 +96,7 @@ static void frames_without_a_view_or_a_session_are_not_replaced(void **state)
     static const char *const names[] = {"recording.json", "session.json"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char sentence[64];
-        const place film = recorded(state, names[i]);
+        const place film = recorded(state, i == 0 ? "viewless" : "sessionless");
         remove(place_below(film.path, names[i]).path);
         snprintf(sentence, sizeof sentence, "could be completed (%s is missing)", names[i]);
         assert_refused(state, "--resume " SMALL, film.path, sentence);

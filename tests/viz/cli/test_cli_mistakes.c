@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_mistakes.c - slips on the command line: each is one sentence that names the way on, and makes nothing. */
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "galleries.h"
+
+/* One file of each kind, and a recording. */
+static int make_kinds(void **state)
+{
+    if (temp_folder_make(state) != 0)
+        return -1;
+    file_write_text(place_in(*state, "my.json").path, "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 2}\n");
+    file_write_text(place_in(*state, "cloud.txt").path, "x y z\n1 2 3\n4 5 6\n");
+    file_write_text(place_in(*state, "notes").path, "no cloud, no session\n");
+    file_write_text(place_in(*state, "a.jpg").path, "\xff\xd8\xff\xe0 and so on");
+    file_write_text(place_in(*state, "a.laz").path, "LASF and so on");
+    gallery_write(place_in(*state, "a.png").path, 1, 0);
+    gallery_make(*state, "pictures", "1.png");
+    const temp_folder *own = *state;
+    command_result made =
+        run_script("cd %s && ln -s %s octreel && ./octreel record my.json --size 32x32 -o rec >/dev/null "
+                   "&& ./octreel digest rec -o a.digests",
+                   own->name, octreel_program());
+    assert_done(&made);
+    command_release(&made);
+    return 0;
+}
+
+/* An argument list, and a part of the sentence. */
+typedef struct mistake {
+    const char *arguments, *sentence;
+} mistake;
+
+static void assert_mistakes(void **state, const mistake *rows, size_t count)
+{
+    const temp_folder *own = *state;
+    const int before = temp_folder_count(own);
+    for (size_t i = 0; i < count; i++) {
+        command_result result = run_script("cd %s && env -u CI ./octreel %s", own->name, rows[i].arguments);
+        assert_trouble(&result, rows[i].sentence);
+        if (temp_folder_count(own) != before)
+            fail_msg("octreel %s makes something", rows[i].arguments);
+    }
+}
+
+#define ASSERT_MISTAKES(state, rows) assert_mistakes(state, rows, sizeof rows / sizeof rows[0])
+
+static void the_nearest_name_is_asked_for(void **state)
+{
+    static const mistake rows[] = {
+        {"recrod -o x", "there is no command \"recrod\", did you mean record? "},
+        {"compare a b", "there is no command \"compare\", did you mean diff? "},
+        {"banana", "there is no command \"banana\"; "},
+        {"help recrod", "there is no help on \"recrod\", did you mean record? "},
+        {"help sesion", "did you mean session? "},
+        {"help record diff", "help takes one command"},
+        {"--verison", "did you mean --version? "},
+        {"-o x record", "a command comes first, and \"-o\" is an option"},
+        {"record --colour-by depth -o x", "record has no option --colour-by, did you mean --color-by? "},
+        {"record --camra=iso -o x", "record has no option --camra, did you mean --camera? "},
+        {"record --banana -o x", "record has no option --banana; "},
+        {"record -z -o x", "record has no option -z; "},
+        {"verify rec --jsn", "did you mean --json? "},
+        {"record --la all -o x", "--la could be each of --layers, --labels"},
+        {"record --camera isso -o x", "there is no camera \"isso\", did you mean iso? there are iso, top"},
+        {"record --camera TOP -o x", "did you mean top? "},
+        {"record --layers nodes,point -o x", "there is no layer \"point\", did you mean points? "},
+        {"record --color-by dept -o x", "did you mean depth? "},
+        {"record --context eg -o x", "there is no context \"eg\", did you mean egl? "},
+        {"diff rec rec --ignore-layer txt", "\"txt\" is none, did you mean text? "},
+    };
+    ASSERT_MISTAKES(state, rows);
+}
+
+static void a_value_that_is_missing_or_too_much_is_named(void **state)
+{
+    static const mistake rows[] = {
+        {"record -o", "-o takes a value, and has none"},
+        {"record -o x --size", "--size takes a value, and has none"},
+        {"record --size -o x", "--size takes a value, and \"-o\" is an option"},
+        {"record my.json -o --resume", "-o takes a value, and \"--resume\" is an option"},
+        {"verify rec --json=3", "--json takes no value"},
+        {"verify --help=3", "--help takes no value"},
+    };
+    ASSERT_MISTAKES(state, rows);
+}
+
+static void a_file_of_another_kind_names_the_command_for_it(void **state)
+{
+    static const mistake rows[] = {
+        {"record cloud.txt -o x", "cloud.txt is a point cloud, and record takes one session; "},
+        {"record rec -o x", "rec is a recording, and record takes one session; "},
+        {"record a.png -o x", "a.png is a PNG, and record takes"},
+        {"record pictures -o x", "pictures is a folder without a recording"},
+        {"record a.digests -o x", "octreel diff compares frames with it"},
+        {"record rec/ticks.jsonl -o x", "rec/ticks.jsonl is a part of a recording"},
+        {"record rec/recording.json -o x", "the recording is the folder that it is in"},
+        {"record absent.json -o x", "absent.json: there is no such file or folder"},
+        {"record notes -o x", "notes:1: '{' expected"},
+        {"inspect my.json", "my.json is a session, and inspect takes one point cloud; "},
+        {"inspect a.png", "a.png is a PNG, and inspect takes"},
+        {"inspect rec", "octreel verify plays it again"},
+        {"inspect a.laz", "a.laz is a LAS or LAZ file, and inspect takes one point cloud; convert it"},
+        {"verify a.png", "octreel diff compares pictures, and pick tells"},
+        {"verify rec/frame_000000.png", "is a PNG, and verify takes the folder of one recording: rec\n"},
+        {"verify rec/session.json", "is a session, and verify takes the folder of one recording: rec\n"},
+        {"join rec/ticks.jsonl", "takes the folder of one recording: rec\n"},
+        {"verify pictures", "octreel diff compares folders of PNGs"},
+        {"verify absent", "absent: there is no such file or folder"},
+        {"pick my.json 1 1", "octreel record films it"},
+        {"pick rec 1 1", "rec is a recording, and pick takes a frame"},
+        {"diff rec cloud.txt", "octreel inspect draws it"},
+        {"diff a.jpg a.png", "a.jpg is a picture, but no PNG, and diff takes two sides"},
+        {"digest my.json", "my.json is a session, and digest takes one folder of frames; "},
+        {"digest a.digests", "a.digests is a file of digests, and digest takes"},
+        {"accept pictures cloud.txt", "cloud.txt is a point cloud, and accept takes"},
+        {"record --camera-from my.json -o x", "my.json is a session, and --camera-from takes the folder"},
+        {"my.json", "there is no command \"my.json\", which is a session; "},
+    };
+    ASSERT_MISTAKES(state, rows);
+}
+
+static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
+{
+    static const mistake rows[] = {
+        {"record my.json x", "not also \"x\", did you mean -o x?"},
+        {"record my.json x.jpg", "not also \"x.jpg\"; "},
+        {"record my.json my.json", "not also \"my.json\"; "},
+        {"record my.json x -o y", "not also \"x\"; "},
+        {"inspect cloud.txt tree.png", "did you mean -o tree.png?"},
+        {"inspect cloud.txt cloud.txt", "for several: for f in *.pcd; do "},
+        {"diff a.png a.png evidence", "did you mean -o evidence?"},
+        {"digest rec x.digests", "did you mean -o x.digests?"},
+        {"record my.json -o x.jpg", "-o takes the name of a folder, and \"x.jpg\" is that of a picture"},
+        {"record my.json -o x.PNG", "-o takes the name of a folder, and \"x.PNG\" is that of a picture"},
+        {"record my.json -o x.mp4", "is that of a film: ffmpeg makes films of the frames in it"},
+        {"record my.json -o my.json", "-o takes the name of a folder, and \"my.json\" is that of a file"},
+        {"record my.json -o .", "-o takes a folder of its own for the frames, and \".\" is the current one"},
+        {"record my.json -o ../$(basename $(pwd))/", "is the current one"},
+        {"inspect cloud.txt -o x.jpg", "-o takes the name of a PNG, and \"x.jpg\" is none"},
+        {"inspect cloud.txt -o .", "-o takes the name of a file, and \".\" is a folder"},
+        {"inspect cloud.txt --nodes x.png", "--nodes writes text, and \"x.png\" is the name of a picture"},
+        {"diff a.png a.png -o x.html", "-o takes the name of a folder"},
+        {"digest rec -o x.png", "-o writes text"},
+    };
+    ASSERT_MISTAKES(state, rows);
+}
+
+/* A folder that is there may be called what it is called, and the current one may be gone on with. */
+static void a_recording_that_is_there_is_resumed_whatever_its_name(void **state)
+{
+    const temp_folder *own = *state;
+    command_result result = run_script("cd %s && mv rec rec.png && ./octreel record --resume -o rec.png >/dev/null && "
+                                       "cd rec.png && ../octreel record --resume -o .",
+                                       own->name);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void hints_name_the_program_as_it_was_called(void **state)
+{
+    const temp_folder *own = *state;
+    static const char *const arguments[] = {"banana", "record --banana", "record cloud.txt -o x", "help record"};
+    for (size_t i = 0; i < sizeof arguments / sizeof arguments[0]; i++) {
+        command_result result = run_script("cd %s && mkdir -p 'my bin' && ln -sf ../octreel 'my bin/oct' && "
+                                           "'my bin/oct' %s",
+                                           own->name, arguments[i]);
+        if (strstr(i == 3 ? result.out : result.err, "'my bin/oct' ") == NULL)
+            fail_msg("%s: %s", arguments[i], result.err);
+        command_release(&result);
+    }
+}
+
+static void help_is_on_commands_and_sessions(void **state)
+{
+    (void)state;
+    command_result help = run_octreel(NULL, "help"), option = run_octreel(NULL, "--help");
+    assert_done(&help);
+    assert_string_equal(help.out, option.out);
+    assert_non_null(strstr(help.out, "octreel help session"));
+    command_release(&help);
+    command_release(&option);
+    help = run_octreel(NULL, "help record");
+    option = run_octreel(NULL, "record --help");
+    assert_done(&help);
+    assert_string_equal(help.out, option.out);
+    command_release(&help);
+    command_release(&option);
+    help = run_octreel(NULL, "help session");
+    assert_done(&help);
+    assert_non_null(strstr(help.out, "{\"octreel\": \"session\", \"version\": 1"));
+    command_release(&help);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_kinds, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(the_nearest_name_is_asked_for),
+        IN_FOLDER(a_value_that_is_missing_or_too_much_is_named),
+        IN_FOLDER(a_file_of_another_kind_names_the_command_for_it),
+        IN_FOLDER(an_output_is_named_by_its_option_and_as_what_it_is),
+        IN_FOLDER(a_recording_that_is_there_is_resumed_whatever_its_name),
+        IN_FOLDER(hints_name_the_program_as_it_was_called),
+        cmocka_unit_test(help_is_on_commands_and_sessions),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+#include "hint.h"
+
+#include <ctype.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- The name that was meant -------------------------------------------------------------------------------- */
+
+enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
+
+/* What other programs, such as odiff, ffmpeg and make, call what is asked for. */
+static const char *const synonyms[][2] = {
+    {"force", "replace"},       {"overwrite", "replace"},   {"clobber", "replace"}, {"continue", "resume"},
+    {"film", "record"},         {"run", "record"},          {"play", "record"},     {"render", "record"},
+    {"check", "verify"},        {"replay", "verify"},       {"compare", "diff"},    {"merge", "join"},
+    {"concat", "join"},         {"view", "inspect"},        {"show", "inspect"},    {"info", "inspect"},
+    {"update", "accept"},       {"approve", "accept"},      {"hash", "digest"},     {"checksum", "digest"},
+    {"threshold", "max-delta"}, {"tolerance", "max-delta"}, {"fuzz", "max-delta"},  {"threads", "jobs"},
+    {"resolution", "size"},     {"width", "size"},          {"height", "size"},     {"step", "every"},
+    {"palette", "color-by"},    {"antialiasing", "aa"},     {"frames", "ticks"},    {"bounds", "world"},
+};
+
+hint hint_for(const char *word, size_t length)
+{
+    return (hint){.word = word, .length = length};
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static int lower(char c)
+{
+    return tolower((unsigned char)c);
+}
+
+/* The optimal string alignment distance, a row for each letter of `a`; LONGEST where one of them is too long. */
+static size_t find_distance(const char *a, size_t a_length, const char *b, size_t b_length)
+{
+    size_t rows[3][LONGEST + 1];
+    if (a_length >= LONGEST || b_length >= LONGEST)
+        return LONGEST;
+    for (size_t i = 0; i <= a_length; i++) {
+        size_t *now = rows[i % 3], *last = rows[(i + 2) % 3], *before = rows[(i + 1) % 3];
+        for (size_t j = 0; j <= b_length; j++) {
+            if (i == 0 || j == 0) {
+                now[j] = i + j;
+                continue;
+            }
+            const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+            now[j] = least(least(last[j], now[j - 1]) + 1, last[j - 1] + !same);
+            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+                now[j] = least(now[j], before[j - 2] + 1);
+        }
+    }
+    return rows[a_length % 3][b_length];
+}
+
+static bool is_synonym(const hint *h, const char *name)
+{
+    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
+        if (strlen(synonyms[i][0]) == h->length && strncasecmp(h->word, synonyms[i][0], h->length) == 0 &&
+            strcmp(name, synonyms[i][1]) == 0)
+            return true;
+    return false;
+}
+
+/* A third of a word may be wrong, and a letter of a short one. */
+static bool is_near(const hint *h, const char *name, size_t length, size_t distance)
+{
+    const size_t allowed = h->length / 3;
+    const bool begins = h->length >= SHORTEST_BEGINNING && strncasecmp(name, h->word, h->length) == 0;
+    return begins || (distance < least(h->length, length) && distance <= (allowed ? allowed : 1));
+}
+
+void hint_offer(hint *h, const char *name)
+{
+    const size_t length = strlen(name);
+    const bool means = is_synonym(h, name);
+    const size_t distance = means ? 0 : find_distance(h->word, h->length, name, length);
+    if ((h->name && distance >= h->distance) || !(means || is_near(h, name, length, distance)))
+        return;
+    h->name = name;
+    h->distance = distance;
+}
+
+const char *hint_text(const hint *h, const char *before, char text[HINT_TEXT])
+{
+    if (h->name)
+        snprintf(text, HINT_TEXT, ", did you mean %s%s? ", before, h->name);
+    else
+        memcpy(text, "; ", sizeof "; ");
+    return text;
+}
+
+/* ---- Commands ----------------------------------------------------------------------------------------------- */
+
+#define PROGRAM "octreel"
+
+enum { LONGEST_CALL = 200 }; /* one that is longer is not typed again */
+
+static char program[4 * LONGEST_CALL + 8] = PROGRAM;
+
+void hint_set_program(const char *called)
+{
+    if (!called || !*called || strlen(called) > LONGEST_CALL)
+        return;
+    FILE *out = fmemopen(program, sizeof program, "w");
+    if (!out)
+        return;
+    hint_write_word(out, called);
+    fclose(out);
+}
+
+const char *hint_program(void)
+{
+    return program;
+}
+
+void hint_write_commands(FILE *out, const char *text)
+{
+    static const char word[] = PROGRAM " ";
+    const size_t length = sizeof word - 1;
+    for (const char *at = text, *found; *at; at = found) {
+        found = strstr(at, word);
+        const bool command = found && isalpha((unsigned char)found[length]);
+        const char *end = !found ? at + strlen(at) : command ? found : found + length;
+        fwrite(at, 1, (size_t)(end - at), out);
+        if (command)
+            fprintf(out, "%s ", program);
+        found = command ? found + length : end;
+    }
+}
+
+void hint_write_word(FILE *out, const char *text)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+:,-";
+    if (*text && *text != '-' && strspn(text, plain) == strlen(text)) {
+        fputs(text, out);
+        return;
+    }
+    fputs(*text == '-' ? "'./" : "'", out);
+    for (; *text; text++)
+        fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
+    putc('\'', out);
+}

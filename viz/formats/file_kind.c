@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+#include "file_kind.h"
+#include "cloud.h"
+#include "folder.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define FILE_KIND_ROW(kind, words, command, use) {words, command, use},
+const file_kind_row file_kind_rows[] = {FILE_KIND_MAP(FILE_KIND_ROW)};
+
+#define MAGIC(text) text, sizeof text - 1
+
+static const struct {
+    const char *bytes;
+    size_t size;
+    file_kind kind;
+} beginnings[] = {
+    {MAGIC("\x89PNG"), KIND_PNG},
+    {MAGIC(DIGEST_FILE_BEGINNING), KIND_DIGESTS},
+    {MAGIC("\xff\xd8\xff"), KIND_OTHER_PICTURE},
+    {MAGIC("GIF8"), KIND_OTHER_PICTURE},
+    {MAGIC("II*\0"), KIND_OTHER_PICTURE},
+    {MAGIC("LASF"), KIND_OTHER_CLOUD},
+    {MAGIC("\x1f\x8b"), KIND_PACKED},
+    {MAGIC("PK\3\4"), KIND_PACKED},
+    {MAGIC("\x28\xb5\x2f\xfd"), KIND_PACKED},
+    {MAGIC("\xfd"
+           "7zXZ"),
+     KIND_PACKED},
+};
+
+/* What follows a word and blanks; null where that does not come first. */
+static const char *skip(const char *at, const char *word)
+{
+    at += strspn(at, " \t\r\n");
+    return strncmp(at, word, strlen(word)) == 0 ? at + strlen(word) : NULL;
+}
+
+/* Objects of octreel's own say what they are. */
+static file_kind find_json_kind(const char *text)
+{
+    const char *at = skip(text, "{"), *name;
+    if (!at)
+        return KIND_UNKNOWN;
+    if (skip(at, "\"tick\""))
+        return KIND_PART;
+    name = strstr(at, "\"octreel\"");
+    at = name ? skip(name + strlen("\"octreel\""), ":") : NULL;
+    return !at ? KIND_UNKNOWN : skip(at, "\"session\"") ? KIND_SESSION : skip(at, "\"") ? KIND_PART : KIND_UNKNOWN;
+}
+
+static file_kind find_kind(const char *bytes, size_t size)
+{
+    static const char byte_order_mark[] = "\xef\xbb\xbf";
+    for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++)
+        if (size >= beginnings[i].size && memcmp(bytes, beginnings[i].bytes, beginnings[i].size) == 0)
+            return beginnings[i].kind;
+    const file_kind found = find_json_kind(strncmp(bytes, byte_order_mark, 3) == 0 ? bytes + 3 : bytes);
+    return found != KIND_UNKNOWN || !cloud_begins((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
+}
+
+static file_kind find_file_kind(const char *path)
+{
+    char first[4096];
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return KIND_UNKNOWN;
+    const size_t size = fread(first, 1, sizeof first - 1, file);
+    fclose(file);
+    first[size] = 0;
+    return find_kind(first, size);
+}
+
+/* One that lost a file is still to be told what it lost. */
+static file_kind find_folder_kind(const char *path)
+{
+    for (size_t i = 0; folder_fact_name(i); i++)
+        if (folder_has(path, folder_fact_name(i)))
+            return KIND_RECORDING;
+    return folder_has(path, "session.json.live") ? KIND_RECORDING : KIND_FOLDER;
+}
+
+file_kind file_kind_of(const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return errno == ENOENT || errno == ENOTDIR ? KIND_MISSING : KIND_UNKNOWN;
+    if (S_ISDIR(status.st_mode))
+        return find_folder_kind(path);
+    return S_ISREG(status.st_mode) ? find_file_kind(path) : KIND_UNKNOWN;
+}
