@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "fixture.h"
-#include "inspect.h"
+#include "point_world.h"
 #include "quick_oracle.h"
 #include "must.h"
 
@@ -185,7 +185,7 @@ static workload divide_cloud(const char *name, const cloud *read, size_t points,
     }
     targets = targets < read->count / 4 ? targets : read->count / 4;
     points = points < read->count - targets ? points : read->count - targets;
-    workload w = allocate(name, inspect_world(read), points, targets);
+    workload w = allocate(name, point_world(read->positions, sizeof *read->positions, read->count), points, targets);
     for (size_t i = 0; i < points; i++) {
         memcpy(w.points[i].position, read->positions[order[i]], sizeof w.points[i].position);
         w.points[i].id = i;

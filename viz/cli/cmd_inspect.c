@@ -7,6 +7,7 @@
 #include "inspect.h"
 #include "inspect_answers.h"
 #include "number.h"
+#include "point_world.h"
 #include "progress.h"
 #include "text.h"
 
@@ -30,7 +31,7 @@ static const char help[] =
 static const char more_help[] =
     "      --json            print JSON\n"
     "  -h, --help\n\n"
-    "Points are numbered from 0 in the order of the file.\n\n"
+    "Points are numbered from 0 in the order of the file, those without finite coordinates counted.\n\n"
     "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
     "          octreel inspect points.txt --node 0/3 --json\n"
     "          for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n";
@@ -176,15 +177,19 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
     octree_def def = a->def;
     octreel_error why;
     cloud points;
+    char note[sizeof points.note] = "";
     bool ok = cloud_read(a->cloud, &(cloud_watch){on_step, &r}, &points, error);
     if (ok) {
         if (!a->has_world)
-            def.world = inspect_world(&points);
+            def.world = point_world(points.positions, sizeof *points.positions, points.count);
         progress_say(&r.bar, "building the tree of %zu points", points.count);
         ok = inspect_build(&points, &def, made, &why) || error_set(error, "%s: %s", a->cloud, why.text);
+        memcpy(note, points.note, sizeof note);
         cloud_release(&points);
     }
     progress_end(&r.bar);
+    if (*note)
+        fprintf(stderr, "octreel: %s\n", note);
     return ok;
 }
 

@@ -80,6 +80,8 @@ static int film_it(arguments *a, const octree_session *session)
     a->film.context = &w;
     const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&w.progress);
+    if (ok)
+        film_report_start(stderr, &summary.start, session);
     if (!ok)
         trouble("%s", error.text);
     else if (!whole)
@@ -137,6 +139,8 @@ static int play(arguments *a)
     session_file file = {0};
     octreel_error error;
     const bool ok = read_session(a, &file, &error) && (!a->keys || session_set_keys(&file, a->keys, &error));
+    if (ok && *file.note)
+        fprintf(stderr, "octreel: %s\n", file.note);
     const int status = ok ? film_it(a, &file.session) : trouble("%s", error.text);
     session_release(&file);
     return status;

@@ -83,9 +83,15 @@ bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, clou
     return parse(&(cloud_file){.name = name, .bytes = bytes, .size = size, .out = out, .error = error});
 }
 
+size_t cloud_row(const cloud *c, size_t index)
+{
+    return c->rows ? c->rows[index] : index;
+}
+
 void cloud_release(cloud *cloud)
 {
     free(cloud->positions);
+    free(cloud->rows);
     memset(cloud, 0, sizeof *cloud);
 }
 

@@ -8,7 +8,8 @@
  * PCD: 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
  *
  * The contents decide which of them a file is, and the ending .ply or .pcd where the contents do not. A file that is
- * cut off or whose counts do not fit what it holds is an error: no point is lost in silence.
+ * cut off is an error: no point is lost in silence. What follows the last point and does not fit the header, such as a
+ * newline after a compressed block, is not needed: it is passed over with a note.
  */
 #ifndef FORMATS_CLOUD_H
 #define FORMATS_CLOUD_H
@@ -22,7 +23,12 @@ typedef struct cloud {
     double (*positions)[3]; /* `count` rows of x, y, z, in the file's order and units; all finite; owned */
     size_t count;           /* at least 1 in a cloud that was read */
     size_t skipped;         /* points of a PLY or PCD file with a NaN or an infinity, its sign for "no return" */
+    size_t *rows;           /* `count`: which point of the file, skipped ones counted, each is; null: all are; owned */
+    char note[512];         /* a sentence about what follows the last point and does not belong there; "" for nothing */
 } cloud;
+
+/* The place of a point among all of its file, those that were skipped included; from 0 on. */
+size_t cloud_row(const cloud *c, size_t index);
 
 /* Called now and then with the part of the file that has been read, from 0 to 1. */
 typedef struct cloud_watch {

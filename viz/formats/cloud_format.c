@@ -10,6 +10,20 @@
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
+/* Keep which row the next point is. Where nothing was skipped that need not be said. */
+static bool add_row(cloud_file *file)
+{
+    cloud *points = file->out;
+    size_t *rows = array_reserve(points->rows, points->count + 1, &file->row_room, sizeof *rows);
+    if (!rows)
+        return false;
+    for (size_t i = 0; !points->rows && i < points->count; i++)
+        rows[i] = i;
+    points->rows = rows;
+    rows[points->count] = points->count + points->skipped;
+    return true;
+}
+
 bool cloud_add(cloud_file *file, const double position[3])
 {
     cloud *points = file->out;
@@ -18,9 +32,10 @@ bool cloud_add(cloud_file *file, const double position[3])
         return true;
     }
     void *grown = array_reserve(points->positions, points->count + 1, &file->room, sizeof *points->positions);
-    if (!grown)
+    if (grown)
+        points->positions = grown;
+    if (!grown || (points->skipped > 0 && !add_row(file)))
         return cloud_fail(file, "out of memory after %zu points", points->count);
-    points->positions = grown;
     memcpy(points->positions[points->count++], position, sizeof *points->positions);
     return true;
 }
@@ -67,6 +82,15 @@ bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, 
     write_error(file, place, format, arguments);
     va_end(arguments);
     return false;
+}
+
+bool cloud_forgive(const cloud_file *file)
+{
+    char *note = file->out->note;
+    if (!*note)
+        snprintf(note, sizeof file->out->note, "%.400s; the points before it were read", file->error->text);
+    file->error->text[0] = 0;
+    return true;
 }
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
@@ -198,12 +222,13 @@ bool cloud_check_text(const cloud_file *file)
                            cloud_format_names(names));
 }
 
-bool cloud_check_no_lines(const cloud_file *file, cloud_lines *lines)
+void cloud_note_lines(const cloud_file *file, cloud_lines *lines)
 {
     cloud_span line;
-    if (cloud_next_filled_line(lines, &line))
-        return cloud_fail_line(file, lines->number, "more lines follow than the header counts");
-    return true;
+    if (cloud_next_filled_line(lines, &line)) {
+        cloud_fail_line(file, lines->number, "more lines follow than the header counts");
+        cloud_forgive(file);
+    }
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
@@ -251,10 +276,12 @@ double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char
     return (double)bits;
 }
 
-bool cloud_check_padding(const cloud_file *file, size_t offset)
+void cloud_note_bytes(const cloud_file *file, size_t offset)
 {
-    for (size_t i = offset; i < file->size; i++)
-        if (file->bytes[i] != 0)
-            return cloud_fail_byte(file, i, "more data follows than the header counts");
-    return true;
+    while (offset < file->size && file->bytes[offset] == 0)
+        offset++;
+    if (offset < file->size) {
+        cloud_fail_byte(file, offset, "more data follows than the header counts");
+        cloud_forgive(file);
+    }
 }

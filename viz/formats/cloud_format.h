@@ -20,7 +20,7 @@ typedef struct cloud_file {
     cloud *out;
     octreel_error *error;
     const cloud_watch *watch; /* may be null */
-    size_t room;              /* of out->positions */
+    size_t room, row_room;    /* of out->positions and out->rows */
 } cloud_file;
 
 /* Each format, in the order in which they are tried; the last takes what no other recognises. */
@@ -54,6 +54,10 @@ void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t 
 bool cloud_fail(const cloud_file *file, const char *format, ...);
 bool cloud_fail_line(const cloud_file *file, size_t line, const char *format, ...);
 bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, ...);
+
+/* Turn the error that was written, of something that comes after the last point, into the cloud's note, unless it has
+ * one. Returns true. */
+bool cloud_forgive(const cloud_file *file);
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
@@ -105,8 +109,8 @@ bool cloud_fail_word(const cloud_file *file, size_t line, cloud_span word, const
 /* False with an error when the file holds a NUL byte: it is then no text. */
 bool cloud_check_text(const cloud_file *file);
 
-/* False with an error when a line with words follows. */
-bool cloud_check_no_lines(const cloud_file *file, cloud_lines *lines);
+/* Note it when a line with words follows. */
+void cloud_note_lines(const cloud_file *file, cloud_lines *lines);
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
@@ -121,7 +125,7 @@ typedef struct cloud_scalar {
 /* The number at `bytes`; integers beyond 2^53 are rounded. */
 double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char *bytes);
 
-/* False with an error when anything but zero bytes follows from `offset` on: some writers pad to a whole page. */
-bool cloud_check_padding(const cloud_file *file, size_t offset);
+/* Note it when anything but zero bytes follows from `offset` on: some writers pad to a whole page. */
+void cloud_note_bytes(const cloud_file *file, size_t offset);
 
 #endif

@@ -304,7 +304,8 @@ static bool read_ascii(pcd_reader *reader)
         if (!read_line(reader, line, position) || !cloud_add(reader->file, position))
             return false;
     }
-    return cloud_check_no_lines(reader->file, &reader->lines);
+    cloud_note_lines(reader->file, &reader->lines);
+    return true;
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
@@ -337,8 +338,8 @@ static bool read_binary(pcd_reader *reader, size_t offset)
         first[axis] = (size_t)reader->axes[axis].offset;
         step[axis] = (size_t)reader->stride;
     }
-    return add_points(reader, reader->file->bytes + offset, first, step) &&
-           cloud_check_padding(reader->file, offset + (size_t)(reader->points * reader->stride));
+    cloud_note_bytes(reader->file, offset + (size_t)(reader->points * reader->stride));
+    return add_points(reader, reader->file->bytes + offset, first, step);
 }
 
 /* Field after field. */
@@ -384,7 +385,8 @@ static bool read_compressed(pcd_reader *reader, size_t offset)
     if (size > (uint64_t)packed * LZF_RATIO)
         return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes cannot hold %" PRIu32 " bytes", packed,
                                size);
-    return size == 0 || (unpack(reader, offset, packed, size) && cloud_check_padding(file, offset + packed));
+    cloud_note_bytes(file, offset + packed);
+    return size == 0 || unpack(reader, offset, packed, size);
 }
 
 static bool parse_pcd(cloud_file *file)

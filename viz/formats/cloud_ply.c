@@ -33,6 +33,8 @@ typedef struct ply_reader {
     size_t element_count;
     ply_property properties[MAX_PROPERTIES];
     size_t property_count;
+    bool complete; /* all points were read: what follows is not needed */
+    bool ended;    /* the file ends too early */
 } ply_reader;
 
 static bool is_ply(const cloud_file *file)
@@ -231,6 +233,7 @@ static bool read_line(ply_reader *reader, const ply_element *element, uint64_t r
     cloud_span line, word;
     if (!cloud_next_filled_line(&reader->lines, &line)) {
         char quote[CLOUD_QUOTE];
+        reader->ended = true;
         return cloud_fail_line(reader->file, reader->lines.number, "the file ends after %" PRIu64 " of %" PRIu64 " %s",
                                row, element->count, cloud_quote(element->name, quote));
     }
@@ -252,9 +255,10 @@ static const unsigned char *take(ply_reader *reader, cloud_scalar type, uint64_t
     return at;
 }
 
-static bool fail_end(const ply_reader *reader, const ply_element *element, uint64_t row)
+static bool fail_end(ply_reader *reader, const ply_element *element, uint64_t row)
 {
     char quote[CLOUD_QUOTE];
+    reader->ended = true;
     return cloud_fail_byte(reader->file, reader->offset, "the file ends within row %" PRIu64 " of %" PRIu64 " %s",
                            row + 1, element->count, cloud_quote(element->name, quote));
 }
@@ -284,6 +288,13 @@ static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t 
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
+/* What comes after the last point and does not fit its header is noted. But a file that ends too early is cut off,
+ * whatever is missing. */
+static bool forgive(const ply_reader *reader)
+{
+    return reader->complete && !reader->ended && cloud_forgive(reader->file);
+}
+
 static bool read_rows(ply_reader *reader, const ply_element *element)
 {
     bool (*read_row)(ply_reader *, const ply_element *, uint64_t, double[3]) =
@@ -294,11 +305,12 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
         return true;
     for (uint64_t row = 0; row < element->count; row++) {
         cloud_tell(reader->file, row, row, element->count);
-        if (!read_row(reader, element, row, position))
+        if (!read_row(reader, element, row, position) && !(reader->encoding == PLY_ASCII && forgive(reader)))
             return false;
         if (has_points && !cloud_add(reader->file, position))
             return false;
     }
+    reader->complete = reader->complete || has_points;
     return true;
 }
 
@@ -315,8 +327,12 @@ static bool parse_ply(cloud_file *file)
     reader.offset = (size_t)(reader.lines.at - (const char *)file->bytes);
     for (size_t i = 0; i < reader.element_count; i++)
         if (!read_rows(&reader, &reader.elements[i]))
-            return false;
-    return ascii ? cloud_check_no_lines(file, &reader.lines) : cloud_check_padding(file, reader.offset);
+            return forgive(&reader); /* of a binary file, of which no more can be read then */
+    if (ascii)
+        cloud_note_lines(file, &reader.lines);
+    else
+        cloud_note_bytes(file, reader.offset);
+    return true;
 }
 
 const cloud_format cloud_ply = {"PLY", ".ply", is_ply, parse_ply};

@@ -74,7 +74,7 @@ static bool read_header(json_reader *r, json_t *object)
     session_loader *s = r->context;
     if (!json_object_get(object, "octreel"))
         return json_fail(r, NULL, "is no session: the first object has no \"octreel\": \"session\"");
-    return json_read_members(r, object, NULL, session_header_members, &s->header);
+    return session_take_world(r, object) && json_read_members(r, object, NULL, session_header_members, &s->header);
 }
 
 static bool read_tick(json_reader *r, json_t *object)
@@ -150,9 +150,11 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &loader, .error = error};
     const bool done = read_stream(&r) && append_standing(&r, SESSION_QUERIES, sizeof(octree_query)) &&
                       append_standing(&r, SESSION_SHAPES, sizeof(octree_shape));
-    *out = (session_file){assemble(&loader)};
+    *out = (session_file){.session = assemble(&loader)};
+    memcpy(out->note, loader.note, sizeof out->note);
     for (int i = 0; i < SESSION_LISTS; i++)
         free(loader.standing[i].items);
+    cloud_release(&loader.points);
     if (!done)
         session_release(out);
     return done;

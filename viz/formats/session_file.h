@@ -25,6 +25,7 @@
 /* A session that owns its arrays and its keys. */
 typedef struct session_file {
     octree_session session;
+    char note[512]; /* of one that was read: a sentence about its file of points; "" where there is nothing to say */
 } session_file;
 
 /* Read a session file into *out; files of points are looked for in its folder. False with the reason in *error; *out

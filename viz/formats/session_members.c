@@ -46,6 +46,13 @@ static void place_player(octree_player *player, const octree_box *world)
     player->box_size = box_size_of(player->step);
 }
 
+void session_set_world(session_loader *s, const octree_box *world)
+{
+    octree_session *session = &s->header.session;
+    session->tree.world = *world;
+    place_player(&session->player, world);
+}
+
 static bool read_world(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const octree_box *world = into;
@@ -75,13 +82,15 @@ static const json_member tree_members[] = {
 
 static bool read_position(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    const octree_box *world = &loader_of(r)->header.session.tree.world;
+    const session_loader *s = loader_of(r);
+    const octree_box *world = &s->header.session.tree.world;
+    const char *whose = s->points.count > 0 ? " of the session's points" : "";
     const double *position = into;
     if (!json_read_vector(r, value, at, into))
         return false;
     for (int i = 0; i < 3; i++)
         if (position[i] < world->min[i] || position[i] > world->max[i])
-            return json_fail(r, at, "the player is outside the world on %c", "xyz"[i]);
+            return json_fail(r, at, "the player is outside the world%s on %c", whose, "xyz"[i]);
     return true;
 }
 

@@ -5,6 +5,7 @@
 #ifndef FORMATS_SESSION_MEMBERS_H
 #define FORMATS_SESSION_MEMBERS_H
 
+#include "cloud.h"
 #include "json_table.h"
 #include "session_file.h"
 
@@ -36,6 +37,8 @@ typedef struct session_loader {
     session_header header; /* its queries and shapes are in the lists below */
     uint64_t tick;         /* of the object at hand; OCTREE_EVERY_TICK in the header */
     bool ends;             /* the header says after how many ticks */
+    cloud points;          /* of the file that the header names, where it was needed before its turn */
+    char note[512];        /* for session_file.note */
     octree_body *bodies;   /* header.session.body_count of them */
     session_list lists[SESSION_LISTS], standing[SESSION_LISTS]; /* of single ticks; of every tick */
 } session_loader;
@@ -50,6 +53,12 @@ octree_session session_default_header(void);
 typedef struct session_items session_items;
 extern const session_items session_edits, session_queries, session_shapes;
 extern const json_codec session_items_codec;
+
+/* Give the session a world, and its player the place and step that follow from it. */
+void session_set_world(session_loader *s, const octree_box *world);
+
+/* Where a header names no world but a file of points, read that and take the world of its points. */
+bool session_take_world(json_reader *r, json_t *header);
 
 /* Points, in a list, a file or a sample; and velocities by id, which are never written: bodies have theirs. */
 extern const json_codec session_points_codec, session_velocities_codec;

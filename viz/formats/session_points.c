@@ -3,6 +3,7 @@
 #include "cloud.h"
 #include "hash_map.h"
 #include "octree/sample.h"
+#include "point_world.h"
 #include "session_members.h"
 
 #include <inttypes.h>
@@ -97,14 +98,15 @@ static bool read_list(json_reader *r, json_t *list, const json_place *at)
 
 /* ---- Positions from elsewhere ------------------------------------------------------------------------------- */
 
-static bool copy_positions(json_reader *r, const json_place *at, double (*const positions)[3], size_t count)
+/* The points of a cloud; their places are those of its file. */
+static bool copy_points(json_reader *r, const json_place *at, const cloud *from)
 {
     session_loader *s = r->context;
-    if (!make_bodies(r, at, count))
+    if (!make_bodies(r, at, from->count))
         return false;
-    for (size_t i = 0; i < count; i++) {
-        s->bodies[i].id = default_id(s, i);
-        memcpy(s->bodies[i].position, positions[i], sizeof positions[i]);
+    for (size_t i = 0; i < from->count; i++) {
+        s->bodies[i].id = default_id(s, cloud_row(from, i));
+        memcpy(s->bodies[i].position, from->positions[i], sizeof from->positions[i]);
     }
     return true;
 }
@@ -120,23 +122,51 @@ static char *path_in_folder(const char *folder, const char *file)
     return path;
 }
 
-static bool read_file(json_reader *r, json_t *value, const json_place *at, void *into)
+/* Read it, unless that is done. */
+static bool load_file(json_reader *r, const json_t *value, const json_place *at)
 {
-    const session_loader *s = r->context;
-    (void)into;
-    if (!json_is_string(value) || json_string_length(value) == 0)
-        return json_expected(r, value, at, "the name of a file");
-    cloud cloud;
+    session_loader *s = r->context;
+    if (s->points.count > 0)
+        return true;
     char *path = path_in_folder(s->folder, json_string_value(value));
     if (!path)
         return json_fail(r, at, "out of memory");
-    bool done = cloud_read(path, NULL, &cloud, r->error);
+    const bool done = cloud_read(path, NULL, &s->points, r->error);
     free(path);
-    if (!done)
-        return false;
-    done = copy_positions(r, at, cloud.positions, cloud.count);
-    cloud_release(&cloud);
+    memcpy(s->note, s->points.note, sizeof s->note);
     return done;
+}
+
+static bool is_file_name(const json_t *value)
+{
+    return json_is_string(value) && json_string_length(value) > 0;
+}
+
+static bool read_file(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    session_loader *s = r->context;
+    (void)into;
+    if (!is_file_name(value))
+        return json_expected(r, value, at, "the name of a file");
+    const bool done = load_file(r, value, at) && copy_points(r, at, &s->points);
+    cloud_release(&s->points);
+    return done;
+}
+
+/* The player needs the world, and points need the player: so the file is read before its turn. What is not as it should
+ * be is found at its turn. */
+bool session_take_world(json_reader *r, json_t *header)
+{
+    session_loader *s = r->context;
+    const json_t *wanted = json_object_get(header, "points"), *file = json_object_get(wanted, "file");
+    if (json_object_get(header, "world") || !is_file_name(file) || json_object_size(wanted) != 1)
+        return true;
+    const json_place points = {NULL, "points", 0};
+    if (!load_file(r, file, &(json_place){&points, "file", 0}))
+        return false;
+    const octree_box world = point_world(s->points.positions, sizeof *s->points.positions, s->points.count);
+    session_set_world(s, &world);
+    return true;
 }
 
 typedef struct sample {
@@ -167,7 +197,7 @@ static bool read_sample(json_reader *r, json_t *value, const json_place *at)
         return json_fail(r, at, "out of memory for %zu points", count);
     const octree_status status =
         octree_sample(wanted.kind, wanted.seed, &s->header.session.tree.world, count, positions);
-    const bool done = status == OCTREE_OK ? copy_positions(r, at, positions, count)
+    const bool done = status == OCTREE_OK ? copy_points(r, at, &(cloud){.positions = positions, .count = count})
                                           : json_fail(r, at, "%s", octree_status_text(status));
     free(positions);
     return done;

@@ -26,12 +26,20 @@ typedef struct film_options {
     void *context;
 } film_options;
 
+/* Points of the session that tick 0 refused. */
+typedef struct film_start {
+    size_t points;        /* of the session */
+    size_t outside, full; /* refused outside the world; by a full leaf */
+} film_start;
+
 typedef struct film_summary {
     uint64_t ticks; /* tick 0 included; of a chunk, its own */
     uint64_t frames;
     uint64_t left_out;    /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
     uint64_t over_budget; /* frames that leave out what is beyond the view's budget */
     uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
+    uint64_t refusals;                   /* points that were refused in these ticks */
+    film_start start;                    /* of a session */
     uint64_t total;                      /* ticks that were to be filmed: more than `ticks` where it was stopped */
 } film_summary;
 

@@ -3,6 +3,7 @@
 #include "film_report.h"
 #include "hint.h"
 #include "json_write.h"
+#include "point_world.h"
 #include "text.h"
 
 #include <inttypes.h>
@@ -66,6 +67,7 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_writer writer = {.out = out}, *w = &writer;
     begin_json(w, summary, folder);
     json_member_integer(w, "over_budget", summary->over_budget);
+    json_member_integer(w, "refusals", summary->refusals);
     json_member_number(w, "seconds", seconds);
     json_member_number(w, "frames_per_second", rate_of(summary, seconds));
     json_member_begin_object(w, "events");
@@ -113,10 +115,37 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     putc('\n', out);
+    if (summary->refusals)
+        fprintf(out, "points that were refused: %" PRIu64 "; ticks.jsonl names them\n", summary->refusals);
     if (options->last != 0)
         report_chunk(out, summary, options);
     else
         put_uses(out, summary, options->folder);
+}
+
+/* The world as a session has it. */
+static void put_world(FILE *out, const octree_session *session)
+{
+    const octree_body *bodies = session->bodies;
+    const octree_box world = point_world(bodies->position, sizeof *bodies, session->body_count);
+    json_member_box(&(json_writer){.out = out}, "world", &world);
+}
+
+void film_report_start(FILE *out, const film_start *start, const octree_session *session)
+{
+    if (start->outside > start->points / 2) {
+        fprintf(
+            out,
+            "octreel: %zu of the session's %zu points lie outside its world and are refused; to have them, give it ",
+            start->outside, start->points);
+        put_world(out, session);
+        putc('\n', out);
+    } else if (start->full > start->points / 2) {
+        fprintf(out,
+                "octreel: %zu of the session's %zu points are refused by full leaves; \"tree\": {\"full\": \"grow\"} "
+                "keeps them\n",
+                start->full, start->points);
+    }
 }
 
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json)

@@ -108,7 +108,10 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
 {
     const octree_tick *tick = octree_game_tick(p->game);
     char name[FRAME_NAME];
-    *step = (film_step){.tick = tick->number, .events = tick->events, .filmed = tick->number % p->target.every == 0};
+    *step = (film_step){.tick = tick->number,
+                        .events = tick->events,
+                        .refusals = tick->refusal_count,
+                        .filmed = tick->number % p->target.every == 0};
     p->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
     return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);
 }

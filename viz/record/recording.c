@@ -106,6 +106,7 @@ static void add_to_summary(film_summary *summary, const film_step *step)
     summary->frames += step->filmed;
     summary->left_out += step->left_out;
     summary->over_budget += step->over_budget;
+    summary->refusals += step->refusals;
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         summary->events[i] += step->events >> i & 1;
 }

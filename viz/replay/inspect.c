@@ -6,67 +6,11 @@
 #include "number.h"
 #include "text.h"
 
-#include <float.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- The tree ----------------------------------------------------------------------------------------------- */
-
-/* The distance from |value| to the next double above it. */
-static double ulp_of(double value)
-{
-    value = fabs(value);
-    return value < DBL_MAX ? nextafter(value, INFINITY) - value : 0x1p971;
-}
-
-static octree_box bounds_of(const cloud *c)
-{
-    octree_box box;
-    memcpy(box.min, c->positions[0], sizeof box.min);
-    memcpy(box.max, c->positions[0], sizeof box.max);
-    for (size_t n = 1; n < c->count; n++) {
-        for (int i = 0; i < 3; i++) {
-            const double x = c->positions[n][i];
-            box.min[i] = x < box.min[i] ? x : box.min[i];
-            box.max[i] = x > box.max[i] ? x : box.max[i];
-        }
-    }
-    return box;
-}
-
-/* Half of a finite extent; where the extent overflows, a difference of halves. */
-static double half_extent(const octree_box *bounds, int axis)
-{
-    const double extent = bounds->max[axis] - bounds->min[axis];
-    return isfinite(extent) ? extent / 2 : bounds->max[axis] / 2 - bounds->min[axis] / 2;
-}
-
-static double half_side(const octree_box *bounds)
-{
-    double half = 0, largest = 0;
-    bool flat = true;
-    for (int i = 0; i < 3; i++) {
-        flat = flat && bounds->min[i] == bounds->max[i];
-        half = fmax(half, half_extent(bounds, i));
-        largest = fmax(largest, fmax(fabs(bounds->min[i]), fabs(bounds->max[i])));
-    }
-    return fmax(flat ? 0.5 : half, 2 * ulp_of(largest));
-}
-
-octree_box inspect_world(const cloud *c)
-{
-    octree_box box = bounds_of(c);
-    const double half = half_side(&box);
-    for (int i = 0; i < 3; i++) {
-        /* The slack is not negative and rounding is monotone, so no face passes a point. */
-        const double slack = fmax(half - half_extent(&box, i), 0);
-        box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
-        box.max[i] = fmin(box.max[i] + slack, DBL_MAX);
-    }
-    return box;
-}
 
 static octree_status insert_all(const cloud *c, inspection *result)
 {
@@ -75,7 +19,7 @@ static octree_status insert_all(const cloud *c, inspection *result)
     octree_status status = OCTREE_NO_MEMORY;
     for (size_t i = 0; points && i < c->count; i++) {
         memcpy(points[i].position, c->positions[i], sizeof points[i].position);
-        points[i].id = i;
+        points[i].id = cloud_row(c, i);
     }
     if (points && statuses)
         status = octree_insert_many(result->tree, points, c->count, statuses, NULL);

@@ -9,12 +9,8 @@
 
 #include <stdio.h>
 
-/* The smallest cube, about the points' middle, whose rounded faces contain every point. Its side is the largest extent,
- * but at least 4 ulp of the largest coordinate, and 1 where all points are equal. */
-octree_box inspect_world(const cloud *c);
-
 typedef struct inspection {
-    octree *tree;   /* a point's id is its index in the cloud */
+    octree *tree;   /* a point's id is its row of the cloud */
     size_t points;  /* of the cloud */
     size_t skipped; /* points of the file without finite coordinates */
     size_t refused; /* points refused by a full leaf, under OCTREE_REFUSE */

@@ -56,12 +56,19 @@ static bool parse(const char *name, const void *data, size_t size, cloud *out, o
 void assert_reads(const char *name, const void *data, size_t size, const double (*positions)[3], size_t count,
                   size_t skipped)
 {
+    assert_reads_and_notes(name, data, size, positions, count, skipped, "");
+}
+
+void assert_reads_and_notes(const char *name, const void *data, size_t size, const double (*positions)[3], size_t count,
+                            size_t skipped, const char *note)
+{
     cloud cloud;
     octreel_error error;
     if (!parse(name, data, size, &cloud, &error))
         fail_msg("%s", error.text);
     assert_int_equal(cloud.count, count);
     assert_int_equal(cloud.skipped, skipped);
+    assert_string_equal(cloud.note, note);
     for (size_t i = 0; i < count; i++)
         for (int axis = 0; axis < 3; axis++)
             assert_true(cloud.positions[i][axis] == positions[i][axis]);

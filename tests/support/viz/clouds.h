@@ -29,6 +29,10 @@ void put_double(bytes *file, double value, bool big_endian);
 void assert_reads(const char *name, const void *data, size_t size, const double (*positions)[3], size_t count,
                   size_t skipped);
 
+/* The same, with this note about what follows them; "" where nothing does that does not belong there. */
+void assert_reads_and_notes(const char *name, const void *data, size_t size, const double (*positions)[3], size_t count,
+                            size_t skipped, const char *note);
+
 /* The file is refused with exactly this sentence. */
 void assert_refuses(const char *name, const void *data, size_t size, const char *sentence);
 

@@ -236,7 +236,7 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
     assert_done(&result);
     assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
     json_t *summary = json_read(result.out);
-    assert_members(summary, "folder ticks frames left_out over_budget seconds frames_per_second events");
+    assert_members(summary, "folder ticks frames left_out over_budget refusals seconds frames_per_second events");
     assert_string_equal(json_string_value(json_member(summary, "folder")), folder.path);
     assert_whole_number(json_member(summary, "ticks"), 253);
     assert_whole_number(json_member(summary, "frames"), 6);
@@ -320,9 +320,13 @@ static void points_without_room_are_refusals_of_tick_0(void **state)
         strcpy(text + 6 * i, "1 2 3\n");
     file_write_text(points.path, text);
     free(text);
-    file_write_text(session.path, HEADER "\"points\": {\"file\": \"p.txt\"}, \"ticks\": 1}\n");
+    file_write_text(session.path, HEADER "\"points\": {\"file\": \"p.txt\"}, \"ticks\": 1,\n"
+                                         "\"world\": {\"min\": [-9, -9, -9], \"max\": [9, 9, 9]}}\n");
     command_result result = run_octreel(NULL, "record %s " SMALL " -o %s", session.path, film.path);
-    assert_done(&result);
+    assert_int_equal(result.status, 0);
+    assert_string_equal(result.err,
+                        "octreel: 19992 of the session's 20000 points are refused by full leaves; \"tree\": "
+                        "{\"full\": \"grow\"} keeps them\n");
     command_release(&result);
     char *lines = file_read(place_below(film.path, "ticks.jsonl").path, NULL);
     *strchr(lines, '\n') = '\0';

@@ -89,8 +89,8 @@ static void pcd_binary_that_is_cut_off_is_refused(void **state)
     }
 }
 
-/* The Point Cloud Library has filled files up to a page. */
-static void pcd_binary_may_end_in_zeros_and_nothing_else(void **state)
+/* The Point Cloud Library has filled files up to a page, and other writers end the compressed block with a newline. */
+static void pcd_binary_may_go_on_with_a_note_unless_by_zeros(void **state)
 {
     static void (*const puts[])(bytes *) = {put_pcd_binary, put_pcd_compressed};
     (void)state;
@@ -101,9 +101,10 @@ static void pcd_binary_may_end_in_zeros_and_nothing_else(void **state)
         puts[i](&file);
         put(&file, zeros, sizeof zeros);
         assert_reads("a.pcd", file.data, file.size, two_points, 2, 1);
-        snprintf(sentence, sizeof sentence, "a.pcd:byte %zu: more data follows than the header counts", file.size);
-        put_bits(&file, 1, 1, false);
-        assert_refuses("a.pcd", file.data, file.size, sentence);
+        snprintf(sentence, sizeof sentence,
+                 "a.pcd:byte %zu: more data follows than the header counts; the points before it were read", file.size);
+        put_text(&file, "\n");
+        assert_reads_and_notes("a.pcd", file.data, file.size, two_points, 2, 1, sentence);
     }
 }
 
@@ -191,7 +192,6 @@ static void pcd_data_that_does_not_fit_its_header_is_refused(void **state)
         {TYPES "POINTS 0\nDATA binary\n", "a.pcd: holds no points"},
         {TYPES "POINTS 1\nDATA ascii\nnan nan nan\n", "a.pcd: holds no points: all 1 have a NaN or an infinity"},
         {TYPES "POINTS 2\nDATA ascii\n1 2 3\n", "a.pcd:6: the file ends after 1 of 2 points"},
-        {TYPES "POINTS 1\nDATA ascii\n1 2 3\n4 5 6\n", "a.pcd:7: more lines follow than the header counts"},
         {TYPES "POINTS 1\nDATA ascii\n1 2\n", "a.pcd:6: has 2 values instead of 3"},
         {TYPES "POINTS 1\nDATA ascii\n1 2 3 4\n", "a.pcd:6: has 4 values instead of 3"},
         {TYPES "POINTS 1\nDATA ascii\n1 2 z\n", "a.pcd:6: 'z' is not a number"},
@@ -205,6 +205,14 @@ static void pcd_data_that_does_not_fit_its_header_is_refused(void **state)
     };
     (void)state;
     assert_refuses_each("a.pcd", rows, sizeof rows / sizeof *rows);
+}
+
+static void pcd_lines_beyond_the_last_point_are_noted(void **state)
+{
+    static const char text[] = TYPES "POINTS 2\nDATA ascii\n1 2 3\n-4.5 5e10 0.1\n\n4 5 6\n";
+    (void)state;
+    assert_reads_and_notes("a.pcd", text, strlen(text), two_points, 2, 0,
+                           "a.pcd:9: more lines follow than the header counts; the points before it were read");
 }
 
 /* A compressed file of single-byte coordinates: the two sizes it announces, then its data. */
@@ -270,11 +278,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pcd_is_read_in_every_encoding),
         cmocka_unit_test(pcd_binary_that_is_cut_off_is_refused),
-        cmocka_unit_test(pcd_binary_may_end_in_zeros_and_nothing_else),
+        cmocka_unit_test(pcd_binary_may_go_on_with_a_note_unless_by_zeros),
         cmocka_unit_test(pcd_reads_every_type),
         cmocka_unit_test(pcd_without_points_counts_width_times_height),
         cmocka_unit_test(pcd_headers_that_cannot_be_followed_are_refused),
         cmocka_unit_test(pcd_data_that_does_not_fit_its_header_is_refused),
+        cmocka_unit_test(pcd_lines_beyond_the_last_point_are_noted),
         cmocka_unit_test(pcd_reads_the_tightest_compression),
         cmocka_unit_test(pcd_compression_that_cannot_be_is_refused),
     };

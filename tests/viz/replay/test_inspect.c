@@ -8,6 +8,7 @@
 
 #include "fixture.h"
 #include "inspect.h"
+#include "point_world.h"
 #include "octree/sample.h"
 
 /* The names of clouds say what is hostile about them. */
@@ -56,7 +57,7 @@ static octree_box world_of(const hostile *h)
 {
     double positions[4][3];
     const cloud c = cloud_of(h, positions);
-    return inspect_world(&c);
+    return point_world(c.positions, sizeof *c.positions, c.count);
 }
 
 static void world_holds_every_point_and_a_tree_takes_it(void **state)
@@ -65,7 +66,8 @@ static void world_holds_every_point_and_a_tree_takes_it(void **state)
     for (size_t i = 0; i < CLOUDS; i++) {
         double positions[4][3];
         const cloud c = cloud_of(&clouds[i], positions);
-        const octree_def def = define(inspect_world(&c), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
+        const octree_def def =
+            define(point_world(c.positions, sizeof *c.positions, c.count), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
         inspection made;
         octreel_error error = {""};
         if (!inspect_build(&c, &def, &made, &error))
@@ -167,7 +169,7 @@ static void worlds_of_random_extents_hold_their_points(void **state)
                 positions[i][axis] = isfinite(x) ? x : offset;
             }
         }
-        const octree_box box = inspect_world(&c);
+        const octree_box box = point_world(c.positions, sizeof *c.positions, c.count);
         for (size_t i = 0; i < c.count; i++)
             assert_true(box_holds(&box, positions[i]));
         octree_destroy(make_tree(box, 1, OCTREE_MAX_DEPTH, OCTREE_GROW));

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+#include "point_world.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* The distance from |value| to the next double above it. */
+static double ulp_of(double value)
+{
+    value = fabs(value);
+    return value < DBL_MAX ? nextafter(value, INFINITY) - value : 0x1p971;
+}
+
+static octree_box bounds_of(const void *positions, size_t stride, size_t count)
+{
+    octree_box box;
+    memcpy(box.min, positions, sizeof box.min);
+    memcpy(box.max, positions, sizeof box.max);
+    for (size_t n = 1; n < count; n++) {
+        const double *position = (const void *)((const char *)positions + n * stride);
+        for (int i = 0; i < 3; i++) {
+            const double x = position[i];
+            box.min[i] = x < box.min[i] ? x : box.min[i];
+            box.max[i] = x > box.max[i] ? x : box.max[i];
+        }
+    }
+    return box;
+}
+
+/* Half of a finite extent; where the extent overflows, a difference of halves. */
+static double half_extent(const octree_box *bounds, int axis)
+{
+    const double extent = bounds->max[axis] - bounds->min[axis];
+    return isfinite(extent) ? extent / 2 : bounds->max[axis] / 2 - bounds->min[axis] / 2;
+}
+
+static double half_side(const octree_box *bounds)
+{
+    double half = 0, largest = 0;
+    bool flat = true;
+    for (int i = 0; i < 3; i++) {
+        flat = flat && bounds->min[i] == bounds->max[i];
+        half = fmax(half, half_extent(bounds, i));
+        largest = fmax(largest, fmax(fabs(bounds->min[i]), fabs(bounds->max[i])));
+    }
+    return fmax(flat ? 0.5 : half, 2 * ulp_of(largest));
+}
+
+octree_box point_world(const void *positions, size_t stride, size_t count)
+{
+    octree_box box = bounds_of(positions, stride, count);
+    const double half = half_side(&box);
+    for (int i = 0; i < 3; i++) {
+        /* The slack is not negative and rounding is monotone, so no face passes a point. */
+        const double slack = fmax(half - half_extent(&box, i), 0);
+        box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
+        box.max[i] = fmin(box.max[i] + slack, DBL_MAX);
+    }
+    return box;
+}
