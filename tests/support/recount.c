@@ -35,22 +35,19 @@ typedef struct region {
     const octree_box *box;
     const double *center; /* of a ball, which has no box */
     double radius;
-    bool taking; /* below a node that was taken whole */
-    unsigned taken_depth;
     octree_cost cost;
 } region;
 
-/* A cell has its lower faces; its upper ones are its neighbour's, but for the world's. What begins on a plane is not
- * known to hold all of the cell above it: it is looked at. */
+/* A cell has its lower faces; its upper ones are its neighbour's, but for the world's. */
 static relation to_box(const region *r, const octree_box *cell)
 {
     relation found = INSIDE;
     for (int i = 0; i < 3; i++) {
-        const bool last = cell->max[i] == r->world.max[i], first = cell->min[i] == r->world.min[i];
+        const bool last = cell->max[i] == r->world.max[i];
         const double low = r->box->min[i], high = r->box->max[i];
         if (high < cell->min[i] || low > cell->max[i] || (low == cell->max[i] && !last))
             return APART;
-        if (high < cell->max[i] || low > cell->min[i] || (low == cell->min[i] && !first))
+        if (high < cell->max[i] || low > cell->min[i])
             found = MEETS;
     }
     return found;
@@ -72,23 +69,21 @@ static relation to_ball(const region *r, const octree_box *cell)
 static octree_walk_order look_at(const octree_node *node, void *context)
 {
     region *r = context;
-    r->taking = r->taking && node->depth > r->taken_depth;
-    const relation is = r->taking ? INSIDE : r->box ? to_box(r, &node->box) : to_ball(r, &node->box);
+    const relation is = r->box ? to_box(r, &node->box) : to_ball(r, &node->box);
     if (is == APART) {
         r->cost.pruned++;
         add_visit(node->address, OCTREE_TOUCH_PRUNED, r->all);
         return OCTREE_WALK_SKIP;
     }
+    if (is == INSIDE) {
+        r->cost.taken++;
+        add_visit(node->address, OCTREE_TOUCH_TAKEN, r->all);
+        return OCTREE_WALK_SKIP;
+    }
     r->cost.nodes++;
     r->cost.leaves += node->leaf;
-    if (is == MEETS) {
-        r->cost.points += node->leaf ? node->count : 0;
-        add_visit(node->address, OCTREE_TOUCH_VISITED, r->all);
-    } else if (!r->taking) {
-        r->taking = true;
-        r->taken_depth = node->depth;
-        add_visit(node->address, OCTREE_TOUCH_TAKEN, r->all);
-    }
+    r->cost.points += node->leaf ? node->count : 0;
+    add_visit(node->address, OCTREE_TOUCH_VISITED, r->all);
     return OCTREE_WALK_ON;
 }
 

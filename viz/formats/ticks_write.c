@@ -47,11 +47,17 @@ static void write_addresses(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
+static bool has_count(const void *from)
+{
+    return *(const uint64_t *)from > 0;
+}
+
 static const json_member cost_members[] = {
     {"nodes", &json_uint64, .offset = offsetof(octree_cost, nodes)},
     {"leaves", &json_uint64, .offset = offsetof(octree_cost, leaves)},
     {"points", &json_uint64, .offset = offsetof(octree_cost, points)},
     {"pruned", &json_uint64, .offset = offsetof(octree_cost, pruned)},
+    {"taken", JSON_CODEC(NULL, json_write_uint64, has_count), .offset = offsetof(octree_cost, taken)},
     {0},
 };
 

@@ -158,9 +158,9 @@ static void print_answer(const shown_answer *shown, FILE *out)
         inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
     fprintf(out,
             "  cost: %" PRIu64 " node%s visited, %" PRIu64 " of them %s; %" PRIu64 " point%s compared; %" PRIu64
-            " node%s pruned\n",
+            " node%s pruned, %" PRIu64 " taken whole\n",
             cost->nodes, plural(cost->nodes), cost->leaves, cost->leaves == 1 ? "a leaf" : "leaves", cost->points,
-            plural(cost->points), cost->pruned, plural(cost->pruned));
+            plural(cost->points), cost->pruned, plural(cost->pruned), cost->taken);
 }
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
@@ -205,6 +205,7 @@ static void write_answer(json_writer *w, const shown_answer *shown)
     json_member_integer(w, "leaves", shown->answer->cost.leaves);
     json_member_integer(w, "points", shown->answer->cost.points);
     json_member_integer(w, "pruned", shown->answer->cost.pruned);
+    json_member_integer(w, "taken", shown->answer->cost.taken);
     json_write_end_object(w);
     json_write_end_object(w);
 }

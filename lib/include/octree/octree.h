@@ -225,6 +225,7 @@ typedef struct octree_cost {
     uint64_t leaves; /* visited */
     uint64_t points; /* compared with the query one by one */
     uint64_t pruned; /* nodes left out by their box, with all below them */
+    uint64_t taken;  /* nodes taken whole, with all below them: these are in no other count */
 } octree_cost;
 
 /* How a query met a node. */

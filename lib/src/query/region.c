@@ -28,14 +28,12 @@ static bool visit_all_below(region *r, const node *n)
     stack[size++] = n;
     while (size > 0) {
         const node *next = stack[--size];
-        r->meter.count.nodes++;
         for (unsigned i = bits_count8(next->octants); i-- > 0;) {
             stack[size++] = &children_of(next)[i];
             prefetch(children_of(next)[i].below);
         }
         if (next->octants)
             continue;
-        r->meter.count.leaves++;
         for (uint32_t i = 0; i < next->count; i++)
             if (!r->visit(&leaf_points(next)[i], r->context))
                 return false;
@@ -45,10 +43,9 @@ static bool visit_all_below(region *r, const node *n)
 
 static bool take_whole(region *r, const node *n, octree_address address)
 {
-    meter_trace(&r->meter, address, OCTREE_TOUCH_TAKEN);
+    meter_take(&r->meter, address);
     if (r->visit)
         return visit_all_below(r, n);
-    r->meter.count.nodes++;
     r->count += n->count;
     return true;
 }
@@ -153,12 +150,20 @@ static key_box box_keys(const octree *tree, const octree_box *box)
     return keys;
 }
 
+/* The box's keys with all that is inside strictly between: a box that begins at a plane has all above it. */
+static key_box keys_around(const octree *tree, const octree_box *box, key_box keys)
+{
+    for (int i = 0; i < 3; i++)
+        keys.min[i] -= keys.min[i] >= 0 && plane_at(&tree->axes[i], (uint32_t)keys.min[i]) == box->min[i];
+    return keys;
+}
+
 box_shape box_shape_make(const octree *tree, const octree_box *box, const octree_box *whole)
 {
     box_shape s;
     s.box = box;
     s.near = box_keys(tree, box);
-    s.whole = whole == box ? s.near : box_keys(tree, whole);
+    s.whole = keys_around(tree, whole, whole == box ? s.near : box_keys(tree, whole));
     return s;
 }
 

@@ -78,6 +78,13 @@ static inline void meter_visit(meter *m, octree_address address)
     meter_trace(m, address, OCTREE_TOUCH_VISITED);
 }
 
+/* A node that is inside the region. */
+static inline void meter_take(meter *m, octree_address address)
+{
+    m->count.taken++;
+    meter_trace(m, address, OCTREE_TOUCH_TAKEN);
+}
+
 /* The children in these octants of a node are left out, with all below them. */
 static inline void meter_prune(meter *m, octree_address parent, unsigned octants)
 {
@@ -105,6 +112,7 @@ static inline void meter_report(const meter *m)
     cost->leaves += m->count.leaves;
     cost->points += m->count.points;
     cost->pruned += m->count.pruned;
+    cost->taken += m->count.taken;
 }
 
 #endif

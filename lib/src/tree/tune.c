@@ -114,6 +114,29 @@ static octree_cost cost_of_nearest(const octree *trial, const octree_point *targ
     return cost;
 }
 
+/* A range goes through all that is below a node that it takes whole: that is no part of its cost report. */
+typedef struct range_cost {
+    const octree *trial;
+    octree_cost all;
+} range_cost;
+
+static void add_nodes_below(octree_cost *cost, const node *n)
+{
+    cost->nodes++;
+    cost->leaves += n->octants == 0;
+    for (unsigned i = bits_count8(n->octants); i-- > 0;)
+        add_nodes_below(cost, &children_of(n)[i]);
+}
+
+static void add_taken(octree_address address, octree_touch touch, void *context)
+{
+    range_cost *r = context;
+    if (touch != OCTREE_TOUCH_TAKEN)
+        return;
+    const path p = path_to(r->trial, morton_of_address(address));
+    add_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);
+}
+
 static bool go_on(const octree_point *point, void *context)
 {
     (void)point;
@@ -123,11 +146,12 @@ static bool go_on(const octree_point *point, void *context)
 
 static octree_cost cost_of_range(const octree *trial, const octree_point *target, double extent)
 {
-    octree_cost cost = {0};
+    range_cost r = {.trial = trial};
     octree_box box;
     if (octree_collision_box(target->position, extent, &box) == OCTREE_OK)
-        octree_range_search(trial, &box, &(octree_search){.cost = &cost}, go_on, NULL);
-    return cost;
+        octree_range_search(trial, &box, &(octree_search){.cost = &r.all, .trace = add_taken, .trace_context = &r},
+                            go_on, NULL);
+    return r.all;
 }
 
 /* What the mix costs in a tree of the sample. */

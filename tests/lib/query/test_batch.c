@@ -25,7 +25,7 @@ static void clear_answers(answers *all)
 {
     memset(all->neighbors, 0x5a, sizeof all->neighbors);
     memset(all->found, 1, sizeof all->found);
-    all->cost = (octree_cost){1000, 2000, 3000, 4000};
+    all->cost = (octree_cost){1000, 2000, 3000, 4000, 5000};
 }
 
 /* Bit for bit, -0.0 and distances included. An octree_neighbor has no padding. */
@@ -34,7 +34,8 @@ static bool same_answers(const answers *a, const answers *b)
     _Static_assert(sizeof(octree_neighbor) == 5 * sizeof(double), "compared as bytes");
     return memcmp(a->neighbors, b->neighbors, sizeof a->neighbors) == 0 &&
            memcmp(a->found, b->found, sizeof a->found) == 0 && a->cost.nodes == b->cost.nodes &&
-           a->cost.leaves == b->cost.leaves && a->cost.points == b->cost.points && a->cost.pruned == b->cost.pruned;
+           a->cost.leaves == b->cost.leaves && a->cost.points == b->cost.points && a->cost.pruned == b->cost.pruned &&
+           a->cost.taken == b->cost.taken;
 }
 
 static void ask_one_by_one(const octree *tree, const double (*targets)[3], octree_search how, answers *all)

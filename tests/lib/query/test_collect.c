@@ -235,7 +235,7 @@ static void the_cost_is_that_of_the_search_and_is_added_to(void **state)
     octree *tree = brute_tree(&all, cube(-10, 10), 2, 8);
     for (size_t i = 0; i < 100; i++) {
         const octree_box box = random_box(&random);
-        octree_cost searched = {1, 2, 3, 4}, collected = {1, 2, 3, 4};
+        octree_cost searched = {1, 2, 3, 4, 5}, collected = {1, 2, 3, 4, 5};
         brute found = {0};
         octree_search how = {.epsilon = i % 3 == 0 ? 1 : 0, .cost = &searched};
         assert_int_equal(octree_range_search(tree, &box, &how, brute_collect, &found), OCTREE_OK);

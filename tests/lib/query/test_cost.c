@@ -9,15 +9,16 @@
 
 static bool same_cost(octree_cost a, octree_cost b)
 {
-    return a.nodes == b.nodes && a.leaves == b.leaves && a.points == b.points && a.pruned == b.pruned;
+    return a.nodes == b.nodes && a.leaves == b.leaves && a.points == b.points && a.pruned == b.pruned &&
+           a.taken == b.taken;
 }
 
 static void assert_cost(octree_cost found, octree_cost expected)
 {
     if (!same_cost(found, expected))
-        fail_msg("nodes %d, leaves %d, points %d, pruned %d; not %d, %d, %d, %d", (int)found.nodes, (int)found.leaves,
-                 (int)found.points, (int)found.pruned, (int)expected.nodes, (int)expected.leaves, (int)expected.points,
-                 (int)expected.pruned);
+        fail_msg("nodes %d, leaves %d, points %d, pruned %d, taken %d; not %d, %d, %d, %d, %d", (int)found.nodes,
+                 (int)found.leaves, (int)found.points, (int)found.pruned, (int)found.taken, (int)expected.nodes,
+                 (int)expected.leaves, (int)expected.points, (int)expected.pruned, (int)expected.taken);
 }
 
 static bool stop_at_once(const octree_point *point, void *context)
@@ -79,14 +80,19 @@ static void a_box_costs_what_a_hand_counts(void **state)
     (void)state;
     octree *tree = three_levels();
     /* Within 0/7: the root, 0 and 0/7 are visited; 4, 7 and 0/0 are left out. */
-    assert_cost(cost_of_range(tree, -3, -1), (octree_cost){3, 1, 1, 3});
+    assert_cost(cost_of_range(tree, -3, -1), (octree_cost){3, 1, 1, 3, 0});
     /* Within 0/1, which is empty: the root and 0; 4, 7, 0/0 and 0/7 are left out. */
     octree_cost cost = {0};
     const octree_box empty = {{-7, -7, -3}, {-5, -5, -1}};
     assert_int_equal(octree_range_search(tree, &empty, &(octree_search){.cost = &cost}, ignore, NULL), OCTREE_OK);
-    assert_cost(cost, (octree_cost){2, 0, 0, 4});
+    assert_cost(cost, (octree_cost){2, 0, 0, 4, 0});
     /* Across the centre, inside no octant: all but 0/0. */
-    assert_cost(cost_of_range(tree, -1, 1), (octree_cost){5, 3, 3, 1});
+    assert_cost(cost_of_range(tree, -1, 1), (octree_cost){5, 3, 3, 1, 0});
+    /* The lowest eighth: 0 is taken whole, and its children are no more than that; 4 and 7 begin where it ends. */
+    assert_cost(cost_of_range(tree, -8, 0), (octree_cost){3, 2, 2, 0, 1});
+    /* The highest eighth, and one ulp more on each side. */
+    assert_cost(cost_of_range(tree, 0, 8), (octree_cost){1, 0, 0, 2, 1});
+    assert_cost(cost_of_range(tree, -5e-324, 9), (octree_cost){4, 2, 2, 1, 1});
     octree_destroy(tree);
 }
 
@@ -94,9 +100,9 @@ static void a_ball_costs_what_a_hand_counts(void **state)
 {
     (void)state;
     octree *tree = three_levels();
-    assert_cost(cost_of_radius(tree, -2, 1), (octree_cost){3, 1, 1, 3});
+    assert_cost(cost_of_radius(tree, -2, 1), (octree_cost){3, 1, 1, 3, 0});
     /* It reaches 4 across x = 0, but 7 is the root of 12 away and 0/0 as well. */
-    assert_cost(cost_of_radius(tree, -2, 3), (octree_cost){4, 2, 2, 2});
+    assert_cost(cost_of_radius(tree, -2, 3), (octree_cost){4, 2, 2, 2, 0});
     octree_destroy(tree);
 }
 
@@ -105,27 +111,26 @@ static void neighbors_cost_what_a_hand_counts(void **state)
     (void)state;
     octree *tree = three_levels();
     /* B is found first, 0.75 away squared: 0/0 (6.75), 4 (6.25) and 7 (18.75) are left out. */
-    assert_cost(cost_of_nearest(tree, -2.5, 1), (octree_cost){3, 1, 1, 3});
+    assert_cost(cost_of_nearest(tree, -2.5, 1), (octree_cost){3, 1, 1, 3, 0});
     /* B and A, 36.75 away squared: nothing is farther than that. */
-    assert_cost(cost_of_nearest(tree, -2.5, 2), (octree_cost){6, 4, 4, 0});
-    assert_cost(cost_of_nearest(tree, -2.5, 8), (octree_cost){6, 4, 4, 0});
+    assert_cost(cost_of_nearest(tree, -2.5, 2), (octree_cost){6, 4, 4, 0, 0});
+    assert_cost(cost_of_nearest(tree, -2.5, 8), (octree_cost){6, 4, 4, 0, 0});
     /* C first, 3 away squared, all else is farther. */
-    assert_cost(cost_of_nearest(tree, 5, 1), (octree_cost){2, 1, 1, 2});
+    assert_cost(cost_of_nearest(tree, 5, 1), (octree_cost){2, 1, 1, 2, 0});
     octree_cost cost = {0};
     octree_neighbor nearest;
     const octree_search how = {.cost = &cost};
     assert_int_equal(octree_nearest_within(tree, (double[3]){-5, -5, 4}, 1, &how, &nearest), OCTREE_NOT_FOUND);
-    assert_cost(cost, (octree_cost){1, 0, 0, 3}); /* octant 1 is empty */
+    assert_cost(cost, (octree_cost){1, 0, 0, 3, 0}); /* octant 1 is empty */
     octree_destroy(tree);
 }
 
-static void what_covers_the_tree_prunes_nothing(void **state)
+static void what_covers_the_tree_takes_its_root_and_looks_at_nothing(void **state)
 {
     (void)state;
     octree *tree = three_levels();
-    octree_cost box = cost_of_range(tree, -8, 8), ball = cost_of_radius(tree, 0, 100);
-    assert_true(box.nodes == 6 && box.leaves == 4 && box.points <= 4 && box.pruned == 0);
-    assert_true(ball.nodes == 6 && ball.leaves == 4 && ball.points <= 4 && ball.pruned == 0);
+    assert_cost(cost_of_range(tree, -8, 8), (octree_cost){.taken = 1});
+    assert_cost(cost_of_radius(tree, 0, 100), (octree_cost){.taken = 1});
     octree_destroy(tree);
 }
 
@@ -133,7 +138,7 @@ static void a_query_that_is_refused_costs_nothing(void **state)
 {
     (void)state;
     octree *tree = three_levels();
-    octree_cost cost = {1, 2, 3, 4};
+    octree_cost cost = {1, 2, 3, 4, 5};
     const octree_search how = {.cost = &cost}, bad = {.cost = &cost, .epsilon = -1};
     octree_box box = cube(-1, 1);
     octree_neighbor nearest;
@@ -146,7 +151,7 @@ static void a_query_that_is_refused_costs_nothing(void **state)
     assert_int_equal(octree_radius(tree, zero, 1, &bad, ignore, NULL), OCTREE_BAD_SIZE);
     assert_int_equal(octree_nearest_k(tree, zero, 1, &bad, &nearest, &count), OCTREE_BAD_SIZE);
     assert_int_equal(octree_nearest_within(tree, zero, -1, &how, &nearest), OCTREE_BAD_SIZE);
-    assert_cost(cost, (octree_cost){1, 2, 3, 4});
+    assert_cost(cost, (octree_cost){1, 2, 3, 4, 5});
     octree_destroy(tree);
 }
 
@@ -154,7 +159,7 @@ static void counts_are_added_to(void **state)
 {
     (void)state;
     octree *tree = three_levels();
-    octree_cost cost = {100, 200, 300, 400};
+    octree_cost cost = {100, 200, 300, 400, 500};
     const octree_search how = {.cost = &cost};
     octree_box box = cube(-3, -1);
     octree_neighbor found[2];
@@ -162,11 +167,11 @@ static void counts_are_added_to(void **state)
     const double at[3] = {-2, -2, -2}, target[3] = {-2.5, -2.5, -2.5};
     for (int i = 0; i < 2; i++)
         assert_int_equal(octree_range_search(tree, &box, &how, ignore, NULL), OCTREE_OK);
-    assert_cost(cost, (octree_cost){106, 202, 302, 406});
+    assert_cost(cost, (octree_cost){106, 202, 302, 406, 500});
     assert_int_equal(octree_radius(tree, at, 1, &how, ignore, NULL), OCTREE_OK);
-    assert_cost(cost, (octree_cost){109, 203, 303, 409});
+    assert_cost(cost, (octree_cost){109, 203, 303, 409, 500});
     assert_int_equal(octree_nearest_k(tree, target, 2, &how, found, &count), OCTREE_OK);
-    assert_cost(cost, (octree_cost){115, 207, 307, 409});
+    assert_cost(cost, (octree_cost){115, 207, 307, 409, 500});
     octree_destroy(tree);
 }
 
@@ -176,11 +181,11 @@ static void a_visitor_that_stops_saves_the_rest(void **state)
     octree *tree = three_levels();
     octree_cost cost = {0};
     const octree_search how = {.cost = &cost};
-    octree_box box = cube(-8, 8);
+    octree_box box = cube(-7, -1); /* parts of 0/0 and of 0/7, with both of their points */
     assert_int_equal(octree_range_search(tree, &box, &how, stop_at_once, NULL), OCTREE_OK);
-    assert_true(cost.leaves == 1 && cost.nodes < 6);
-    assert_int_equal(octree_radius(tree, (double[3]){0}, 11, &how, stop_at_once, NULL), OCTREE_OK);
-    assert_true(cost.leaves == 2 && cost.nodes < 12);
+    assert_true(cost.leaves == 1 && cost.points == 1);
+    assert_int_equal(octree_radius(tree, (double[3]){-4, -4, -4}, 4, &how, stop_at_once, NULL), OCTREE_OK);
+    assert_true(cost.leaves == 2 && cost.points == 2);
     octree_destroy(tree);
 }
 
@@ -286,10 +291,10 @@ static void counts_are_consistent(void **state)
         const octree_cost costs[] = {cost_of_range(tree, at - reach, at + reach), cost_of_radius(tree, at, reach),
                                      cost_of_nearest(tree, at, 1 + (size_t)i % 8)};
         for (int j = 0; j < 3; j++) {
-            assert_true(costs[j].nodes + costs[j].pruned <= stats.nodes);
+            assert_true(costs[j].nodes + costs[j].pruned + costs[j].taken <= stats.nodes);
             assert_true(costs[j].leaves <= costs[j].nodes && costs[j].leaves <= stats.leaves);
             assert_true(costs[j].points <= stats.points);
-            assert_true(costs[j].pruned > 0 || costs[j].nodes == 0 || costs[j].nodes == stats.nodes);
+            assert_true(costs[j].pruned + costs[j].taken > 0 || costs[j].nodes == stats.nodes);
         }
     }
     octree_destroy(tree);
@@ -302,7 +307,7 @@ int main(void)
         cmocka_unit_test(a_box_costs_what_a_hand_counts),
         cmocka_unit_test(a_ball_costs_what_a_hand_counts),
         cmocka_unit_test(neighbors_cost_what_a_hand_counts),
-        cmocka_unit_test(what_covers_the_tree_prunes_nothing),
+        cmocka_unit_test(what_covers_the_tree_takes_its_root_and_looks_at_nothing),
         cmocka_unit_test(a_query_that_is_refused_costs_nothing),
         cmocka_unit_test(counts_are_added_to),
         cmocka_unit_test(a_visitor_that_stops_saves_the_rest),

@@ -190,10 +190,34 @@ static void add_anywhere(brute *all, uint64_t *random, const octree_box *world, 
     }
 }
 
-static void assert_true_points(const octree *tree, const brute *all, const step *s, octree_cost *swept,
-                               octree_cost *around)
+/* The nodes that searches go through: those that they look at, and all in and below those that they take whole. */
+typedef struct effort {
+    const octree *tree;
+    size_t nodes, leaves;
+} effort;
+
+static void add_node(effort *e, octree_address address, bool all_below)
 {
-    const octree_search of_swept = {.cost = swept}, of_around = {.cost = around};
+    octree_node node;
+    assert_int_equal(octree_node_at(e->tree, address, &node), OCTREE_OK);
+    e->nodes++;
+    e->leaves += node.leaf;
+    for (unsigned octant = 0; all_below && octant < 8; octant++)
+        if (node.octants >> octant & 1)
+            add_node(e, address << 3 | octant, true);
+}
+
+static void add_effort(octree_address node, octree_touch touch, void *context)
+{
+    if (touch != OCTREE_TOUCH_PRUNED)
+        add_node(context, node, touch == OCTREE_TOUCH_TAKEN);
+}
+
+static void assert_true_points(const octree *tree, const brute *all, const step *s, effort *swept, effort *around)
+{
+    const octree_search of_swept = {.trace = add_effort, .trace_context = swept};
+    const octree_search of_around = {.trace = add_effort, .trace_context = around};
+    swept->tree = around->tree = tree;
     const octree_box box = box_around(s);
     brute expected = {0}, found = {0};
     for (size_t i = 0; i < all->count; i++)
@@ -229,7 +253,7 @@ static void slanting_steps_are_answered_exactly_and_cost_less_at_every_scale(voi
     for (size_t i = 0; i < sizeof scales / sizeof scales[0]; i++) {
         const octree_box *world = &scales[i].world;
         uint64_t random = 10 + i;
-        octree_cost swept = {0}, around = {0};
+        effort swept = {0}, around = {0};
         for (int trial = 0; trial < 12; trial++) {
             brute all = {0};
             step steps[6];
@@ -259,7 +283,7 @@ static void a_step_through_a_lattice_costs_by_its_length(void **state)
     brute all = {0};
     brute_sample(&all, OCTREE_SAMPLE_LATTICE, 0, &world, 8000);
     octree *tree = brute_tree(&all, world, 1, 21);
-    octree_cost swept = {0}, around = {0};
+    effort swept = {0}, around = {0};
     const step s = {{-990, -980, -970}, {970, 980, 990}, 20};
     assert_true_points(tree, &all, &s, &swept, &around);
     assert_true(12 * swept.nodes < around.nodes && 12 * swept.leaves < around.leaves);

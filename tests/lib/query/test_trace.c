@@ -82,6 +82,72 @@ static octree *sampled_tree(brute *all, octree_sample_kind kind)
     return brute_tree(all, world, 6, 21);
 }
 
+/* What lies within the box is taken whole, closed faces and all, and nothing else is. */
+static void assert_taken_where_within(const octree *tree, const trace *t, const octree_box *box)
+{
+    for (size_t i = 0; i < t->count; i++) {
+        octree_node node;
+        octree_node_at(tree, t->items[i].node, &node);
+        const bool within = box_contains(box, node.box.min) && box_contains(box, node.box.max);
+        assert_int_equal(t->items[i].touch == OCTREE_TOUCH_TAKEN, within);
+    }
+}
+
+static void assert_counts_are_traced(const trace *t, const octree_cost *cost)
+{
+    assert_int_equal(count_of(t, OCTREE_TOUCH_VISITED), cost->nodes);
+    assert_int_equal(count_of(t, OCTREE_TOUCH_TAKEN), cost->taken);
+    assert_int_equal(count_of(t, OCTREE_TOUCH_PRUNED), cost->pruned);
+}
+
+/* The box around two cells of depth 3. */
+static octree_box box_of_cells(const octree_box *world, uint64_t *random)
+{
+    const octree_box a = octree_cell_box(world, 512 + random_below(random, 512));
+    const octree_box b = octree_cell_box(world, 512 + random_below(random, 512));
+    octree_box box;
+    for (int i = 0; i < 3; i++) {
+        box.min[i] = fmin(a.min[i], b.min[i]);
+        box.max[i] = fmax(a.max[i], b.max[i]);
+    }
+    return box;
+}
+
+/* In the first world many points lie on planes; in the third no plane is a round number. */
+static void a_range_whose_faces_are_planes_takes_all_nodes_within(void **state)
+{
+    (void)state;
+    static const double worlds[][2] = {{-4, 4}, {-512, 512}, {0.1, 0.7}, {-1e300, 3e299}};
+    uint64_t random = 9;
+    for (size_t w = 0; w < sizeof worlds / sizeof worlds[0]; w++) {
+        const octree_box world = cube(worlds[w][0], worlds[w][1]);
+        brute all = {0};
+        if (w == 0)
+            brute_scatter(&all, &random, 1500, 4, 1000);
+        else
+            brute_sample(&all, OCTREE_SAMPLE_UNIFORM, 4, &world, 1500);
+        octree *tree = brute_tree(&all, world, 4, 21);
+        for (int i = 0; i < 60; i++) {
+            static trace t;
+            t.count = 0;
+            octree_cost cost = {0};
+            size_t count;
+            brute expected = {0};
+            const octree_box box = box_of_cells(&world, &random);
+            const octree_search how = {.cost = &cost, .trace = note, .trace_context = &t};
+            assert_int_equal(octree_range_collect(tree, &box, &how, NULL, 0, &count), OCTREE_OK);
+            brute_range(&all, &box, &expected);
+            assert_int_equal(count, expected.count);
+            assert_true(cost.taken > 0);
+            assert_counts_are_traced(&t, &cost);
+            assert_taken_where_within(tree, &t, &box);
+            brute_free(&expected);
+        }
+        octree_destroy(tree);
+        brute_free(&all);
+    }
+}
+
 static void a_range_names_what_it_visits_takes_and_leaves_out(void **state)
 {
     (void)state;
@@ -98,14 +164,8 @@ static void a_range_names_what_it_visits_takes_and_leaves_out(void **state)
             const octree_box box = cube(at - reach, at + reach);
             assert_int_equal(octree_range_search(tree, &box, &how, ignore, NULL), OCTREE_OK);
             assert_nodes_exist_and_differ(tree, &t);
-            assert_int_equal(count_of(&t, OCTREE_TOUCH_PRUNED), cost.pruned);
-            assert_true(count_of(&t, OCTREE_TOUCH_VISITED) + count_of(&t, OCTREE_TOUCH_TAKEN) <= cost.nodes);
-            for (size_t j = 0; j < t.count; j++) {
-                octree_node node;
-                octree_node_at(tree, t.items[j].node, &node);
-                const bool within = box_contains(&box, node.box.min) && box_contains(&box, node.box.max);
-                assert_true(t.items[j].touch != OCTREE_TOUCH_TAKEN || within);
-            }
+            assert_counts_are_traced(&t, &cost);
+            assert_taken_where_within(tree, &t, &box);
             for (size_t j = 0; j < all.count; j++)
                 if (box_contains(&box, all.points[j].position))
                     assert_answer_was_met(tree, &t, all.points[j].position);
@@ -132,15 +192,14 @@ static void a_ball_and_neighbors_name_every_node_that_they_count(void **state)
             t.count = 0;
             assert_int_equal(octree_radius(tree, at, random_between(&random, 0, 0.8), &how, ignore, NULL), OCTREE_OK);
             assert_nodes_exist_and_differ(tree, &t);
-            assert_int_equal(count_of(&t, OCTREE_TOUCH_PRUNED), cost.pruned);
+            assert_counts_are_traced(&t, &cost);
             octree_neighbor found[5];
             size_t count;
             cost = (octree_cost){0};
             t.count = 0;
             assert_int_equal(octree_nearest_k(tree, at, 5, &how, found, &count), OCTREE_OK);
             assert_nodes_exist_and_differ(tree, &t);
-            assert_int_equal(count_of(&t, OCTREE_TOUCH_PRUNED), cost.pruned);
-            assert_int_equal(count_of(&t, OCTREE_TOUCH_VISITED), cost.nodes);
+            assert_counts_are_traced(&t, &cost);
             for (size_t j = 0; j < count; j++)
                 assert_answer_was_met(tree, &t, found[j].point.position);
         }
@@ -177,7 +236,7 @@ static void assert_same_traces(const trace *a, octree_cost cost_a, const trace *
     for (size_t i = 0; i < a->count; i++)
         assert_true(a->items[i].node == b->items[i].node && a->items[i].touch == b->items[i].touch);
     assert_true(cost_a.nodes == cost_b.nodes && cost_a.leaves == cost_b.leaves && cost_a.points == cost_b.points &&
-                cost_a.pruned == cost_b.pruned);
+                cost_a.pruned == cost_b.pruned && cost_a.taken == cost_b.taken);
 }
 
 /* A collision asks for its box, and on its way along an axis for the box around the whole step. */
@@ -220,6 +279,7 @@ static void collisions_are_traced_as_the_boxes_that_they_ask_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_range_whose_faces_are_planes_takes_all_nodes_within),
         cmocka_unit_test(a_range_names_what_it_visits_takes_and_leaves_out),
         cmocka_unit_test(a_ball_and_neighbors_name_every_node_that_they_count),
         cmocka_unit_test(what_lies_apart_from_the_world_prunes_the_root),

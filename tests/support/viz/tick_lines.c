@@ -118,7 +118,9 @@ static void assert_refusals(const json_t *list, const octree_tick *tick)
 static void assert_cost(const json_t *object, const char *name, const octree_cost *expected)
 {
     const json_t *cost = json_member(object, name);
-    assert_members(cost, "nodes leaves points pruned");
+    assert_members(cost, expected->taken ? "nodes leaves points pruned taken" : "nodes leaves points pruned");
+    if (expected->taken)
+        assert_whole_number(json_member(cost, "taken"), expected->taken);
     assert_whole_number(json_member(cost, "nodes"), expected->nodes);
     assert_whole_number(json_member(cost, "leaves"), expected->leaves);
     assert_whole_number(json_member(cost, "points"), expected->points);

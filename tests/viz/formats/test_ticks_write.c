@@ -73,7 +73,7 @@ static void line_is_exactly_this(void **state)
         "\"answers\": [{\"nearest\": {\"target\": [1, 2, 3], \"id\": null, "
         "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 1}}}, "
         "{\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4], "
-        "\"cost\": {\"nodes\": 5, \"leaves\": 6, \"points\": 7, \"pruned\": 8}}}, "
+        "\"cost\": {\"nodes\": 5, \"leaves\": 6, \"points\": 7, \"pruned\": 8, \"taken\": 9}}}, "
         "{\"knearest\": {\"target\": [4, 5, 6], \"k\": 8, "
         "\"neighbors\": [{\"id\": 9, \"position\": [4, 5, 7], \"distance\": 1}], "
         "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 0}}}, "
@@ -88,7 +88,7 @@ static void line_is_exactly_this(void **state)
     const octree_neighbor near = {.point = {.position = {4, 5, 7}, .id = 9}, .distance = 1};
     const octree_answer answers[] = {
         {.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}, .cost = {.pruned = 1}},
-        {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1, .cost = {5, 6, 7, 8}},
+        {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1, .cost = {5, 6, 7, 8, 9}},
         {.kind = OCTREE_QUERY_KNEAREST, .target = {4, 5, 6}, .k = 8, .neighbors = &near, .count = 1},
         {.kind = OCTREE_QUERY_RADIUS, .target = {7, 8, 9}, .radius = 0.5, .cost = {.pruned = UINT64_MAX}},
     };
