@@ -119,18 +119,24 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 
 /* ---- One pair ------------------------------------------------------------------------------------------------ */
 
-/* The origins in the text chunks of both frames. */
+/* What both frames say of themselves in their text chunks. */
 typedef struct origins {
     frame_origin of[2];
-    bool told; /* both frames have one */
+    bool told[2]; /* the frame says it */
 } origins;
 
 static origins read_origins(const diff_pair *pair)
 {
+    const diff_frame *const frames[2] = {pair->a, pair->b};
     origins o = {0};
-    o.told = pair->a && pair->b && pair->a->path && pair->b->path && frame_read_origin(pair->a->path, &o.of[0]) &&
-             frame_read_origin(pair->b->path, &o.of[1]);
+    for (int i = 0; i < 2; i++)
+        o.told[i] = frames[i] && frames[i]->path && frame_read_origin(frames[i]->path, &o.of[i]);
     return o;
+}
+
+static bool both_told(const origins *o)
+{
+    return o->told[0] && o->told[1];
 }
 
 /* Whether a frame has the pixels of the digest in its text chunk. */
@@ -142,28 +148,52 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     return image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored) && pixels == origin->pixels;
 }
 
-/* Of two frames with the same digest and different pixels name those that were changed. */
-static bool print_changed(FILE *out, const diff_pair *pair, const origins *o)
+/* What a frame is that is not the one which its recording made for this tick; "" where it is. */
+static const char *tell_foreign(const recorded *r, const frame_origin *origin, uint64_t tick, char text[64])
+{
+    if (origin->session != r->filmed && origin->session != r->replay.session_digest)
+        return "is a frame of another session";
+    if (origin->tick == tick)
+        return "";
+    snprintf(text, 64, "is the frame of tick %" PRIu64, origin->tick);
+    return text;
+}
+
+/* Name the frames that were exchanged, or changed after they were drawn. */
+static bool print_tampered(FILE *out, const explanation *e, const diff_pair *pair, const origins *o, uint64_t tick)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
-    bool changed = false;
-    for (int i = 0; i < 2 && o->of[0].pixels == o->of[1].pixels; i++)
-        if (!is_as_drawn(frames[i], &o->of[i])) {
-            fprintf(out, "%s%s was changed after it was drawn: its pixels are not those that it says",
-                    changed ? "; " : "", frames[i]->path);
-            changed = true;
-        }
-    return changed;
+    bool any = false;
+    for (int i = 0; i < 2; i++) {
+        char text[64];
+        const char *what = o->told[i] && e->recordings ? tell_foreign(&e->sides[i], &o->of[i], tick, text) : "";
+        if (o->told[i] && !*what && !is_as_drawn(frames[i], &o->of[i]))
+            what = "was changed after it was drawn: its pixels are not those that it says";
+        if (*what)
+            fprintf(out, "%s%s %s", any ? "; " : "", frames[i]->path, what);
+        any = any || *what;
+    }
+    return any;
+}
+
+static bool same_renderer(const explanation *e)
+{
+    return strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0;
+}
+
+static void print_renderers(FILE *out, const explanation *e)
+{
+    fprintf(out, "; reference drawn by %s, frame by %s", e->sides[0].drawn_by, e->sides[1].drawn_by);
 }
 
 /* The sentence for frames of the same scene: who drew them, where that is known. */
 static void print_rendering(FILE *out, const explanation *e)
 {
     fputs("rendering differs: the scene digests are equal", out);
-    if (e->recordings && strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0)
+    if (e->recordings && same_renderer(e))
         fprintf(out, "; both drawn by %s", e->sides[0].drawn_by);
     else if (e->recordings)
-        fprintf(out, "; reference drawn by %s, frame by %s", e->sides[0].drawn_by, e->sides[1].drawn_by);
+        print_renderers(out, e);
 }
 
 /* Why a recording has no frame of a tick. */
@@ -178,7 +208,20 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
         fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);
 }
 
-static void print_tick(FILE *out, const explanation *e, uint64_t tick)
+/* Nothing differs that the files beside the frames tell. */
+static void print_unknown(FILE *out, const diff_pair *pair, const origins *o)
+{
+    if (both_told(o))
+        fputs("another scene of the same session and view: drawn by another version of octreel, or the files beside "
+              "the frames were changed",
+              out);
+    for (int i = 0; i < 2; i++)
+        if (!o->told[i])
+            fprintf(out, "%s%s has none of octreel's texts, as after another program has saved it",
+                    i && !o->told[0] ? "; " : "", (i ? pair->b : pair->a)->path);
+}
+
+static void print_tick(FILE *out, const explanation *e, const diff_pair *pair, const origins *o, uint64_t tick)
 {
     const cause_tick *told = cause_at(&e->cause, tick);
     const bool facts = told && told->facts.count > 0, view = e->cause.view.count > 0;
@@ -195,10 +238,7 @@ static void print_tick(FILE *out, const explanation *e, uint64_t tick)
         fputs("the same happened in it; ", out);
         cause_print_facts(out, &e->cause.session, true);
     } else {
-        fputs(
-            "another scene of the same session and view: drawn by another version of octreel, or the files beside the "
-            "frames were changed",
-            out);
+        print_unknown(out, pair, o);
     }
 }
 
@@ -228,19 +268,21 @@ static void print_trace(FILE *out, const explanation *e, uint64_t tick)
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, pair_cause *cause)
 {
     const origins o = read_origins(pair);
-    const bool same_scene = o.told && o.of[0].scene == o.of[1].scene, both = pair->a && pair->b;
-    const bool changed = same_scene && print_changed(out, pair, &o);
+    const bool same_scene = both_told(&o) && o.of[0].scene == o.of[1].scene, both = pair->a && pair->b;
     uint64_t tick = 0;
     frame_parse_name(diff_pair_name(pair), &tick);
-    cause->only_drawn = same_scene && !changed;
+    const bool tampered = print_tampered(out, e, pair, &o, tick);
+    cause->only_drawn = same_scene && !tampered && e->cause.view.count == 0;
     if (cause->only_drawn)
         print_rendering(out, e);
-    else if (e->recordings && both && !changed)
-        print_tick(out, e, tick);
+    else if (e->recordings && both && !tampered)
+        print_tick(out, e, pair, &o, tick);
     else if (e->recordings && !both)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
-    else if (o.told && !changed)
+    else if (both_told(&o) && !tampered)
         print_origins(out, &o);
+    if (e->recordings && same_scene && !tampered && !cause->only_drawn && !same_renderer(e))
+        print_renderers(out, e);
     if (e->recordings)
         print_trace(out, e, tick);
 }

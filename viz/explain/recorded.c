@@ -35,9 +35,10 @@ static bool warn(recorded *r, octreel_error *error, const char *format, ...)
 
 static bool check_session(recorded *r, octreel_error *error)
 {
-    uint64_t tick, filmed;
+    uint64_t tick;
+    r->filmed = r->replay.session_digest;
     if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
-        !frame_session(r->side->path, tick, &filmed) || filmed == r->replay.session_digest)
+        !frame_session(r->side->path, tick, &r->filmed) || r->filmed == r->replay.session_digest)
         return true;
     return warn(r, error, "%s/session.json is not the session that was filmed", r->side->path);
 }

@@ -13,7 +13,8 @@
 
 typedef struct recorded {
     const diff_side *side;
-    replay replay; /* read, and not played */
+    replay replay;   /* read, and not played */
+    uint64_t filmed; /* the digest of the session that its first frame says it is of */
     cause_view view;
     line_reader lines;
     bool reading;                      /* nothing is wrong with the lines so far */

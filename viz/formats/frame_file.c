@@ -64,16 +64,29 @@ bool frame_write(const char *folder, const image *picture, const frame_origin *o
     return ok;
 }
 
-static bool says(const char *path, const char *keyword, const char *expected)
+/* A number as frame_write() prints it. */
+static bool parse_tick(const char *text, uint64_t *tick)
 {
-    char text[NUMBER_SIZE];
-    return image_read_text(path, keyword, text, sizeof text) && strcmp(text, expected) == 0;
+    char again[NUMBER_SIZE];
+    *tick = strtoull(text, NULL, 10);
+    snprintf(again, sizeof again, "%" PRIu64, *tick);
+    return strcmp(text, again) == 0;
 }
 
-static bool says_digest(const char *path, const char *keyword, uint64_t digest)
+/* Read a text that every frame has. */
+static bool read_text(const char *path, const char *keyword, char text[NUMBER_SIZE], octreel_error *error)
 {
-    char text[DIGEST_TEXT];
-    return says(path, keyword, digest_print(digest, text));
+    return image_read_text(path, keyword, text, NUMBER_SIZE) ||
+           error_set(error, "%s: has no text %s, as after another program has saved it", path, keyword);
+}
+
+/* Else it is what `unlike` says. */
+static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *unlike,
+                         octreel_error *error)
+{
+    char text[NUMBER_SIZE], digest[DIGEST_TEXT];
+    return read_text(path, keyword, text, error) &&
+           (strcmp(text, digest_print(expected, digest)) == 0 || error_set(error, "%s: %s", path, unlike));
 }
 
 static bool check_pixels(const char *path, frame_origin *origin, octreel_error *error)
@@ -82,34 +95,33 @@ static bool check_pixels(const char *path, frame_origin *origin, octreel_error *
     image about;
     if (!image_digest_png(path, IMAGE_WHITE, &about, &origin->pixels, &unread))
         return error_set(error, "%s", unread.text);
-    return says_digest(path, pixels_keyword, origin->pixels) ||
-           error_set(error, "%s: its pixels are not those that were drawn", path);
+    return check_digest(path, pixels_keyword, origin->pixels, "its pixels are not those that it says were drawn",
+                        error);
+}
+
+static bool check_tick(const char *path, uint64_t expected, octreel_error *error)
+{
+    char text[NUMBER_SIZE];
+    uint64_t tick;
+    if (!read_text(path, tick_keyword, text, error))
+        return false;
+    if (!parse_tick(text, &tick))
+        return error_set(error, "%s: its text %s is no number of a tick", path, tick_keyword);
+    return tick == expected || error_set(error, "%s: is the frame of tick %" PRIu64, path, tick);
 }
 
 /* The pixels come first: what is damaged may say anything. */
 bool frame_check_file(const char *path, frame_origin *origin, octreel_error *error)
 {
     char text[NUMBER_SIZE];
-    if (!check_pixels(path, origin, error))
+    if (!check_pixels(path, origin, error) ||
+        !check_digest(path, session_keyword, origin->session, "is a frame of another session", error) ||
+        !check_tick(path, origin->tick, error) ||
+        !check_digest(path, scene_keyword, origin->scene,
+                      "shows the tick in another view, or is by another version of octreel", error))
         return false;
-    if (!says_digest(path, session_keyword, origin->session))
-        return error_set(error, "%s: is a frame of another session", path);
-    snprintf(text, sizeof text, "%" PRIu64, origin->tick);
-    if (!says(path, tick_keyword, text))
-        return error_set(error, "%s: is the frame of another tick", path);
-    if (!says_digest(path, scene_keyword, origin->scene))
-        return error_set(error, "%s: shows the tick in another view, or is by another version of octreel", path);
     origin->left_out = image_read_text(path, left_out_keyword, text, sizeof text) ? strtoull(text, NULL, 10) : 0;
     return true;
-}
-
-/* A number as frame_write() prints it. */
-static bool parse_tick(const char *text, uint64_t *tick)
-{
-    char again[NUMBER_SIZE];
-    *tick = strtoull(text, NULL, 10);
-    snprintf(again, sizeof again, "%" PRIu64, *tick);
-    return strcmp(text, again) == 0;
 }
 
 bool frame_read_tick(const char *path, uint64_t *tick, octreel_error *error)

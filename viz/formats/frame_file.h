@@ -50,7 +50,8 @@ bool frame_read_origin(const char *path, frame_origin *origin);
 bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error);
 
 /* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
- * among them is that of the pixels that are decoded. left_out and pixels are read from it. Else one sentence. */
+ * among them is that of the pixels that are decoded. left_out is read from it. Else one sentence. In any case pixels
+ * becomes the digest of the pixels, where they can be decoded. */
 bool frame_check(const char *folder, frame_origin *origin, octreel_error *error);
 
 /* frame_check() for a file of any name. */

@@ -139,11 +139,13 @@ static void find_pixels(verifying *v, const char *path, uint64_t tick)
                 r->drawn_by, same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
-static void find_frame(verifying *v, const char *sentence, uint64_t tick)
+/* `drawn`: for all that, it shows what is drawn. */
+static void find_frame(verifying *v, const char *sentence, uint64_t tick, bool drawn)
 {
     const size_t length = strlen(v->folder);
     const bool inside = strncmp(sentence, v->folder, length) == 0 && sentence[length] == '/';
-    add_finding(v, VERIFY_FRAME, tick, "%s", inside ? sentence + length + 1 : sentence);
+    add_finding(v, VERIFY_FRAME, tick, "%s%s", inside ? sentence + length + 1 : sentence,
+                drawn ? "; its pixels are those that are drawn now" : "");
 }
 
 /* A file that cannot be read for its permissions or the disk is trouble, not a difference. */
@@ -164,6 +166,7 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     octreel_error unlike;
     if (!path)
         return error_no_memory(error);
+    const uint64_t drawn = image_digest(&v->replay.playback.picture.frame);
     bool ok = true;
     v->stopped = true;
     if (access(path, F_OK) != 0)
@@ -173,8 +176,8 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     else if (!check_readable(path, error))
         v->stopped = ok = false;
     else if (!frame_check(v->folder, &origin, &unlike))
-        find_frame(v, unlike.text, step->tick);
-    else if (origin.pixels != image_digest(&v->replay.playback.picture.frame))
+        find_frame(v, unlike.text, step->tick, origin.pixels == drawn);
+    else if (origin.pixels != drawn)
         find_pixels(v, path, step->tick);
     else
         v->stopped = false;

@@ -282,7 +282,7 @@ static void a_frame_that_was_edited_is_refused(void **state)
     assert_true(image_read_png(frame.path, &picture, &ignored));
     picture.pixels[100] ^= 16;
     assert_true(image_write_png(&picture, frame.path, texts, 4, &ignored));
-    assert_refused(frame.path, "1 1", "not those that were drawn");
+    assert_refused(frame.path, "1 1", "not those that it says were drawn");
     picture.pixels[100] ^= 16;
     texts[0].text = "4x";
     assert_true(image_write_png(&picture, frame.path, texts, 4, &ignored));

@@ -319,6 +319,85 @@ static void a_frame_changed_after_it_was_drawn_is_told(void **state)
     comparison_release(&made);
 }
 
+static void a_frame_in_the_place_of_another_is_told_by_its_own_tick(void **state)
+{
+    place b;
+    const place a = film_twins(*state, &b);
+    const place second = frame_place(b.path, 2), third = frame_place(b.path, 3), aside = place_below(b.path, "aside");
+    assert_int_equal(rename(second.path, aside.path), 0);
+    assert_int_equal(rename(third.path, second.path), 0);
+    assert_int_equal(rename(aside.path, third.path), 0);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_holds(made.why.headline, "frame_000002.png: ");
+    assert_holds(made.why.headline, "b/frame_000002.png is the frame of tick 3");
+    assert_holds(cause_of(&made, "frame_000003.png"), "b/frame_000003.png is the frame of tick 2");
+    comparison_release(&made);
+}
+
+static void a_frame_of_another_session_is_told(void **state)
+{
+    place b;
+    const place a = film_twins(*state, &b);
+    const octree_session session = short_session("aaaa");
+    const place c = film_in(*state, "c", &session, NULL);
+    assert_int_equal(rename(frame_place(c.path, 2).path, frame_place(b.path, 2).path), 0);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_holds(cause_of(&made, "frame_000002.png"), "b/frame_000002.png is a frame of another session");
+    comparison_release(&made);
+}
+
+/* As other programs save it: the picture alone. */
+static void lose_texts(const place *folder, uint64_t tick, bool spoilt)
+{
+    octreel_error error;
+    image frame;
+    const place file = frame_place(folder->path, tick);
+    assert_true(image_read_png(file.path, &frame, &error));
+    if (spoilt)
+        frame.pixels[77] = theme_index(ROLE_TEXT, 0);
+    assert_true(image_write_png(&frame, file.path, NULL, 0, &error));
+    image_release(&frame);
+}
+
+static void a_frame_without_its_texts_is_told(void **state)
+{
+    octree_session session = short_session(KEYS);
+    place b;
+    const place a = film_twins(*state, &b);
+    lose_texts(&b, 1, false);
+    lose_texts(&b, 2, true);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_SAME_PIXELS);
+    assert_holds(cause_of(&made, "frame_000002.png"),
+                 "b/frame_000002.png has none of octreel's texts, as after another program has saved it");
+    comparison_release(&made);
+    session.tree.leaf_capacity = 3;
+    const place c = film_in(*state, "c", &session, NULL);
+    lose_texts(&c, 2, false);
+    made = assert_explained(&a, &c, 10);
+    assert_holds(cause_of(&made, "frame_000002.png"), "tick 2: node");
+    comparison_release(&made);
+}
+
+static void another_anti_aliasing_is_no_other_renderer(void **state)
+{
+    const octree_session session = short_session(KEYS);
+    film_options options = small_film("");
+    const place a = film_in(*state, "a", &session, &options);
+    options.view.aa = 2;
+    const place b = film_in(*state, "b", &session, &options);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_string_equal(made.why.headline,
+                        "another anti-aliasing (2, was 1): the same ticks, looked at in another way");
+    assert_string_equal(cause_of(&made, "frame_000001.png"), "tick 1: another anti-aliasing (2, was 1)");
+    assert_false(made.why.pairs[1].only_drawn);
+    comparison_release(&made);
+    edit_file(b.path, "renderer.json", "\"renderer\": \"", "\"renderer\": \"other ");
+    made = assert_explained(&a, &b, 10);
+    assert_holds(cause_of(&made, "frame_000001.png"), "tick 1: another anti-aliasing (2, was 1); reference drawn by ");
+    comparison_release(&made);
+}
+
 /* ---- Frames that are in no recording -------------------------------------------------------------------------- */
 
 static void make_folders(const place *a, const place *b)
@@ -396,6 +475,10 @@ int main(void)
         TEST(the_same_scene_drawn_otherwise_is_a_difference_of_rendering),
         TEST(another_renderer_alone_is_no_difference),
         TEST(a_frame_changed_after_it_was_drawn_is_told),
+        TEST(a_frame_in_the_place_of_another_is_told_by_its_own_tick),
+        TEST(a_frame_of_another_session_is_told),
+        TEST(a_frame_without_its_texts_is_told),
+        TEST(another_anti_aliasing_is_no_other_renderer),
         TEST(frames_in_a_folder_tell_rendering_by_their_scenes),
         TEST(frames_in_a_folder_tell_unlike_sessions_and_scenes),
         TEST(pictures_that_say_nothing_have_no_cause),

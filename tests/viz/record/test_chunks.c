@@ -275,7 +275,7 @@ static void frame_of_another_tick_session_or_view_is_named(void **state)
     own = file_read(frame.path, &own_size);
     others = file_read(frame_place(chunks.path, 9).path, &size);
     file_write(frame.path, others, size);
-    assert_not_joined(chunks.path, frame.path, "another tick");
+    assert_not_joined(chunks.path, frame.path, "is the frame of tick");
     free(others);
     octree_session session = short_session("wwddeennwwddssaw");
     film_chunk(&session, other.path, 8, 10);

@@ -99,7 +99,7 @@ static void frame_in_the_place_of_another_is_found(void **state)
 {
     const place folder = film_short(*state);
     file_copy(folder.path, "frame_000003.png", "frame_000012.png");
-    assert_found(&folder, VERIFY_FRAME, 12, "is the frame of another tick");
+    assert_found(&folder, VERIFY_FRAME, 12, "is the frame of tick 3");
 }
 
 static void frame_of_another_recording_is_found(void **state)
@@ -120,8 +120,25 @@ static void frame_without_its_texts_is_found(void **state)
     image frame = assert_read_rgb(path.path);
     octreel_error error;
     assert_true(image_write_png(&frame, path.path, NULL, 0, &error));
+    assert_found(&folder, VERIFY_FRAME, 3,
+                 "frame_000003.png: has no text octreel-pixels, as after another program has saved it; its pixels are "
+                 "those that are drawn now");
+    frame.pixels[0] ^= 1;
+    assert_true(image_write_png(&frame, path.path, NULL, 0, &error));
     image_release(&frame);
-    assert_found(&folder, VERIFY_FRAME, 3, "frame_000003.png: ");
+    verify_report report = assert_found(&folder, VERIFY_FRAME, 3, "has no text octreel-pixels");
+    assert_null(strstr(report.findings[0].text, "drawn now"));
+}
+
+/* The pixels are those of the tick, and a text is not. */
+static void frame_whose_text_was_changed_is_found(void **state)
+{
+    const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
+    image frame = assert_read_rgb(path.path);
+    write_with_texts(path.path, &frame, "0123456789abcdef");
+    image_release(&frame);
+    assert_found(&folder, VERIFY_FRAME, 3,
+                 "its pixels are not those that it says were drawn; its pixels are those that are drawn now");
 }
 
 static void frame_that_was_painted_over_is_found(void **state)
@@ -131,7 +148,7 @@ static void frame_that_was_painted_over_is_found(void **state)
     frame.pixels[0] ^= 1;
     write_with_texts(path.path, &frame, NULL);
     image_release(&frame);
-    assert_found(&folder, VERIFY_FRAME, 3, "its pixels are not those that were drawn");
+    assert_found(&folder, VERIFY_FRAME, 3, "its pixels are not those that it says were drawn");
 }
 
 /* What another renderer would have left: a frame that tells the truth about itself. */
@@ -191,6 +208,7 @@ int main(void)
         IN_FOLDER(frame_that_is_no_file_is_not_waited_for),     IN_FOLDER(frame_that_may_not_be_read_is_trouble),
         IN_FOLDER(frame_that_was_cut_is_found_wherever),        IN_FOLDER(frame_in_the_place_of_another_is_found),
         IN_FOLDER(frame_of_another_recording_is_found),         IN_FOLDER(frame_without_its_texts_is_found),
+        IN_FOLDER(frame_of_another_recording_is_found),         IN_FOLDER(frame_whose_text_was_changed_is_found),
         IN_FOLDER(frame_that_was_painted_over_is_found),        IN_FOLDER(only_pixels_are_told_with_both_renderers),
         IN_FOLDER(frames_that_are_too_many_are_found),
     };
