@@ -2,6 +2,7 @@
 #include "json_table.h"
 #include "octree/octree.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 /* ---- Members ------------------------------------------------------------------------------------------------ */
@@ -23,24 +24,44 @@ static bool fail_unknown(json_reader *r, const json_place *at, const json_member
                           known);
 }
 
+static bool read_member(json_reader *r, json_t *object, const json_place *at, const json_member *row, void *into)
+{
+    json_t *value = json_object_get(object, row->name);
+    if (!value)
+        return !row->required || json_fail(r, at, "the member \"%s\" is missing", row->name);
+    const json_place place = {at, row->name, 0};
+    r->row = row;
+    if (!row->codec->read(r, value, &place, (char *)into + row->offset))
+        return false;
+    if (row->given)
+        *(bool *)((char *)into + row->given) = true;
+    return true;
+}
+
+/* What follows the row of a version; the table itself where it has none. */
+static const json_member *after_version(const json_member *table)
+{
+    const json_member *row = table;
+    while (row->name && row->codec != &json_version)
+        row++;
+    return row->name ? row + 1 : table;
+}
+
+/* What is of another version says so, before members are unknown. */
 bool json_read_members(json_reader *r, json_t *object, const json_place *at, const json_member *table, void *into)
 {
     const char *name;
     json_t *value;
+    const json_member *row = table, *rest = after_version(table);
     if (!json_is_object(object))
         return json_expected(r, object, at, "an object");
-    json_object_foreach(object, name, value) if (!is_member(table, name)) return fail_unknown(r, at, table, name);
-    for (; table->name; table++) {
-        value = json_object_get(object, table->name);
-        if (!value && table->required)
-            return json_fail(r, at, "the member \"%s\" is missing", table->name);
-        const json_place place = {at, table->name, 0};
-        r->row = table;
-        if (value && !table->codec->read(r, value, &place, (char *)into + table->offset))
+    for (; row < rest; row++)
+        if (!read_member(r, object, at, row, into))
             return false;
-        if (value && table->given)
-            *(bool *)((char *)into + table->given) = true;
-    }
+    json_object_foreach(object, name, value) if (!is_member(table, name)) return fail_unknown(r, at, table, name);
+    for (; row->name; row++)
+        if (!read_member(r, object, at, row, into))
+            return false;
     return true;
 }
 
@@ -219,6 +240,32 @@ bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, 
     snprintf(what, sizeof what, "a whole number from %.0f to %.0f", min, max);
     return json_expected(r, value, at, what);
 }
+
+static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const uint64_t own = (uint64_t)r->row->max;
+    uint64_t version = 0;
+    (void)into;
+    if (!json_read_whole(r, value, at, 1, JSON_LARGEST_WHOLE, &version))
+        return false;
+    if (version > own)
+        return json_fail(r, at,
+                         "the %s was made by a newer Octreel, of version %" PRIu64
+                         ", and this one reads version %" PRIu64 ": use that one",
+                         r->row->about, version, own);
+    return version == own || json_fail(r, at,
+                                       "the %s was made by an older Octreel, of version %" PRIu64
+                                       ": film its session.json again, or use that one",
+                                       r->row->about, version);
+}
+
+static void write_version(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_integer(w, (uint64_t)w->row->max);
+}
+
+const json_codec json_version = {read_version, write_version, NULL};
 
 bool json_read_uint64(json_reader *r, json_t *value, const json_place *at, void *into)
 {

@@ -15,30 +15,10 @@ typedef struct recorded {
     uint64_t every;
 } recorded;
 
-/* Digests of scenes in ticks.jsonl and in frames are those of the version. */
-static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    uint64_t version;
-    (void)into;
-    if (!json_read_whole(r, value, at, 1, RECORDING_VERSION, &version))
-        return false;
-    return version == RECORDING_VERSION ||
-           json_fail(r, at,
-                     "the recording was made by an older octreel, of format version %" PRIu64
-                     ": film its session.json again, or use that octreel",
-                     version);
-}
-
-static void write_version(json_writer *w, const void *from)
-{
-    (void)from;
-    json_write_integer(w, RECORDING_VERSION);
-}
-
 /* The options of the view stand between the first two and the others. */
 static const json_member own_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
-    {"version", JSON_CODEC(read_version, write_version, NULL), .required = true},
+    {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
     {"theme", &json_constant, .about = THEME_NAME},
     {"every", &json_uint64, offsetof(recorded, every), .min = 1, .max = SESSION_LAST_TICK},
 };

@@ -16,7 +16,8 @@
 
 #include <stdio.h>
 
-/* The version that is written, and the only one that is read. 2: scene digests hash names. */
+/* The version that is written, and the only one that is read, since digests of scenes are those of the version. 2:
+ * scene digests hash names. */
 #define RECORDING_VERSION 2
 
 /* Write the file. Errors stay with the stream. */

@@ -9,21 +9,6 @@ static session_loader *loader_of(const json_reader *r)
     return r->context;
 }
 
-/* ---- What the file is --------------------------------------------------------------------------------------- */
-
-static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    (void)into;
-    return (json_is_real(value) && json_real_value(value) == 1) ||
-           json_expected(r, value, at, "1, the only version there is");
-}
-
-static void write_version(json_writer *w, const void *from)
-{
-    (void)from;
-    json_write_integer(w, 1);
-}
-
 /* ---- World and tree ----------------------------------------------------------------------------------------- */
 
 static double box_size_of(double step)
@@ -236,7 +221,7 @@ octree_session session_default_header(void)
 /* Positions need the world, points the player, and velocities the points. */
 const json_member session_header_members[] = {
     {"octreel", &json_constant, .required = true, .about = "session"},
-    {"version", JSON_CODEC(read_version, write_version, NULL), .required = true},
+    {"version", &json_version, .required = true, .max = 1, .about = "session"},
     {"world", JSON_CODEC(read_world, json_write_box, NULL), HEADER(session.tree.world)},
     {"tree", &json_structure, HEADER(session.tree), .members = tree_members},
     {"player", JSON_CODEC(read_player, write_player, NULL), HEADER(session.player)},

@@ -129,7 +129,12 @@ static void header_with_bad_members_is_refused(void **state)
     static const refusal rows[] = {
         {"{\"octreel\":\"tick\",\"version\":1}", "1: octreel: expected \"session\", found \"tick\""},
         {"{\"octreel\":\"session\"}", "1: the member \"version\" is missing"},
-        {"{\"octreel\":\"session\",\n\"version\":2}", "2: version: expected 1, the only version there is, found 2"},
+        {"{\"octreel\":\"session\",\n\"version\":2}", "2: version: the session was made by a newer Octreel, of "
+                                                      "version 2, and this one reads version 1: use that one"},
+        {"{\"octreel\":\"session\",\n\"version\":2, \"wind\": 3}",
+         "2: version: the session was made by a newer Octreel"},
+        {"{\"octreel\":\"session\",\"version\":0}", "1: version: expected a whole number from 1"},
+        {"{\"octreel\":\"session\",\"version\":1.5}", "1: version: expected a whole number from 1"},
         {HEADER "\"keyz\":1}", "2: unknown member \"keyz\"; known: octreel, version, world, tree, player, keys, ticks, "
                                "queries, shapes, points, velocities"},
         {HEADER "\"\\u001b[0m\":1}", "2: unknown member \"?[0m\"; known: octreel"},

@@ -173,7 +173,7 @@ static void what_cannot_be_read_or_played_is_trouble(void **state)
         {"recording.json", "\"width\": 160", "\"width\": 16385", "width: expected a whole number from 1 to 16384"},
         {"recording.json", "\"width\": 160", "\"width\": 1e9", "width"},
         {"recording.json", "\"version\": 2", "\"version\": 3", "version"},
-        {"recording.json", "\"version\": 2", "\"version\": 1", "was made by an older octreel"},
+        {"recording.json", "\"version\": 2", "\"version\": 1", "was made by an older Octreel"},
         {"recording.json", "\"recording\"", "\"session\"", "\"recording\""},
         {"session.json", "{", "", "session.json:"},
         {"session.json", "\"step\": 50", "\"step\": -50", "step"},
