@@ -28,16 +28,19 @@ static bool duplicate(const void **items, size_t count, size_t item_size)
 
 bool session_copy(const octree_session *from, session_file *out, octreel_error *error)
 {
-    const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries, *shapes = from->shapes;
+    const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries, *shapes = from->shapes,
+               *gaps = from->gaps;
     bool whole = duplicate(&bodies, from->body_count, sizeof *from->bodies);
     whole = duplicate(&edits, from->edit_count, sizeof *from->edits) && whole;
     whole = duplicate(&queries, from->query_count, sizeof *from->queries) && whole;
     whole = duplicate(&shapes, from->shape_count, sizeof *from->shapes) && whole;
+    whole = duplicate(&gaps, from->gap_count, sizeof *from->gaps) && whole;
     out->session = *from;
     out->session.bodies = bodies;
     out->session.edits = edits;
     out->session.queries = queries;
     out->session.shapes = shapes;
+    out->session.gaps = gaps;
     out->session.keys = NULL;
     const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_memory(error);
     if (!done)
@@ -64,6 +67,7 @@ void session_release(session_file *file)
     free((octree_edit *)file->session.edits);
     free((octree_query *)file->session.queries);
     free((octree_shape *)file->session.shapes);
+    free((octree_gap *)file->session.gaps);
     *file = (session_file){0};
 }
 
@@ -82,6 +86,8 @@ static bool read_tick(json_reader *r, json_t *object)
     session_tick ignored;
     if (json_object_get(object, "octreel"))
         return json_fail(r, NULL, "a second header; what follows the first are objects of one tick each");
+    if (json_object_get(object, "gap") && json_object_size(object) > 2)
+        return json_fail(r, NULL, "a tick that is a gap has nothing else: nothing is known of it");
     return json_read_members(r, object, NULL, session_tick_members, &ignored);
 }
 
@@ -139,6 +145,8 @@ static octree_session assemble(const session_loader *s)
     session.query_count = s->lists[SESSION_QUERIES].count;
     session.shapes = s->lists[SESSION_SHAPES].items;
     session.shape_count = s->lists[SESSION_SHAPES].count;
+    session.gaps = s->lists[SESSION_GAPS].items;
+    session.gap_count = s->lists[SESSION_GAPS].count;
     return session;
 }
 
@@ -199,7 +207,7 @@ void session_write_header(const octree_session *session, FILE *out)
 void session_write_tick(uint64_t tick, const octree_input *input, FILE *out)
 {
     json_writer writer = {.out = out};
-    if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0)
+    if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0 && !input->gap)
         return;
     json_write_object(&writer, session_tick_members, &(session_tick){tick, *input});
     json_write_end_line(&writer);
@@ -208,6 +216,8 @@ void session_write_tick(uint64_t tick, const octree_input *input, FILE *out)
 /* What of a session's arrays has not been written. */
 typedef struct rest {
     octree_input input;
+    const octree_gap *gaps;
+    size_t gap_count;
     uint64_t tick; /* the next; OCTREE_EVERY_TICK: none is left */
 } rest;
 
@@ -219,9 +229,11 @@ static void find_next_tick(rest *left)
         left->tick = i->queries->tick;
     if (i->shape_count && i->shapes->tick < left->tick)
         left->tick = i->shapes->tick;
+    if (left->gap_count && left->gaps->tick < left->tick)
+        left->tick = left->gaps->tick;
 }
 
-/* Split what belongs to the next tick off the front of the rest. */
+/* Split what belongs to the next tick off the front of the rest; to a gap nothing but it belongs. */
 static octree_input take_tick(rest *left)
 {
     octree_input *i = &left->input, taken = *i;
@@ -232,7 +244,10 @@ static octree_input take_tick(rest *left)
         taken.query_count++;
     for (; i->shape_count && i->shapes->tick == left->tick; i->shapes++, i->shape_count--)
         taken.shape_count++;
-    return taken;
+    if (left->gap_count == 0 || left->gaps->tick > left->tick)
+        return taken;
+    left->gap_count--;
+    return (octree_input){.gap = left->gaps++};
 }
 
 bool session_write(const octree_session *session, FILE *out)
@@ -242,7 +257,9 @@ bool session_write(const octree_session *session, FILE *out)
                            .queries = session->queries,
                            .query_count = session->query_count,
                            .shapes = session->shapes,
-                           .shape_count = session->shape_count}};
+                           .shape_count = session->shape_count},
+                 .gaps = session->gaps,
+                 .gap_count = session->gap_count};
     session_write_header(session, out);
     for (find_next_tick(&left); left.tick != OCTREE_EVERY_TICK; find_next_tick(&left)) {
         const uint64_t tick = left.tick;

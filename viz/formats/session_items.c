@@ -116,6 +116,23 @@ static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
         table[count] = box_at_player;
 }
 
+/* ---- Texts -------------------------------------------------------------------------------------------------- */
+
+bool session_read_text(json_reader *r, json_t *value, const json_place *at, const char *what, size_t room, char *into)
+{
+    const char *text = json_string_value(value);
+    if (!text)
+        return json_expected(r, value, at, "a text");
+    const size_t length = strlen(text);
+    for (size_t i = 0; i < length; i++)
+        if (text[i] < ' ' || text[i] > '~')
+            return json_fail(r, at, "%s is of printable ASCII characters, and byte %zu is none", what, i + 1);
+    if (length >= room)
+        return json_fail(r, at, "%s has at most %zu characters, not %zu", what, room - 1, length);
+    memcpy(into, text, length + 1);
+    return true;
+}
+
 /* ---- Shapes ------------------------------------------------------------------------------------------------- */
 
 static bool read_shape_box(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -158,17 +175,7 @@ static void write_segment(json_writer *w, const void *from)
 
 static bool read_text(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    const char *text = json_string_value(value);
-    if (!text)
-        return json_expected(r, value, at, "a text");
-    const size_t length = strlen(text);
-    for (size_t i = 0; i < length; i++)
-        if (text[i] < ' ' || text[i] > '~')
-            return json_fail(r, at, "a label is of printable ASCII characters, and byte %zu is none", i + 1);
-    if (length >= OCTREE_SHAPE_TEXT)
-        return json_fail(r, at, "a label has at most %d characters, not %zu", OCTREE_SHAPE_TEXT - 1, length);
-    memcpy(into, text, length + 1);
-    return true;
+    return session_read_text(r, value, at, "a label", OCTREE_SHAPE_TEXT, into);
 }
 
 static void write_text(json_writer *w, const void *from)

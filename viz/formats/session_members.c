@@ -206,6 +206,33 @@ static bool read_number(json_reader *r, json_t *value, const json_place *at, voi
     return true;
 }
 
+/* ---- Gaps --------------------------------------------------------------------------------------------------- */
+
+static bool read_gap(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    session_loader *s = loader_of(r);
+    octree_gap gap = {.tick = s->tick};
+    (void)into;
+    if (!session_read_text(r, value, at, "the reason of a gap", sizeof gap.why, gap.why))
+        return false;
+    if (!*gap.why)
+        return json_fail(r, at, "a gap has a reason, and this one is empty");
+    octree_gap *added = session_append(r, at, &s->lists[SESSION_GAPS], sizeof gap);
+    if (added)
+        *added = gap;
+    return added;
+}
+
+static void write_gap(json_writer *w, const void *from)
+{
+    json_write_string(w, (*(const octree_gap *const *)from)->why);
+}
+
+static bool is_gap(const void *from)
+{
+    return *(const octree_gap *const *)from;
+}
+
 /* ---- The objects of a file ---------------------------------------------------------------------------------- */
 
 octree_session session_default_header(void)
@@ -241,5 +268,6 @@ const json_member session_tick_members[] = {
     {"edits", &session_items_codec, TICK(input.edits), .about = &session_edits},
     {"queries", &session_items_codec, TICK(input.queries), .about = &session_queries},
     {"shapes", &session_items_codec, TICK(input.shapes), .about = &session_shapes},
+    {"gap", JSON_CODEC(read_gap, write_gap, is_gap), TICK(input.gap)},
     {0},
 };

@@ -28,8 +28,8 @@ typedef struct session_tick {
     octree_input input;
 } session_tick;
 
-/* The lists of a session whose objects are of one kind among several. */
-enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_LISTS };
+/* The lists of a session: those whose objects are of one kind among several, and the gaps. */
+enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_GAPS, SESSION_LISTS };
 
 /* A session that is being read: the context of its json_reader. */
 typedef struct session_loader {
@@ -68,6 +68,9 @@ extern const json_member session_body_members[];
 
 /* False with the reason when the game does not know a key. */
 bool session_check_keys(const char *keys, octreel_error *error);
+
+/* Read printable ASCII into so many bytes, its final zero included; `what` is for errors, such as "a label". */
+bool session_read_text(json_reader *r, json_t *value, const json_place *at, const char *what, size_t room, char *into);
 
 /* Room for one more item; null with an error when there is no memory. */
 void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size);

@@ -110,6 +110,11 @@ static void write_events(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
+static void write_gap(json_writer *w, const void *from)
+{
+    json_write_string(w, *(const char *const *)from);
+}
+
 static void write_refusals(json_writer *w, const void *from)
 {
     const octree_tick *tick = from;
@@ -221,12 +226,19 @@ static const json_member line_members[] = {
     {0},
 };
 
+/* All that is known of a tick that is a gap. */
+static const json_member gap_members[] = {
+    {"tick", &json_uint64, .offset = offsetof(octree_tick, number)},
+    {"gap", JSON_CODEC(NULL, write_gap, NULL), .offset = offsetof(octree_tick, gap)},
+    {0},
+};
+
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
 {
     json_writer writer = {.out = out}, *w = &writer;
     char digest[DIGEST_TEXT];
     json_write_begin_object(w);
-    json_write_members(w, line_members, tick);
+    json_write_members(w, tick->gap ? gap_members : line_members, tick);
     if (extras->frame) {
         json_member_text(w, "frame", extras->frame);
         json_member_text(w, "scene", digest_print(extras->scene_digest, digest));

@@ -14,8 +14,8 @@ typedef struct tick_extras {
     uint64_t scene_digest; /* of that frame */
 } tick_extras;
 
-/* One JSON object and a newline. Where the collision test is swept it begins at "from", else there is none. Errors stay
- * with the stream. */
+/* One JSON object and a newline. Where the collision test is swept it begins at "from", else there is none. Of a gap it
+ * says the tick and why, and nothing else. Errors stay with the stream. */
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
 
 /* A digest as files have it: sixteen hexadecimal digits. Returns `text`. */

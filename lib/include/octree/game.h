@@ -137,6 +137,16 @@ typedef struct octree_shape {
     char text[OCTREE_SHAPE_TEXT]; /* of a label: printable ASCII, with its final zero; else not read */
 } octree_shape;
 
+#define OCTREE_GAP_TEXT 160
+
+/* A tick of which nothing is known: a program that records itself could not hand it over. Nothing is played in it, and
+ * nothing asked or shown, whatever else there is for it; what changed meanwhile comes with the next tick, as
+ * does the way of bodies that have a velocity. */
+typedef struct octree_gap {
+    uint64_t tick;
+    char why[OCTREE_GAP_TEXT]; /* printable ASCII, one character at least, with its final zero */
+} octree_gap;
+
 /* All that is needed to play. It is borrowed, with its arrays: they must outlive the game. */
 typedef struct octree_session {
     octree_def tree;
@@ -151,6 +161,8 @@ typedef struct octree_session {
     size_t query_count;
     const octree_shape *shapes; /* ascending by tick, OCTREE_EVERY_TICK last */
     size_t shape_count;
+    const octree_gap *gaps; /* ascending by tick, one a tick at most */
+    size_t gap_count;
 } octree_session;
 
 /* The paper's session: world [-1000, 1000]^3, capacity 2, depth 5, eleven points, the player at the origin with step
@@ -251,6 +263,7 @@ typedef struct octree_tick {
     const octree_body *movers; /* bodies with a velocity: where they are, and how they go on, turned where they bounced;
                                   in an order that is the same whenever the session is played */
     size_t mover_count;
+    const char *gap; /* why nothing is known of the tick: all else is then as it was, and nothing happened; else null */
 } octree_tick;
 
 typedef struct octree_game octree_game;
@@ -259,8 +272,9 @@ typedef struct octree_game octree_game;
  * are not in the game, and are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
  * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
- * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; TOO_MANY (bodies for one tree); NO_MEMORY. *game is
- * then null. Cost: one restructuring, as octree_insert_many, with some ninety bytes a body while it runs. */
+ * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; for a gap BAD_TEXT; TOO_MANY (bodies for one tree);
+ * NO_MEMORY. *game is then null. Cost: one restructuring, as octree_insert_many, with some ninety bytes a body while it
+ * runs. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
@@ -270,8 +284,8 @@ void octree_game_destroy(octree_game *game);
  * nodes, at 8 bytes each, and some hundred points about each change, or, of very many changes, all points). */
 octree_status octree_game_step(octree_game *game, char key);
 
-/* What happens in a tick: for games whose session is being made. The ticks that edits, queries and shapes name are not
- * read. */
+/* What happens in a tick: for games whose session is being made. The ticks that edits, queries, shapes and a gap
+ * name are not read. */
 typedef struct octree_input {
     char key;                 /* '.' and 0 wait */
     const octree_edit *edits; /* in the order in which they are made */
@@ -280,6 +294,7 @@ typedef struct octree_input {
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
+    const octree_gap *gap; /* nothing is known of the tick; null: it is a tick like others */
 } octree_input;
 
 /* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes after

@@ -244,13 +244,15 @@ static void publish(octree_game *game)
     game->tick.hit_from = game->tick.swept ? game->hit_from.items : NULL;
 }
 
+/* Of a gap nothing is tested, asked or shown. */
 static octree_status finish_tick(octree_game *game, const octree_input *input)
 {
     octree_status status = OCTREE_OK;
-    if (game->tick.number == 0 && game->tick.has_player)
+    game->tick.gap = input->gap ? strcpy(game->gap, input->gap->why) : NULL;
+    if (game->tick.number == 0 && game->tick.has_player && !input->gap)
         status = collide(game, game->tick.player);
     if (status == OCTREE_OK)
-        status = ask_and_show(game, input);
+        status = input->gap ? game_finish_asking(game) : ask_and_show(game, input);
     if (status == OCTREE_OK)
         status = summarize_tree(game);
     if (status == OCTREE_OK)
@@ -342,6 +344,14 @@ static void begin_tick(octree_game *game, char key)
     game->tick.events = 0;
 }
 
+static octree_status play_changes(octree_game *game, const octree_input *input)
+{
+    octree_status status = game_apply_edits(game, input);
+    if (status == OCTREE_OK)
+        status = game_move_bodies(game);
+    return status == OCTREE_OK ? step_player(game) : status;
+}
+
 /* `given` is null where the session has what happens. */
 static octree_status step(octree_game *game, char key, const octree_input *given)
 {
@@ -354,15 +364,13 @@ static octree_status step(octree_game *game, char key, const octree_input *given
     if (!game_is_key(key))
         return OCTREE_BAD_KEY;
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
-    begin_tick(game, key);
-    octree_status status = game_apply_edits(game, input);
-    if (status == OCTREE_OK)
-        status = game_move_bodies(game);
-    if (status == OCTREE_OK)
-        status = step_player(game);
-    if (status == OCTREE_OK)
-        status = finish_tick(game, input);
-    return status;
+    octree_status status = OCTREE_OK;
+    begin_tick(game, input->gap ? '.' : key);
+    if (input->gap)
+        find_player(game); /* where it was */
+    else
+        status = play_changes(game, input);
+    return status == OCTREE_OK ? finish_tick(game, input) : status;
 }
 
 octree_status octree_game_step(octree_game *game, char key)

@@ -36,6 +36,7 @@ struct octree_game {
     bool lost_visits; /* there was no memory for one of them */
     tree_summary summary;
     octree_tick tick;
+    char gap[OCTREE_GAP_TEXT]; /* of the tick, where it is one */
 #define LIST(name, shown_count, type) list name;
     GAME_LISTS(LIST)
 #undef LIST

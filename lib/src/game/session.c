@@ -45,12 +45,13 @@ static octree_status check_keys(const char *keys)
     return OCTREE_OK;
 }
 
-static bool is_text(const char text[OCTREE_SHAPE_TEXT])
+/* Whether so many bytes hold printable ASCII and its final zero. */
+static bool is_text(const char *text, size_t size)
 {
     size_t length = 0;
-    while (length < OCTREE_SHAPE_TEXT && text[length] >= ' ' && text[length] <= '~')
+    while (length < size && text[length] >= ' ' && text[length] <= '~')
         length++;
-    return length < OCTREE_SHAPE_TEXT && text[length] == 0;
+    return length < size && text[length] == 0;
 }
 
 static octree_status check_shape(const octree_shape *shape)
@@ -64,9 +65,14 @@ static octree_status check_shape(const octree_shape *shape)
     for (int i = 0; status == OCTREE_OK && shape->kind == OCTREE_SHAPE_BOX && i < 3; i++)
         if (shape->at[i] > shape->to[i])
             status = OCTREE_BAD_RANGE;
-    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !is_text(shape->text))
+    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !is_text(shape->text, sizeof shape->text))
         status = OCTREE_BAD_TEXT;
     return status;
+}
+
+static octree_status check_gap(const octree_gap *gap)
+{
+    return *gap->why && is_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
 }
 
 octree_status octree_input_check(const octree_input *input)
@@ -82,10 +88,10 @@ octree_status octree_input_check(const octree_input *input)
         status = octree_query_check(&input->queries[i]);
     for (size_t i = 0; status == OCTREE_OK && i < input->shape_count; i++)
         status = check_shape(&input->shapes[i]);
-    return status;
+    return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
-/* Edits, queries and shapes begin with their tick. */
+/* Edits, queries, shapes and gaps begin with their tick. */
 static uint64_t tick_of(const void *items, size_t size, size_t i)
 {
     uint64_t tick;
@@ -101,14 +107,26 @@ static octree_status check_order(const void *items, size_t size, size_t count)
     return OCTREE_OK;
 }
 
+static octree_status check_gaps(const octree_session *s)
+{
+    octree_status status = s->gaps || s->gap_count == 0 ? OCTREE_OK : OCTREE_NULL_ARGUMENT;
+    for (size_t i = 0; status == OCTREE_OK && i < s->gap_count; i++)
+        status = i > 0 && s->gaps[i].tick <= s->gaps[i - 1].tick ? OCTREE_BAD_ORDER : check_gap(&s->gaps[i]);
+    return status;
+}
+
 octree_status game_check_session(const octree_session *s, const octree *tree)
 {
     octree_status status = check_player(&s->player, tree);
     if (status == OCTREE_OK)
         status = check_keys(s->keys);
     if (status == OCTREE_OK)
-        status = octree_input_check(
-            &(octree_input){0, s->edits, s->edit_count, s->queries, s->query_count, s->shapes, s->shape_count});
+        status = octree_input_check(&(octree_input){.edits = s->edits,
+                                                    .edit_count = s->edit_count,
+                                                    .queries = s->queries,
+                                                    .query_count = s->query_count,
+                                                    .shapes = s->shapes,
+                                                    .shape_count = s->shape_count});
     if (status == OCTREE_OK)
         status = s->edit_count && s->edits[0].tick == 0 ? OCTREE_BAD_ORDER
                                                         : check_order(s->edits, sizeof *s->edits, s->edit_count);
@@ -116,7 +134,7 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
         status = check_order(s->queries, sizeof *s->queries, s->query_count);
     if (status == OCTREE_OK)
         status = check_order(s->shapes, sizeof *s->shapes, s->shape_count);
-    return status;
+    return status == OCTREE_OK ? check_gaps(s) : status;
 }
 
 /* ---- The input of a tick ------------------------------------------------------------------------------------ */
@@ -149,6 +167,8 @@ octree_input session_input(const octree_session *s, uint64_t tick)
     input.edits = items_of(s->edits, sizeof *s->edits, s->edit_count, tick, &input.edit_count);
     input.queries = items_of(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
     input.shapes = items_of(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
+    size_t gaps;
+    input.gap = items_of(s->gaps, sizeof *s->gaps, s->gap_count, tick, &gaps);
     return input;
 }
 

@@ -5,7 +5,8 @@
 
 #include "octree/game.h"
 
-/* The session's edits, queries and shapes for a tick, or for OCTREE_EVERY_TICK; no key. Cost: O(log of their number).
+/* The session's edits, queries, shapes and gap for a tick, or for OCTREE_EVERY_TICK; no key. Cost: O(log of their
+ * number).
  */
 octree_input session_input(const octree_session *session, uint64_t tick);
 

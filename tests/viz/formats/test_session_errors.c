@@ -233,6 +233,10 @@ static void bad_points_are_refused(void **state)
 static void bad_ticks_are_refused(void **state)
 {
     static const refusal rows[] = {
+        {START "{\"tick\":3,\"gap\":7}", "3: gap: expected a text, found 7"},
+        {START "{\"tick\":3,\"gap\":\"\"}", "3: gap: a gap has a reason, and this one is empty"},
+        {START "{\"tick\":3,\"gap\":\"\\n\"}", "3: gap: the reason of a gap is of printable ASCII characters"},
+        {START "{\"tick\":3,\"gap\":\"x\",\"queries\":[]}", "3: a tick that is a gap has nothing else"},
         {START "{}", "3: the member \"tick\" is missing"},
         {START "{\"tick\":1}\n{\"tick\":1}", "4: tick: tick 1 comes after tick 1; ticks must ascend"},
         {START "{\"tick\":4}{\"tick\":\n3}", "4: tick: tick 3 comes after tick 4; ticks must ascend"},

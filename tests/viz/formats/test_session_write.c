@@ -101,6 +101,11 @@ static void assert_same_session(const octree_session *a, const octree_session *b
     assert_int_equal(a->shape_count, b->shape_count);
     for (size_t i = 0; i < a->shape_count; i++)
         assert_memory_equal(&a->shapes[i], &b->shapes[i], sizeof a->shapes[i]);
+    assert_int_equal(a->gap_count, b->gap_count);
+    for (size_t i = 0; i < a->gap_count; i++) {
+        assert_int_equal(a->gaps[i].tick, b->gaps[i].tick);
+        assert_string_equal(a->gaps[i].why, b->gaps[i].why);
+    }
 }
 
 static void assert_round_trip(const octree_session *session)
@@ -336,6 +341,24 @@ static void unknown_keys_are_refused_and_change_nothing(void **state)
     session_release(&file);
 }
 
+static void gaps_survive_the_round_trip(void **state)
+{
+    octree_gap gaps[] = {{0, "the first"}, {3, "\"quoted\\ ~"}, {4, "two points have one id: 7"}, {400, ""}};
+    octree_session session = octree_session_default();
+    octreel_error error;
+    session_file copy;
+    (void)state;
+    memset(gaps[3].why, 'x', OCTREE_GAP_TEXT - 1);
+    session.gaps = gaps;
+    session.gap_count = sizeof gaps / sizeof gaps[0];
+    session.ticks = 400;
+    assert_round_trip(&session);
+    assert_true(session_copy(&session, &copy, &error));
+    assert_same_session(&session, &copy.session);
+    assert_true(copy.session.gaps != gaps);
+    session_release(&copy);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -352,6 +375,7 @@ int main(void)
         cmocka_unit_test(copy_owns_all_it_has),
         cmocka_unit_test(keys_are_replaced),
         cmocka_unit_test(unknown_keys_are_refused_and_change_nothing),
+        cmocka_unit_test(gaps_survive_the_round_trip),
     };
     return cmocka_run_group_tests_name("session_write", tests, NULL, NULL);
 }

@@ -195,6 +195,15 @@ static void failure_stays_with_the_stream(void **state)
     fclose(out);
 }
 
+static void of_a_gap_nothing_is_told_but_why(void **state)
+{
+    octree_tick tick = {.number = 50, .gap = "two points have one id: 7", .player = {1, 2, 3}, .has_player = true};
+    char *text = line_of(&tick, &(tick_extras){0});
+    (void)state;
+    assert_string_equal(text, "{\"tick\": 50, \"gap\": \"two points have one id: 7\"}\n");
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -206,6 +215,7 @@ int main(void)
         cmocka_unit_test(every_double_is_told_to_the_bit),
         cmocka_unit_test(digest_is_sixteen_hexadecimal_digits),
         cmocka_unit_test(failure_stays_with_the_stream),
+        cmocka_unit_test(of_a_gap_nothing_is_told_but_why),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
