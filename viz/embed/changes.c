@@ -3,6 +3,7 @@
 #include "changes.h"
 #include "array.h"
 #include "session_file.h"
+#include "text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -103,6 +104,28 @@ octreel_status points_read(points *p, points *spare, const octree *tree, uint64_
     return OCTREEL_OK;
 }
 
+/* ---- Gaps --------------------------------------------------------------------------------------------------- */
+
+void gap_list_add(gap_list *list, const char *why)
+{
+    gap_run run = {.ticks = 1};
+    snprintf(run.why, sizeof run.why, "%s", why);
+    make_printable(run.why);
+    const bool same = list->count > 0 && strcmp(list->runs[list->count - 1].why, run.why) == 0;
+    if (same || list->count == MOST_GAP_RUNS)
+        list->runs[list->count - 1].ticks++;
+    else
+        list->runs[list->count++] = run;
+}
+
+uint64_t gap_list_ticks(const gap_run *runs, size_t count)
+{
+    uint64_t ticks = 0;
+    for (size_t i = 0; i < count; i++)
+        ticks += runs[i].ticks;
+    return ticks;
+}
+
 /* ---- Batches ------------------------------------------------------------------------------------------------ */
 
 /* By value: whether a zero has a sign is no change. */
@@ -185,12 +208,27 @@ static bool find_changes(batch *b, const points *before, const points *after)
     return true;
 }
 
-batch *batch_make(const points *before, const points *after, const octreel_tick_info *about)
+batch *batch_make_gaps(const gap_list *gaps)
 {
     batch *b = calloc(1, sizeof *b);
     if (!b)
         return NULL;
     b->bytes = sizeof *b;
+    b->is_gap = true;
+    b->gap_count = gaps->count;
+    b->gaps = copy(b, gaps->runs, gaps->count, sizeof *gaps->runs);
+    if (b->gaps || gaps->count == 0)
+        return b;
+    batch_release(b);
+    return NULL;
+}
+
+batch *batch_make(const points *before, const points *after, const gap_list *gaps, const octreel_tick_info *about)
+{
+    batch *b = batch_make_gaps(gaps);
+    if (!b)
+        return NULL;
+    b->is_gap = false;
     if (find_changes(b, before, after) && (!about || copy_about(b, about)))
         return b;
     batch_release(b);
@@ -201,6 +239,7 @@ void batch_release(batch *b)
 {
     if (!b)
         return;
+    free(b->gaps);
     free(b->changes);
     free(b->queries);
     free(b->shapes);

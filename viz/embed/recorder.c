@@ -4,8 +4,8 @@
 #include "error.h"
 #include "folder.h"
 #include "number.h"
+#include "ring.h"
 #include "session_file.h"
-#include "session_filmer.h"
 #include "view_options.h"
 
 #include <inttypes.h>
@@ -14,24 +14,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The last ticks, as they were handed over: the points of the first of them, and the changes since. */
-typedef struct ring {
-    size_t most;
-    batch_list list;
-    points start, spare; /* at the first tick; its batch has no changes */
-    uint64_t dropped;    /* ticks that are no longer in it */
-} ring;
-
 struct octreel_recorder {
     filmer_settings settings;
     bool never_wait, closed;
+    bool broken;             /* the recording broke off */
     points now, next, spare; /* at the last tick that was taken, and while one is being read */
     bool had_tree;
     ring ring; /* most is 0 where ticks are filmed as they come: */
     char *folder;
     queue queue;
     session_filmer filmer;
-    uint64_t put; /* ticks that were put into the queue */
+    uint64_t put;   /* ticks that were put into the queue */
+    uint64_t ticks; /* that were handed over, taken or refused */
+    losses lost;    /* of them */
+    gap_list gaps;  /* since the last that was taken */
     octreel_error error;
 };
 
@@ -64,6 +60,18 @@ static octreel_status refuse(octreel_recorder *r, octreel_status status, const c
 static octreel_status fail(octreel_recorder *r, octreel_status status)
 {
     return refuse(r, status, "%s", octreel_status_text(status));
+}
+
+/* What close and write say of a recording that has gaps. */
+static octreel_status tell_losses(octreel_recorder *r, const losses *lost, uint64_t ticks)
+{
+    if (lost->ticks == 0)
+        return OCTREEL_OK;
+    return refuse(r, OCTREEL_GAPS,
+                  "%" PRIu64 " of %" PRIu64 " ticks %s refused and %s in the recording; the first is "
+                  "tick %" PRIu64 ": %s",
+                  lost->ticks, ticks, lost->ticks == 1 ? "was" : "were", lost->ticks == 1 ? "is a gap" : "are gaps",
+                  lost->first, lost->why);
 }
 
 /* ---- The definition ----------------------------------------------------------------------------------------- */
@@ -187,65 +195,6 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
     return status == OCTREEL_OK ? set_film(r, def) : status;
 }
 
-/* ---- The ring ----------------------------------------------------------------------------------------------- */
-
-static void ring_release(ring *r)
-{
-    batch_list_clear(&r->list);
-    points_release(&r->start);
-    points_release(&r->spare);
-    *r = (ring){0};
-}
-
-/* Let the points of the first tick be those of this one. */
-static bool start_at(ring *r, batch *b)
-{
-    if (!batch_apply(b, &r->start, &r->spare))
-        return false;
-    free(b->changes);
-    b->changes = NULL;
-    b->change_count = 0;
-    return true;
-}
-
-/* Take a tick over; where there are enough the first goes. False when there is no memory: then nothing has changed, and
- * the batch stays the caller's. Cost: O(points), once a tick is dropped. */
-static bool ring_put(ring *r, batch *b)
-{
-    const bool full = r->list.count == r->most;
-    batch *first = r->list.first, *second = first && first->next ? first->next : b;
-    if ((full || !first) && !start_at(r, second))
-        return false;
-    if (full) {
-        batch_release(batch_list_take(&r->list));
-        r->dropped++;
-    }
-    batch_list_add(&r->list, b);
-    return true;
-}
-
-/* Film it all into a folder, in a thread. Errors: those of session_filmer_join(). */
-static octreel_status ring_write(ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
-{
-    queue ticks;
-    session_filmer f = {.settings = s, .folder = folder, .start = &r->start, .queue = &ticks};
-    if (!queue_init(&ticks, 0, 0)) {
-        error_no_memory(error);
-        return OCTREEL_NO_MEMORY;
-    }
-    ticks.list = r->list;
-    ticks.borrowed = ticks.ended = true;
-    octreel_status status = session_filmer_start(&f);
-    if (status == OCTREEL_OK)
-        status = session_filmer_join(&f);
-    else
-        error_set(&f.error, "a thread cannot be started");
-    queue_release(&ticks);
-    if (status != OCTREEL_OK)
-        *error = f.error;
-    return status;
-}
-
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
@@ -334,17 +283,28 @@ static octreel_status check_about(octreel_recorder *r, const octreel_tick_info *
     return OCTREEL_OK;
 }
 
-/* Whether a tree has the world and the options of the definition; null has any. */
-static bool is_of_definition(const filmer_settings *s, const octree *tree)
+/* Whether a tree has the world and the options of the definition, which null has always; else names one that it has
+ * not. */
+static octreel_status check_tree(octreel_recorder *r, const octree *tree)
 {
-    if (!tree)
-        return true;
-    const octree_def def = octree_definition(tree);
+    const octree_def *own = &r->settings.tree, def = tree ? octree_definition(tree) : *own;
     for (int i = 0; i < 3; i++)
-        if (def.world.min[i] != s->tree.world.min[i] || def.world.max[i] != s->tree.world.max[i])
-            return false;
-    return def.leaf_capacity == s->tree.leaf_capacity && def.max_depth == s->tree.max_depth &&
-           def.full_leaf == s->tree.full_leaf;
+        if (def.world.min[i] != own->world.min[i] || def.world.max[i] != own->world.max[i])
+            return refuse(r, OCTREEL_OTHER_TREE,
+                          "the tree's world on %c is [%.17g, %.17g], and the recorder was opened for [%.17g, %.17g]",
+                          "xyz"[i], def.world.min[i], def.world.max[i], own->world.min[i], own->world.max[i]);
+    if (def.leaf_capacity != own->leaf_capacity)
+        return refuse(r, OCTREEL_OTHER_TREE,
+                      "the tree's leaf_capacity is %zu, and the recorder was opened for %zu; a tree under OCTREE_AUTO "
+                      "changes it: give it a fixed one",
+                      def.leaf_capacity, own->leaf_capacity);
+    if (def.max_depth != own->max_depth)
+        return refuse(r, OCTREEL_OTHER_TREE, "the tree's max_depth is %zu, and the recorder was opened for %zu",
+                      def.max_depth, own->max_depth);
+    if (def.full_leaf != own->full_leaf)
+        return refuse(r, OCTREEL_OTHER_TREE,
+                      "the tree's full_leaf is not that of the definition that the recorder was opened for");
+    return OCTREEL_OK;
 }
 
 static octreel_status read_tree(octreel_recorder *r, const octree *tree)
@@ -352,9 +312,10 @@ static octreel_status read_tree(octreel_recorder *r, const octree *tree)
     uint64_t clash = 0;
     if (!tree && r->had_tree)
         return fail(r, OCTREEL_NULL_ARGUMENT);
-    if (!is_of_definition(&r->settings, tree))
-        return fail(r, OCTREEL_OTHER_TREE);
-    const octreel_status status = points_read(&r->next, &r->spare, tree, &clash);
+    octreel_status status = check_tree(r, tree);
+    if (status != OCTREEL_OK)
+        return status;
+    status = points_read(&r->next, &r->spare, tree, &clash);
     if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
         return refuse(r, status, "%s: %" PRIu64, octreel_status_text(status), clash);
     return status == OCTREEL_OK ? status : fail(r, status);
@@ -370,6 +331,7 @@ static octreel_status film_batch(octreel_recorder *r, batch *b, bool *taken)
         return fail(r, status);
     if (*taken && (r->put++ > 0 || queue_wait_done(&r->queue)))
         return OCTREEL_OK;
+    r->broken = true;
     r->error = r->filmer.error;
     return r->filmer.status;
 }
@@ -387,19 +349,14 @@ static octreel_status hand_on(octreel_recorder *r, batch *b)
     return status;
 }
 
-octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about)
+static octreel_status take_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
-    octreel_recorder *r = recorder;
-    if (!r)
-        return OCTREEL_OK;
-    if (r->closed)
-        return fail(r, OCTREEL_CLOSED);
     octreel_status status = check_about(r, about);
     if (status == OCTREEL_OK)
         status = read_tree(r, tree);
     if (status != OCTREEL_OK)
         return status;
-    batch *b = batch_make(&r->now, &r->next, about);
+    batch *b = batch_make(&r->now, &r->next, &r->gaps, about);
     status = b ? hand_on(r, b) : fail(r, OCTREEL_NO_MEMORY);
     if (status != OCTREEL_OK)
         return status;
@@ -407,10 +364,53 @@ octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *t
     r->now = r->next;
     r->next = old;
     r->had_tree |= tree != NULL;
+    r->gaps.count = 0;
     return OCTREEL_OK;
 }
 
+/* A tick that is refused keeps its number. */
+static void note_gap(octreel_recorder *r)
+{
+    gap_list_add(&r->gaps, r->error.text);
+    if (r->lost.ticks++ > 0)
+        return;
+    r->lost.first = r->ticks;
+    memcpy(r->lost.why, r->gaps.runs[0].why, sizeof r->lost.why);
+}
+
+octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about)
+{
+    octreel_recorder *r = recorder;
+    if (!r)
+        return OCTREEL_OK;
+    if (r->closed)
+        return fail(r, OCTREEL_CLOSED);
+    const octreel_status status = take_tick(r, tree, about);
+    if (status != OCTREEL_OK && !r->broken)
+        note_gap(r);
+    r->ticks += !r->broken;
+    return status;
+}
+
 /* ---- The end ------------------------------------------------------------------------------------------------ */
+
+/* Film the ring with the gaps after its last tick, which are in it for so long. */
+static octreel_status ring_write(octreel_recorder *r, const char *folder)
+{
+    ring *all = &r->ring;
+    const batch_list before = all->list;
+    batch *tail = batch_make_gaps(&r->gaps);
+    if (!tail)
+        return fail(r, OCTREEL_NO_MEMORY);
+    batch_list_add(&all->list, tail);
+    uint64_t ticks;
+    const losses lost = ring_losses(all, &ticks);
+    const octreel_status status = ring_film(all, &r->settings, folder, &r->error);
+    all->list = before;
+    all->list.last->next = NULL;
+    batch_release(tail);
+    return status == OCTREEL_OK ? tell_losses(r, &lost, ticks) : status;
+}
 
 octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first)
 {
@@ -429,7 +429,15 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
         return OCTREEL_BAD_FOLDER;
     if (first)
         *first = r->ring.dropped;
-    return ring_write(&r->ring, &r->settings, folder, &r->error);
+    return ring_write(r, folder);
+}
+
+/* The ticks that were refused after the last one that was taken. */
+static void put_last_gaps(octreel_recorder *r)
+{
+    batch *b = r->gaps.count > 0 ? batch_make_gaps(&r->gaps) : NULL;
+    if (b && queue_put(&r->queue, b, true) != OCTREEL_OK)
+        batch_release(b); /* the recording has broken off, which says more */
 }
 
 octreel_status octreel_recorder_close(octreel_recorder *recorder)
@@ -441,13 +449,19 @@ octreel_status octreel_recorder_close(octreel_recorder *recorder)
         return fail(r, OCTREEL_CLOSED);
     r->closed = true;
     if (r->ring.most > 0)
-        return OCTREEL_OK;
+        return tell_losses(r, &r->lost, r->ticks);
+    if (r->put > 0)
+        put_last_gaps(r);
     queue_end(&r->queue);
     const octreel_status status = session_filmer_join(&r->filmer);
     queue_release(&r->queue);
     if (status != OCTREEL_OK)
         r->error = r->filmer.error;
-    return status == OCTREEL_OK && r->put == 0 ? fail(r, OCTREEL_NOTHING) : status;
+    if (status != OCTREEL_OK || r->put > 0)
+        return status == OCTREEL_OK ? tell_losses(r, &r->lost, r->ticks) : status;
+    return r->lost.ticks == 0 ? fail(r, OCTREEL_NOTHING)
+                              : refuse(r, OCTREEL_NOTHING, "%s: all of them were refused, the first since %s",
+                                       octreel_status_text(OCTREEL_NOTHING), r->lost.why);
 }
 
 void octreel_recorder_destroy(octreel_recorder *recorder)

@@ -35,8 +35,9 @@ static octreel_status fail_memory(session_filmer *f, octreel_status status)
     return status;
 }
 
-/* Film tick 0: these points, and the queries and shapes of a batch. */
-static octreel_status film_first(session_filmer *f, const points *start, const batch *first)
+/* Film tick 0: these points, and the queries and shapes of a batch; or a gap, which has them where points are known at
+ * last. */
+static octreel_status film_first(session_filmer *f, const points *start, const batch *first, const octree_gap *gap)
 {
     const filmer_settings *s = f->settings;
     film_options film = s->film;
@@ -50,9 +51,11 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
                                     .bodies = bodies,
                                     .body_count = start->count,
                                     .queries = first->queries,
-                                    .query_count = first->query_count,
+                                    .query_count = gap ? 0 : first->query_count,
                                     .shapes = first->shapes,
-                                    .shape_count = first->shape_count};
+                                    .shape_count = gap ? 0 : first->shape_count,
+                                    .gaps = gap,
+                                    .gap_count = gap != NULL};
     film.folder = f->folder;
     f->live = live_open(&session, &film, &f->error);
     free(bodies);
@@ -61,30 +64,63 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
     return live_begin(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BAD_FOLDER;
 }
 
-static octreel_status begin(session_filmer *f, const batch *first)
+static octreel_status begin(session_filmer *f, const batch *first, const octree_gap *gap)
 {
     points start = {0}, spare = {0};
     if (f->start)
-        return film_first(f, f->start, first);
+        return film_first(f, f->start, first, gap);
     const octreel_status status =
-        batch_apply(first, &start, &spare) ? film_first(f, &start, first) : fail_memory(f, OCTREEL_NO_MEMORY);
+        batch_apply(first, &start, &spare) ? film_first(f, &start, first, gap) : fail_memory(f, OCTREEL_NO_MEMORY);
     points_release(&start);
     points_release(&spare);
     return status;
 }
 
-static octreel_status film_next(session_filmer *f, const batch *b)
+static octreel_status film_input(session_filmer *f, const octree_input *input)
 {
-    if (!edit_order_make(&f->order, b, f->tick))
+    return live_tick(f->live, input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
+}
+
+/* `changes`: the batch's are made, which is not so where the recording has begun with its points. */
+static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
+{
+    f->order.count = 0;
+    if (changes && !edit_order_make(&f->order, b, f->tick))
         return fail_memory(f, OCTREEL_BROKEN);
-    const octree_input input = {.key = '.',
-                                .edits = f->order.edits,
-                                .edit_count = f->order.count,
-                                .queries = b->queries,
-                                .query_count = b->query_count,
-                                .shapes = b->shapes,
-                                .shape_count = b->shape_count};
-    return live_tick(f->live, &input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
+    return film_input(f, &(octree_input){.key = '.',
+                                         .edits = f->order.edits,
+                                         .edit_count = f->order.count,
+                                         .queries = b->queries,
+                                         .query_count = b->query_count,
+                                         .shapes = b->shapes,
+                                         .shape_count = b->shape_count});
+}
+
+/* The gaps before the tick of a batch. */
+static octreel_status film_gaps(session_filmer *f, const batch *b)
+{
+    octreel_status status = OCTREEL_OK;
+    for (size_t i = 0; i < b->gap_count; i++) {
+        octree_gap gap = {0};
+        memcpy(gap.why, b->gaps[i].why, sizeof gap.why);
+        for (uint64_t left = b->gaps[i].ticks; status == OCTREEL_OK && left > 0; left--) {
+            status = f->tick == 0 ? begin(f, b, &gap) : film_input(f, &(octree_input){.gap = &gap});
+            f->tick++;
+        }
+    }
+    return status;
+}
+
+static octreel_status film_batch(session_filmer *f, batch *b)
+{
+    const bool begun = f->tick > 0;
+    octreel_status status = film_gaps(f, b);
+    if (status != OCTREEL_OK || b->is_gap)
+        return status;
+    number_tick(b, f->tick);
+    status = f->tick == 0 ? begin(f, b, NULL) : film_next(f, b, begun);
+    f->tick++;
+    return status;
 }
 
 /* ---- The thread --------------------------------------------------------------------------------------------- */
@@ -95,9 +131,7 @@ static void film_queue(session_filmer *f)
 {
     batch *b;
     while (f->status == OCTREEL_OK && (b = queue_take(f->queue))) {
-        number_tick(b, f->tick);
-        f->status = f->tick == 0 ? begin(f, b) : film_next(f, b);
-        f->tick++;
+        f->status = film_batch(f, b);
         (f->status == OCTREEL_OK ? queue_done : queue_break)(f->queue, b);
     }
 }

@@ -202,6 +202,9 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
     const uint64_t last = octree_session_length(&r->replay.session.session);
     if (tick > last)
         fprintf(out, "the session of %s ends at tick %" PRIu64, r->side->path, last);
+    else if (octree_session_gap(&r->replay.session.session, tick))
+        fprintf(out, "%s has a gap there: %s", r->side->path,
+                octree_session_gap(&r->replay.session.session, tick)->why);
     else if (tick % r->view.every)
         fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
     else

@@ -59,6 +59,7 @@ static void begin_json(json_writer *w, const film_summary *summary, const char *
     json_member_text(w, "folder", folder);
     json_member_integer(w, "ticks", summary->ticks);
     json_member_integer(w, "frames", summary->frames);
+    json_member_integer(w, "gaps", summary->gaps);
     json_member_integer(w, "left_out", summary->left_out);
 }
 
@@ -86,6 +87,9 @@ static void report_counts(FILE *out, const film_summary *summary, const char *fo
 
 static void report_left_out(FILE *out, const film_summary *summary)
 {
+    if (summary->gaps)
+        fprintf(out, "%" PRIu64 " tick%s a gap: nothing is known of %s, and ticks.jsonl says why\n", summary->gaps,
+                summary->gaps == 1 ? " is" : "s are each", summary->gaps == 1 ? "it" : "them");
     if (summary->left_out)
         fprintf(out, "%" PRIu64 " element%s too far off to be drawn: the frames lack what is so far away\n",
                 summary->left_out, plural(summary->left_out));

@@ -23,6 +23,7 @@ typedef struct chunk {
 /* A recording while its chunks are joined. */
 typedef struct joining {
     const film_options *options;
+    const octree_session *session;
     film_summary *summary;   /* the ticks that are joined so far, and all that there are to be */
     uint64_t session_digest; /* of session.json */
     chunk *chunks;           /* by their first tick */
@@ -115,7 +116,7 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
     char begin[48];
     uint64_t scene;
     const uint64_t tick = j->summary->ticks;
-    const bool filmed = tick % j->options->every == 0;
+    const bool gap = octree_session_gap(j->session, tick), filmed = !gap && tick % j->options->every == 0;
     const int length = snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
     if (strncmp(j->line, begin, (size_t)length) != 0 || read_scene(j->line, size, tick, &scene) != filmed)
         return error_set(error, "%s/%s: has no line of tick %" PRIu64 " where it should be", j->options->folder,
@@ -124,6 +125,7 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
         return false;
     fwrite(j->line, 1, size, j->ticks.stream); /* errors are reported by file_writer_close() */
     j->summary->ticks++;
+    j->summary->gaps += gap;
     if (j->options->progress)
         j->options->progress(j->summary->ticks, j->summary->total, j->options->context);
     return true;
@@ -207,11 +209,12 @@ bool join_chunks(film_options *options, film_summary *summary, octreel_error *er
     if (!recording_read(options->folder, &options->view, &options->every, error) ||
         !read_session_file(options->folder, &file, &j.session_digest, error))
         return false;
-    summary->total = octree_session_length(&file.session) + 1;
-    session_release(&file);
+    j.session = &file.session;
+    summary->total = octree_session_length(j.session) + 1;
     bool ok = check_renderer_file(options->folder, error) && find_chunks(&j, error) && write_ticks(&j, error);
     if (ok && summary->ticks == summary->total)
         ok = page_write(options->folder, error) && folder_sweep(options->folder, error);
+    session_release(&file);
     free(j.chunks);
     free(j.line);
     return ok;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* live.c - a session in the making becomes a recording. */
 #include "live.h"
+#include "array.h"
 #include "frame_file.h"
 #include "octree/digest.h"
 #include "recording.h"
@@ -22,8 +23,10 @@ struct live_recording {
     FILE *stream;      /* session.json.live, open for the whole time; null: it is not there */
     char *path;        /* of that */
     off_t head, whole; /* where its ticks begin, and where its last whole one ends */
-    bool begun;        /* tick 0 was filmed */
-    bool broken;       /* a tick failed */
+    uint64_t *gaps;    /* ticks that have no frame, though they are due one */
+    size_t gap_count, gap_room;
+    bool begun;  /* tick 0 was filmed */
+    bool broken; /* a tick failed */
 };
 
 /* ---- session.json.live -------------------------------------------------------------------------------------- */
@@ -42,10 +45,11 @@ static bool flush(live_recording *live, octreel_error *error)
     return true;
 }
 
-/* The queries and shapes of tick 0; those of every tick are in the header. */
+/* What there is of tick 0; queries and shapes of every tick are in the header. */
 static octree_input first_tick(const octree_session *session)
 {
-    octree_input input = {.queries = session->queries, .shapes = session->shapes};
+    octree_input input = {
+        .queries = session->queries, .shapes = session->shapes, .gap = octree_session_gap(session, 0)};
     while (input.query_count < session->query_count && session->queries[input.query_count].tick == 0)
         input.query_count++;
     while (input.shape_count < session->shape_count && session->shapes[input.shape_count].tick == 0)
@@ -143,8 +147,11 @@ static bool digest_file(const char *path, uint64_t *digest, octreel_error *error
 /* The session's digest is only known now. */
 static bool sign_frames(const live_recording *live, uint64_t digest, octreel_error *error)
 {
+    size_t gap = 0;
     for (uint64_t tick = 0; tick < live->summary.ticks; tick += live->options.every)
-        if (!frame_set_session(live->folder, tick, digest, error))
+        if (gap < live->gap_count && live->gaps[gap] == tick)
+            gap++;
+        else if (!frame_set_session(live->folder, tick, digest, error))
             return false;
     return true;
 }
@@ -170,6 +177,7 @@ static void release(live_recording *live)
     if (live->stream)
         fclose(live->stream);
     session_release(&live->start);
+    free(live->gaps);
     free(live->path);
     free(live->folder);
     free(live);
@@ -197,10 +205,21 @@ live_recording *live_open(const octree_session *start, const film_options *optio
     return NULL;
 }
 
+static bool note_gap(live_recording *live, uint64_t tick, octreel_error *error)
+{
+    uint64_t *gaps = array_reserve(live->gaps, live->gap_count + 1, &live->gap_room, sizeof *gaps);
+    if (!gaps)
+        return error_no_memory(error);
+    live->gaps = gaps;
+    gaps[live->gap_count++] = tick;
+    return true;
+}
+
 static bool film_tick(live_recording *live, octreel_error *error)
 {
     film_step step;
-    return playback_tick(&live->playback, &step, error) && recording_add(&live->recording, &step, error);
+    return playback_tick(&live->playback, &step, error) && recording_add(&live->recording, &step, error) &&
+           (!step.gap || step.tick % live->options.every || note_gap(live, step.tick, error));
 }
 
 bool live_begin(live_recording *live, octreel_error *error)

@@ -14,8 +14,8 @@
 typedef struct live_recording live_recording;
 
 /* Play tick 0 and open what draws it: the session has its start, and the queries and shapes of tick 0 or of every
- * tick, but no keys and no edits. All arguments are copied. Of the options, chunk, jobs and resume are not read. Null
- * with an error on failure. */
+ * tick, but no keys and no edits, and no gap but that of tick 0. All arguments are copied. Of the options, chunk, jobs
+ * and resume are not read. Null with an error on failure. */
 live_recording *live_open(const octree_session *start, const film_options *options, octreel_error *error);
 
 /* Make the folder and film tick 0. Where it fails no files are left, and only live_close() is. */

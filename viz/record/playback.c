@@ -13,7 +13,8 @@
 
 static bool add_heat(playback *p, octreel_error *error)
 {
-    return !(p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) || error_no_memory(error);
+    const bool known = !octree_game_tick(p->game)->gap;
+    return !(known && p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) || error_no_memory(error);
 }
 
 bool playback_open(playback *p, const octree_session *session, const view *v, octreel_error *error)
@@ -111,7 +112,8 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
     *step = (film_step){.tick = tick->number,
                         .events = tick->events,
                         .refusals = tick->refusal_count,
-                        .filmed = tick->number % p->target.every == 0};
+                        .gap = tick->gap,
+                        .filmed = !tick->gap && tick->number % p->target.every == 0};
     p->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
     return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);
 }

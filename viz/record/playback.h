@@ -26,7 +26,7 @@ typedef enum playback_frames {
 typedef struct playback_target {
     playback_frames frames;
     const char *folder; /* not read by FRAMES_SHOW */
-    uint64_t every;     /* ticks 0, every, 2 * every ... have a frame; at least 1 */
+    uint64_t every;     /* ticks 0, every, 2 * every ... have a frame, but for gaps; at least 1 */
     renderer_choice renderer;
 } playback_target;
 
@@ -47,6 +47,7 @@ typedef struct film_step {
     uint64_t tick;
     unsigned events;  /* bits of octree_event */
     size_t refusals;  /* points that were refused */
+    bool gap;         /* nothing is known of it */
     bool filmed;      /* it has a frame */
     bool over_budget; /* which leaves out what is beyond the view's budget */
     uint64_t left_out;

@@ -195,6 +195,8 @@ static bool check_tick(void *context, const film_step *step, octreel_error *erro
         return false;
     v->report->ticks++;
     v->report->frames += step->filmed;
+    if (step->gap && v->report->gaps++ == 0)
+        v->report->first_gap = *octree_session_gap(&v->replay.session.session, step->tick);
     if (v->options->progress)
         v->options->progress(step->tick + 1, v->replay.ticks, v->options->context);
     return true;
@@ -214,7 +216,10 @@ static void check_end_of_lines(verifying *v)
 /* Whether a file has a frame's name that this recording does not have. */
 static bool is_extra_frame(const verifying *v, const char *name)
 {
-    return strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, v->replay.ticks, v->replay.film.every);
+    uint64_t tick;
+    return strncmp(name, "frame_", 6) == 0 &&
+           (!frame_is_name(name, v->replay.ticks, v->replay.film.every) ||
+            (frame_parse_name(name, &tick) && octree_session_gap(&v->replay.session.session, tick)));
 }
 
 /* Report the first extra frame by name. */
@@ -290,9 +295,14 @@ static const struct {
 
 static void print_people(FILE *out, const char *folder, const verify_report *report)
 {
+    const octree_gap *gap = &report->first_gap;
     if (report->count == 0)
         fprintf(out, "%s: identical: %" PRIu64 " tick%s, %" PRIu64 " frame%s\n", folder, report->ticks,
                 plural(report->ticks), report->frames, plural(report->frames));
+    if (report->gaps > 0)
+        fprintf(out, "%s: %" PRIu64 " of these ticks %s: nothing is known of %s; the first is tick %" PRIu64 ": %s\n",
+                folder, report->gaps, report->gaps == 1 ? "is a gap" : "are gaps", report->gaps == 1 ? "it" : "them",
+                gap->tick, gap->why);
     for (size_t i = 0; i < report->count; i++) {
         const verify_finding *finding = &report->findings[i];
         fprintf(out, "%s: ", folder);
@@ -333,6 +343,7 @@ static void print_json(FILE *out, const char *folder, const verify_report *repor
     json_member_bool(w, "identical", report->count == 0);
     json_member_integer(w, "ticks", report->ticks);
     json_member_integer(w, "frames", report->frames);
+    json_member_integer(w, "gaps", report->gaps);
     json_member_begin_array(w, "findings");
     for (size_t i = 0; i < report->count; i++)
         write_finding(w, report, &report->findings[i]);

@@ -9,6 +9,7 @@
 
 #include "renderer.h"
 #include "folder.h"
+#include "octree/game.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -45,6 +46,8 @@ typedef struct verify_report {
     size_t count; /* of findings; 0: identical */
     verify_finding findings[VERIFY_MOST];
     uint64_t ticks, frames; /* that are the same, before the first that differs */
+    uint64_t gaps;          /* of those ticks: nothing is known of them, which is no difference */
+    octree_gap first_gap;   /* where there are any */
     uint64_t pixels;        /* of PIXELS: how many differ */
     char drawn_by[384];     /* the renderer of the recording, as renderer.json has it */
     char drawn_now[384];    /* the renderer of this process; "" where nothing was drawn */

@@ -172,6 +172,9 @@ octree_session octree_session_default(void);
 /* Ticks after tick 0 that the session plays. */
 uint64_t octree_session_length(const octree_session *session);
 
+/* The session's gap at a tick; null where that is none. Cost: O(log gaps). */
+const octree_gap *octree_session_gap(const octree_session *session, uint64_t tick);
+
 /* What a tick did: bits of octree_tick.events. */
 typedef enum octree_event {
     OCTREE_EVENT_MOVED = 1,    /* the player's step was made */

@@ -161,14 +161,19 @@ static const void *items_of(const void *items, size_t size, size_t count, uint64
     return *found ? (const char *)items + first * size : NULL;
 }
 
+const octree_gap *octree_session_gap(const octree_session *session, uint64_t tick)
+{
+    size_t found;
+    return session ? items_of(session->gaps, sizeof *session->gaps, session->gap_count, tick, &found) : NULL;
+}
+
 octree_input session_input(const octree_session *s, uint64_t tick)
 {
     octree_input input = {0};
     input.edits = items_of(s->edits, sizeof *s->edits, s->edit_count, tick, &input.edit_count);
     input.queries = items_of(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
     input.shapes = items_of(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
-    size_t gaps;
-    input.gap = items_of(s->gaps, sizeof *s->gaps, s->gap_count, tick, &gaps);
+    input.gap = octree_session_gap(s, tick);
     return input;
 }
 

@@ -36,6 +36,7 @@ static void nothing_is_played_in_a_gap_and_the_next_tick_has_its_own_number(void
         const bool gap = number == 2 || number == 3;
         assert_int_equal(tick->number, number);
         assert_int_equal(tick->answer_count, !gap);
+        assert_true(octree_session_gap(&session, number) == (gap ? &gaps[number - 2] : NULL));
         assert_true(tick->player[1] == known_steps[number]);
         if (gap)
             assert_string_equal(tick->gap, gaps[number - 2].why);

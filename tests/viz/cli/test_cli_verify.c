@@ -96,7 +96,7 @@ static void json_is_one_object(void **state)
     command_result result = run_octreel(NULL, "verify %s --json", folder.path);
     assert_done(&result);
     json_t *said = json_read(result.out);
-    assert_members(said, "folder identical ticks frames findings drawn_by drawn_now");
+    assert_members(said, "folder identical ticks frames gaps findings drawn_by drawn_now");
     assert_true(json_is_true(json_member(said, "identical")));
     assert_whole_number(json_member(said, "ticks"), 14);
     assert_whole_number(json_member(said, "frames"), 5);

@@ -148,8 +148,10 @@ static void refuse_trees(octreel_recorder *recorder, const octree *tree)
     const octree_def def = octree_definition(tree);
     octree *others[] = {make_tree(cube(-8, 9), 1, 2, OCTREE_GROW), make_tree(def.world, 2, 2, OCTREE_GROW),
                         make_tree(def.world, 1, 3, OCTREE_GROW), make_tree(def.world, 1, 2, OCTREE_REFUSE)};
+    static const char *const differences[] = {"world on x is [-8, 9]", "leaf_capacity is 2", "max_depth is 3",
+                                              "full_leaf"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        assert_refused(recorder, others[i], NULL, OCTREEL_OTHER_TREE, "world and the options");
+        assert_refused(recorder, others[i], NULL, OCTREEL_OTHER_TREE, differences[i]);
         octree_destroy(others[i]);
     }
     octree *twice = make_tree(def.world, 1, 2, OCTREE_GROW);
@@ -172,19 +174,19 @@ static void refuse_modes(octreel_recorder *recorder, const octree *tree)
     assert_int_equal(status, OCTREEL_FLOAT_MODE);
 }
 
-/* Between two ticks of a program everything is tried: the recording is that of the program, and of nothing else. */
-static void what_is_refused_is_not_recorded_and_nothing_else_is_lost(void **state)
+/* Between two ticks of a program everything is tried: all of it is gaps, and what the program did is between them. */
+static void what_is_refused_is_a_gap_and_nothing_else_is_lost(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    enum { TICKS = 6 };
-    uint64_t expected[TICKS], told[TICKS];
+    enum { TICKS = 6, REFUSED = 22, ALL = TICKS * (REFUSED + 1) };
+    uint64_t expected[ALL] = {0}, told[ALL];
     moving_tree m;
     moving_tree_make(&m, OCTREE_GROW, 4);
     const octreel_recorder_def def = small_recorder(&m, folder.path);
     octreel_recorder *recorder = open_recorder(&def);
     for (int tick = 0; tick < TICKS; tick++) {
         assert_recorded(recorder, &m);
-        expected[tick] = octree_digest(m.tree);
+        expected[(size_t)tick * (REFUSED + 1)] = octree_digest(m.tree);
         moving_tree_step(&m);
         refuse_queries(recorder, m.tree);
         refuse_shapes(recorder, m.tree);
@@ -194,11 +196,12 @@ static void what_is_refused_is_not_recorded_and_nothing_else_is_lost(void **stat
         assert_refused(recorder, m.tree, &(octreel_tick_info){.shape_count = 1}, OCTREEL_NULL_ARGUMENT, "null");
         assert_int_equal(octreel_recorder_write(recorder, again.path, NULL), OCTREEL_NO_RING);
     }
-    close_recorder(recorder);
+    assert_int_equal(octreel_recorder_close(recorder), OCTREEL_GAPS);
+    octreel_recorder_destroy(recorder);
     moving_tree_release(&m);
-    assert_int_equal(tree_digests(folder.path, told, TICKS), TICKS);
+    assert_int_equal(tree_digests(folder.path, told, ALL), ALL);
     assert_memory_equal(told, expected, sizeof told);
-    assert_films_again(&folder, &again, TICKS);
+    assert_films_again(&folder, &again, ALL);
 }
 
 static void a_recorder_that_is_closed_says_so(void **state)
@@ -352,7 +355,7 @@ int main(void)
         cmocka_unit_test(every_status_has_a_sentence_of_its_own),
         TEST(definitions_that_cannot_be_used_are_refused),
         TEST(a_folder_of_another_recording_is_left_as_it_is),
-        TEST(what_is_refused_is_not_recorded_and_nothing_else_is_lost),
+        TEST(what_is_refused_is_a_gap_and_nothing_else_is_lost),
         TEST(a_recorder_that_is_closed_says_so),
         TEST(a_recorder_without_a_tick_says_so_and_leaves_no_recording),
         TEST(a_frame_that_cannot_be_written_ends_the_recording_and_resume_completes_it),

@@ -23,8 +23,10 @@
  *     at a time. The program's floating-point mode and GL contexts are left alone: a thread of the recorder's draws,
  *     with all signals blocked. A child of fork() must not use its parent's recorders.
  *   - Functions return a status; octreel_status_text() gives its sentence, octreel_recorder_error() the last one in
- *     full. What is refused is not recorded, and nothing else is lost: the next tick holds all that changed since the
- *     last one that was taken. After OCTREEL_BROKEN there are no further ticks; what was filmed is whole.
+ *     full. Each call of octreel_recorder_tick() is a tick. One that is refused keeps its number and is a gap in the
+ *     recording: no frame, and in ticks.jsonl the reason alone; closing says how many there are. Nothing else is lost:
+ *     the next tick holds all that changed since the last one that was taken. After OCTREEL_BROKEN there are no further
+ *     ticks; what was filmed is whole.
  *   - A null recorder is one that is off: every function takes it, does nothing, and returns OCTREEL_OK.
  *   - n is the number of points.
  *   - While it is recorded the session is in FOLDER/session.json.live, a tick a line. After a crash of the program
@@ -58,7 +60,8 @@ extern "C" {
     X(CLOSED, "the recorder is closed")                                                                                \
     X(NOTHING, "there is no tick to be recorded")                                                                      \
     X(NO_RING, "the recorder has no ring")                                                                             \
-    X(NO_MEMORY, "there is no memory")
+    X(NO_MEMORY, "there is no memory")                                                                                 \
+    X(GAPS, "ticks were refused, and are gaps in the recording")
 
 typedef enum octreel_status {
 #define OCTREEL_STATUS_ENUM(name, text) OCTREEL_##name,
@@ -92,8 +95,8 @@ typedef struct octreel_recorder_def {
     bool any_renderer;    /* with "egl": a graphics card will do; frames are then the same on that card alone */
     size_t queue_ticks;   /* ticks that may wait for the worker, at least 1 */
     size_t queue_bytes;   /* and what they may take together; one tick alone may take more */
-    bool never_wait;      /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker; the first
-                            frame is waited for all the same */
+    bool never_wait;      /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker: such a tick
+                            is a gap; the first frame is waited for all the same */
     size_t ring;          /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
                             Beside the points of the first it holds what changed in the others */
 } octreel_recorder_def;
@@ -118,20 +121,23 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
 
 /* Hand over a tick: the tree as it is now, with ids that are unique, and what was asked and is shown; `about` may be
  * null. The first is tick 0. A null tree has no points, for programs that record shapes alone; it is NULL_ARGUMENT
- * after a tick that had one. Nothing is kept of the tree when this returns. Waits for the worker where the queue is
- * full, and at tick 0 until the first frame is drawn. Errors: NULL_ARGUMENT, OTHER_TREE, DUPLICATE_ID, BAD_ID,
- * BAD_QUERY, BAD_SHAPE, FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: O(nodes
- * + n + queries + shapes) in time; 96 bytes a point, and what changed until it is filmed. */
+ * after a tick that had one. A tree under OCTREE_AUTO is OTHER_TREE once it has chosen another capacity. Nothing is
+ * kept of the tree when this returns. Waits for the worker where the queue is full, and at tick 0 until the first
+ * frame is drawn. Errors: NULL_ARGUMENT, OTHER_TREE, DUPLICATE_ID, BAD_ID, BAD_QUERY, BAD_SHAPE, FLOAT_MODE, BUSY,
+ * CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: O(nodes + n + queries + shapes) in time; 96
+ * bytes a point, and what changed until it is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
 
-/* Film what the ring holds into a folder as a recording of its own, whose tick 0 is tick *first of the recorder (may be
- * null), and return when it is done. The ring goes on, and may be written again, into another folder. Errors:
- * NULL_ARGUMENT, NO_RING, NOTHING, CLOSED, BAD_FOLDER, CANNOT_DRAW, BROKEN, NO_MEMORY. */
+/* Film what the ring holds, and the gaps between and after its ticks, into a folder as a recording of its own, whose
+ * tick 0 is tick *first of the recorder (may be null), and return when it is done. The ring goes on, and may be written
+ * again, into another folder. Errors: NULL_ARGUMENT, NO_RING, NOTHING, CLOSED, BAD_FOLDER, CANNOT_DRAW, BROKEN,
+ * NO_MEMORY; and GAPS where all is done, and the recording has gaps. */
 octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first);
 
 /* Film what is in the queue, and complete the recording: session.json, and the page. A ring is let go unwritten. Where
  * a tick broke off, what came before it is whole, and octreel record --resume completes it. Errors: BROKEN, what tick 0
- * failed with, NOTHING, CLOSED. */
+ * failed with, NOTHING, CLOSED; and GAPS where all is done, and ticks were refused on the way: the sentence has their
+ * number, the first of them and its reason. */
 octreel_status octreel_recorder_close(octreel_recorder *recorder);
 
 /* Close, where that was not done, and free all memory. */

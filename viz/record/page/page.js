@@ -152,8 +152,9 @@ class Viewer {
         const filmed = this.recording.filmed[this.tick], caption = byId("caption");
         this.stage.show(filmed).then(() => this.prepareFrames());
         caption.hidden = filmed === this.tick;
+        const gap = this.recording.tick(this.tick).gap, why = gap ? `is a gap (${gap})` : "was not filmed";
         caption.textContent = filmed < 0 ? "No tick so far has a frame." :
-            `Tick ${this.tick} was not filmed: this is the frame of tick ${filmed}.`;
+            `Tick ${this.tick} ${why}: this is the frame of tick ${filmed}.`;
         byId("stage").classList.toggle("stale", filmed !== this.tick);
     }
 

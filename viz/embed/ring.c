@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* ring.c - the last ticks of a program, kept until they are wanted. */
+#include "ring.h"
+#include "error.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void ring_release(ring *r)
+{
+    batch_list_clear(&r->list);
+    points_release(&r->start);
+    points_release(&r->spare);
+    *r = (ring){0};
+}
+
+/* Let the points of the first tick be those of this one, and no gap come before it. */
+static bool start_at(ring *r, batch *b)
+{
+    if (!batch_apply(b, &r->start, &r->spare))
+        return false;
+    free(b->changes);
+    b->changes = NULL;
+    b->change_count = 0;
+    r->dropped += gap_list_ticks(b->gaps, b->gap_count);
+    b->gap_count = 0;
+    return true;
+}
+
+bool ring_put(ring *r, batch *b)
+{
+    const bool full = r->list.count == r->most;
+    batch *first = r->list.first, *second = first && first->next ? first->next : b;
+    if ((full || !first) && !start_at(r, second))
+        return false;
+    if (full) {
+        batch_release(batch_list_take(&r->list));
+        r->dropped++;
+    }
+    batch_list_add(&r->list, b);
+    return true;
+}
+
+losses ring_losses(const ring *r, uint64_t *ticks)
+{
+    losses lost = {0};
+    *ticks = 0;
+    for (const batch *b = r->list.first; b; b = b->next) {
+        if (b->gap_count > 0 && lost.ticks == 0) {
+            lost.first = *ticks;
+            memcpy(lost.why, b->gaps[0].why, sizeof lost.why);
+        }
+        const uint64_t gaps = gap_list_ticks(b->gaps, b->gap_count);
+        lost.ticks += gaps;
+        *ticks += gaps + !b->is_gap;
+    }
+    return lost;
+}
+
+octreel_status ring_film(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
+{
+    queue ticks;
+    session_filmer f = {.settings = s, .folder = folder, .start = &r->start, .queue = &ticks};
+    if (!queue_init(&ticks, 0, 0)) {
+        error_no_memory(error);
+        return OCTREEL_NO_MEMORY;
+    }
+    ticks.list = r->list;
+    ticks.borrowed = ticks.ended = true;
+    octreel_status status = session_filmer_start(&f);
+    if (status == OCTREEL_OK)
+        status = session_filmer_join(&f);
+    else
+        error_set(&f.error, "a thread cannot be started");
+    queue_release(&ticks);
+    if (status != OCTREEL_OK)
+        *error = f.error;
+    return status;
+}
