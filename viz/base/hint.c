@@ -119,13 +119,21 @@ const char *hint_program(void)
     return program;
 }
 
+/* At the start of a line, set in, or after "usage:", "&&" or another sign: not within a sentence. */
+static bool begins_command(const char *text, const char *at)
+{
+    if (at == text || at[-1] != ' ')
+        return at == text || at[-1] == '\n';
+    return at == text + 1 || strchr(" :;&|", at[-2]);
+}
+
 void hint_write_commands(FILE *out, const char *text)
 {
     static const char word[] = PROGRAM " ";
     const size_t length = sizeof word - 1;
     for (const char *at = text, *found; *at; at = found) {
         found = strstr(at, word);
-        const bool command = found && isalpha((unsigned char)found[length]);
+        const bool command = found && isalpha((unsigned char)found[length]) && begins_command(text, found);
         const char *end = !found ? at + strlen(at) : command ? found : found + length;
         fwrite(at, 1, (size_t)(end - at), out);
         if (command)

@@ -36,7 +36,7 @@ void hint_set_program(const char *called);
 /* That, as a shell reads it; "octreel" where it is not known. */
 const char *hint_program(void);
 
-/* Write a text in which "octreel COMMAND" becomes that of the program as it was called. */
+/* Write a text in which "octreel COMMAND", except within a sentence, becomes that of the program as it was called. */
 void hint_write_commands(FILE *out, const char *text);
 
 /* Write a word as a shell reads it; one that looks like an option becomes a path. */

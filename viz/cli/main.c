@@ -32,22 +32,26 @@ static const command commands[] = {
 static const struct {
     const char *name, *text, *line;
 } topics[] = {
-    {"session", session_text, "the session files that record takes: a world, points, keys, edits, queries"},
+    {"session", session_text, "what a session file holds: a world, points, keys, edits, queries"},
 };
 
 #define TOPICS (sizeof topics / sizeof topics[0])
+
+static void print_row(FILE *out, const char *help, const char *name, const char *line)
+{
+    fprintf(out, "  %s%-*s  %s\n", help, 14 - (int)strlen(help), name, line);
+}
 
 static int print_help(FILE *out)
 {
     hint_write_commands(out, "octreel - an octree you can watch\n\nusage: octreel COMMAND [OPTION ...]\n\n");
     for (size_t i = 0; i < COMMANDS; i++)
-        fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].line);
-    hint_write_commands(out, "\n  octreel help COMMAND     what a command takes; also octreel COMMAND --help\n");
+        print_row(out, "", commands[i].name, commands[i].line);
+    print_row(out, "help ", "COMMAND", "what a command takes; so does COMMAND --help");
     for (size_t i = 0; i < TOPICS; i++)
-        fprintf(out, "  %s help %-12s %s\n", hint_program(), topics[i].name, topics[i].line);
-    hint_write_commands(
-        out, "  octreel --version        the version, and who would draw\n\n"
-             "Exit status: 0 done, 1 finding, 2 trouble; stopped by a signal, that signal's (130 for Ctrl-C).\n");
+        print_row(out, "help ", topics[i].name, topics[i].line);
+    print_row(out, "", "--version", "the version, and who would draw");
+    fputs("\nExit status: 0 done, 1 finding, 2 trouble; stopped by a signal, that signal's (130 for Ctrl-C).\n", out);
     return out == stdout ? EXIT_DONE : EXIT_TROUBLE;
 }
 

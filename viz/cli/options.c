@@ -226,15 +226,10 @@ bool read_view(const view_options *given, view *v)
 }
 
 /* In lines of their own, below what an option does. */
-static void list_names(FILE *out, json_name *names)
+static void list_choices(FILE *out, const view_option *option)
 {
-    int room = 0;
-    for (int i = 0; names(i); i++) {
-        const int length = (int)strlen(names(i)) + 2;
-        const bool fits = length <= room;
-        fprintf(out, "%s%s%s", i ? "," : "", fits ? " " : "\n                        ", names(i));
-        room = (fits ? room : 90) - length;
-    }
+    for (int i = 0; option->member.names(i); i++)
+        fprintf(out, "\n                        %-10s %s", option->member.names(i), option->words(i));
 }
 
 void print_view_options(FILE *out)
@@ -247,7 +242,7 @@ void print_view_options(FILE *out)
         snprintf(name, sizeof name, "--%s %s", option->name, option->value ? option->value : "");
         fprintf(out, "      %-17s %s", name, option->help);
         if (option->member.names)
-            list_names(out, option->member.names);
+            list_choices(out, option);
         fputc('\n', out);
     }
 }

@@ -20,9 +20,19 @@ static const char *camera_at(int n)
     return view_camera_name((view_camera)n);
 }
 
+static const char *camera_words_at(int n)
+{
+    return view_camera_words((view_camera)n);
+}
+
 static const char *coloring_at(int n)
 {
     return view_coloring_name((view_coloring)n);
+}
+
+static const char *coloring_words_at(int n)
+{
+    return view_coloring_words((view_coloring)n);
 }
 
 static const char *diagram_at(int n)
@@ -30,9 +40,19 @@ static const char *diagram_at(int n)
     return view_diagram_name((view_diagram)n);
 }
 
+static const char *diagram_words_at(int n)
+{
+    return view_diagram_words((view_diagram)n);
+}
+
 const char *view_layer_at(int n)
 {
     return n < LAYER_COUNT ? layer_rows[n].name : NULL;
+}
+
+static const char *layer_words_at(int n)
+{
+    return n < LAYER_COUNT ? layer_rows[n].help : NULL;
 }
 
 /* Those of view_fit that a command line can ask for. */
@@ -349,7 +369,7 @@ static const view_option rows[] = {
     {MEMBER("width", &json_int, width), .member.required = true, .member.min = 1, .member.max = VIEW_MAX_SIDE},
     {MEMBER("height", &json_int, height), .member.required = true, .member.min = 1, .member.max = VIEW_MAX_SIDE},
     {"camera", "NAME", "camera", "(default iso) one of", parse_choice, MEMBER("camera", &json_choice, camera),
-     .member.required = true, .member.names = camera_at},
+     .member.required = true, .member.names = camera_at, .words = camera_words_at},
     {"fit", "WHAT", "fit", "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
      parse_fit, .member.name = "fit", .member.codec = JSON_CODEC(read_fit, write_fit, fits_box)},
     {"look", "AZ,EL", "an azimuth from -360 to 360 and an elevation from -90 to 90 as in 30,22",
@@ -366,11 +386,12 @@ static const view_option rows[] = {
     {"layers", "LIST", "layer",
      "(default: all about the tick itself; -text leaves one out, default,visit-heat adds one) of", parse_layers,
      MEMBER("layers", JSON_CODEC(read_layers, write_layers, NULL), layers), .member.required = true,
-     .member.names = view_layer_at, .noun = "layer"},
+     .member.names = view_layer_at, .words = layer_words_at, .noun = "layer"},
     {"color-by", "MODE", "colour mode", "what the colour of a node tells (default depth): one of", parse_choice,
-     MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at, .noun = "colouring"},
+     MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at, .words = coloring_words_at,
+     .noun = "colouring"},
     {"diagram", "WHERE", "diagram", "draw the tree as a tree, its root at the top (default none): one of", parse_choice,
-     MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at},
+     MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at, .words = diagram_words_at},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",
      "only nodes that cut a plane, as in z=100, and the points of such leaves", parse_slice,
      MEMBER("slice", JSON_CODEC(read_slice, write_slice, has_slice), filter)},

@@ -21,6 +21,7 @@ struct view_option {
     bool (*parse)(const view_option *option, const char *text, view *v, octreel_error *error);
     json_member member; /* of recording.json; its name is null where it has none */
     const char *noun;   /* in sentences about a difference: "level of detail"; null: the member's name */
+    json_name *words;   /* what each of member.names is, in the help */
 };
 
 /* The n-th option; null beyond the last. Those of recording.json come in its order. */

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define LAYER_ROW(layer, name, words, role, fades, shown) {name, words, role, fades},
+#define LAYER_ROW(layer, name, words, help, role, fades, shown) {name, words, help, role, fades},
 const layer_row layer_rows[LAYER_COUNT + 1] = {LAYER_MAP(LAYER_ROW)};
 
 /* The bits that a name of this length stands for; false when it is unknown. */

@@ -10,36 +10,38 @@
 
 #include "scene.h"
 
-/* Each layer: its name, what it shows in words, its colour (theme.h), whether it fades with distance as much as the
- * tree does, and whether it is shown by default. In painter's order: later rows lie on top. Scene digests hash the
- * names. Where a layer has several colours, the one here stands for all.
+/* Each layer: its name, what it shows in sentences and in --help, its colour (theme.h), whether it fades with distance
+ * as much as the tree does, and whether it is shown by default. In painter's order: later rows lie on top. Scene
+ * digests hash the names. Where a layer has several colours, the one here stands for all.
  */
 #define LAYER_MAP(X)                                                                                                   \
-    X(WORLD, "world", "the world", ROLE_WORLD, true, true)                                                             \
-    X(NODES, "nodes", "nodes", ROLE_NODE_PLAIN, true, true)                                                            \
-    X(VISIT_HEAT, "visit-heat", "heat", ROLE_NODE, false, false) /* in how many ticks leaves were visited */           \
-    X(POINT_HEAT, "point-heat", "heat", ROLE_NODE, false,                                                              \
-      false) /* how many points were in them, in all ticks together */                                                 \
-    X(PRUNED, "pruned", "pruned nodes", ROLE_NODE_2, true, true)      /* nodes that the tick's queries pruned */       \
-    X(VISITED, "visited", "visited nodes", ROLE_NODE_2, false, true)  /* nodes that they visited, or took whole */     \
-    X(HIT, "hit", "leaves with hits", ROLE_POINT, false, true)        /* leaves with points that they found */         \
-    X(MERGES, "merges", "merges", ROLE_POINT, false, true)            /* inner nodes that merged at this tick */       \
-    X(SPLITS, "splits", "splits", ROLE_POINT, false, true)            /* leaves that split */                          \
-    X(ASKED, "asked", "the node asked for", ROLE_PLAYER, false, true) /* the node that inspect is asked for */         \
-    X(POINTS, "points", "points", ROLE_POINT, true, true)                                                              \
-    X(VELOCITIES, "velocities", "velocities", ROLE_POINT, true, true) /* where moving points go next */                \
-    X(RANGE, "range", "range queries", ROLE_RANGE, false, true)                                                        \
-    X(RADIUS, "radius", "radius queries", ROLE_RADIUS, false, true)                                                    \
-    X(KNEAREST, "knearest", "k-nearest queries", ROLE_KNEAREST, false, true)                                           \
-    X(NEAREST, "nearest", "nearest queries", ROLE_NEAREST, false, true)                                                \
-    X(PLAYER, "player", "the player", ROLE_PLAYER, false, true)                                                        \
-    X(BOX, "box", "the collision box", ROLE_COLLISION, false,                                                          \
-      true)                                                /* the player's collision box, and what is in it */         \
-    X(SHAPES, "shapes", "shapes", ROLE_SHAPE, false, true) /* what the session shows in addition to its points */      \
-    X(BROKEN, "broken", "the broken node", ROLE_WARNING, false,                                                        \
-      true) /* where the validator finds an invariant broken */                                                        \
-    X(TEXT, "text", "text", ROLE_TEXT, false, true)                                                                    \
-    X(DIAGRAM, "diagram", "the diagram", ROLE_BACKGROUND, false, false) /* where view.diagram says so */
+    X(WORLD, "world", "the world", "the world's box, the slice and the region, and axes with numbers", ROLE_WORLD,     \
+      true, true)                                                                                                      \
+    X(NODES, "nodes", "nodes", "the boxes of the nodes", ROLE_NODE_PLAIN, true, true)                                  \
+    X(VISIT_HEAT, "visit-heat", "heat", "leaves, by the ticks in which queries visited them", ROLE_NODE, false, false) \
+    X(POINT_HEAT, "point-heat", "heat", "leaves, by the points that were in them, in all ticks together", ROLE_NODE,   \
+      false, false)                                                                                                    \
+    X(PRUNED, "pruned", "pruned nodes", "nodes that the tick's queries pruned", ROLE_NODE_2, true, true)               \
+    X(VISITED, "visited", "visited nodes", "nodes that the tick's queries visited, or took whole", ROLE_NODE_2, false, \
+      true)                                                                                                            \
+    X(HIT, "hit", "leaves with hits", "leaves with points that the queries found", ROLE_POINT, false, true)            \
+    X(MERGES, "merges", "merges", "inner nodes that became leaves in the tick", ROLE_POINT, false, true)               \
+    X(SPLITS, "splits", "splits", "leaves that split in the tick", ROLE_POINT, false, true)                            \
+    X(ASKED, "asked", "the node asked for", "the node that inspect --node names", ROLE_PLAYER, false, true)            \
+    X(POINTS, "points", "points", "the points in the tree", ROLE_POINT, true, true)                                    \
+    X(VELOCITIES, "velocities", "velocities", "arrows to where moving points go next", ROLE_POINT, true, true)         \
+    X(RANGE, "range", "range queries", "boxes that are asked for, and the points found", ROLE_RANGE, false, true)      \
+    X(RADIUS, "radius", "radius queries", "balls that are asked for, and the points found", ROLE_RADIUS, false, true)  \
+    X(KNEAREST, "knearest", "k-nearest queries", "lines to the k nearest points, with their ranks", ROLE_KNEAREST,     \
+      false, true)                                                                                                     \
+    X(NEAREST, "nearest", "nearest queries", "a line to the nearest point", ROLE_NEAREST, false, true)                 \
+    X(PLAYER, "player", "the player", "the player, and a line down to the floor", ROLE_PLAYER, false, true)            \
+    X(BOX, "box", "the collision box", "the player's collision box, and what is in it", ROLE_COLLISION, false, true)   \
+    X(SHAPES, "shapes", "shapes", "what the session shows in addition to its points", ROLE_SHAPE, false, true)         \
+    X(BROKEN, "broken", "the broken node", "where the validator finds an invariant broken", ROLE_WARNING, false, true) \
+    X(TEXT, "text", "text", "the panel, the legend and all letters", ROLE_TEXT, false, true)                           \
+    X(DIAGRAM, "diagram", "the diagram", "the tree as a tree, where view.diagram says so", ROLE_BACKGROUND, false,     \
+      false)
 
 typedef enum view_layer {
 #define LAYER_ENUM(layer, ...) LAYER_##layer,
@@ -49,8 +51,8 @@ typedef enum view_layer {
 } view_layer;
 
 typedef struct layer_row {
-    const char *name, *words; /* "visit-heat"; "pruned nodes" */
-    uint8_t role;             /* theme_role */
+    const char *name, *words, *help; /* "visit-heat"; "pruned nodes"; "nodes that the tick's queries pruned" */
+    uint8_t role;                    /* theme_role */
     bool fades;
 } layer_row;
 
@@ -59,7 +61,7 @@ extern const layer_row layer_rows[LAYER_COUNT + 1];
 #define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
 #define VIEW_HEAT_LAYERS (1u << LAYER_VISIT_HEAT | 1u << LAYER_POINT_HEAT)
 
-#define LAYER_DEFAULT_BIT(layer, name, words, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
+#define LAYER_DEFAULT_BIT(layer, name, words, help, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
 #define VIEW_DEFAULT_LAYERS ((0u LAYER_MAP(LAYER_DEFAULT_BIT)) & VIEW_ALL_LAYERS)
 
 /* Layers by a list of names with commas between, or "all", "default" or "none"; "-text" removes one, and a list that

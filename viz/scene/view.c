@@ -22,13 +22,17 @@ int view_unit(const view *v)
     return height < 640 ? 1 : (height + 180) / 360;
 }
 
-/* The names of one of view.h's maps: TYPE_name(). */
-#define VIEW_TEXT(name, text) text,
+/* The names and the words of one of view.h's maps: TYPE_name() and TYPE_words(). */
+#define VIEW_ROW(name, ...) {__VA_ARGS__},
 #define VIEW_NAMES(type, map, count)                                                                                   \
-    static const char *const type##_names[count] = {map(VIEW_TEXT)};                                                   \
+    static const char *const type##_rows[count][2] = {map(VIEW_ROW)};                                                  \
     const char *type##_name(type value)                                                                                \
     {                                                                                                                  \
-        return (unsigned)value < count ? type##_names[value] : NULL;                                                   \
+        return (unsigned)value < count ? type##_rows[value][0] : NULL;                                                 \
+    }                                                                                                                  \
+    const char *type##_words(type value)                                                                               \
+    {                                                                                                                  \
+        return (unsigned)value < count ? type##_rows[value][1] : NULL;                                                 \
     }
 
 VIEW_NAMES(view_camera, VIEW_CAMERA_MAP, CAMERA_COUNT)

@@ -8,43 +8,43 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Each camera and the name that people type. */
+/* Each camera, the name that people type, and what it shows, in --help. */
 #define VIEW_CAMERA_MAP(X)                                                                                             \
-    X(ISO, "iso")       /* orthographic, three-quarter view from above */                                              \
-    X(TOP, "top")       /* orthographic, along -z; x to the right, y up */                                             \
-    X(FRONT, "front")   /* orthographic, along +y; x to the right, z up */                                             \
-    X(SIDE, "side")     /* orthographic, along -x; y to the right, z up */                                             \
-    X(FOLLOW, "follow") /* perspective, behind and above the player */                                                 \
-    X(ORBIT, "orbit")   /* perspective, round the world by a fixed angle a tick */
+    X(ISO, "iso", "from above, a three-quarter view, orthographic")                                                    \
+    X(TOP, "top", "along -z, x to the right, y up, orthographic")                                                      \
+    X(FRONT, "front", "along +y, x to the right, z up, orthographic")                                                  \
+    X(SIDE, "side", "along -x, y to the right, z up, orthographic")                                                    \
+    X(FOLLOW, "follow", "from behind and above the player, in perspective")                                            \
+    X(ORBIT, "orbit", "round the world by a fixed angle a tick, in perspective")
 
-/* What the colour of a node means, and the name of each choice. */
+/* What the colour of a node means: the same of each choice. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
-    X(DEPTH, "depth")         /* how deep it lies */                                                                   \
-    X(OCCUPANCY, "occupancy") /* how many points are in it, on a fixed scale of powers of two */                       \
-    X(PLAIN, "plain")         /* nothing */
+    X(DEPTH, "depth", "how deep it lies")                                                                              \
+    X(OCCUPANCY, "occupancy", "how many points are in it, on a fixed scale of powers of two")                          \
+    X(PLAIN, "plain", "nothing: all have one colour")
 
-/* Where the diagram of the tree is drawn, and the name of each choice. */
+/* Where the diagram of the tree is drawn: the same of each choice. */
 #define VIEW_DIAGRAM_MAP(X)                                                                                            \
-    X(NONE, "none")     /* nowhere */                                                                                  \
-    X(BESIDE, "beside") /* beside the space view; below it in a picture that is higher than wide */                    \
-    X(ONLY, "only")     /* in place of the space view */
+    X(NONE, "none", "nowhere")                                                                                         \
+    X(BESIDE, "beside", "beside the space view; below it in a picture that is higher than wide")                       \
+    X(ONLY, "only", "in place of the space view")
 
 typedef enum view_camera {
-#define VIEW_CAMERA_ENUM(name, text) CAMERA_##name,
+#define VIEW_CAMERA_ENUM(name, ...) CAMERA_##name,
     VIEW_CAMERA_MAP(VIEW_CAMERA_ENUM)
 #undef VIEW_CAMERA_ENUM
         CAMERA_COUNT
 } view_camera;
 
 typedef enum view_coloring {
-#define VIEW_COLORING_ENUM(name, text) COLORING_##name,
+#define VIEW_COLORING_ENUM(name, ...) COLORING_##name,
     VIEW_COLORING_MAP(VIEW_COLORING_ENUM)
 #undef VIEW_COLORING_ENUM
         COLORING_COUNT
 } view_coloring;
 
 typedef enum view_diagram {
-#define VIEW_DIAGRAM_ENUM(name, text) DIAGRAM_##name,
+#define VIEW_DIAGRAM_ENUM(name, ...) DIAGRAM_##name,
     VIEW_DIAGRAM_MAP(VIEW_DIAGRAM_ENUM)
 #undef VIEW_DIAGRAM_ENUM
         DIAGRAM_COUNT
@@ -110,5 +110,10 @@ static inline int view_samples(const view *v)
 const char *view_camera_name(view_camera camera);
 const char *view_coloring_name(view_coloring coloring);
 const char *view_diagram_name(view_diagram diagram);
+
+/* What a choice is, in some words; null beyond the last. */
+const char *view_camera_words(view_camera camera);
+const char *view_coloring_words(view_coloring coloring);
+const char *view_diagram_words(view_diagram diagram);
 
 #endif

@@ -69,15 +69,16 @@ static void assert_written(void (*write)(FILE *out, const char *text), const cha
 
 static void commands_name_the_program_as_it_was_called(void **state)
 {
-    static const char text[] = "octreel record, \"octreel-digests 1\", octreel - a tree; octreel diff";
+    static const char text[] = "octreel record, \"octreel-digests 1\", octreel - a tree; octreel diff as octreel join";
     (void)state;
     assert_written(hint_write_commands, text, text);
     hint_set_program("");
     hint_set_program(NULL);
     assert_string_equal(hint_program(), "octreel");
     hint_set_program("build/bin/octreel");
-    assert_written(hint_write_commands, text,
-                   "build/bin/octreel record, \"octreel-digests 1\", octreel - a tree; build/bin/octreel diff");
+    assert_written(
+        hint_write_commands, text,
+        "build/bin/octreel record, \"octreel-digests 1\", octreel - a tree; build/bin/octreel diff as octreel join");
     hint_set_program("./my tree's/octreel");
     assert_written(hint_write_commands, "octreel record", "'./my tree'\\''s/octreel' record");
 }

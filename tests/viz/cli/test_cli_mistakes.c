@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_mistakes.c - slips on the command line: each is one sentence that names the way on, and makes nothing. */
+/* test_cli_mistakes.c - slips on the command line, each one sentence that names the way on, and makes nothing; and
+ * help. */
 #include <string.h>
 #include <unistd.h>
 
@@ -7,6 +8,8 @@
 #include "files.h"
 #include "fixture.h"
 #include "galleries.h"
+#include "layer.h"
+#include "view_options.h"
 
 /* One file of each kind, and a recording. */
 static int make_kinds(void **state)
@@ -181,7 +184,7 @@ static void help_is_on_commands_and_sessions(void **state)
     command_result help = run_octreel(NULL, "help"), option = run_octreel(NULL, "--help");
     assert_done(&help);
     assert_string_equal(help.out, option.out);
-    assert_non_null(strstr(help.out, "octreel help session"));
+    assert_non_null(strstr(help.out, "help session"));
     command_release(&help);
     command_release(&option);
     help = run_octreel(NULL, "help record");
@@ -196,6 +199,30 @@ static void help_is_on_commands_and_sessions(void **state)
     command_release(&help);
 }
 
+static void assert_explains(const char *help, const char *name, const char *words)
+{
+    char line[160];
+    snprintf(line, sizeof line, "\n                        %-10s %s\n", name, words);
+    if (strstr(help, line) == NULL)
+        fail_msg("there is no line%s", line);
+}
+
+static void help_explains_every_choice_and_key(void **state)
+{
+    static const char *const commands[] = {"record", "inspect"};
+    (void)state;
+    for (size_t c = 0; c < 2; c++) {
+        command_result help = run_octreel(NULL, "%s --help", commands[c]);
+        for (int i = 0; i < LAYER_COUNT; i++)
+            assert_explains(help.out, layer_rows[i].name, layer_rows[i].help);
+        for (size_t i = 0; view_option_at(i); i++)
+            for (int n = 0; view_option_at(i)->member.names && view_option_at(i)->member.names(n); n++)
+                assert_explains(help.out, view_option_at(i)->member.names(n), view_option_at(i)->words(n));
+        assert_true(c == 1 || strstr(help.out, ". wait, q end") != NULL);
+        command_release(&help);
+    }
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_kinds, nested_folder_remove)
 
 int main(void)
@@ -208,6 +235,7 @@ int main(void)
         IN_FOLDER(a_recording_that_is_there_is_resumed_whatever_its_name),
         IN_FOLDER(hints_name_the_program_as_it_was_called),
         cmocka_unit_test(help_is_on_commands_and_sessions),
+        cmocka_unit_test(help_explains_every_choice_and_key),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
