@@ -133,7 +133,7 @@ bool cause_find(const octree_session *a, const octree_session *b, const cause_vi
                 const cause_watcher *watcher, cause *c, octreel_error *error)
 {
     playing p = {.watcher = watcher, .found = c};
-    *c = (cause){0};
+    *c = (cause){.drawn = CAUSE_NO_TICK};
     cause_compare_sessions(a, b, &c->session);
     p.same_session = c->session.count == 0;
     if (views)

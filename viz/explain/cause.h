@@ -22,6 +22,7 @@ typedef struct cause {
     uint64_t compared;    /* ticks that both have */
     uint64_t differing;   /* of them, in what happened */
     uint64_t first, last; /* of those that differ */
+    uint64_t drawn;       /* the first tick whose frames differ; CAUSE_NO_TICK: none, or there are no frames */
 } cause;
 
 /* Callbacks while two sessions are played. */

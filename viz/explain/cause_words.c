@@ -376,6 +376,8 @@ void cause_print_headline(FILE *out, const cause *c)
         cause_print_facts(out, &c->session, true);
         fputs(options ? ": " : "; ", out);
         (options ? print_extent : print_first)(out, c);
+        if (c->view.count == 0 && c->drawn < (c->differing ? c->first : CAUSE_NO_TICK))
+            fprintf(out, "; frames differ from tick %" PRIu64 " on", c->drawn);
     }
     if (c->view.count) {
         fputs(c->session.count ? "; " : "", out);

@@ -88,6 +88,19 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* The first tick whose frames differ; names beyond six digits are not in the order of ticks. */
+static uint64_t first_drawn(const diff_result *result)
+{
+    uint64_t first = CAUSE_NO_TICK, tick;
+    for (size_t i = 0; i < result->count; i++) {
+        const diff_pair *pair = &result->pairs[i];
+        if (pair->a && pair->b && explain_is_unlike(pair) && frame_parse_name(diff_pair_name(pair), &tick) &&
+            tick < first)
+            first = tick;
+    }
+    return first;
+}
+
 /* The first pairs that differ. */
 static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
 {
@@ -113,6 +126,7 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
                         ? cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, views,
                                      &watcher, &e->cause, error)
                         : error_no_memory(error);
+    e->cause.drawn = first_drawn(result);
     free(w.pairs);
     return ok;
 }

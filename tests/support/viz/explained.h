@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT */
+/* explained.h - recordings that tests film to compare them, and why they differ. */
+#ifndef EXPLAINED_H
+#define EXPLAINED_H
+
+#include "explain.h"
+#include "galleries.h"
+#include "recordings.h"
+
+/* Film a session into a folder of this name; `how` is null for a small film. */
+place film_in(const temp_folder *own, const char *name, const octree_session *session, const film_options *how);
+
+/* Film a short session with these keys twice, into the folders a and b. Returns a. */
+place film_twins(const temp_folder *own, const char *keys, place *b);
+
+/* Compare two recordings and explain the first `most` pairs. */
+comparison_of assert_explained(const place *a, const place *b, uint64_t most);
+
+/* The text, which may be null, has this part. */
+void assert_holds(const char *text, const char *part);
+
+#endif
