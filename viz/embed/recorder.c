@@ -252,13 +252,17 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* JSON has no infinities, which a box may have in a tree. */
-static bool is_finite(const octree_query *query)
+/* A tree takes more than files do: boxes that are infinite, which JSON is not, and ids of any size. */
+static const char *fault_of(const octree_query *query)
 {
-    for (int i = 0; i < 3; i++)
-        if (query->kind == OCTREE_QUERY_RANGE && (!isfinite(query->box.min[i]) || !isfinite(query->box.max[i])))
-            return false;
-    return true;
+    const octree_input one = {.queries = query, .query_count = 1};
+    octree_status status = octree_input_check(&one);
+    for (int i = 0; status == OCTREE_OK && query->kind == OCTREE_QUERY_RANGE && i < 3; i++)
+        if (!isfinite(query->box.min[i]) || !isfinite(query->box.max[i]))
+            status = OCTREE_NOT_FINITE;
+    if (status == OCTREE_OK && query->skip == OCTREE_SKIP_ID && query->skip_id >= SESSION_ID_LIMIT)
+        return octreel_status_text(OCTREEL_BAD_ID);
+    return status == OCTREE_OK ? NULL : octree_status_text(status);
 }
 
 /* One by one, so that the sentence can say which. */
@@ -269,10 +273,9 @@ static octreel_status check_about(octreel_recorder *r, const octreel_tick_info *
     if ((!about->queries && about->query_count) || (!about->shapes && about->shape_count))
         return fail(r, OCTREEL_NULL_ARGUMENT);
     for (size_t i = 0; i < about->query_count; i++) {
-        const octree_input one = {.queries = &about->queries[i], .query_count = 1};
-        const octree_status status = is_finite(&about->queries[i]) ? octree_input_check(&one) : OCTREE_NOT_FINITE;
-        if (status != OCTREE_OK)
-            return refuse(r, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, octree_status_text(status));
+        const char *fault = fault_of(&about->queries[i]);
+        if (fault)
+            return refuse(r, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, fault);
     }
     for (size_t i = 0; i < about->shape_count; i++) {
         const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};

@@ -82,6 +82,41 @@ static bool is_at_player(const void *from)
     return ((const octree_query *)from)->at_player;
 }
 
+/* Points to leave out: an id, or the word for those at the target. */
+static const char coincident[] = "coincident";
+
+static bool read_skip(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_query *query = into;
+    const bool by_place = json_is_string(value) && strcmp(json_string_value(value), coincident) == 0;
+    const bool has_target = octree_query_about(query->kind)->members & OCTREE_QUERY_HAS_TARGET;
+    query->skip = by_place ? OCTREE_SKIP_COINCIDENT : OCTREE_SKIP_ID;
+    if (by_place)
+        return has_target || json_fail(r, at, "a box has no place to be coincident with; \"skip\" takes an id");
+    if (json_is_string(value))
+        return json_expected(r, value, at, has_target ? "an id or \"coincident\"" : "an id");
+    return json_read_uint64(r, value, at, &query->skip_id);
+}
+
+static void write_skip(json_writer *w, const void *from)
+{
+    const octree_query *query = from;
+    if (query->skip == OCTREE_SKIP_COINCIDENT)
+        json_write_string(w, coincident);
+    else
+        json_write_integer(w, query->skip_id);
+}
+
+static bool has_skip(const void *from)
+{
+    return ((const octree_query *)from)->skip != OCTREE_SKIP_NONE;
+}
+
+static bool is_above_zero(const void *from)
+{
+    return *(const double *)from > 0;
+}
+
 static const char *query_name(int n)
 {
     return octree_query_name((octree_query_kind)n);
@@ -99,6 +134,11 @@ static const struct {
 
 static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target, is_at_player), .offset = 0};
 
+/* Of every kind. */
+static const json_member skip_member = {"skip", JSON_CODEC(read_skip, write_skip, has_skip), .max = JSON_LARGEST_WHOLE};
+static const json_member epsilon_member = {"epsilon", JSON_CODEC(json_read_positive, json_write_double, is_above_zero),
+                                           .offset = offsetof(octree_query, epsilon)};
+
 /* The members that the kind reads, by its traits. A box without a target can be relative to the player. */
 static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
 {
@@ -113,7 +153,9 @@ static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
         }
     }
     if (about->members & OCTREE_QUERY_HAS_BOX && !(about->members & OCTREE_QUERY_HAS_TARGET))
-        table[count] = box_at_player;
+        table[count++] = box_at_player;
+    table[count++] = skip_member;
+    table[count] = epsilon_member;
 }
 
 /* ---- Texts -------------------------------------------------------------------------------------------------- */

@@ -163,6 +163,13 @@ static void write_answer(json_writer *w, const octree_answer *answer, const octr
     if (about->members & OCTREE_QUERY_HAS_RADIUS) {
         json_member_number(w, "radius", answer->radius);
     }
+    if (answer->skip == OCTREE_SKIP_ID)
+        json_member_integer(w, "skip", answer->skip_id);
+    if (answer->skip == OCTREE_SKIP_COINCIDENT)
+        json_member_text(w, "skip", "coincident");
+    if (answer->epsilon > 0) {
+        json_member_number(w, "epsilon", answer->epsilon);
+    }
     if (about->neighbors) {
         write_neighbors(w, answer, about->members & OCTREE_QUERY_HAS_K);
     } else {

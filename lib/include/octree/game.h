@@ -102,8 +102,8 @@ const char *octree_query_name(octree_query_kind kind);
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
-/* A question asked at the end of a tick. The player is no neighbour of itself; boxes and balls have it as they have
- * every other point. What is asked at the player is not asked in a tick without one. */
+/* A question asked at the end of a tick, of the tree as it then is. The player is no neighbour of itself; boxes and
+ * balls have it as they have every other point. What is asked at the player is not asked in a tick without one. */
 typedef struct octree_query {
     uint64_t tick; /* or OCTREE_EVERY_TICK */
     octree_query_kind kind;
@@ -112,6 +112,10 @@ typedef struct octree_query {
     double target[3]; /* nearest, k nearest, and the ball's centre; unless at_player */
     size_t k;         /* k nearest: how many; where there are fewer, all */
     double radius;    /* of the closed ball, >= 0 */
+    octree_skip skip; /* points that no answer has, of whatever kind, in place of the player: COINCIDENT with the
+                         target, which a box has not; NONE leaves it at that */
+    uint64_t skip_id; /* read under OCTREE_SKIP_ID alone */
+    double epsilon; /* as that of octree_search: finite, >= 0, a ratio for neighbours and a length for a box or ball */
 } octree_query;
 
 typedef enum octree_shape_kind {
@@ -199,26 +203,31 @@ typedef struct octree_refusal {
 
 typedef struct octree_answer {
     octree_query_kind kind;
-    bool by_key;                      /* asked by n */
-    octree_box box;                   /* range: as asked, in world coordinates */
-    double target[3];                 /* nearest, k nearest, and the ball's centre: as asked */
-    size_t k;                         /* k nearest: as asked; nearest: 1 */
-    double radius;                    /* radius: as asked */
+    bool by_key;      /* asked by n */
+    octree_box box;   /* range: as asked, in world coordinates */
+    double target[3]; /* nearest, k nearest, and the ball's centre: as asked */
+    size_t k;         /* k nearest: as asked; nearest: 1 */
+    double radius;    /* radius: as asked */
+    octree_skip skip; /* as asked, with its id and epsilon; NONE for what leaves out the player alone */
+    uint64_t skip_id;
+    double epsilon;
     const octree_point *points;       /* range, radius: the result, by id */
     const octree_neighbor *neighbors; /* nearest, k nearest: the result, by distance and then by id */
     size_t count;                     /* of points or neighbours; nearest: 0 or 1 */
     octree_cost cost;
 } octree_answer;
 
-/* Whether a query can be asked. Errors: NULL_ARGUMENT; BAD_OPTION for its kind; NOT_FINITE (of a box: NaN), BAD_RANGE,
- * BAD_SIZE and FLOAT_MODE for the members that its kind reads. Its tick is not read. */
+/* Whether a query can be asked. Errors: NULL_ARGUMENT; BAD_OPTION for its kind, and for its skip where there is none
+ * such or no target to coincide with; NOT_FINITE (of a box: NaN), BAD_RANGE, BAD_SIZE and FLOAT_MODE for epsilon and
+ * the members that its kind reads. Its tick is not read. */
 octree_status octree_query_check(const octree_query *query);
 
 /* Answer a query outside of a game. `player` is the place that at_player refers to, and may be null where that is
- * false; `how` may be null; its skip decides which points are neighbours. The cost is that of answer->cost, and
- * how->cost is not read. Release the answer with octree_answer_release. Errors: those of octree_query_check, and
- * NULL_ARGUMENT, NO_MEMORY and what octree_range_search says of `how`; the answer is then empty. The memory is the
- * tree's allocator's, which must then be safe to use from this thread. */
+ * false; `how` may be null; where the query has no skip or no epsilon, that of `how` decides which points are
+ * neighbours, and how near to the truth the answer is. The cost is that of answer->cost, and how->cost is not read.
+ * Release the answer with octree_answer_release. Errors: those of octree_query_check, and NULL_ARGUMENT, NO_MEMORY and
+ * what octree_range_search says of `how`; the answer is then empty. The memory is the tree's allocator's, which must
+ * then be safe to use from this thread. */
 octree_status octree_query_answer(const octree *tree, const octree_query *query, const double player[3],
                                   const octree_search *how, octree_answer *answer);
 void octree_answer_release(const octree *tree, octree_answer *answer);

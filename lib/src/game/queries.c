@@ -29,12 +29,15 @@ octree_status octree_query_check(const octree_query *query)
     const octree_query_traits *about = octree_query_about(query->kind);
     if (!about)
         return OCTREE_BAD_OPTION;
-    octree_status status = OCTREE_OK;
-    if (about->members & OCTREE_QUERY_HAS_RADIUS)
+    const bool has_target = about->members & OCTREE_QUERY_HAS_TARGET;
+    if (query->skip == OCTREE_SKIP_COINCIDENT && !has_target)
+        return OCTREE_BAD_OPTION;
+    octree_status status = check_search(&(octree_search){.skip = query->skip, .epsilon = query->epsilon});
+    if (status == OCTREE_OK && about->members & OCTREE_QUERY_HAS_RADIUS)
         status = check_length(query->radius);
     if (status == OCTREE_OK && about->members & OCTREE_QUERY_HAS_BOX)
         status = check_box(&query->box);
-    if (status == OCTREE_OK && about->members & OCTREE_QUERY_HAS_TARGET && !query->at_player)
+    if (status == OCTREE_OK && has_target && !query->at_player)
         status = check_finite(query->target);
     return status;
 }
@@ -61,16 +64,27 @@ typedef struct asking {
     octree_search how;
     point_collector points;
     list *neighbors;
+    const octree_answer *asked;
 } asking;
+
+/* A visitor that appends the points that the query does not skip. */
+static bool keep_point(const octree_point *point, void *context)
+{
+    asking *a = context;
+    const octree_answer *asked = a->asked;
+    const bool skipped = (asked->skip == OCTREE_SKIP_ID && point->id == asked->skip_id) ||
+                         (asked->skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, asked->target));
+    return skipped || collect_point(point, &a->points);
+}
 
 static octree_status ask_range(asking *a, octree_answer *answer)
 {
-    return octree_range_search(a->tree, &answer->box, &a->how, collect_point, &a->points);
+    return octree_range_search(a->tree, &answer->box, &a->how, keep_point, a);
 }
 
 static octree_status ask_radius(asking *a, octree_answer *answer)
 {
-    return octree_radius(a->tree, answer->target, answer->radius, &a->how, collect_point, &a->points);
+    return octree_radius(a->tree, answer->target, answer->radius, &a->how, keep_point, a);
 }
 
 static octree_status ask_knearest(asking *a, octree_answer *answer)
@@ -96,7 +110,13 @@ static octree_status ask_nearest(asking *a, octree_answer *answer)
 /* What is asked, in world coordinates. */
 static octree_answer pose(const octree_query *query, const double player[3])
 {
-    octree_answer answer = {.kind = query->kind, .box = query->box, .k = query->k, .radius = query->radius};
+    octree_answer answer = {.kind = query->kind,
+                            .box = query->box,
+                            .k = query->k,
+                            .radius = query->radius,
+                            .skip = query->skip,
+                            .skip_id = query->skip_id,
+                            .epsilon = query->epsilon};
     memcpy(answer.target, query->at_player ? player : query->target, sizeof answer.target);
     for (int i = 0; query->at_player && i < 3; i++) {
         answer.box.min[i] += player[i];
@@ -115,7 +135,14 @@ static octree_status ask(asking *a, const octree_query *query, const double play
     const list *found = neighbors ? a->neighbors : a->points.points;
     const size_t first = found->count;
     *answer = pose(query, player);
+    a->asked = answer;
     a->how.cost = &answer->cost;
+    if (query->skip != OCTREE_SKIP_NONE) {
+        a->how.skip = query->skip;
+        a->how.skip_id = query->skip_id;
+    }
+    if (query->epsilon > 0)
+        a->how.epsilon = query->epsilon;
     octree_status status = functions[query->kind](a, answer);
     if (a->points.failed)
         status = OCTREE_NO_MEMORY;
@@ -150,7 +177,7 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
         return status;
     arena memory = {.allocator = tree->def.allocator};
     list points = {0}, neighbors = {0};
-    asking a = {tree, search_or_default(how), {&memory, &points, false}, &neighbors};
+    asking a = {tree, search_or_default(how), {&memory, &points, false}, &neighbors, NULL};
     octree_answer made;
     status = ask(&a, query, player, &made);
     made.points = take_items(&memory, &points, sizeof(octree_point));
@@ -183,7 +210,7 @@ static octree_status ask_in_game(octree_game *game, const octree_query *query, b
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return OCTREE_NO_MEMORY;
-    asking a = {game->tree, game_search(game, NULL), {&game->memory, &game->found, false}, &game->near};
+    asking a = {game->tree, game_search(game, NULL), {&game->memory, &game->found, false}, &game->near, NULL};
     a.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     a.how.skip_id = game->session->player.id;
     const octree_status status = ask(&a, query, game->tick.player, answer);

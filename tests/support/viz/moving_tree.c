@@ -71,7 +71,13 @@ static void ask(moving_tree *m)
 {
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         octree_query *query = &m->queries[kind];
-        *query = (octree_query){.tick = 77, .kind = (octree_query_kind)kind, .k = 3, .radius = 4};
+        *query = (octree_query){.tick = 77,
+                                .kind = (octree_query_kind)kind,
+                                .k = 3,
+                                .radius = 4,
+                                .skip = kind % 2 ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE,
+                                .skip_id = 3,
+                                .epsilon = 0.25 * kind};
         random_place(m, query->target);
         for (int i = 0; i < 3; i++)
             query->box.max[i] = (query->box.min[i] = query->target[i]) + 3;

@@ -79,6 +79,9 @@ static void it_tells_of_every_member_and_kind(void **state)
     assert_says_members(text, session_body_members);
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
         assert_says(text, octree_query_name((octree_query_kind)kind));
+    assert_says(text, "skip");
+    assert_says(text, "coincident");
+    assert_says(text, "epsilon");
     for (int kind = 0; kind < OCTREE_SHAPE_KINDS; kind++)
         assert_says(text, octree_shape_name((octree_shape_kind)kind));
     for (int kind = 0; kind < OCTREE_SAMPLE_KINDS; kind++)

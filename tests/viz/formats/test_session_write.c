@@ -87,6 +87,10 @@ static void assert_same_query(const octree_query *a, const octree_query *b)
         assert_int_equal(a->k, b->k);
     if (a->kind == OCTREE_QUERY_RADIUS)
         assert_memory_equal(&a->radius, &b->radius, sizeof a->radius);
+    assert_int_equal(a->skip, b->skip);
+    if (a->skip == OCTREE_SKIP_ID)
+        assert_int_equal(a->skip_id, b->skip_id);
+    assert_memory_equal(&a->epsilon, &b->epsilon, sizeof a->epsilon);
 }
 
 static void assert_same_session(const octree_session *a, const octree_session *b)
@@ -124,6 +128,22 @@ static void default_session_survives_the_round_trip(void **state)
 {
     const octree_session session = octree_session_default();
     (void)state;
+    assert_round_trip(&session);
+}
+
+static void skips_and_epsilons_survive_the_round_trip(void **state)
+{
+    static const octree_query queries[] = {
+        {.kind = OCTREE_QUERY_RANGE, .skip = OCTREE_SKIP_ID, .skip_id = 0, .epsilon = 5e-324},
+        {.kind = OCTREE_QUERY_RANGE, .at_player = true, .skip = OCTREE_SKIP_ID, .skip_id = (UINT64_C(1) << 53) - 1},
+        {.kind = OCTREE_QUERY_KNEAREST, .k = 3, .skip = OCTREE_SKIP_COINCIDENT, .epsilon = 0.1},
+        {.kind = OCTREE_QUERY_NEAREST, .at_player = true, .skip = OCTREE_SKIP_COINCIDENT},
+        {.kind = OCTREE_QUERY_RADIUS, .radius = 2, .skip = OCTREE_SKIP_ID, .skip_id = 12, .epsilon = 1e300},
+    };
+    octree_session session = octree_session_default();
+    (void)state;
+    session.queries = queries;
+    session.query_count = sizeof queries / sizeof queries[0];
     assert_round_trip(&session);
 }
 
@@ -364,6 +384,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_beyond_what_a_tree_holds_are_written_clamped),
         cmocka_unit_test(default_session_survives_the_round_trip),
+        cmocka_unit_test(skips_and_epsilons_survive_the_round_trip),
         cmocka_unit_test(shapes_survive_the_round_trip),
         cmocka_unit_test(players_of_every_kind_survive_the_round_trip),
         cmocka_unit_test(random_sessions_survive_the_round_trip),

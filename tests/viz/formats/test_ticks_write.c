@@ -74,10 +74,11 @@ static void line_is_exactly_this(void **state)
         "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 1}}}, "
         "{\"range\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"ids\": [4], "
         "\"cost\": {\"nodes\": 5, \"leaves\": 6, \"points\": 7, \"pruned\": 8, \"taken\": 9}}}, "
-        "{\"knearest\": {\"target\": [4, 5, 6], \"k\": 8, "
+        "{\"knearest\": {\"target\": [4, 5, 6], \"k\": 8, \"skip\": 7, "
         "\"neighbors\": [{\"id\": 9, \"position\": [4, 5, 7], \"distance\": 1}], "
         "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 0}}}, "
-        "{\"radius\": {\"center\": [7, 8, 9], \"radius\": 0.5, \"ids\": [], "
+        "{\"radius\": {\"center\": [7, 8, 9], \"radius\": 0.5, \"skip\": \"coincident\", \"epsilon\": 0.25, \"ids\": "
+        "[], "
         "\"cost\": {\"nodes\": 0, \"leaves\": 0, \"points\": 0, \"pruned\": 18446744073709551615}}}], "
         "\"visits\": {\"visited\": 10, \"taken\": 12, \"pruned\": 11, \"hit\": 13}, "
         "\"refusals\": [{\"id\": 7, \"why\": \"outside\", \"position\": [4.94065645841247e-324, 0, 0]}], "
@@ -89,8 +90,19 @@ static void line_is_exactly_this(void **state)
     const octree_answer answers[] = {
         {.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}, .cost = {.pruned = 1}},
         {.box = {{0, 0, 0}, {1, 1, 1}}, .points = hits, .count = 1, .cost = {5, 6, 7, 8, 9}},
-        {.kind = OCTREE_QUERY_KNEAREST, .target = {4, 5, 6}, .k = 8, .neighbors = &near, .count = 1},
-        {.kind = OCTREE_QUERY_RADIUS, .target = {7, 8, 9}, .radius = 0.5, .cost = {.pruned = UINT64_MAX}},
+        {.kind = OCTREE_QUERY_KNEAREST,
+         .target = {4, 5, 6},
+         .k = 8,
+         .neighbors = &near,
+         .count = 1,
+         .skip = OCTREE_SKIP_ID,
+         .skip_id = 7},
+        {.kind = OCTREE_QUERY_RADIUS,
+         .target = {7, 8, 9},
+         .radius = 0.5,
+         .cost = {.pruned = UINT64_MAX},
+         .skip = OCTREE_SKIP_COINCIDENT,
+         .epsilon = 0.25},
     };
     const octree_refusal refused = {7, OCTREE_OUTSIDE, {5e-324, 0, 0}};
     const octree_address splits[] = {OCTREE_ROOT, 0107};

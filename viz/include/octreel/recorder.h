@@ -52,7 +52,7 @@ extern "C" {
     X(OTHER_TREE, "the tree is not of the world and the options that the recorder was opened for")                     \
     X(DUPLICATE_ID, "two points of the tree have one id")                                                              \
     X(BAD_ID, "an id is not below 2^53, as files need it")                                                             \
-    X(BAD_QUERY, "a query has a NaN, an infinity, a negative size, or a box whose min is above its max")               \
+    X(BAD_QUERY, "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or no such skip") \
     X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or a text that is none")           \
     X(FLOAT_MODE, "the thread's floating-point mode is not the default: nearest rounding, subnormals")                 \
     X(BUSY, "the queue is full, and the recorder was told not to wait")                                                \
@@ -105,6 +105,9 @@ typedef struct octreel_recorder_def {
 octreel_recorder_def octreel_recorder_def_default(void);
 
 /* What a program asked of its tree in a tick, and what else it shows. The arrays are copied; their `tick` is not read.
+ * The recorder asks the queries itself: at the end of the tick, of the tree as it is handed over, with each query's
+ * `skip` and `epsilon` and in the exact mode. So its answers are the program's own where that asked the same after its
+ * last change of the tick; what was asked before shows in a tick of its own, handed over before the tree is changed.
  * A point in a frame is the tree's; a shape is what else there is: walls, goals, somebody else's tree. */
 typedef struct octreel_tick_info {
     const octree_query *queries; /* in any order; all numbers finite */
