@@ -18,8 +18,14 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "Octreel's answers are exact: it must not be compiled with -ffast-math or -ffinite-math-only"
 #endif
-#if FLT_EVAL_METHOD != 0
-#error "Octreel needs doubles that are evaluated as doubles (FLT_EVAL_METHOD 0); on 32-bit x86 use -msse2 -mfpmath=sse"
+/* 0 evaluates all types as themselves, 1 floats as doubles (s390x under -std=c17; the library has no floats), and 16 to
+ * 64 what is shorter than that many bits. 2 is long double. */
+#if FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD > 64
+#if defined(__i386__)
+#error "Octreel needs doubles that are evaluated as doubles, which the x87 does not: compile with -msse2 -mfpmath=sse"
+#else
+#error "Octreel needs doubles that are evaluated as doubles: this compiler does not do so here (see FLT_EVAL_METHOD)"
+#endif
 #endif
 
 #if defined(__SSE2__) && !defined(OCTREE_PORTABLE)
