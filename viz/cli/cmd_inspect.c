@@ -26,7 +26,7 @@ static const char help[] =
     "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
     "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"
     "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points; a picture marks it\n"
-    "      --nodes FILE.csv  write all nodes as CSV\n";
+    "      --nodes FILE.csv  write all nodes as CSV\n" FILL_HELP;
 
 static const char more_help[] =
     "      --json            print JSON\n"
@@ -94,6 +94,7 @@ static const command_option options[] = {
     {"full", read_full, OPTION_VALUE(arguments, def.full_leaf), 0, 0},
     {"world", read_world, 0, sizeof(arguments), 0, 0},
     {"node", read_node, OPTION_VALUE(arguments, node), 0, 0},
+    {"fill", read_fill, OPTION_VALUE(arguments, renderer.fill), 0, 0},
     {"nodes", read_file, OPTION_VALUE(arguments, nodes), 0, 0},
     {0},
 };
@@ -212,6 +213,8 @@ static int inspect_it(const arguments *a)
 static bool check_picture(const arguments *a)
 {
     const char *first = first_view_option(&a->view_options);
+    if (!first && a->renderer.fill != DRAW_FILL_INTEGERS)
+        first = "fill";
     if (!first)
         first = a->renderer.any_renderer ? "any-renderer" : a->renderer.context != DRAW_AUTO ? "context" : NULL;
     if (a->picture || !first)

@@ -27,7 +27,8 @@ static const char help[] =
     "      --jobs N          processes that film at the same time (default: one a core, fewer for a few frames); the\n"
     "                        bytes are the same\n"
     "      --resume          complete what is in DIR; frames that are there and right are kept. Without SESSION and\n"
-    "                        without options, those of DIR are taken. What is not of this recording is refused\n";
+    "                        without options, those of DIR are taken. What is not of this recording is "
+    "refused\n" FILL_HELP;
 
 static const char more_help[] =
     "      --json            print a summary as JSON on stdout\n"
@@ -65,6 +66,7 @@ static const command_option options[] = {
     {"every", read_whole, OPTION_VALUE(arguments, film.every), 1, 1000000000},
     {"ticks", read_ticks, OPTION_VALUE(arguments, film), 0, 0},
     {"jobs", read_whole, OPTION_VALUE(arguments, film.jobs), 1, FILM_MOST_JOBS},
+    {"fill", read_fill, OPTION_VALUE(arguments, film.renderer.fill), 0, 0},
     {"resume", read_flag, OPTION_VALUE(arguments, film.resume), 0, 0},
     {0},
 };

@@ -9,7 +9,7 @@
 
 static const char help[] =
     "usage: octreel verify RECORDING [OPTION ...]\n\n"
-    "Play the session of a recording again, draw it as it was drawn, and compare tick by tick. It says that all is\n"
+    "Play the session of a recording again, let GL alone draw it, and compare tick by tick. It says that all is\n"
     "identical, or which tick is the first that differs, and in what: the session, what happened (a fact of\n"
     "ticks.jsonl), what is drawn (the scene), or only its pixels, and then who drew both; and which frames or lines "
     "are\n"

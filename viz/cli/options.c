@@ -186,6 +186,23 @@ bool read_color(const command_option *option, const char *text, void *into)
     return true;
 }
 
+static const char *fill_at(int index)
+{
+    return draw_fill_name((draw_fill)index);
+}
+
+bool read_fill(const command_option *option, const char *text, void *into)
+{
+    char known[64], meant[HINT_TEXT];
+    hint h = hint_for(text, strlen(text));
+    if (draw_fill_parse(text, into))
+        return true;
+    for (int i = 0; fill_at(i); i++)
+        hint_offer(&h, fill_at(i));
+    return refuse("--%s takes no \"%s\"%sthere are %s", option->name, text, hint_text(&h, "", meant),
+                  json_list_names(fill_at, known, sizeof known));
+}
+
 /* ---- Options of a view -------------------------------------------------------------------------------------- */
 
 size_t list_view_options(struct option *options)

@@ -48,9 +48,15 @@ command_option_reader read_picture; /* the same, of a PNG that is written: not a
 command_option_reader read_file;    /* the same, of another file: not a folder, nor named as a picture */
 command_option_reader read_whole;   /* an integer type */
 command_option_reader read_color;   /* image_color, as RRGGBB or #RRGGBB */
+command_option_reader read_fill;    /* draw_fill, by its name; FILL_HELP is its help */
 
 /* Whether a path without an option can be meant for -o, by the option's reader. */
 bool is_meant_for(command_option_reader *reader, const char *path);
+
+#define FILL_HELP                                                                                                      \
+    "      --fill WITH       integers (default) fill the picture, or gl does, which is slower; the pixels are the "    \
+    "same.\n"                                                                                                          \
+    "                        With --any-renderer it is gl in any case\n"
 
 /* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
 bool check_names(const char *command, char *const *names, int count);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* context.h - the kinds of off-screen GL contexts: their names, and the interface that renderer.c draws through.
+/* context.h - the kinds of off-screen GL contexts: their names, and the interface that gl_surface.c draws through.
  * context_osmesa.c and context_egl.c are one kind each; CMake chooses which of them are built. */
 #ifndef DRAW_CONTEXT_H
 #define DRAW_CONTEXT_H
@@ -18,9 +18,13 @@ bool draw_context_parse(const char *name, draw_context *kind);
 /* Whether this program was built with it. */
 bool draw_context_built(draw_context kind);
 
+/* What fills the quads of a frame: the pixels are the same. */
+typedef enum draw_fill { DRAW_FILL_INTEGERS, DRAW_FILL_GL, DRAW_FILLS } draw_fill;
+
 /* Which renderer is wanted; all zero draws the same pixels everywhere. */
 typedef struct renderer_choice {
     draw_context context;
+    draw_fill fill;    /* of another driver than llvmpipe always by GL */
     bool any_renderer; /* accept drivers other than llvmpipe: a graphics card, say */
 } renderer_choice;
 

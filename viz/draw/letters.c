@@ -8,6 +8,9 @@
 
 #define QUADS_A_LABEL (SCENE_TEXT * 16) /* the font needs about 11 quads a letter at most */
 
+/* Text that begins so many pixels away does not reach into a picture. */
+#define FARTHEST 1e6
+
 /* What stb_easy_font writes for a corner. */
 typedef struct corner {
     float x, y, z;
@@ -26,6 +29,8 @@ static bool place(const scene *s, const scene_label *label, int *x, int *y)
         pixel[0] = pixel[0] / view_samples(&s->view) + 3 * s->unit;
         pixel[1] = pixel[1] / view_samples(&s->view) - 4 * s->unit;
     }
+    if (!(fabs(pixel[0]) < FARTHEST && fabs(pixel[1]) < FARTHEST))
+        return false;
     *x = (int)floor(pixel[0]);
     *y = (int)floor(pixel[1]);
     return true;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "paint.h"
+#include "clip.h"
 #include "layer.h"
 #include "letters.h"
 #include "stroke.h"
@@ -163,6 +164,7 @@ bool paint(painter *p, const scene *picture)
     const scene fine = project_samples(picture), *s = &fine;
     p->quads.count = 0;
     p->quads.out_of_memory = false;
+    p->quads.limit = clip_square(s->view.width, s->view.height) * QUAD_SUBPIXELS;
     p->overflowed = 0;
     if (!paint_boxes(p, s) || !paint_points(p, s))
         return false;

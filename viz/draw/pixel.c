@@ -193,12 +193,12 @@ static size_t count_samples(const scene *s)
     return (size_t)s->view.width * (size_t)s->view.height * side * side;
 }
 
-/* Draw all quads, a byte a sample. */
-static bool rasterise_all(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
+/* Fill all quads, a byte a sample. */
+static bool fill_all(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
 {
     const int side = view_samples(&s->view);
     const renderer_part all = {0, 0, s->view.width * side, s->view.height * side};
-    return renderer_rasterise(r, p->quads.items, p->quads.count, 0, all, samples, error);
+    return renderer_fill(r, p->quads.items, p->quads.count, all, samples, error);
 }
 
 /* Quads are numbered as elements are, with the merged edges in the place of the boxes. */
@@ -222,7 +222,7 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, uint32_t *numb
     for (unsigned shift = 0; ok && shift < 32 && largest >> shift; shift += 8) {
         for (size_t i = 0; i < p->quads.count; i++)
             p->quads.items[i].color = (uint8_t)(stroke_number(s, p, &p->quads.items[i]) >> shift);
-        ok = rasterise_all(r, s, p, bytes, error);
+        ok = fill_all(r, s, p, bytes, error);
         for (size_t i = 0; ok && i < size; i++)
             numbers[i] |= (uint32_t)bytes[i] << shift;
     }
@@ -288,7 +288,7 @@ bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *
     bool ok = (samples && paint(&p, s)) || error_no_memory(error);
     for (size_t i = 0; ok && i < p.quads.count; i++)
         p.quads.items[i].color = layers >> layer_of(s, &p, &p.quads.items[i]) & 1;
-    ok = ok && rasterise_all(r, s, &p, samples, error);
+    ok = ok && fill_all(r, s, &p, samples, error);
     if (ok)
         shrink_mask(&s->view, samples, mask);
     painter_release(&p);
@@ -420,7 +420,7 @@ static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, oc
     quad alone = *q;
     unsigned bits = 0;
     alone.color = 1;
-    *ok = renderer_rasterise(r, &alone, 1, 0, p->part, bytes, error);
+    *ok = renderer_fill(r, &alone, 1, p->part, bytes, error);
     for (int i = 0; *ok && i < p->part.width * p->part.height; i++)
         bits |= (unsigned)(bytes[i] != 0) << i;
     return bits;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "quads.h"
 #include "array.h"
+#include "clip.h"
 #include "layer.h"
 
 #include <stdlib.h>
@@ -25,7 +26,7 @@ void quads_release(quad_list *list)
     memset(list, 0, sizeof *list);
 }
 
-void quads_add(quad_list *list, const quad *q)
+static void append(quad_list *list, const quad *q)
 {
     quad *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
     if (!items) {
@@ -37,6 +38,26 @@ void quads_add(quad_list *list, const quad *q)
     *added = *q;
     added->kind = list->kind;
     added->index = list->index;
+}
+
+static bool is_within(const quad *q, int32_t limit)
+{
+    bool within = true;
+    for (int i = 0; i < 4; i++)
+        within &= q->x[i] >= 0 && q->y[i] >= 0 && q->x[i] <= limit && q->y[i] <= limit;
+    return within;
+}
+
+void quads_add(quad_list *list, const quad *q)
+{
+    if (list->limit == 0 || is_within(q, list->limit)) {
+        append(list, q);
+        return;
+    }
+    quad pieces[CLIP_PIECES];
+    const int count = clip_quad(q, list->limit, pieces);
+    for (int i = 0; i < count; i++)
+        append(list, &pieces[i]);
 }
 
 bool quads_sort(quad_list *list)

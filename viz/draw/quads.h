@@ -23,7 +23,8 @@ typedef struct quad_list {
     quad *items;
     size_t count, room;
     bool out_of_memory;
-    uint8_t kind; /* of the element whose quads are being added */
+    int32_t limit; /* quads are clipped to [0, limit] on both axes; 0: nowhere */
+    uint8_t kind;  /* of the element whose quads are being added */
     uint32_t index;
 } quad_list;
 
@@ -36,6 +37,7 @@ static inline void quads_begin(quad_list *list, scene_kind kind, size_t index)
     list->index = (uint32_t)index;
 }
 
+/* Convex quads only. */
 void quads_add(quad_list *list, const quad *q);
 
 /* Stable, by order. False when there is no memory. */

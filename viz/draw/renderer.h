@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* renderer.h - draws scenes.
  *
- * A renderer holds one off-screen context and draws scenes of one size into indices of the theme's colours. Under
- * anti-aliasing it draws view_samples() times as many pixels on each axis, which image_shrink() makes colours of:
- * lines, marks and letters are as large in the picture as without. Use it from the thread that opened it.
+ * A renderer draws scenes of one size into indices of the theme's colours: it fills their quads by integers, or lets
+ * the GL of its off-screen context fill them all. The pixels are the same. Under anti-aliasing it draws view_samples()
+ * times as many pixels on each axis, which image_shrink() makes colours of: lines, marks and letters are as large in
+ * the picture as without. Use it from the thread that opened it.
  */
 #ifndef DRAW_RENDERER_H
 #define DRAW_RENDERER_H
@@ -13,16 +14,25 @@
 
 typedef struct renderer renderer;
 
+/* "integers", "gl"; null from DRAW_FILLS on. And the inverse; false when there is no such name. */
+const char *draw_fill_name(draw_fill fill);
+bool draw_fill_parse(const char *name, draw_fill *fill);
+
 /* Which driver draws; valid while the renderer is open. */
 typedef struct renderer_info {
-    const char *context;                     /* "osmesa", "egl" */
-    const char *vendor, *renderer, *version; /* GL's own strings */
+    const char *context;                     /* "osmesa", "egl"; "memory" is none */
+    const char *vendor, *renderer, *version; /* GL's own strings; null without a context */
+    const char *fill;                        /* draw_fill_name() */
 } renderer_info;
 
 /* Open a context and a framebuffer of this size, in samples. Null, and a sentence, when there is no such context, when
  * something else than llvmpipe would draw, or when the size is outside 1..VIEW_MAX_SIDE. Cost: some 10 ms and 85 MB. */
 renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error);
 void renderer_close(renderer *r);
+
+/* The same without any context, in memory alone: integers fill. Null, and a sentence, when the size is outside
+ * 1..VIEW_MAX_SIDE or there is no memory. */
+renderer *renderer_open_memory(int width, int height, octreel_error *error);
 
 renderer_info renderer_about(const renderer *r);
 
@@ -44,8 +54,8 @@ typedef struct renderer_part {
     int x, y, width, height;
 } renderer_part;
 
-/* Let GL draw quads in this order on a ground of one byte, and read a part of the result. */
-bool renderer_rasterise(renderer *r, const struct quad *quads, size_t count, uint8_t ground, renderer_part part,
-                        uint8_t *bytes, octreel_error *error);
+/* Fill quads in this order on a ground of zeros, and read a part of the result. */
+bool renderer_fill(renderer *r, const struct quad *quads, size_t count, renderer_part part, uint8_t *bytes,
+                   octreel_error *error);
 
 #endif

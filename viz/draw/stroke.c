@@ -67,11 +67,18 @@ static void add_line(quad_list *list, const pencil *with, unsigned band, const d
     quads_add(list, &q);
 }
 
-/* A filled rectangle of whole pixels. */
-static void add_rectangle(quad_list *list, quad q, int x, int y, int width, int height)
+/* The left or top edge of a pixel, or one that is as far outside every picture. */
+static int32_t pixel_edge(int64_t pixel)
 {
-    const int32_t left = x * QUAD_SUBPIXELS, right = (x + width) * QUAD_SUBPIXELS;
-    const int32_t top = y * QUAD_SUBPIXELS, bottom = (y + height) * QUAD_SUBPIXELS;
+    const int64_t most = 2 * VIEW_MAX_SIDE;
+    return (int32_t)(pixel < -most ? -most : pixel > most ? most : pixel) * QUAD_SUBPIXELS;
+}
+
+/* A filled rectangle of whole pixels. */
+static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t width, int64_t height)
+{
+    const int32_t left = pixel_edge(x), right = pixel_edge(x + width);
+    const int32_t top = pixel_edge(y), bottom = pixel_edge(y + height);
     for (int i = 0; i < 4; i++) {
         q.x[i] = i == 1 || i == 2 ? right : left;
         q.y[i] = i < 2 ? top : bottom;
@@ -214,5 +221,6 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
 void stroke_panel(quad_list *list, const scene_panel *panel, int samples)
 {
     const quad q = {.color = theme_index(panel->style.role, 0), .order = quad_order_of_text(panel->style.layer)};
-    add_rectangle(list, q, panel->x * samples, panel->y * samples, panel->width * samples, panel->height * samples);
+    add_rectangle(list, q, (int64_t)panel->x * samples, (int64_t)panel->y * samples, (int64_t)panel->width * samples,
+                  (int64_t)panel->height * samples);
 }

@@ -140,6 +140,7 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
     write_text(w, "vendor", info->vendor);
     write_text(w, "renderer", info->renderer);
     write_text(w, "version", info->version);
+    write_text(w, "fill", info->fill);
     write_text(w, "png", image_library(library));
     json_write_newline(w);
     json_write_end_object(w);

@@ -252,12 +252,15 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
 static bool play_again(verifying *v, octreel_error *error)
 {
     const film_share all = {.last = v->replay.ticks};
-    const playback_target target = {FRAMES_SHOW, v->folder, v->replay.film.every, v->options->renderer};
+    renderer_choice renderer = v->options->renderer;
+    renderer.fill = DRAW_FILL_GL; /* the authority on pixels */
+    const playback_target target = {FRAMES_SHOW, v->folder, v->replay.film.every, renderer};
     if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.film.view, error) ||
         !playback_film(&v->replay.playback, &target, error))
         return false;
     const renderer_info info = renderer_about(v->replay.playback.picture.renderer);
     who_draws(&info, v->report->drawn_now, sizeof v->report->drawn_now);
+    v->report->fill = info.fill;
     if (!playback_run(&v->replay.playback, &all, check_tick, NULL, v, error))
         return v->stopped;
     check_end_of_lines(v);
@@ -275,7 +278,7 @@ static bool verify_all(verifying *v, octreel_error *error)
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error)
 {
     verifying v = {.folder = folder, .options = options, .report = report};
-    *report = (verify_report){0};
+    *report = (verify_report){.fill = ""};
     const bool ok = verify_all(&v, error);
     replay_close(&v.replay);
     lines_close(&v.lines);
@@ -350,6 +353,7 @@ static void print_json(FILE *out, const char *folder, const verify_report *repor
     json_write_end_array(w);
     write_string(w, "drawn_by", report->drawn_by);
     write_string(w, "drawn_now", report->drawn_now);
+    write_string(w, "fill", report->fill);
     json_write_end_object(w);
     json_write_end_line(w);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* verify.h - plays a recording again and compares it with what its session makes.
  *
- * The facts, the draw lists and the pixels are compared tick by tick, up to the first tick that differs. How a frame is
- * compressed is not compared.
+ * The facts, the draw lists and the pixels are compared tick by tick, up to the first tick that differs. GL alone draws
+ * the pixels, whatever filled the recorded ones. How a frame is compressed is not compared.
  */
 #ifndef REPLAY_VERIFY_H
 #define REPLAY_VERIFY_H
@@ -51,10 +51,11 @@ typedef struct verify_report {
     uint64_t pixels;        /* of PIXELS: how many differ */
     char drawn_by[384];     /* the renderer of the recording, as renderer.json has it */
     char drawn_now[384];    /* the renderer of this process; "" where nothing was drawn */
+    const char *fill;       /* draw_fill_name() of what filled its pixels: "gl"; "" likewise */
 } verify_report;
 
 typedef struct verify_options {
-    renderer_choice renderer;
+    renderer_choice renderer;                                       /* its fill is not asked for */
     void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
     void *context;
 } verify_options;

@@ -10,13 +10,23 @@ renderer *open_renderer(int width, int height)
     return open_renderer_of(DRAW_AUTO, width, height);
 }
 
-renderer *open_renderer_of(draw_context kind, int width, int height)
+static renderer *open_chosen(const renderer_choice *choice, int width, int height)
 {
     octreel_error error = {""};
-    renderer *r = renderer_open(width, height, &(renderer_choice){.context = kind}, &error);
+    renderer *r = renderer_open(width, height, choice, &error);
     if (!r)
         fail_msg("%s", error.text);
     return r;
+}
+
+renderer *open_renderer_of(draw_context kind, int width, int height)
+{
+    return open_chosen(&(renderer_choice){.context = kind}, width, height);
+}
+
+renderer *open_gl_renderer(int width, int height)
+{
+    return open_chosen(&(renderer_choice){.fill = DRAW_FILL_GL}, width, height);
 }
 
 renderer *open_renderer_for(const scene *s)

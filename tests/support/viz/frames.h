@@ -11,6 +11,9 @@
 renderer *open_renderer(int width, int height);
 renderer *open_renderer_of(draw_context kind, int width, int height);
 
+/* One whose quads GL fills. */
+renderer *open_gl_renderer(int width, int height);
+
 /* One of a scene's size in samples. */
 renderer *open_renderer_for(const scene *s);
 

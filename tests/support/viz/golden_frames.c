@@ -221,11 +221,12 @@ bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
     return ok;
 }
 
-bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, octreel_error *error)
+bool golden_draw(const golden_frame *frame, draw_fill fill, image *drawn, char *renderer, size_t size,
+                 octreel_error *error)
 {
     picture p = {0};
     scene s;
-    bool ok = golden_scene(frame, &s, error) && picture_open(&p, &s.view, &(renderer_choice){0}, error);
+    bool ok = golden_scene(frame, &s, error) && picture_open(&p, &s.view, &(renderer_choice){.fill = fill}, error);
     if (ok)
         snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);
     ok = ok && picture_draw(&p, &s, error);

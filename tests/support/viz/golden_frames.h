@@ -3,6 +3,7 @@
 #ifndef GOLDEN_FRAMES_H
 #define GOLDEN_FRAMES_H
 
+#include "context.h"
 #include "folder.h"
 #include "image.h"
 #include "scene.h"
@@ -24,6 +25,7 @@ extern const size_t golden_frame_count;
 bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error);
 
 /* Draw one. `renderer` receives who drew it. */
-bool golden_draw(const golden_frame *frame, image *drawn, char *renderer, size_t size, octreel_error *error);
+bool golden_draw(const golden_frame *frame, draw_fill fill, image *drawn, char *renderer, size_t size,
+                 octreel_error *error);
 
 #endif

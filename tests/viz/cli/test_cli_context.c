@@ -160,6 +160,41 @@ static void any_renderer_draws_where_it_is_asked_for(void **state)
     need_contexts(false, true);
     const place folder = place_in(*state, "film");
     assert_drawn_by(&softpipe, "--context egl --any-renderer", &folder, "renderer", "softpipe");
+    char *text = file_read(place_below(folder.path, "renderer.json").path, NULL);
+    assert_non_null(strstr(text, "\"fill\": \"gl\"")); /* it draws all of it */
+    free(text);
+}
+
+static void integers_and_gl_film_the_same_bytes(void **state)
+{
+    const place plain = place_in(*state, "plain"), integers = place_in(*state, "integers"), gl = place_in(*state, "gl");
+    assert_drawn_by(NULL, "", &plain, "fill", "integers");
+    assert_drawn_by(NULL, "--fill integers", &integers, "fill", "integers");
+    assert_drawn_by(NULL, "--fill gl", &gl, "fill", "gl");
+    assert_same_folders(plain.path, integers.path, NULL);
+    assert_same_folders(plain.path, gl.path, "renderer.json"); /* recording.json too */
+}
+
+static void inspect_fills_either_way(void **state)
+{
+    const place cloud = place_in(*state, "c.txt"), one = place_in(*state, "one.png"), two = place_in(*state, "two.png");
+    file_write_text(cloud.path, "1 2 3\n4 5 6\n7 8 1\n");
+    command_result result = run_octreel(NULL, "inspect %s --size 64x36 -o %s", cloud.path, one.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "inspect %s --size 64x36 --fill gl -o %s", cloud.path, two.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_same_files(one.path, two.path);
+    result = run_octreel(NULL, "inspect %s --fill gl", cloud.path);
+    assert_trouble(&result, "--fill is about a picture");
+}
+
+static void unknown_fill_is_refused(void **state)
+{
+    const place folder = place_in(*state, "film");
+    assert_not_drawn(NULL, "--fill GL", &folder, "--fill takes no \"GL\", did you mean gl? there are integers, gl");
+    assert_not_drawn(NULL, "--fill ''", &folder, "there are integers, gl");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
@@ -176,6 +211,9 @@ int main(void)
         IN_FOLDER(egl_that_knows_no_driver_is_trouble),
         IN_FOLDER(renderer_that_is_not_llvmpipe_is_refused),
         IN_FOLDER(any_renderer_draws_where_it_is_asked_for),
+        IN_FOLDER(integers_and_gl_film_the_same_bytes),
+        IN_FOLDER(inspect_fills_either_way),
+        IN_FOLDER(unknown_fill_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,7 +96,8 @@ static void json_is_one_object(void **state)
     command_result result = run_octreel(NULL, "verify %s --json", folder.path);
     assert_done(&result);
     json_t *said = json_read(result.out);
-    assert_members(said, "folder identical ticks frames gaps findings drawn_by drawn_now");
+    assert_members(said, "folder identical ticks frames gaps findings drawn_by drawn_now fill");
+    assert_string_equal(json_string_value(json_member(said, "fill")), "gl"); /* whatever filled the recording */
     assert_true(json_is_true(json_member(said, "identical")));
     assert_whole_number(json_member(said, "ticks"), 14);
     assert_whole_number(json_member(said, "frames"), 5);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_golden.c - the frames of golden/ are drawn as they were: exactly.
  *
- * All are drawn into the folder golden/ of the build's tests and compared with the references as octreel diff does it;
- * what differs leaves its evidence in the current folder (<name>.ref.difference.png), and both renderers are named.
+ * GL alone draws all of them into the folder golden/ of the build's tests; integers, which fill frames by default,
+ * must give the same. They are compared with the references as octreel diff does it; what differs leaves its evidence
+ * in the current folder (<name>.ref.difference.png), and both renderers are named.
  * `test_golden --draw` draws and does no more: the target golden-update runs it, and octreel accept behind it.
  */
 #include <setjmp.h>
@@ -18,6 +19,8 @@
 
 #include "evidence.h"
 #include "golden_frames.h"
+#include "image_compare.h"
+#include "png_read.h"
 #include "diff_words.h"
 #include "png_write.h"
 
@@ -67,7 +70,7 @@ static bool draw_one(const golden_frame *frame, char *renderer)
     octreel_error unwritten = {""};
     image drawn;
     snprintf(path, sizeof path, "%s/%s", OCTREEL_DRAWN, file_name(frame, name));
-    bool ok = golden_draw(frame, &drawn, renderer, TEXT_SIZE, &failed);
+    bool ok = golden_draw(frame, DRAW_FILL_GL, &drawn, renderer, TEXT_SIZE, &failed);
     if (ok) {
         ok = image_write_png(&drawn, path, NULL, 0, &unwritten);
         image_release(&drawn);
@@ -150,6 +153,21 @@ static void frame_is_its_reference(void **state)
     fail_pair(e->gallery, pair);
 }
 
+static void integers_fill_it_as_gl_does(void **state)
+{
+    const exhibit *e = *state;
+    char name[NAME_SIZE], path[2 * NAME_SIZE], renderer[TEXT_SIZE];
+    octreel_error error = {""};
+    image by_gl, by_integers;
+    snprintf(path, sizeof path, "%s/%s", OCTREEL_DRAWN, file_name(e->frame, name));
+    if (!image_read_png(path, &by_gl, &error) ||
+        !golden_draw(e->frame, DRAW_FILL_INTEGERS, &by_integers, renderer, sizeof renderer, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(image_compare(&by_gl, &by_integers).unlike.pixels, 0);
+    image_release(&by_gl);
+    image_release(&by_integers);
+}
+
 static void every_reference_has_its_frame(void **state)
 {
     const exhibit *e = *state;
@@ -161,13 +179,18 @@ static void every_reference_has_its_frame(void **state)
 static int run_exhibits(gallery *g, struct CMUnitTest *tests, exhibit *exhibits)
 {
     const size_t count = golden_frame_count;
-    for (size_t i = 0; i <= count; i++) {
-        exhibits[i] = (exhibit){g, i < count ? &golden_frames[i] : NULL};
-        tests[i] = (struct CMUnitTest){.name = i < count ? golden_frames[i].name : "every_reference_has_its_frame",
-                                       .test_func = i < count ? frame_is_its_reference : every_reference_has_its_frame,
-                                       .initial_state = &exhibits[i]};
+    for (size_t i = 0; i < count; i++) {
+        exhibits[i] = (exhibit){g, &golden_frames[i]};
+        tests[2 * i] = (struct CMUnitTest){
+            .name = golden_frames[i].name, .test_func = frame_is_its_reference, .initial_state = &exhibits[i]};
+        tests[2 * i + 1] = (struct CMUnitTest){
+            .name = golden_frames[i].name, .test_func = integers_fill_it_as_gl_does, .initial_state = &exhibits[i]};
     }
-    return _cmocka_run_group_tests("golden", tests, count + 1, NULL, NULL);
+    exhibits[count] = (exhibit){g, NULL};
+    tests[2 * count] = (struct CMUnitTest){.name = "every_reference_has_its_frame",
+                                           .test_func = every_reference_has_its_frame,
+                                           .initial_state = &exhibits[count]};
+    return _cmocka_run_group_tests("golden", tests, 2 * count + 1, NULL, NULL);
 }
 
 int main(int argc, char **argv)
@@ -175,7 +198,7 @@ int main(int argc, char **argv)
     gallery g = {.renderer = ""};
     if (argc > 1 && strcmp(argv[1], "--draw") == 0)
         return draw_all(g.renderer) ? 0 : 2;
-    struct CMUnitTest *tests = calloc(golden_frame_count + 1, sizeof *tests);
+    struct CMUnitTest *tests = calloc(2 * golden_frame_count + 1, sizeof *tests);
     exhibit *exhibits = calloc(golden_frame_count + 1, sizeof *exhibits);
     const int failed = tests && exhibits && open_gallery(&g) ? run_exhibits(&g, tests, exhibits) : 2;
     close_gallery(&g);

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* clip.h - keeps quads in a square, so that nothing that fills them has to clip: GL would, in single precision. For
+ * this folder. */
+#ifndef DRAW_CLIP_H
+#define DRAW_CLIP_H
+
+#include "quads.h"
+
+/* The pixels on each side of the square that a picture's quads are kept in: the least power of two that holds it. */
+int clip_square(int width, int height);
+
+#define CLIP_PIECES 3
+
+/* The part of a convex quad within [0, limit] on both axes, as 0 to CLIP_PIECES quads that share no pixel; new corners
+ * are rounded to 1/256 pixel. Upright
+ * rectangles may be anywhere, other quads within 2^28 of 0. */
+int clip_quad(const quad *q, int32_t limit, quad pieces[CLIP_PIECES]);
+
+#endif

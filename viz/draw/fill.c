@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+#include "fill.h"
+
+#include <string.h>
+
+#define CENTRE (QUAD_SUBPIXELS / 2)
+
+/* The bytes of a part of a picture. */
+typedef struct target {
+    uint8_t *bytes;
+    int width, height;
+} target;
+
+/* The first pixel whose centre is at or after a coordinate: 0 to `size`. */
+static int first_pixel(int32_t at, int size)
+{
+    if (at <= CENTRE)
+        return 0;
+    const int32_t pixel = (at - CENTRE + QUAD_SUBPIXELS - 1) / QUAD_SUBPIXELS;
+    return pixel < size ? pixel : size;
+}
+
+/* ---- Upright rectangles ------------------------------------------------------------------------------------- */
+
+static bool is_rectangle(const quad *q)
+{
+    const int32_t *x = q->x, *y = q->y;
+    return (x[0] == x[3] && x[1] == x[2] && y[0] == y[1] && y[2] == y[3]) ||
+           (x[0] == x[1] && x[2] == x[3] && y[1] == y[2] && y[3] == y[0]);
+}
+
+static void fill_rectangle(const target *t, const quad *q)
+{
+    const int32_t *x = q->x, *y = q->y;
+    const int left = first_pixel(x[0] < x[2] ? x[0] : x[2], t->width);
+    const int right = first_pixel(x[0] < x[2] ? x[2] : x[0], t->width);
+    const int top = first_pixel(y[0] < y[2] ? y[0] : y[2], t->height);
+    const int bottom = first_pixel(y[0] < y[2] ? y[2] : y[0], t->height);
+    uint8_t *row = t->bytes + (size_t)top * (size_t)t->width + left;
+    for (int i = top; i < bottom && left < right; i++, row += t->width)
+        memset(row, q->color, (size_t)(right - left));
+}
+
+/* ---- Edges -------------------------------------------------------------------------------------------------- */
+
+/* An edge from step to step along one axis: the first pixel across whose centre is not before it, and how far that
+ * centre is beyond it, in 1 / whole pixel. */
+typedef struct edge_walk {
+    int64_t at, beyond;
+    int64_t turn, rest; /* the way from step to step: whole pixels, and the rest; rounded down */
+    int64_t whole;
+} edge_walk;
+
+/* Quotient and remainder, rounded down; b > 0. */
+static int64_t divide(int64_t a, int64_t b, int64_t *rest)
+{
+    int64_t quotient = a / b;
+    *rest = a % b;
+    if (*rest < 0) {
+        *rest += b;
+        quotient--;
+    }
+    return quotient;
+}
+
+/* The edge from (a0, b0) to (a1, b1), a0 < a1, at the centre of a pixel along. */
+static edge_walk walk_edge(int32_t a0, int32_t b0, int32_t a1, int32_t b1, int pixel)
+{
+    const int64_t length = (int64_t)a1 - a0, rise = (int64_t)b1 - b0;
+    const int64_t along = (int64_t)pixel * QUAD_SUBPIXELS + CENTRE - a0;
+    edge_walk w = {.whole = QUAD_SUBPIXELS * length};
+    w.at = -divide(-((b0 - CENTRE) * length + rise * along), w.whole, &w.beyond);
+    w.turn = divide(rise, length, &w.rest);
+    w.rest *= QUAD_SUBPIXELS;
+    return w;
+}
+
+static void step_on(edge_walk *w)
+{
+    w->at += w->turn;
+    w->beyond -= w->rest;
+    if (w->beyond < 0) {
+        w->beyond += w->whole;
+        w->at++;
+    }
+}
+
+/* ---- Lines --------------------------------------------------------------------------------------------------
+ *
+ * As stroke.c makes most of them: parallelograms with two sides along an axis, a whole number of pixels long. One edge
+ * tells where the other is.
+ */
+
+/* Whether the sides 0-3 and 1-2 are parallel to the axis `across` and of the same whole number of pixels. */
+static bool is_strip(const int32_t along[4], const int32_t across[4])
+{
+    const int32_t width = across[3] - across[0];
+    return along[0] == along[3] && along[1] == along[2] && width == across[2] - across[1] && width > 0 &&
+           width % QUAD_SUBPIXELS == 0;
+}
+
+/* An axis of the picture: its pixels, and the bytes from one to the next. */
+typedef struct fill_axis {
+    int size;
+    ptrdiff_t step;
+} fill_axis;
+
+/* For each step along one axis, fill `width` pixels across. The lower edge includes centres that lie on it if it is a
+ * left or top edge; of a flat strip that falls to the right it is not one. */
+static void fill_strip(const target *t, const quad *q, bool flat)
+{
+    const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
+    const int from = along[0] > along[1], to = 1 - from;
+    const fill_axis x = {t->width, 1}, y = {t->height, t->width}, long_axis = flat ? x : y, other = flat ? y : x;
+    const int begin = first_pixel(along[from], long_axis.size), end = first_pixel(along[to], long_axis.size);
+    const int width = (across[3] - across[0]) / QUAD_SUBPIXELS;
+    const bool lower_is_out = flat && across[to] > across[from];
+    if (begin >= end)
+        return;
+    edge_walk w = walk_edge(along[from], across[from], along[to], across[to], begin);
+    uint8_t *step = t->bytes + begin * long_axis.step;
+    for (int i = begin; i < end; i++, step += long_axis.step, step_on(&w)) {
+        const int64_t first = w.at + (lower_is_out && w.beyond == 0);
+        for (int64_t j = first < 0 ? 0 : first; j < first + width && j < other.size; j++)
+            step[j * other.step] = q->color;
+    }
+}
+
+/* ---- Convex quads ------------------------------------------------------------------------------------------- */
+
+/* The left or right side of a quad from row to row, edge by edge. */
+typedef struct side {
+    int corner; /* to which the current edge goes */
+    int way;    /* to the next corner: 1 or 3, modulo 4 */
+    int end;    /* the row after the edge's last */
+    edge_walk edge;
+} side;
+
+/* Go on to the edge that crosses the centres of a row. */
+static void begin_edge(side *s, const quad *q, int row, int height)
+{
+    int from;
+    do {
+        from = s->corner;
+        s->corner = (from + s->way) & 3;
+        s->end = first_pixel(q->y[s->corner], height);
+    } while (s->end <= row);
+    s->edge = walk_edge(q->y[from], q->x[from], q->y[s->corner], q->x[s->corner], row);
+}
+
+/* `turn` is the sign of the quad's area: positive when corners go clockwise on screen. */
+static void fill_convex(const target *t, const quad *q, int turn)
+{
+    int top = 0, bottom = 0;
+    for (int i = 1; i < 4; i++) {
+        top = q->y[i] < q->y[top] ? i : top;
+        bottom = q->y[i] > q->y[bottom] ? i : bottom;
+    }
+    const int end = first_pixel(q->y[bottom], t->height);
+    side left = {.corner = top, .way = turn > 0 ? 3 : 1}, right = {.corner = top, .way = turn > 0 ? 1 : 3};
+    for (int row = first_pixel(q->y[top], t->height); row < end; row++) {
+        if (row >= left.end)
+            begin_edge(&left, q, row, t->height);
+        if (row >= right.end)
+            begin_edge(&right, q, row, t->height);
+        const int64_t first = left.edge.at > 0 ? left.edge.at : 0,
+                      last = right.edge.at < t->width ? right.edge.at : t->width;
+        if (first < last)
+            memset(t->bytes + (size_t)row * (size_t)t->width + (size_t)first, q->color, (size_t)(last - first));
+        step_on(&left.edge);
+        step_on(&right.edge);
+    }
+}
+
+/* ---- Any quad ----------------------------------------------------------------------------------------------- */
+
+/* On which side of the line from corner a to b corner c is: 1 is clockwise on screen, 0 on it. */
+static int turn_at(const quad *q, int a, int b, int c)
+{
+    const int64_t area = ((int64_t)q->x[b] - q->x[a]) * ((int64_t)q->y[c] - q->y[b]) -
+                         ((int64_t)q->y[b] - q->y[a]) * ((int64_t)q->x[c] - q->x[b]);
+    return (area > 0) - (area < 0);
+}
+
+/* A triangle is a quad with a corner that counts twice. */
+static void fill_triangle(const target *t, const quad *q, int b, int c)
+{
+    const int turn = turn_at(q, 0, b, c);
+    quad alone = *q;
+    alone.x[1] = q->x[b], alone.y[1] = q->y[b];
+    alone.x[2] = alone.x[3] = q->x[c], alone.y[2] = alone.y[3] = q->y[c];
+    if (turn)
+        fill_convex(t, &alone, turn);
+}
+
+static void fill_quad(const target *t, const quad *q)
+{
+    if (is_rectangle(q)) {
+        fill_rectangle(t, q);
+        return;
+    }
+    const bool flat = is_strip(q->x, q->y);
+    if (flat || is_strip(q->y, q->x)) {
+        fill_strip(t, q, flat);
+        return;
+    }
+    const int turn = turn_at(q, 0, 1, 2);
+    if (turn && turn_at(q, 1, 2, 3) == turn && turn_at(q, 2, 3, 0) == turn && turn_at(q, 3, 0, 1) == turn) {
+        fill_convex(t, q, turn);
+        return;
+    }
+    fill_triangle(t, q, 1, 2);
+    fill_triangle(t, q, 2, 3);
+}
+
+void fill_quads(const quad *quads, size_t count, renderer_part part, uint8_t *bytes)
+{
+    const target t = {bytes, part.width, part.height};
+    const int32_t left = part.x * QUAD_SUBPIXELS, top = part.y * QUAD_SUBPIXELS;
+    for (size_t i = 0; i < count; i++) {
+        quad q = quads[i];
+        for (int j = 0; j < 4; j++) {
+            q.x[j] -= left;
+            q.y[j] -= top;
+        }
+        fill_quad(&t, &q);
+    }
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT */
+/* gl_surface.c - quads into a framebuffer object, and its pixels back. GL rasterises and decides nothing else.
+ *
+ * The framebuffer has one channel, which holds the index of a colour: a frame is read back as it is written to a file.
+ * The viewport is a square whose side is a power of two, so that every step from a snapped pixel to clip space and
+ * back is exact in single precision: no CPU can round it differently, with FMA or without. Quads do not leave it (see
+ * clip.h), so that GL has nothing to clip.
+ */
+#include "clip.h"
+#include "context.h"
+#include "renderer.h"
+#include "surface.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The GL functions in use: result, name, parameters. */
+#define GL_FUNCTIONS(X)                                                                                                \
+    X(const GLubyte *, GetString, (GLenum name))                                                                       \
+    X(void, GetIntegerv, (GLenum name, GLint * value))                                                                 \
+    X(GLenum, GetError, (void))                                                                                        \
+    X(void, GenFramebuffers, (GLsizei count, GLuint * names))                                                          \
+    X(void, BindFramebuffer, (GLenum target, GLuint name))                                                             \
+    X(void, GenRenderbuffers, (GLsizei count, GLuint * names))                                                         \
+    X(void, BindRenderbuffer, (GLenum target, GLuint name))                                                            \
+    X(void, RenderbufferStorage, (GLenum target, GLenum format, GLsizei width, GLsizei height))                        \
+    X(void, FramebufferRenderbuffer, (GLenum target, GLenum attachment, GLenum kind, GLuint name))                     \
+    X(GLenum, CheckFramebufferStatus, (GLenum target))                                                                 \
+    X(void, Viewport, (GLint x, GLint y, GLsizei width, GLsizei height))                                               \
+    X(void, Disable, (GLenum what))                                                                                    \
+    X(void, ShadeModel, (GLenum mode))                                                                                 \
+    X(void, PixelStorei, (GLenum name, GLint value))                                                                   \
+    X(void, ReadBuffer, (GLenum buffer))                                                                               \
+    X(void, DrawBuffer, (GLenum buffer))                                                                               \
+    X(void, ClearColor, (GLfloat red, GLfloat green, GLfloat blue, GLfloat alpha))                                     \
+    X(void, Clear, (GLbitfield mask))                                                                                  \
+    X(void, MatrixMode, (GLenum mode))                                                                                 \
+    X(void, LoadIdentity, (void))                                                                                      \
+    X(void, EnableClientState, (GLenum array))                                                                         \
+    X(void, VertexPointer, (GLint size, GLenum type, GLsizei stride, const void *pointer))                             \
+    X(void, ColorPointer, (GLint size, GLenum type, GLsizei stride, const void *pointer))                              \
+    X(void, DrawElements, (GLenum mode, GLsizei count, GLenum type, const void *indices))                              \
+    X(void, ReadPixels, (GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, void *pixels))
+
+typedef struct gl {
+#define GL_MEMBER(result, name, parameters) result(GLAPIENTRY *name) parameters;
+    GL_FUNCTIONS(GL_MEMBER)
+#undef GL_MEMBER
+} gl;
+
+/* False, with an error that names the first missing function, when the context lacks one. */
+static bool gl_load(gl *functions, const context *c, octreel_error *error)
+{
+    const char *missing = NULL;
+#define GL_LOOK_UP(result, name, parameters)                                                                           \
+    functions->name = (result(GLAPIENTRY *) parameters)c->find(c, "gl" #name);                                         \
+    if (!functions->name && !missing)                                                                                  \
+        missing = "gl" #name;
+    GL_FUNCTIONS(GL_LOOK_UP)
+#undef GL_LOOK_UP
+    return !missing || error_set(error, "the %s context has no %s", c->name, missing);
+}
+
+#define BATCH 8192 /* quads a draw call */
+
+typedef struct vertex {
+    GLfloat x, y;
+    GLubyte color[4];
+} vertex;
+
+typedef struct gl_surface {
+    surface face;
+    context *context;
+    gl gl;
+    int width, height;
+    int side; /* of the viewport */
+    vertex vertices[BATCH * 4];
+    GLuint indices[BATCH * 6];
+} gl_surface;
+
+/* Only llvmpipe is known to give the same pixels everywhere. */
+static bool check_driver(gl_surface *s, bool any, octreel_error *error)
+{
+    const char *name = (const char *)s->gl.GetString(GL_RENDERER);
+    if (name && (any || strncmp(name, "llvmpipe", 8) == 0))
+        return true;
+    return error_set(error,
+                     "the %s context draws with \"%.60s\"; frames are the same everywhere with llvmpipe alone (is "
+                     "GALLIUM_DRIVER set?)",
+                     s->context->name, name ? name : "nothing");
+}
+
+static bool make_framebuffer(gl_surface *s, octreel_error *error)
+{
+    const gl *gl = &s->gl;
+    GLint limits[2] = {0, 0}, largest = 0;
+    GLuint frame, color;
+    gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, limits);
+    gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    gl->GenFramebuffers(1, &frame);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
+    gl->GenRenderbuffers(1, &color);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, color);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_R8, s->width, s->height);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+    if (s->side <= limits[0] && s->side <= limits[1] && s->width <= largest && s->height <= largest &&
+        gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && gl->GetError() == GL_NO_ERROR)
+        return true;
+    return error_set(error, "the %s context gives no framebuffer of %d x %d pixels", s->context->name, s->width,
+                     s->height);
+}
+
+/* All state that a frame depends on; nothing changes it later. */
+static void set_state(gl_surface *s)
+{
+    const gl *gl = &s->gl;
+    gl->DrawBuffer(GL_COLOR_ATTACHMENT0);
+    gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl->Viewport(0, 0, s->side, s->side);
+    gl->Disable(GL_DITHER);
+    gl->Disable(GL_BLEND);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Disable(GL_MULTISAMPLE);
+    gl->ShadeModel(GL_FLAT);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl->MatrixMode(GL_PROJECTION);
+    gl->LoadIdentity();
+    gl->MatrixMode(GL_MODELVIEW);
+    gl->LoadIdentity();
+    gl->EnableClientState(GL_VERTEX_ARRAY);
+    gl->EnableClientState(GL_COLOR_ARRAY);
+    gl->VertexPointer(2, GL_FLOAT, sizeof(vertex), &s->vertices[0].x);
+    gl->ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(vertex), s->vertices[0].color);
+}
+
+/* Each quad is two triangles that share the diagonal from corner 0 to corner 2. */
+static void make_indices(gl_surface *s)
+{
+    static const GLuint corners[6] = {0, 1, 2, 0, 2, 3};
+    for (GLuint i = 0; i < BATCH * 6; i++)
+        s->indices[i] = i / 6 * 4 + corners[i % 6];
+}
+
+/* From 1/256 pixel to clip space: exact, since coordinates have at most 23 bits and the side is a power of two. */
+static void put_vertices(gl_surface *s, const quad *quads, size_t count)
+{
+    const float scale = 2.0f / ((float)s->side * QUAD_SUBPIXELS);
+    for (size_t i = 0; i < count; i++)
+        for (int j = 0; j < 4; j++)
+            s->vertices[4 * i + (size_t)j] = (vertex){
+                (float)quads[i].x[j] * scale - 1, (float)quads[i].y[j] * scale - 1, {quads[i].color, 0, 0, 255}};
+}
+
+static bool fill(surface *face, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
+                 octreel_error *error)
+{
+    gl_surface *s = (gl_surface *)face;
+    if (!s->context->use(s->context))
+        return error_set(error, "the renderer's context cannot be made current");
+    const gl *gl = &s->gl;
+    gl->ClearColor(0, 0, 0, 0);
+    gl->Clear(GL_COLOR_BUFFER_BIT);
+    for (size_t start = 0; start < count; start += BATCH) {
+        const size_t size = count - start < BATCH ? count - start : BATCH;
+        put_vertices(s, quads + start, size);
+        gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * size), GL_UNSIGNED_INT, s->indices);
+    }
+    gl->ReadPixels(part.x, part.y, part.width, part.height, GL_RED, GL_UNSIGNED_BYTE, bytes);
+    const GLenum failure = gl->GetError();
+    return failure == GL_NO_ERROR || error_set(error, "GL reports error 0x%04x", failure);
+}
+
+static renderer_info about(surface *face)
+{
+    gl_surface *s = (gl_surface *)face;
+    s->context->use(s->context); /* GL answers for the context that is current */
+    return (renderer_info){
+        .context = s->context->name,
+        .vendor = (const char *)s->gl.GetString(GL_VENDOR),
+        .renderer = (const char *)s->gl.GetString(GL_RENDERER),
+        .version = (const char *)s->gl.GetString(GL_VERSION),
+    };
+}
+
+static void close_surface(surface *face)
+{
+    gl_surface *s = (gl_surface *)face;
+    if (s->context)
+        s->context->close(s->context);
+    free(s);
+}
+
+static surface *open_surface(int width, int height, const renderer_choice *choice, octreel_error *error)
+{
+    gl_surface *s = calloc(1, sizeof *s);
+    if (!s) {
+        error_no_memory(error);
+        return NULL;
+    }
+    s->face = (surface){.fill = fill, .about = about, .close = close_surface};
+    s->width = width;
+    s->height = height;
+    s->side = clip_square(width, height);
+    s->context = context_open(choice, error);
+    if (!s->context || !gl_load(&s->gl, s->context, error) || !check_driver(s, choice->any_renderer, error) ||
+        !make_framebuffer(s, error)) {
+        close_surface(&s->face);
+        return NULL;
+    }
+    make_indices(s);
+    set_state(s);
+    return &s->face;
+}
+
+renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error)
+{
+    renderer *r = renderer_open_memory(width, height, error);
+    surface *s = r ? open_surface(width, height, choice, error) : NULL;
+    if (s) {
+        renderer_use_surface(r, s, choice->fill == DRAW_FILL_GL || choice->any_renderer);
+        return r;
+    }
+    renderer_close(r);
+    return NULL;
+}
