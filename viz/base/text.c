@@ -2,6 +2,7 @@
 #include "text.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -67,6 +68,12 @@ const char *plural(uint64_t count)
 const char *plural_verb(uint64_t count)
 {
     return count == 1 ? "s" : "";
+}
+
+void print_more(FILE *out, uint64_t count, uint64_t shown, const char *how)
+{
+    if (count > shown)
+        fprintf(out, "  ... and %" PRIu64 " more%s%s\n", count - shown, *how ? "; " : "", how);
 }
 
 /* ---- Into other languages ------------------------------------------------------------------------------------ */

@@ -35,6 +35,10 @@ char *make_printable(char *text);
 const char *plural(uint64_t count);
 const char *plural_verb(uint64_t count);
 
+/* A list for people ends after so many lines: the next says how many there are beyond `shown`, and how to see all. */
+#define LIST_LINES 10
+void print_more(FILE *out, uint64_t count, uint64_t shown, const char *how);
+
 /* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
 #define ESCAPE_ROOM 16
 typedef const char *escape(const char *text, const char *at, char room[ESCAPE_ROOM]);

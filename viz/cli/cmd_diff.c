@@ -7,6 +7,7 @@
 #include "ignored_layers.h"
 #include "number.h"
 #include "report.h"
+#include "text.h"
 #include "view_options.h"
 
 #include <stdio.h>
@@ -29,8 +30,8 @@ static const char help[] =
     "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from it in\n"
     "each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone differs. The\n"
     "verdict is about the frames, whatever their sessions are.\n"
-    "      --causes N        explain the first N frames and ticks that differ (default 10, with -o 50), \"all\", or 0\n"
-    "                        for none\n\n"
+    "      --causes N        explain the first N frames and ticks that differ, and list as many of them, at least 10\n"
+    "                        (default 10; a page explains 50), \"all\", or 0 for none\n\n"
     "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
     "  -o, --output FOLDER   leave evidence: report.html, a page that holds all it shows, and of each frame that\n"
     "                        differs NAME.expected.png, NAME.actual.png and NAME.difference.png (what counts glows, "
@@ -55,6 +56,7 @@ typedef struct arguments {
     const char *folder, *junit, *markdown; /* null: not asked for */
     uint64_t causes;                       /* how many are explained */
     bool causes_said;
+    size_t lines; /* how many frames are listed: no fewer than are asked for by --causes */
     bool json;
 } arguments;
 
@@ -245,7 +247,7 @@ static int compare(const arguments *a, const char *paths[2])
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
                     check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
                     explain(&sides[0], &sides[1], &result, a->causes, &why, &error);
-    diff_report all = {.a = &sides[0], .b = &sides[1], .result = &result, .why = &why};
+    diff_report all = {.a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines};
     const int status = ok ? report(a, &all) : trouble("%s", error.text);
     explanation_release(&why);
     diff_release(&result);
@@ -269,6 +271,7 @@ int cmd_diff(int argc, char **argv)
                                .takes = "two sides, each a PNG, a folder of PNGs, a recording or a file of digests",
                                .inputs = {SIDE, SIDE}};
     int status = command_line_read(&line, argc, argv);
+    a.lines = a.causes_said && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     if (a.folder && !a.causes_said)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */
     if (status == COMMAND_GO_ON)

@@ -129,7 +129,7 @@ static bool draw(const report *r, octreel_error *error)
     return true;
 }
 
-/* A node or answers are printed without the statistics. */
+/* A node or answers are printed without the statistics. JSON says nothing of files: it stays one object. */
 static void print(const report *r)
 {
     const arguments *a = r->a;
@@ -139,6 +139,10 @@ static void print(const report *r)
         inspect_print_answers(&r->answers, r->name, a->json, stdout);
     if (!a->node && !a->queries.count)
         inspect_print(r->made, r->name, a->json, stdout);
+    if (a->picture && !a->json)
+        printf("wrote %s: %d x %d pixels\n", a->picture, a->view.width, a->view.height);
+    if (a->nodes && !a->json)
+        printf("wrote %s: all nodes\n", a->nodes);
 }
 
 /* Everything that can be refused comes before the first file is written. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* options.c - the values of options, and the sentences for those that do not fit. */
 #include "options.h"
+#include "file_kind.h"
 #include "hint.h"
 #include "number.h"
 #include "view_options.h"
@@ -9,7 +10,6 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 /* One line, whatever the names of files in it hold. */
@@ -87,29 +87,6 @@ bool read_name(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
     return read_text(option, text, into) && check_name(option_typed(option, typed), text);
-}
-
-/* What a name's ending says of it. */
-typedef enum name_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } name_kind;
-
-static name_kind name_kind_of(const char *path)
-{
-    static const struct {
-        const char *endings;
-        name_kind kind;
-    } rows[] = {
-        {".png", NAME_PNG},
-        {".jpg.jpeg.gif.bmp.webp.tif.tiff.svg", NAME_PICTURE},
-        {".mp4.webm.mkv.avi.mov.apng", NAME_FILM},
-        {".json.jsonl.txt.csv.xml.html.md.pdf.digests.ply.pcd.xyz", NAME_FILE},
-    };
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    const size_t length = dot ? strlen(dot) : 0;
-    for (size_t i = 0; length > 1 && i < sizeof rows / sizeof rows[0]; i++)
-        for (const char *at = rows[i].endings; *at; at += 1 + strcspn(at + 1, "."))
-            if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
-                return rows[i].kind;
-    return NAME_OPEN;
 }
 
 static bool is_folder(const char *path)

@@ -5,13 +5,17 @@
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
 /* ---- The bar ------------------------------------------------------------------------------------------------ */
 
 #define BAR 32
+#define LEAST_BAR 8 /* one that is shorter is left out */
+#define LINE 512
 #define SECONDS_BETWEEN 0.1
 
 static double now(void)
@@ -21,9 +25,23 @@ static double now(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
+/* Whether stderr is a terminal on which a line can be written over. */
+static bool is_terminal(void)
+{
+    const char *term = getenv("TERM");
+    return term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO);
+}
+
+/* It may be made narrower meanwhile. */
+static int count_columns(void)
+{
+    struct winsize size;
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
 progress progress_start(const char *unit)
 {
-    return (progress){.unit = unit, .started = now(), .visible = isatty(STDERR_FILENO)};
+    return (progress){.unit = unit, .started = now(), .visible = is_terminal()};
 }
 
 double progress_seconds(const progress *p)
@@ -31,13 +49,20 @@ double progress_seconds(const progress *p)
     return now() - p->started;
 }
 
-static void print_bar(const progress *p)
+/* One line, whatever the width: the bar shrinks before the text is cut. */
+static void print_line(const progress *p, const char *text)
 {
     char bar[BAR + 1];
-    memset(bar, '.', BAR);
-    memset(bar, '#', (size_t)(p->fraction * BAR));
-    bar[BAR] = 0;
-    fprintf(stderr, "\r[%s] ", bar);
+    const int columns = count_columns() - 1, room = columns - (int)strlen(text) - (int)strlen("[] ");
+    const int length = room < BAR ? room : BAR;
+    fputc('\r', stderr);
+    if (length >= LEAST_BAR) {
+        memset(bar, '.', (size_t)length);
+        memset(bar, '#', (size_t)(p->fraction * length));
+        fprintf(stderr, "[%.*s] ", length, bar);
+    }
+    fprintf(stderr, "%.*s\033[K", columns, text);
+    fflush(stderr);
 }
 
 void progress_show(progress *p, uint64_t done, uint64_t total)
@@ -49,9 +74,9 @@ void progress_show(progress *p, uint64_t done, uint64_t total)
     p->fraction = (double)done / (double)total;
     const double elapsed = time - p->started, rate = elapsed > 0 ? (double)done / elapsed : 0;
     const double left = rate > 0 ? (double)(total - done) / rate : 0;
-    print_bar(p);
-    fprintf(stderr, "%" PRIu64 "/%" PRIu64 " %s  %.0f/s  %.0f s left \033[K", done, total, p->unit, rate, left);
-    fflush(stderr);
+    char text[LINE];
+    snprintf(text, sizeof text, "%" PRIu64 "/%" PRIu64 " %s  %.0f/s  %.0f s left", done, total, p->unit, rate, left);
+    print_line(p, text);
 }
 
 void progress_say(progress *p, const char *format, ...)
@@ -60,12 +85,11 @@ void progress_say(progress *p, const char *format, ...)
     if (!p->visible)
         return;
     p->shown = now();
-    print_bar(p);
+    char text[LINE];
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    fputs("\033[K", stderr);
-    fflush(stderr);
+    print_line(p, text);
 }
 
 void progress_end(progress *p)

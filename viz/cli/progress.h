@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A bar on stderr where that is a terminal, nothing otherwise. */
+/* A bar on stderr where that is a terminal and not a dumb one, as TERM says; nothing otherwise. */
 typedef struct progress {
     const char *unit;
     double started, shown; /* seconds of the monotonic clock; 0: not yet */

@@ -2,6 +2,8 @@
 /* accept.c - references are compared with new frames, and replaced by them. */
 #include "accept.h"
 #include "digest_file.h"
+#include "file_kind.h"
+#include "hint.h"
 #include "text.h"
 #include "diff_words.h"
 #include "file.h"
@@ -27,6 +29,21 @@ typedef struct accepting {
 
 /* ---- What is to be done ------------------------------------------------------------------------------------- */
 
+/* Of what its name says it is: no folder "x.digests", and no picture "golden". */
+static bool check_new(const accept_options *o, diff_kind kind, octreel_error *error)
+{
+    const name_kind name = name_kind_of(o->reference);
+    if (kind == DIFF_PICTURE)
+        return name == NAME_PNG ||
+               error_set(error, "%s: there is no such reference, and %s becomes one as NAME.png alone", o->reference,
+                         o->frames);
+    return name == NAME_OPEN ||
+           error_set(error,
+                     "%s: there is no such reference, and frames become one in a folder; of their digests: %s "
+                     "digest FOLDER -o FILE",
+                     o->reference, hint_program());
+}
+
 /* A reference that does not exist yet starts as an empty side of the same kind. */
 static bool open_sides(accepting *a, octreel_error *error)
 {
@@ -39,6 +56,8 @@ static bool open_sides(accepting *a, octreel_error *error)
         return error_set(error, "%s: there is no PNG in it", o->frames);
     a->is_new = access(o->reference, F_OK) != 0;
     if (a->is_new) {
+        if (!check_new(o, a->frames.kind, error))
+            return false;
         a->reference = (diff_side){.path = o->reference, .kind = a->frames.kind};
         return true;
     }
@@ -222,10 +241,9 @@ static void tell(const accepting *a)
 {
     size_t said = 0;
     for (size_t i = 0; i < a->result.count; i++)
-        if (a->actions[i] != KEPT && said++ < DIFF_WORDS_LINES)
+        if (a->actions[i] != KEPT && said++ < LIST_LINES)
             say(a, &a->result.pairs[i], a->actions[i]);
-    if (said > DIFF_WORDS_LINES)
-        fprintf(a->out, "  ... and %zu more\n", said - DIFF_WORDS_LINES);
+    print_more(a->out, said, LIST_LINES, "");
     const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
     fprintf(a->out, "%s: %zu before, %zu after: %zu changed, %zu new, %zu removed\n", a->reference.path, before, after,
             a->counts[CHANGED], a->counts[ADDED], a->counts[REMOVED]);

@@ -7,9 +7,6 @@
 
 #include <stdio.h>
 
-/* Lists of frames in text for people end after so many. */
-#define DIFF_WORDS_LINES 40
-
 /* "same", "different" or "trouble". */
 const char *diff_verdict_name(diff_verdict verdict);
 

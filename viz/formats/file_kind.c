@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #define FILE_KIND_ROW(kind, words, command, use) {words, command, use},
@@ -91,4 +92,24 @@ file_kind file_kind_of(const char *path)
     if (S_ISDIR(status.st_mode))
         return find_folder_kind(path);
     return S_ISREG(status.st_mode) ? find_file_kind(path) : KIND_UNKNOWN;
+}
+
+name_kind name_kind_of(const char *path)
+{
+    static const struct {
+        const char *endings;
+        name_kind kind;
+    } rows[] = {
+        {".png", NAME_PNG},
+        {".jpg.jpeg.gif.bmp.webp.tif.tiff.svg", NAME_PICTURE},
+        {".mp4.webm.mkv.avi.mov.apng", NAME_FILM},
+        {".json.jsonl.txt.csv.xml.html.md.pdf.digests.ply.pcd.xyz", NAME_FILE},
+    };
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    const size_t length = dot ? strlen(dot) : 0;
+    for (size_t i = 0; length > 1 && i < sizeof rows / sizeof rows[0]; i++)
+        for (const char *at = rows[i].endings; *at; at += 1 + strcspn(at + 1, "."))
+            if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
+                return rows[i].kind;
+    return NAME_OPEN;
 }

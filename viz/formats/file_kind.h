@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* file_kind.h - what a path stands for, told by what is there and by its first bytes, never by its name. */
+/* file_kind.h - what a path stands for, told by what is there and by its first bytes, never by its name; and what the
+ * name of an output promises. */
 #ifndef FORMATS_FILE_KIND_H
 #define FORMATS_FILE_KIND_H
 
@@ -38,6 +39,10 @@ typedef struct file_kind_row {
 } file_kind_row;
 
 extern const file_kind_row file_kind_rows[];
+
+/* What the ending of a name says of what is written under it; OPEN: nothing. */
+typedef enum name_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } name_kind;
+name_kind name_kind_of(const char *path);
 
 /* How a file of digests begins. */
 #define DIGEST_FILE_BEGINNING "octreel-digests "

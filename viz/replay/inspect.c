@@ -232,8 +232,9 @@ static void print_node(const octree_node *node, const char *name, FILE *out)
     fprintf(out, "%s: %s of %zu point%s at depth %u\n", octree_address_format(node->address, address),
             node->leaf ? "leaf" : "inner node", node->count, plural(node->count), node->depth);
     print_box(out, "  box", &node->box);
-    for (size_t i = 0; node->leaf && i < node->count; i++)
+    for (size_t i = 0; node->leaf && i < node->count && i < LIST_LINES; i++)
         inspect_print_point(&node->points[i], NULL, out);
+    print_more(out, node->leaf ? node->count : 0, LIST_LINES, "--json lists all");
 }
 
 static void write_node(const octree_node *node, const char *name, FILE *out)

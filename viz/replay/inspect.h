@@ -27,7 +27,7 @@ void inspect_print(const inspection *i, const char *name, bool json, FILE *out);
 /* Find the node at an address as it is typed, such as 0/3/7 or root. False with an error where there is none. */
 bool inspect_find_node(const inspection *i, const char *address, octree_node *node, octreel_error *error);
 
-/* Print one node: its box and, of a leaf, its points. */
+/* Print one node: its box and, of a leaf, its points, for people the first LIST_LINES. */
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out);
 
 /* Print numbers, each after a space; a point on a line; and a point as an object. The distance may be null. */

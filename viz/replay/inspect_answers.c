@@ -4,6 +4,7 @@
 #include "inspect.h"
 #include "json_write.h"
 #include "text.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -154,8 +155,9 @@ static void print_answer(const shown_answer *shown, FILE *out)
     fprintf(out, ": %zu found\n", shown->answer->count);
     if (note)
         fprintf(out, "  note: %s\n", note);
-    for (size_t i = 0; i < shown->answer->count; i++)
+    for (size_t i = 0; i < shown->answer->count && i < LIST_LINES; i++)
         inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
+    print_more(out, shown->answer->count, LIST_LINES, "--json lists all");
     fprintf(out,
             "  cost: %" PRIu64 " node%s visited, %" PRIu64 " of them %s; %" PRIu64 " point%s compared; %" PRIu64
             " node%s pruned, %" PRIu64 " taken whole\n",

@@ -22,7 +22,8 @@ bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, 
                  octreel_error *error);
 void inspect_answers_release(inspect_answers *answers);
 
-/* Print the answers: for people, or as one JSON object on one line. `name` is what the cloud is called there. */
+/* Print the answers: for people, the first LIST_LINES points of each, or as one JSON object on one line. `name` is what
+ * the cloud is called there. */
 void inspect_print_answers(const inspect_answers *answers, const char *name, bool json, FILE *out);
 
 #endif

@@ -20,13 +20,13 @@ void diff_print_summary(FILE *out, const diff_report *report)
     diff_print_verdict(out, report->result, explanation_verdict(report->why, report->result));
 }
 
-static void print_pairs(FILE *out, const diff_result *result, const explanation *why)
+static void print_pairs(FILE *out, const diff_result *result, const explanation *why, size_t lines)
 {
     size_t listed = 0;
     for (size_t i = 0; i < result->count; i++) {
         if (!diff_is_listed(result->pairs[i].finding))
             continue;
-        if (listed++ >= DIFF_WORDS_LINES)
+        if (listed++ >= lines)
             continue;
         fputs("  ", out);
         diff_print_pair(out, &result->pairs[i]);
@@ -34,8 +34,7 @@ static void print_pairs(FILE *out, const diff_result *result, const explanation 
         if (explanation_cause(why, i))
             print_line(out, "    ", explanation_cause(why, i));
     }
-    if (listed > DIFF_WORDS_LINES)
-        fprintf(out, "  ... and %zu more; --json lists all\n", listed - DIFF_WORDS_LINES);
+    print_more(out, listed, lines, "--causes all lists all, and so does --json");
 }
 
 /* Recordings are explained up to a number of frames. */
@@ -123,7 +122,7 @@ void diff_report_text(FILE *out, const diff_report *report)
     fputc('\n', out);
     if (report->why->headline)
         print_line(out, "", report->why->headline);
-    print_pairs(out, report->result, report->why);
+    print_pairs(out, report->result, report->why, report->lines);
     print_unexplained(out, report->result, report->why);
     diff_print_tolerance(out, report);
     fputc('\n', out);

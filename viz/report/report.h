@@ -14,9 +14,10 @@ typedef struct diff_report {
     const diff_result *result;
     const explanation *why;
     const evidence *evidence; /* null: none was left */
+    size_t lines;             /* of the text, for frames: at most so many are listed */
 } diff_report;
 
-/* The verdict, the headline, a line for each frame that is not the same (at most DIFF_WORDS_LINES) and one for its
+/* The verdict, the headline, a line for each frame that is not the same (at most report->lines) and one for its
  * cause, and what was forgiven. */
 void diff_report_text(FILE *out, const diff_report *report);
 

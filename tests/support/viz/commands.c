@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -48,7 +49,7 @@ bool command_has_terminals(void)
     return own >= 0;
 }
 
-static channel open_terminal(void)
+static channel open_terminal(unsigned columns)
 {
     const int own = posix_openpt(O_RDWR | O_NOCTTY);
     assert_true(own >= 0);
@@ -56,6 +57,7 @@ static channel open_terminal(void)
     assert_int_equal(unlockpt(own), 0);
     const int other = open(ptsname(own), O_RDWR | O_NOCTTY);
     assert_true(other >= 0);
+    assert_int_equal(ioctl(other, TIOCSWINSZ, &(struct winsize){.ws_row = 24, .ws_col = (unsigned short)columns}), 0);
     return (channel){other, own};
 }
 
@@ -87,6 +89,8 @@ static void split(char *line, char *arguments[ARGUMENTS])
 
 static bool set_environment(const command_setting *setting)
 {
+    if (setting->terminal && setenv("TERM", "xterm", 1) != 0)
+        return false;
     for (size_t i = 0; i < sizeof setting->environment / sizeof *setting->environment; i++) {
         char name[64];
         const char *pair = setting->environment[i], *equals = pair == NULL ? NULL : strchr(pair, '=');
@@ -168,7 +172,7 @@ static capture start_capture(int from)
 
 static command_result run(const command_setting *setting, char **arguments)
 {
-    const channel out = open_output(setting), err = setting->terminal ? open_terminal() : open_pipe();
+    const channel out = open_output(setting), err = setting->terminal ? open_terminal(setting->columns) : open_pipe();
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {

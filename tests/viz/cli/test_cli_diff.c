@@ -185,7 +185,16 @@ static void long_lists_are_cut_for_people_and_not_for_programs(void **state)
         gallery_write(place_below(b.path, name).path, 1, 1);
     }
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
-    assert_ends(&result, 1, "\n  ... and 20 more; --json lists all\n");
+    assert_null(strstr(result.out, "\n  10.png"));
+    assert_ends(&result, 1, "\n  09.png: 1 of 384 pixels differs");
+    result = run_octreel(NULL, "diff %s %s -o %s", a.path, b.path, place_in(*state, "evidence").path);
+    assert_null(strstr(result.out, "\n  10.png"));
+    assert_ends(&result, 1, "\n  ... and 50 more; --causes all lists all, and so does --json\n");
+    result = run_octreel(NULL, "diff %s %s --causes 12", a.path, b.path);
+    assert_ends(&result, 1, "\n  ... and 48 more; --causes all lists all, and so does --json\n");
+    result = run_octreel(NULL, "diff %s %s --causes all", a.path, b.path);
+    assert_null(strstr(result.out, " more"));
+    assert_ends(&result, 1, "\n  59.png: ");
     result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
     json_t *object = json_read(result.out);
     assert_int_equal(json_array_size(json_member(object, "findings")), 60);

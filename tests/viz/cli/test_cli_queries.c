@@ -164,6 +164,42 @@ static void answers_are_those_of_a_scan(void **state)
 }
 
 /* The same answers in words. */
+static size_t count_lines(const char *text)
+{
+    size_t lines = 0;
+    for (; *text; text++)
+        lines += *text == '\n';
+    return lines;
+}
+
+/* JSON has all of it. */
+static void long_answers_end_after_ten_lines_for_people(void **state)
+{
+    brute all = make_points(3);
+    const place points = write_points(state, "points.txt", &all), picture = place_in(*state, "q.png"),
+                nodes = place_in(*state, "n.csv");
+    command_result result = run_octreel(NULL,
+                                        "inspect %s --radius 0,0,0,500 --node root --capacity 1000 --size 64x36 -o %s "
+                                        "--nodes %s",
+                                        points.path, picture.path, nodes.path);
+    assert_done(&result);
+    const char *more = strstr(result.out, "\n  ... and 590 more; --json lists all\n");
+    assert_non_null(more);
+    assert_non_null(strstr(more + 1, "\n  ... and 590 more; --json lists all\n")); /* of the node, and of the ball */
+    assert_in_range(count_lines(result.out), 26, 32);
+    assert_non_null(strstr(result.out, "\nwrote "));
+    assert_non_null(strstr(result.out, "q.png: 64 x 36 pixels\n"));
+    assert_non_null(strstr(result.out, "n.csv: all nodes\n"));
+    command_release(&result);
+    result = run_octreel(NULL, "inspect %s --radius 0,0,0,500 --json -o %s", points.path, picture.path);
+    assert_done(&result);
+    assert_int_equal(count_lines(result.out), 1);
+    assert_null(strstr(result.out, "more"));
+    assert_null(strstr(result.out, "wrote"));
+    command_release(&result);
+    brute_free(&all);
+}
+
 static void answers_for_people_name_what_was_found(void **state)
 {
     static const char *const rows[][2] = {
@@ -273,6 +309,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(answers_are_those_of_a_scan),
+        IN_FOLDER(long_answers_end_after_ten_lines_for_people),
         IN_FOLDER(answers_for_people_name_what_was_found),
         IN_FOLDER(notes_are_in_json_too),
         IN_FOLDER(queries_that_do_not_fit_are_refused_in_one_sentence),

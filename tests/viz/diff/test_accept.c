@@ -122,7 +122,7 @@ static void before_anything_is_written_all_is_checked(void **state)
     assert_trouble(&result, "4.png: the file is cut short");
     assert_same_folders(c.before.path, untouched.path, NULL);
     result = run_octreel(NULL, "accept %s", c.before.path);
-    assert_trouble(&result, "accept takes a reference and what is new");
+    assert_trouble(&result, "accept takes a reference and what is new, each a PNG");
 }
 
 static void a_folder_of_other_pictures_is_left_alone(void **state)
@@ -162,6 +162,23 @@ static void a_reference_is_made_where_there_is_none(void **state)
     result = accept_all(&picture, &one);
     assert_says(&result, "1 before, 1 after: 1 changed");
     command_release(&result);
+}
+
+/* What would be made is not what its name says it is. */
+static void a_name_of_a_file_becomes_no_folder_and_no_other_picture(void **state)
+{
+    const place frames = gallery_make(*state, "new", "1.png 2.png"), one = place_below(frames.path, "2.png");
+    static const char *const names[] = {"golden.digests", "golden.png", "golden.json"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const place reference = place_in(*state, names[i]);
+        command_result result = run_octreel(NULL, "accept %s %s", reference.path, frames.path);
+        assert_trouble(&result, "there is no such reference, and frames become one in a folder; of their digests: ");
+        assert_false(file_exists(reference.path));
+    }
+    const place golden = place_in(*state, "golden");
+    command_result result = run_octreel(NULL, "accept %s %s", golden.path, one.path);
+    assert_trouble(&result, "becomes one as NAME.png alone");
+    assert_false(file_exists(golden.path));
 }
 
 static void digests_are_accepted_line_by_line(void **state)
@@ -246,6 +263,7 @@ int main(void)
         WITH_FOLDER(a_folder_of_other_pictures_is_left_alone),
         WITH_FOLDER(a_reference_that_cannot_be_read_is_replaced),
         WITH_FOLDER(a_reference_is_made_where_there_is_none),
+        WITH_FOLDER(a_name_of_a_file_becomes_no_folder_and_no_other_picture),
         WITH_FOLDER(digests_are_accepted_line_by_line),
         WITH_FOLDER(a_recording_is_taken_over_with_its_ticks),
         WITH_FOLDER(a_recording_is_no_reference_for_plain_pictures),

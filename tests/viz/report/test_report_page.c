@@ -11,6 +11,7 @@
 #include "galleries.h"
 #include "report.h"
 #include "png_write.h"
+#include "text.h"
 
 enum { FRAMES = 57 }; /* of which the fifth is the same: six more differ than are in the page */
 
@@ -56,7 +57,7 @@ static void write_page_of(comparison_of *made, const char *folder, meddler *medd
 {
     octreel_error error = {""};
     evidence e;
-    const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e};
+    const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e, LIST_LINES};
     if (!evidence_prepare(folder, &made->a, &made->b, &error) || !evidence_collect(&e, folder, &made->result, &error))
         fail_msg("%s", error.text);
     if (meddle)

@@ -29,7 +29,7 @@ typedef bool reporter(FILE *out, const diff_report *report);
 
 static char *report_text(comparison_of *made, const evidence *e, reporter *write)
 {
-    const diff_report report = {&made->a, &made->b, &made->result, &made->why, e};
+    const diff_report report = {&made->a, &made->b, &made->result, &made->why, e, LIST_LINES};
     char *text;
     size_t size;
     FILE *out = open_memstream(&text, &size);

@@ -4,6 +4,7 @@
 #include "brute.h"
 #include "draw_list.h"
 #include "filter.h"
+#include "text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -110,10 +111,11 @@ static bool has_point(const scene *s, const octree_point *point)
     return false;
 }
 
-static bool has_text(const scene *s, const char *format, size_t count)
+/* "2 nodes" */
+static bool has_count(const scene *s, const char *noun, size_t count)
 {
     char text[SCENE_TEXT];
-    snprintf(text, sizeof text, format, count);
+    snprintf(text, sizeof text, "%zu %s%s", count, noun, plural(count));
     for (size_t i = 0; i < s->labels.count; i++)
         if (strcmp(s->labels.items[i].text, text) == 0)
             return true;
@@ -140,7 +142,7 @@ static size_t check_filter(const known_tree *t, const view_filter *f)
     }
     assert_int_equal(count_layer(&s, LAYER_NODES).boxes, nodes);
     assert_int_equal(count_layer(&s, LAYER_POINTS).markers, points);
-    assert_int_equal(has_text(&s, "%zu nodes", nodes) && has_text(&s, "%zu points", points), filter_is_on(f));
+    assert_int_equal(has_count(&s, "node", nodes) && has_count(&s, "point", points), filter_is_on(f));
     scene_release(&s);
     return nodes;
 }

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_progress.c - the progress bar on terminals of every width, and on those that cannot write a line over. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+
+static command_result film_on(void **state, const command_setting *terminal)
+{
+    static int count;
+    char name[16];
+    if (!command_has_terminals()) {
+        print_message("a container without /dev/pts: there is no terminal to show progress on\n");
+        skip();
+    }
+    snprintf(name, sizeof name, "film%d", count++);
+    command_result result = run_octreel(terminal, "record --keys wdn --size 32x32 -o %s", place_in(*state, name).path);
+    assert_int_equal(result.status, 0);
+    return result;
+}
+
+/* What each part of it, up to "\033[K", takes on the screen. Returns the longest. */
+static size_t measure(const char *text)
+{
+    size_t longest = 0;
+    for (const char *at = text; *at != '\0';) {
+        assert_int_equal(*at++, '\r');
+        const char *end = strstr(at, "\033[K");
+        assert_non_null(end);
+        longest = (size_t)(end - at) > longest ? (size_t)(end - at) : longest;
+        at = end + 3;
+    }
+    return longest;
+}
+
+static void the_line_is_narrower_than_the_terminal(void **state)
+{
+    static const unsigned widths[] = {200, 80, 45, 30, 10, 2, 1};
+    for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++) {
+        command_result result = film_on(state, &(command_setting){.terminal = true, .columns = widths[i]});
+        const size_t longest = measure(result.err);
+        if (longest >= widths[i])
+            fail_msg("%zu characters on a terminal of %u columns", longest, widths[i]);
+        assert_int_equal(strstr(result.err, "4/4 ticks") != NULL, widths[i] >= 10);
+        assert_int_equal(strstr(result.err, "[####") != NULL, widths[i] >= 45);
+        command_release(&result);
+    }
+}
+
+static void a_terminal_that_does_not_say_its_width_has_80_columns(void **state)
+{
+    command_result result = film_on(state, &(command_setting){.terminal = true});
+    assert_in_range(measure(result.err), 40, 79);
+    command_release(&result);
+}
+
+static void a_dumb_terminal_shows_nothing(void **state)
+{
+    static const char *const terms[] = {"TERM=dumb", "TERM="};
+    for (size_t i = 0; i < 2; i++) {
+        command_result result = film_on(state, &(command_setting){.terminal = true, .environment = {terms[i]}});
+        assert_string_equal(result.err, "");
+        command_release(&result);
+    }
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(the_line_is_narrower_than_the_terminal),
+        IN_FOLDER(a_terminal_that_does_not_say_its_width_has_80_columns),
+        IN_FOLDER(a_dumb_terminal_shows_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
