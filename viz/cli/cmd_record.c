@@ -27,8 +27,10 @@ static const char help[] =
     "      --jobs N          processes that film at the same time (default: one a core, fewer for a few frames); the\n"
     "                        bytes are the same\n"
     "      --resume          complete what is in DIR; frames that are there and right are kept. Without SESSION and\n"
-    "                        without options, those of DIR are taken. What is not of this recording is "
-    "refused\n" FILL_HELP;
+    "                        without options, those of DIR are taken. What is not of this recording is refused\n"
+    "      --replace         film in place of the recording in DIR, which stays until a tick is filmed; other files "
+    "of\n"
+    "                        DIR stay, and what is no recording is refused\n" FILL_HELP;
 
 static const char more_help[] =
     "      --json            print a summary as JSON on stdout\n"
@@ -68,6 +70,7 @@ static const command_option options[] = {
     {"jobs", read_whole, OPTION_VALUE(arguments, film.jobs), 1, FILM_MOST_JOBS},
     {"fill", read_fill, OPTION_VALUE(arguments, film.renderer.fill), 0, 0},
     {"resume", read_flag, OPTION_VALUE(arguments, film.resume), 0, 0},
+    {"replace", read_flag, OPTION_VALUE(arguments, film.replace), 0, 0},
     {0},
 };
 
@@ -177,6 +180,9 @@ int cmd_record(int argc, char **argv)
     if (is_current(a.film.folder) && file_kind_of(a.film.folder) != KIND_RECORDING)
         return trouble("-o takes a folder of its own for the frames, and \"%s\" is the current one: -o frames, say",
                        a.film.folder);
+    if (a.film.replace && (a.film.resume || a.film.last != 0))
+        return trouble("--replace does not go with %s: it begins a whole recording anew",
+                       a.film.resume ? "--resume" : "--ticks");
     a.session = argv[optind];
     return read_film(&a) ? play(&a) : EXIT_TROUBLE;
 }

@@ -4,6 +4,7 @@
 #include "error.h"
 #include "folder.h"
 #include "number.h"
+#include "replacement.h"
 #include "ring.h"
 #include "session_file.h"
 #include "view_options.h"
@@ -166,6 +167,7 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
 {
     film_options *film = &r->settings.film;
     film->every = def->every;
+    film->replace = def->replace;
     if (!draw_context_parse(def->context, &film->renderer.context))
         return refuse(r, OCTREEL_BAD_OPTION, "context: there is no \"%s\"; octreel record --help lists what there is",
                       def->context);
@@ -197,6 +199,13 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
+/* What is replaced stays until a tick is filmed. */
+static bool check_folder(octreel_recorder *r, const char *folder)
+{
+    return r->settings.film.replace ? folder_make(folder, &r->error) && replacement_check(folder, &r->error)
+                                    : folder_prepare(folder, &r->error);
+}
+
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
 {
     if (!def->folder)
@@ -204,7 +213,7 @@ static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_
     r->folder = strdup(def->folder);
     if (!r->folder)
         return fail(r, OCTREEL_NO_MEMORY);
-    if (!folder_prepare(r->folder, &r->error))
+    if (!check_folder(r, r->folder))
         return OCTREEL_BAD_FOLDER;
     if (!queue_init(&r->queue, def->queue_ticks, def->queue_bytes))
         return fail(r, OCTREEL_NO_MEMORY);
@@ -428,7 +437,7 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
         return fail(r, OCTREEL_NO_RING);
     if (r->ring.list.count == 0)
         return fail(r, OCTREEL_NOTHING);
-    if (!folder_prepare(folder, &r->error))
+    if (!check_folder(r, folder))
         return OCTREEL_BAD_FOLDER;
     if (first)
         *first = r->ring.dropped;

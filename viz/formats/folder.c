@@ -73,7 +73,7 @@ bool folder_is_name(const char *name)
     for (size_t i = 0; i < RECORDING_FILES; i++)
         if (strcmp(name, recording_files[i]) == 0)
             return true;
-    return strncmp(name, "frame_", 6) == 0 || chunk_parse_name(name, &first, &last);
+    return strncmp(name, "frame_", 6) == 0 || strcmp(name, FOLDER_ASIDE) == 0 || chunk_parse_name(name, &first, &last);
 }
 
 static bool check_empty(const char *folder, octreel_error *error)
@@ -84,8 +84,10 @@ static bool check_empty(const char *folder, octreel_error *error)
     bool ok = true;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
         if (folder_is_name(entry->d_name))
-            ok = error_set(error, "%s: already holds a recording (%s); choose another folder, or remove it", folder,
-                           entry->d_name);
+            ok = error_set(error,
+                           "%s: already holds a recording, or a part of one: complete it (--resume), replace it "
+                           "(--replace, or `replace` of a recorder's definition), or choose another folder (-o)",
+                           folder);
     closedir(entries);
     return ok;
 }

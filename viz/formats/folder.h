@@ -26,6 +26,9 @@ bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last);
 /* The names of a recording's files beside its frames; null beyond the last. */
 const char *folder_fact_name(size_t i);
 
+/* Where a recording that is being replaced is for the moment. */
+#define FOLDER_ASIDE "octreel-replaced"
+
 /* Whether a name is that of one of these files, of a chunk's lines, or begins as a frame's: what tells a folder that
  * was filmed into. */
 bool folder_is_name(const char *name);

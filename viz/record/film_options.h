@@ -20,6 +20,7 @@ typedef struct film_options {
     /* Processes that film; 0 or 1 is this one alone, and the bytes are the same. More are started by fork(), which a
      * process may only ask for that has drawn nothing yet and has no threads. */
     unsigned jobs; /* at most FILM_MOST_JOBS, and one a frame */
+    bool replace;  /* remove the recording that the folder holds once the first tick of this one is filmed; no chunk */
     bool resume;   /* complete what the folder holds of this recording: frames that are there and right are kept */
     void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
     bool (*keep_going)(void *context);                              /* called between ticks: false stops; may be null */

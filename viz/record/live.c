@@ -233,6 +233,7 @@ bool live_begin(live_recording *live, octreel_error *error)
     tick_log_close(&live->recording.log, false, &late);
     remove_live_file(live);
     folder_abandon(live->folder);
+    replacement_undo(&live->recording.replaced);
     return false;
 }
 

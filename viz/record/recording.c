@@ -47,18 +47,23 @@ static bool open_log(recording *r, octreel_error *error)
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
 
-/* Into a new folder. The log comes first: its lock is the folder's. */
+/* Into a folder without a recording, or in place of one. The log comes first: its lock is the folder's. */
 static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
     octreel_error late;
-    if (!folder_prepare(folder, error) || !open_log(r, error))
+    if (r->options->replace ? !replacement_begin(&r->replaced, folder, error) : !folder_prepare(folder, error))
         return false;
+    if (!open_log(r, error)) {
+        replacement_undo(&r->replaced);
+        return false;
+    }
     const folder_place place = {.folder = folder};
     if (write_files(r, &place, b, error))
         return true;
     tick_log_close(&r->log, false, &late);
     folder_abandon(folder);
+    replacement_undo(&r->replaced);
     return false;
 }
 
@@ -117,6 +122,7 @@ bool recording_add(void *context, const film_step *step, octreel_error *error)
     recording *r = context;
     if (!tick_log_add(&r->log, step->line, step->size, error))
         return false;
+    replacement_end(&r->replaced);
     add_to_summary(r->summary, step);
     if (r->options->progress)
         r->options->progress(r->summary->ticks, r->summary->total, r->options->context);
@@ -129,7 +135,9 @@ bool recording_end(recording *r, bool ok, octreel_error *error)
     const char *folder = r->options->folder;
     const bool whole = ok && r->summary->ticks == r->summary->total;
     ok = tick_log_close(&r->log, whole, ok ? error : &late) && ok;
-    if (!ok || is_chunk(r))
+    if (replacement_undo(&r->replaced) || !ok || is_chunk(r))
         return ok;
+    if (whole && r->options->resume)
+        replacement_sweep(folder);
     return page_write(folder, error) && (!whole || !r->options->resume || folder_sweep(folder, error));
 }

@@ -6,6 +6,7 @@
 
 #include "film_options.h"
 #include "playback.h"
+#include "replacement.h"
 #include "tick_log.h"
 
 typedef struct recording {
@@ -14,6 +15,7 @@ typedef struct recording {
     film_share share;              /* the ticks that there are to record */
     const octree_session *session; /* null where it is not known yet */
     tick_log log;
+    replacement replaced; /* until a tick is filmed */
 } recording;
 
 /* Open what draws a playback of the session into the folder. */

@@ -5,13 +5,22 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <unistd.h>
 
-/* A file system without locks never has it taken. */
+/* Of an open file, so that a process notices its own other log, too. A file system without locks never has it taken. */
 static bool is_taken(int file)
 {
-    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    return fcntl(file, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
+    return flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+bool tick_log_is_taken(const char *path)
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    const bool taken = file >= 0 && is_taken(file);
+    if (file >= 0)
+        close(file);
+    return taken;
 }
 
 static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
@@ -35,7 +44,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     *log = (tick_log){.path = path_join(folder, name)};
     if (!log->path)
         return error_no_memory(error);
-    const int file = open(log->path, O_RDWR | O_CREAT, 0666);
+    const int file = open(log->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0 ? fail_to_write(log, error, "") : begin(log, file, keep, error))
         return true;
     if (file >= 0)
@@ -90,6 +99,8 @@ bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *e
 bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
 {
     const bool cut = !log->stream || !whole || log->kept == 0 || forget(log) || fail_to_write(log, error, "");
+    if (log->stream)
+        flock(fileno(log->stream), LOCK_UN); /* a child of the program may have the file open, too */
     const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "")) && cut;
     free(log->path);
     *log = (tick_log){0};

@@ -198,6 +198,10 @@ static void folder_that_holds_a_recording_is_refused_untouched(void **state)
     }
     command_result result = run_octreel(NULL, "record --keys=d " SMALL " -o %s", folder.path);
     assert_non_null(strstr(result.err, folder.path));
+    assert_non_null(strstr(result.err, "--resume"));
+    assert_non_null(strstr(result.err, "--replace"));
+    assert_non_null(strstr(result.err, "(-o)"));
+    assert_null(strstr(result.err, "frame_"));
     assert_trouble(&result, "already holds a recording");
     assert_same_folders(folder.path, copy.path, NULL);
 }

@@ -100,6 +100,52 @@ static void a_folder_of_another_recording_is_left_as_it_is(void **state)
     moving_tree_release(&m);
 }
 
+static void a_recording_is_replaced_where_that_is_asked_for(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    octreel_recorder_def def = small_recorder(&m, folder.path);
+    def.replace = true;
+    for (int ticks = 5; ticks > 2; ticks--) {
+        octreel_recorder *recorder = open_recorder(&def);
+        record_steps(recorder, &m, ticks);
+        close_recorder(recorder);
+    }
+    assert_films_again(&folder, &again, 3);
+    octreel_recorder *ring = NULL, *idle = open_recorder(&def); /* no tick: it stays */
+    assert_int_equal(octreel_recorder_close(idle), OCTREEL_NOTHING);
+    octreel_recorder_destroy(idle);
+    assert_same_folders(folder.path, again.path, NULL);
+    def.ring = 2;
+    ring = open_recorder(&def);
+    record_steps(ring, &m, 2);
+    assert_int_equal(octreel_recorder_write(ring, folder.path, NULL), OCTREEL_OK);
+    assert_int_equal(octreel_recorder_write(ring, folder.path, NULL), OCTREEL_OK);
+    close_recorder(ring);
+    moving_tree_release(&m);
+    assert_int_equal(for_each_line(folder.path, NULL, NULL), 2);
+}
+
+/* By the same process, too. */
+static void a_recording_that_is_being_made_is_not_replaced(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 1);
+    octreel_recorder_def def = small_recorder(&m, folder.path);
+    def.replace = true;
+    octreel_recorder *early = open_recorder(&def), *recorder = open_recorder(&def);
+    record_steps(recorder, &m, 3);
+    assert_not_opened(&def, OCTREEL_BAD_FOLDER, "is filming into it");
+    assert_int_equal(octreel_recorder_tick(early, m.tree, NULL), OCTREEL_BAD_FOLDER);
+    octreel_recorder_destroy(early);
+    record_steps(recorder, &m, 2);
+    close_recorder(recorder);
+    moving_tree_release(&m);
+    assert_films_again(&folder, &again, 5);
+}
+
 /* A tick that is refused, with the status and a part of the sentence. */
 static void assert_refused(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about,
                            octreel_status why, const char *part)
@@ -358,6 +404,8 @@ int main(void)
         cmocka_unit_test(every_status_has_a_sentence_of_its_own),
         TEST(definitions_that_cannot_be_used_are_refused),
         TEST(a_folder_of_another_recording_is_left_as_it_is),
+        TEST(a_recording_is_replaced_where_that_is_asked_for),
+        TEST(a_recording_that_is_being_made_is_not_replaced),
         TEST(what_is_refused_is_a_gap_and_nothing_else_is_lost),
         TEST(a_recorder_that_is_closed_says_so),
         TEST(a_recorder_without_a_tick_says_so_and_leaves_no_recording),

@@ -78,8 +78,11 @@ typedef struct octreel_recorder octreel_recorder;
 /* How to record. Start from octreel_recorder_def_default() and change what you need. Names are those that
  * "octreel record --help" lists. */
 typedef struct octreel_recorder_def {
-    const char *folder;   /* where the recording goes: a new folder, or one without a recording. A ring needs none */
-    octree_def tree;      /* octree_definition() of the trees to come; their allocator is not used */
+    const char *folder; /* where the recording goes: a new folder, or one without a recording. A ring needs none */
+    bool replace;       /* or one with a recording, which goes once tick 0 of this one is filmed; until then, and where
+                          that fails, it stays. Other files of the folder stay. What is no recording, and one that is
+                          being filmed, are BAD_FOLDER */
+    octree_def tree;    /* octree_definition() of the trees to come; their allocator is not used */
     octree_player player; /* OCTREE_PLAYER_NONE, or _BODY: the point that collides, by id, box_size and sweep */
     int width, height;    /* pixels; 1 to 16384 */
     const char *camera;   /* "iso", "orbit", "follow" ... */
