@@ -4,6 +4,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,20 +77,28 @@ bool folder_is_name(const char *name)
     return strncmp(name, "frame_", 6) == 0 || strcmp(name, FOLDER_ASIDE) == 0 || chunk_parse_name(name, &first, &last);
 }
 
+static bool refuse_held(const char *folder, const char *first, octreel_error *error)
+{
+    if (folder_has(folder, "recording.json") || folder_has(folder, FOLDER_ASIDE))
+        return error_set(error,
+                         "%s: already holds a recording: complete it (--resume), replace it (--replace; in a program "
+                         "`replace` of the definition), or choose another folder (-o)",
+                         folder);
+    return error_set(error, "%s: already holds %s, which a recording might write over: choose another folder (-o)",
+                     folder, first);
+}
+
 static bool check_empty(const char *folder, octreel_error *error)
 {
+    char first[NAME_MAX + 1] = ""; /* by name */
     DIR *entries = opendir(folder);
     if (!entries)
         return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
-    bool ok = true;
-    for (struct dirent *entry; ok && (entry = readdir(entries));)
-        if (folder_is_name(entry->d_name))
-            ok = error_set(error,
-                           "%s: already holds a recording, or a part of one: complete it (--resume), replace it "
-                           "(--replace, or `replace` of a recorder's definition), or choose another folder (-o)",
-                           folder);
+    for (struct dirent *entry; (entry = readdir(entries));)
+        if (folder_is_name(entry->d_name) && (!*first || strcmp(entry->d_name, first) < 0))
+            snprintf(first, sizeof first, "%s", entry->d_name);
     closedir(entries);
-    return ok;
+    return !*first || refuse_held(folder, first, error);
 }
 
 bool folder_prepare(const char *folder, octreel_error *error)
