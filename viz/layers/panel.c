@@ -190,7 +190,7 @@ static void write_budget(pen *p, const scene_tally *tally)
     if (points)
         write_row(p, nodes ? "" : "budget", "1 point in %" PRIu64, tally->one_in);
     if (tally->arrows.thinned)
-        write_row(p, nodes || points ? "" : "budget", "1 arrow in %" PRIu64, tally->arrows.one_in);
+        write_row(p, "arrows", "1 in %" PRIu64, tally->arrows.one_in);
 }
 
 static void write_folded(pen *p, const scene_tally *tally)

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define PART 10                /* of the world's longest side: the fastest arrow */
-#define BOXES_PER_ARROW 1000.0 /* boxes and points for which there is one arrow: some hundreds can be told apart */
+#define BOXES_PER_ARROW 1000.0 /* of the budget, for which there is one arrow: some hundreds can be told apart */
 
 unsigned velocity_ticks(const octree_game *game)
 {

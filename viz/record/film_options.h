@@ -40,7 +40,7 @@ typedef struct film_summary {
     uint64_t left_out;    /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
     uint64_t over_budget; /* frames that leave out what is beyond the view's budget */
     uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
-    uint64_t refusals;                   /* points that were refused in these ticks */
+    uint64_t refusals;                   /* of points, edits and steps in these ticks */
     film_start start;                    /* of a session */
     uint64_t total;                      /* ticks that were to be filmed: more than `ticks` where it was stopped */
 } film_summary;

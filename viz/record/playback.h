@@ -46,7 +46,7 @@ typedef struct playback {
 typedef struct film_step {
     uint64_t tick;
     unsigned events;  /* bits of octree_event */
-    size_t refusals;  /* points that were refused */
+    size_t refusals;  /* of points, edits and steps */
     bool gap;         /* nothing is known of it */
     bool filmed;      /* it has a frame */
     bool over_budget; /* which leaves out what is beyond the view's budget */

@@ -81,7 +81,8 @@ typedef struct view {
     bool labels; /* the paths of nodes on their boxes */
     double lod;  /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
     int aa;      /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
-    uint64_t budget; /* the most boxes of nodes, and the most points, of a frame; 0: any number */
+    uint64_t budget; /* the most boxes of nodes, and the most points, of a frame, and 1000 times the most arrows of
+                        moving points; 0: any number */
 } view;
 
 /* The longest side of a picture, samples counted: what llvmpipe draws without clamping it. */

@@ -182,7 +182,7 @@ const octree_gap *octree_session_gap(const octree_session *session, uint64_t tic
 /* What a tick did: bits of octree_tick.events. */
 typedef enum octree_event {
     OCTREE_EVENT_MOVED = 1,    /* the player's step was made */
-    OCTREE_EVENT_REFUSED = 2,  /* the step would leave the world, or a body lay outside it */
+    OCTREE_EVENT_REFUSED = 2,  /* the step would leave the world; a body or an edit was refused, but for a full leaf */
     OCTREE_EVENT_COLLIDED = 4, /* points in the player's box; a step that led there was taken back */
     OCTREE_EVENT_FULL = 8,     /* a leaf was full: the player's step was taken back, or a body was refused */
     OCTREE_EVENT_SPLIT = 16,   /* nodes became inner nodes */
@@ -194,7 +194,8 @@ typedef enum octree_event {
 /* The name of one event, such as "moved". Null for all else: for none, for several, for an unknown bit. */
 const char *octree_event_name(octree_event event);
 
-/* A point that the tree did not take: at load, by an edit, by its own motion, or by the player's step (full). */
+/* What was not done: a point that the tree did not take at load, by an edit, by its own motion, or by the player's step
+ * (full), and an edit of a point that is not there. */
 typedef struct octree_refusal {
     uint64_t id;
     octree_status why;

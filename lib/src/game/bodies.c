@@ -200,10 +200,7 @@ octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status wh
     const octree_refusal refusal = {id, why, {position[0], position[1], position[2]}};
     if (!list_push(&game->memory, &game->refusals, &refusal, sizeof refusal))
         return OCTREE_NO_MEMORY;
-    if (why == OCTREE_FULL)
-        game->tick.events |= OCTREE_EVENT_FULL;
-    if (why == OCTREE_OUTSIDE)
-        game->tick.events |= OCTREE_EVENT_REFUSED;
+    game->tick.events |= why == OCTREE_FULL ? OCTREE_EVENT_FULL : OCTREE_EVENT_REFUSED;
     return OCTREE_OK;
 }
 

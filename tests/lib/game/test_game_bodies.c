@@ -195,11 +195,16 @@ static void an_edit_that_cannot_be_made_is_a_refusal(void **state)
     octree_game *game = start_game(&session);
     const octree_tick *tick = play_key(game, '.');
     assert_int_equal(tick->refusal_count, 8);
-    assert_int_equal(tick->events, OCTREE_EVENT_REFUSED); /* of the edits, only what lay outside is an event */
+    assert_int_equal(tick->events, OCTREE_EVENT_REFUSED);
     for (size_t i = 0; i < 8; i++) {
         assert_int_equal(tick->refusals[i].why, why[i]);
         assert_int_equal(tick->refusals[i].id, edits[i].body.id);
     }
+    for (size_t i = 0; i < 8; i++) { /* each is an event by itself */
+        assert_int_equal(octree_game_play(game, &(octree_input){.edits = &edits[i], .edit_count = 1}), OCTREE_OK);
+        assert_int_equal(octree_game_tick(game)->events, OCTREE_EVENT_REFUSED);
+    }
+    assert_int_equal(play_key(game, '.')->events, 0);
     assert_true(body_is_at(game, 1, 5, 5, 5) && body_is_at(game, 100, 0, 0, 0));
     assert_int_equal(octree_count(octree_game_tree(game)), 2);
     octree_game_destroy(game);

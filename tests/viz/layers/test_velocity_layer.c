@@ -274,8 +274,9 @@ static void of_a_hundred_thousand_the_budget_shows_some_and_says_so(void **state
         const size_t shown = count_layer(&s, LAYER_VELOCITIES).segments;
         assert_int_equal(shown + s.tally.arrows.thinned, MANY);
         assert_true(shown <= budget / 1000 + 1 && shown > budget / 1000 / 4);
-        snprintf(text, sizeof text, "1 arrow in %d", (int)s.tally.arrows.one_in);
-        assert_true(says(&s, text));
+        snprintf(text, sizeof text, "1 in %d", (int)s.tally.arrows.one_in);
+        assert_true(says(&s, "arrows") && says(&s, text));
+        assert_false(says(&s, "budget")); /* of boxes and points, which it does not limit here */
         assert_true(fabs((double)MANY / (double)shown / (double)s.tally.arrows.one_in - 1) < 0.6);
         for (size_t i = 0; last.view.width && i < MANY; i += 7)
             assert_true(!find_arrow(&s, bodies[i].id) || find_arrow(&last, bodies[i].id));

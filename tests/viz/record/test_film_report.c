@@ -46,6 +46,32 @@ static char *filmed_and_told(const film_options *options)
     return text;
 }
 
+/* The line of events counts ticks, and the line below it what was refused in them. */
+static void an_edit_of_what_is_not_there_is_told_as_refused(void **state)
+{
+    const place folder = place_in(*state, "film");
+    static const octree_edit edits[] = {{2, OCTREE_EDIT_REMOVE, {.id = 999}}, {2, OCTREE_EDIT_MOVE, {.id = 998}}};
+    octree_session session = octree_session_default();
+    session.keys = NULL;
+    session.query_count = 0;
+    session.ticks = 3;
+    session.bodies += 1;
+    session.body_count = 1;
+    session.edits = edits;
+    session.edit_count = 2;
+    const film_options options = small_film(folder.path);
+    const film_summary summary = assert_filmed(&session, &options);
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    film_report(out, &summary, &options, 1, false);
+    assert_int_equal(fclose(out), 0);
+    assert_non_null(strstr(text, " refused 1,"));
+    assert_non_null(strstr(text, "\nrefusals of points, edits and steps: 2; ticks.jsonl names them\n"));
+    free(text);
+}
+
 static void assert_shell_done(const char *format, ...)
 {
     char line[4096];
@@ -302,6 +328,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(printed_lines_take_every_frame),
         IN_FOLDER(printed_lines_take_every_frame_of_a_recording_with_gaps),
+        IN_FOLDER(an_edit_of_what_is_not_there_is_told_as_refused),
         IN_FOLDER(printed_lines_take_a_single_frame),
         IN_FOLDER(printed_lines_survive_names_that_shells_and_ffmpeg_read_otherwise),
         IN_FOLDER(program_prints_the_lines),
