@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_compare.c - two objects of JSON, member by member; see cause_compare.h. */
 #include "cause_compare.h"
+#include "cause_pairs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,10 +13,9 @@ static void add(const cause_place *place, const char *where, cause_change change
     cause_add(place->facts, where, place->query, change, (cause_fact){place->tick, id, a, b});
 }
 
-/* json_equal() takes 0 and -0 for equal; as text they differ. */
-static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
+bool cause_same(const json_t *a, const json_t *b, bool exact)
 {
-    if (!a || !b || !place->exact)
+    if (!a || !b || !exact)
         return a && b ? json_equal(a, b) : a == b;
     char *const texts[2] = {json_dumps(a, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17)),
                             json_dumps(b, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17))};
@@ -23,6 +23,11 @@ static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
     free(texts[0]);
     free(texts[1]);
     return same;
+}
+
+static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
+{
+    return cause_same(a, b, place->exact);
 }
 
 /* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
@@ -102,39 +107,39 @@ static void compare_keyed(const cause_place *place, const char *where, json_t *a
     free(bs);
 }
 
-/* ---- Lists whose elements have a place ----------------------------------------------------------------------- */
+/* ---- Lists whose elements are paired by what they ask or show ------------------------------------------------- */
 
-/* The elements [first, end) of a list. */
-typedef struct span {
-    json_t *list;
-    size_t first, end;
-} span;
-
-static json_t *first_of(const span *s)
+/* What an answer found, and not what was asked. */
+static bool is_found(const char *key)
 {
-    return json_array_get(s->list, s->first);
+    static const char *const names[] = {"ids", "id", "position", "distance", "neighbors", "cost"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(key, names[i]) == 0)
+            return true;
+    return false;
 }
 
-static json_t *last_of(const span *s)
+/* What an answer was asked, with its kind for a key. */
+static json_t *asked_of(json_t *answer)
 {
-    return json_array_get(s->list, s->end - 1);
+    const char *kind = cause_kind_of(answer), *key;
+    json_t *value, *asked = json_object();
+    json_object_foreach(json_object_get(answer, kind), key, value) if (!is_found(key))
+        json_object_set(asked, key, value);
+    return json_pack("{so}", kind, asked);
 }
 
-/* The name of the first member: a query's, a shape's or an answer's kind. */
-static const char *kind_of(json_t *element)
+/* By which the elements of a list are paired. */
+static json_t *list_asked(const char *where, json_t *list)
 {
-    const char *key = json_is_object(element) ? json_object_iter_key(json_object_iter(element)) : NULL;
-    return key ? key : "";
-}
-
-static bool same_kind(json_t *a, json_t *b)
-{
-    return strcmp(kind_of(a), kind_of(b)) == 0;
-}
-
-static bool any_left(const span *a, const span *b)
-{
-    return a->first < a->end && b->first < b->end;
+    json_t *asked = json_array(), *element;
+    size_t i;
+    if (strcmp(where, "answers") != 0) {
+        json_decref(asked);
+        return list ? json_incref(list) : json_array();
+    }
+    json_array_foreach(list, i, element) json_array_append_new(asked, asked_of(element));
+    return asked;
 }
 
 static void compare_pair(const cause_place *place, const char *where, json_t *a, json_t *b)
@@ -146,60 +151,85 @@ static void compare_pair(const cause_place *place, const char *where, json_t *a,
 }
 
 /* "the range query", or where the list has several of that kind "query 3 (range)", counted from 1. */
-static void name_query(json_t *list, size_t i, char text[32])
+static void name_query(json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
 {
-    const char *kind = kind_of(json_array_get(list, i));
+    const char *kind = cause_kind_of(json_array_get(list, i));
     size_t of_kind = 0;
     for (size_t j = 0; j < json_array_size(list); j++)
-        of_kind += strcmp(kind_of(json_array_get(list, j)), kind) == 0;
+        of_kind += strcmp(cause_kind_of(json_array_get(list, j)), kind) == 0;
     if (of_kind == 1)
-        snprintf(text, 32, "the %s query", kind);
+        snprintf(text, CAUSE_QUERY, "the %s query", kind);
     else
-        snprintf(text, 32, "query %zu (%s)", i + 1, kind);
+        snprintf(text, CAUSE_QUERY, "query %zu (%s)%s", i + 1, kind, of_reference ? " of the reference" : "");
 }
 
 /* Facts about an answer name its query. */
-static cause_place place_of(const cause_place *place, const char *where, const span *in, size_t i, char text[32])
+static cause_place place_of(const cause_place *place, const char *where, json_t *list, size_t i, bool of_reference,
+                            char text[CAUSE_QUERY])
 {
     cause_place named = *place;
     if (strcmp(where, "answers") == 0) {
-        name_query(in->list, i, text);
+        name_query(list, i, of_reference, text);
         named.query = text;
     }
     return named;
 }
 
-static void add_rest(const cause_place *place, const char *where, const span *rest, cause_change change)
+static bool in_order(const size_t *mates, size_t count)
 {
-    char text[32];
-    for (size_t i = rest->first; i < rest->end; i++) {
-        const cause_place named = place_of(place, where, rest, i, text);
-        json_t *element = json_array_get(rest->list, i);
-        add(&named, where, change, CAUSE_NO_ID, change == CAUSE_LESS ? element : NULL,
-            change == CAUSE_MORE ? element : NULL);
+    size_t last = 0;
+    for (size_t j = 0; j < count; j++) {
+        if (mates[j] == CAUSE_ALONE)
+            continue;
+        if (mates[j] < last)
+            return false;
+        last = mates[j];
     }
+    return true;
 }
 
-/* Equal elements at both ends are skipped. The rest is paired by kind from the end, since the query of a key comes
- * first and may be extra, then from the beginning. */
-static void compare_sequence(const cause_place *place, const char *where, json_t *a, json_t *b)
+/* What differs within pairs, then what only one list has. `met` is false for each of a's elements, and has room. */
+static void compare_paired(const cause_place *place, const char *where, json_t *a, json_t *b, const size_t *mates,
+                           bool *met)
 {
-    span x = {a, 0, json_array_size(a)}, y = {b, 0, json_array_size(b)};
-    char text[32];
-    for (; any_left(&x, &y) && is_same(place, first_of(&x), first_of(&y)); x.first++)
-        y.first++;
-    for (; any_left(&x, &y) && is_same(place, last_of(&x), last_of(&y)); x.end--)
-        y.end--;
-    for (; any_left(&x, &y) && same_kind(last_of(&x), last_of(&y)); x.end--, y.end--) {
-        const cause_place named = place_of(place, where, &y, y.end - 1, text);
-        compare_pair(&named, where, last_of(&x), last_of(&y));
+    const size_t count = json_array_size(b);
+    char text[CAUSE_QUERY];
+    for (size_t j = 0; j < count; j++) {
+        if (mates[j] == CAUSE_ALONE)
+            continue;
+        const cause_place named = place_of(place, where, b, j, false, text);
+        compare_pair(&named, where, json_array_get(a, mates[j]), json_array_get(b, j));
+        met[mates[j]] = true;
     }
-    for (; any_left(&x, &y) && same_kind(first_of(&x), first_of(&y)); x.first++, y.first++) {
-        const cause_place named = place_of(place, where, &y, y.first, text);
-        compare_pair(&named, where, first_of(&x), first_of(&y));
+    for (size_t i = 0; i < json_array_size(a); i++) {
+        if (met[i])
+            continue;
+        const cause_place named = place_of(place, where, a, i, true, text);
+        add(&named, where, CAUSE_LESS, CAUSE_NO_ID, json_array_get(a, i), NULL);
     }
-    add_rest(place, where, &x, CAUSE_LESS);
-    add_rest(place, where, &y, CAUSE_MORE);
+    for (size_t j = 0; j < count; j++) {
+        if (mates[j] != CAUSE_ALONE)
+            continue;
+        const cause_place named = place_of(place, where, b, j, false, text);
+        add(&named, where, CAUSE_MORE, CAUSE_NO_ID, NULL, json_array_get(b, j));
+    }
+    if (!in_order(mates, count))
+        add(place, where, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
+}
+
+static void compare_asked(const cause_place *place, const char *where, json_t *a, json_t *b)
+{
+    json_t *const asked[2] = {list_asked(where, a), list_asked(where, b)};
+    size_t *mates = malloc((json_array_size(b) + 1) * sizeof *mates);
+    bool *met = calloc(json_array_size(a) + 1, sizeof *met);
+    if (mates && met && cause_pair(asked[0], asked[1], mates))
+        compare_paired(place, where, a, b, mates, met);
+    else
+        place->facts->out_of_memory = true;
+    free(mates);
+    free(met);
+    json_decref(asked[0]);
+    json_decref(asked[1]);
 }
 
 /* ---- Values -------------------------------------------------------------------------------------------------- */
@@ -232,7 +262,7 @@ static void compare_lists(const cause_place *place, const char *where, json_t *a
     else if (has_keys(where, some))
         compare_keyed(place, where, a, b);
     else
-        compare_sequence(place, where, a, b);
+        compare_asked(place, where, a, b);
 }
 
 /* The path of an answer's member leaves out the kind, which the query's name has. */
@@ -246,8 +276,8 @@ static void compare_values(const cause_place *place, const char *where, json_t *
     } else if (json_is_object(a) && json_is_object(b) && !is_value(where, a)) {
         within.where = where;
         if (strcmp(where, "answers") == 0) {
-            a = json_object_get(a, kind_of(a));
-            b = json_object_get(b, kind_of(b));
+            a = json_object_get(a, cause_kind_of(a));
+            b = json_object_get(b, cause_kind_of(b));
         }
         cause_compare_members(&within, a, b);
     } else {

@@ -19,9 +19,13 @@ typedef struct cause_place {
     bool exact;        /* the sign of zero counts */
 } cause_place;
 
+/* Whether two values, which may be null for none, are the same. json_equal() takes 0 and -0 for equal; where `exact`
+ * they differ, as their texts do. */
+bool cause_same(const json_t *a, const json_t *b, bool exact);
+
 /* Compare objects, null for empty ones. Objects are descended into, but for boxes, which are values. Of lists whose
  * elements have a key - an id, a word, or what is done to which id - those of the same key are compared; of other lists
- * those that are in the same place between what is the same at both ends. */
+ * those that ask or show the same or most nearly the same (cause_pairs.h). */
 void cause_compare_members(const cause_place *place, json_t *a, json_t *b);
 
 /* All that a session holds and its kind of player reads. Cost: that of writing both, and a sort of the points. */

@@ -31,10 +31,12 @@ typedef struct cause_fact {
 /* So many of a group are listed; the others are counted. */
 #define CAUSE_LISTED 8
 
+#define CAUSE_QUERY 48
+
 /* All facts of the same kind. */
 typedef struct cause_group {
     char where[40];
-    char query[32]; /* of facts about an answer: "the range query"; else "" */
+    char query[CAUSE_QUERY]; /* of facts about an answer: "the range query"; else "" */
     cause_change change;
     uint64_t found;
     cause_fact listed[CAUSE_LISTED];

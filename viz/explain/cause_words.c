@@ -65,6 +65,8 @@ static const phrase phrases[] = {
     {"answers.ids", "hit", PLAIN},
     {"answers.neighbors", "neighbour", PLAIN},
     {"answers.id", "nearest point", PLAIN},
+    {"answers.position", "position of the nearest point", MINOR},
+    {"answers.distance", "distance of the nearest point", MINOR},
     {"refusals", "refusal", PLAIN},
     {"splits", "node", .added = "split at this tick", .gone = "not split at this tick", MINOR},
     {"merges", "node", .added = "merged at this tick", .gone = "not merged at this tick", MINOR},
@@ -119,22 +121,34 @@ static void print_list(FILE *out, const json_t *list)
     fputs(nested ? "" : ")", out);
 }
 
-/* A box as its corners; else each member after its name, and words in quotes. */
+static bool is_box(const json_t *value)
+{
+    return json_object_size(value) == 2 && json_object_get(value, "min");
+}
+
+/* Words within an object are in quotes. */
+static void print_member(FILE *out, const json_t *value)
+{
+    const char *quote = json_is_string(value) ? "\"" : "";
+    fputs(quote, out);
+    print_value(out, value);
+    fputs(quote, out);
+}
+
+/* A box as its corners; else each member after its name. */
 static void print_object(FILE *out, json_t *object)
 {
     const char *key;
     json_t *value;
     bool first = true;
-    const bool box = json_object_size(object) == 2 && json_object_get(object, "min");
+    const bool box = is_box(object);
     json_object_foreach(object, key, value)
     {
         if (box)
             fputs(first ? "" : " to ", out);
         else
             fprintf(out, "%s%s ", first ? "" : ", ", key);
-        fputs(json_is_string(value) ? "\"" : "", out);
-        print_value(out, value);
-        fputs(json_is_string(value) ? "\"" : "", out);
+        print_member(out, value);
         first = false;
     }
 }
@@ -151,6 +165,43 @@ static void print_value(FILE *out, const json_t *value)
         print_object(out, (json_t *)(uintptr_t)value);
     else
         fputs(json_is_true(value) ? "on" : json_is_false(value) ? "off" : "none", out);
+}
+
+static bool has_members(const json_t *value)
+{
+    return json_is_object(value) && !is_box(value);
+}
+
+/* "8, was 4"; of objects each member, the changed ones so: "radius 101, was 100, at (1, 2, 3)". */
+static void print_change(FILE *out, const json_t *a, const json_t *b, bool within)
+{
+    void (*const print)(FILE *, const json_t *) = within ? print_member : print_value;
+    const char *key;
+    json_t *value;
+    bool first = true;
+    if (!has_members(a) || !has_members(b)) {
+        print(out, b);
+        fputs(", was ", out);
+        print(out, a);
+        return;
+    }
+    json_object_foreach((json_t *)(uintptr_t)b, key, value)
+    {
+        const json_t *before = json_object_get(a, key);
+        fprintf(out, "%s%s ", first ? "" : ", ", key);
+        if (cause_same(before, value, true))
+            print_member(out, value);
+        else
+            print_change(out, before, value, true);
+        first = false;
+    }
+    json_object_foreach((json_t *)(uintptr_t)a, key, value)
+    {
+        if (json_object_get(b, key))
+            continue;
+        fprintf(out, ", %s ", key);
+        print_change(out, value, NULL, true);
+    }
 }
 
 /* ---- One fact ------------------------------------------------------------------------------------------------ */
@@ -192,18 +243,16 @@ static void print_values(FILE *out, const phrase *p, const cause_group *group, c
     fputs(" (", out);
     if (has_id)
         fprintf(out, "point %" PRIu64 "%s", fact->id, json_is_number(value) ? "" : ": ");
-    if (!has_id || !json_is_number(value))
-        print_value(out, group->change == CAUSE_OTHER ? fact->b : value);
-    if (group->change == CAUSE_OTHER) {
-        fputs(", was ", out);
-        print_value(out, fact->a);
-    }
+    if (group->change == CAUSE_OTHER)
+        print_change(out, fact->a, fact->b, false);
+    else if (!has_id || !json_is_number(value))
+        print_value(out, value);
     fputc(')', out);
 }
 
 static void print_fact(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
 {
-    if (strcmp(group->where, "answers") == 0) { /* only one side has the query */
+    if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) { /* only one side has the query */
         fprintf(out, "%s%s", group->query, group->change == CAUSE_MORE ? " asked besides" : " not asked");
         return;
     }

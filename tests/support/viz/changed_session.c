@@ -213,8 +213,10 @@ static void expect_shape(changed_session *t, const octree_shape *a, const octree
         shape_text(b, texts[1]);
     if (!always)
         sprintf(when, "tick %" PRIu64, some->tick);
-    if (a && b)
-        sprintf(t->text, "another shape shown at %s (%s, was %s); ", when, texts[1], texts[0]);
+    if (a && b && b->kind == OCTREE_SHAPE_LABEL)
+        sprintf(t->text, "another shape shown at %s (label \"%s\", was \"%s\", at ", when, b->text, a->text);
+    else if (a && b)
+        sprintf(t->text, "another shape shown at %s (%s, was %s); ", when, texts[1], strchr(texts[0], ' ') + 1);
     else
         sprintf(t->text, "one %sshape shown%s at %s (%s); ", b ? "more " : "", b ? "" : " fewer", when,
                 texts[b ? 1 : 0]);

@@ -55,7 +55,7 @@ static void elements_with_keys_are_compared_by_them(void **state)
     (void)state;
     assert_told("{\"a\": [\"x\", \"y\"]}", "{\"a\": [\"y\", \"z\"]}", "one a fewer (x), one more a (z)");
     assert_told("{\"a\": [{\"id\": 2, \"b\": 1}]}", "{\"a\": [{\"id\": 1, \"b\": 1}, {\"id\": 2, \"b\": 3}]}",
-                "one more a (id 1, b 1), another a (id 2, b 3, was id 2, b 1)");
+                "one more a (id 1, b 1), another a (id 2, b 3, was 1)");
     assert_told("{\"a\": [{\"id\": 2}, {\"id\": 1}]}", "{\"a\": [{\"id\": 1}, {\"id\": 2}]}",
                 "another order of the as");
     assert_told("{}", "{\"a\": [\"x\", \"y\", \"z\"]}", "3 more as (x, y and z)");
@@ -70,17 +70,17 @@ static void edits_of_one_point_are_compared_in_their_order(void **state)
     assert_told(base,
                 "{\"edits\": [{\"insert\": {\"id\": 1, \"position\": [0, 0, 0]}}, {\"remove\": 1},"
                 " {\"insert\": {\"id\": 1, \"position\": [2, 0, 0]}}]}",
-                "another edit (insert id 1, position (2, 0, 0), was insert id 1, position (1, 0, 0))");
+                "another edit (insert id 1, position (2, 0, 0), was (1, 0, 0))");
     assert_told(base, "{\"edits\": [{\"insert\": {\"id\": 1, \"position\": [0, 0, 0]}}]}",
                 "2 fewer edits (points 1 and 1)");
 }
 
-static void elements_without_keys_are_compared_by_their_places(void **state)
+static void elements_without_keys_are_paired_by_what_they_have_in_common(void **state)
 {
     (void)state;
     assert_told("{\"queries\": [{\"nearest\": \"player\"}, {\"radius\": 1, \"at\": \"player\"}]}",
                 "{\"queries\": [{\"nearest\": \"player\"}, {\"radius\": 2, \"at\": \"player\"}]}",
-                "another query at every tick (radius 2, at \"player\", was radius 1, at \"player\")");
+                "another query at every tick (radius 2, was 1, at \"player\")");
     assert_told("{\"queries\": [{\"nearest\": \"player\"}]}",
                 "{\"queries\": [{\"knearest\": 2, \"at\": \"player\"}, {\"nearest\": \"player\"}]}",
                 "one more query at every tick (knearest 2, at \"player\")");
@@ -100,14 +100,59 @@ static void answers_are_about_their_queries(void **state)
                 "another nearest point in query 2 (nearest) (none, was 5)");
 }
 
+#define RADIUS(r, x) "{\"radius\": " #r ", \"at\": [" #x ", 0, 0]}"
+#define FOUR RADIUS(1, 1) ", " RADIUS(2, 2) ", " RADIUS(3, 3) ", " RADIUS(4, 4)
+
+static void each_query_is_told_by_what_it_asks(void **state)
+{
+    (void)state;
+    assert_told(
+        "{\"queries\": [" FOUR "]}", "{\"queries\": [" RADIUS(2, 2) ", " RADIUS(3, 3) ", " RADIUS(5, 4) "]}",
+        "another query at every tick (radius 5, was 4, at (4, 0, 0)), one query fewer at every tick (radius 1, at "
+        "(1, 0, 0))");
+    assert_told("{\"queries\": [" FOUR "]}",
+                "{\"queries\": [" RADIUS(4, 4) ", " RADIUS(2, 2) ", " RADIUS(3, 3) ", " RADIUS(1, 1) "]}",
+                "another order of the queries at every tick");
+    assert_told("{\"queries\": [" RADIUS(1, 1) "]}", "{\"queries\": [" RADIUS(9, 9) ", " RADIUS(2, 1) "]}",
+                "another query at every tick (radius 2, was 1, at (1, 0, 0)), one more query at every tick (radius 9, "
+                "at (9, 0, 0))");
+    assert_told("{\"queries\": [{\"knearest\": 3, \"at\": [1, 2, 3]}]}",
+                "{\"queries\": [{\"knearest\": 3, \"at\": \"player\"}]}",
+                "another query at every tick (knearest 3, at \"player\", was (1, 2, 3))");
+    assert_told("{\"queries\": [{\"nearest\": [1, 2, 3]}]}",
+                "{\"queries\": [{\"nearest\": [1, 2, 3], \"epsilon\": 0.5}]}",
+                "another query at every tick (nearest (1, 2, 3), epsilon 0.5, was none)");
+}
+
+#define BALL(r, x, ids) "{\"radius\": {\"center\": [" #x ", 0, 0], \"radius\": " #r ", \"ids\": [" ids "]}}"
+
+/* Whatever they found, and wherever they stand. */
+static void each_answer_is_told_by_what_was_asked(void **state)
+{
+    (void)state;
+    assert_told("{\"answers\": [" BALL(1, 1, "1") ", " BALL(2, 2, "2") ", " BALL(3, 3, "3") "]}",
+                "{\"answers\": [" BALL(2, 2, "2, 4") ", " BALL(3, 3, "") "]}",
+                "one more hit in query 1 (radius) (point 4), one hit fewer in query 2 (radius) (point 3), query 1 "
+                "(radius) of the reference not asked");
+    assert_told("{\"answers\": [" BALL(1, 1, "1") ", " BALL(2, 2, "2") "]}",
+                "{\"answers\": [" BALL(2, 2, "2") ", " BALL(1, 1, "1") "]}", "another order of the queries");
+    assert_told("{\"answers\": [" BALL(1, 1, "1") "]}", "{\"answers\": [" BALL(2, 1, "1") "]}",
+                "another radius in the radius query (2, was 1)");
+    assert_told("{\"answers\": [{\"nearest\": {\"target\": [0, 0, 0], \"id\": 4, \"position\": [1, 0, 0]}}]}",
+                "{\"answers\": [{\"nearest\": {\"target\": [0, 0, 0], \"id\": 4, \"position\": [2, 0, 0]}}]}",
+                "another position of the nearest point in the nearest query ((2, 0, 0), was (1, 0, 0))");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_member_without_words_is_told_by_its_path),
         cmocka_unit_test(elements_with_keys_are_compared_by_them),
         cmocka_unit_test(edits_of_one_point_are_compared_in_their_order),
-        cmocka_unit_test(elements_without_keys_are_compared_by_their_places),
+        cmocka_unit_test(elements_without_keys_are_paired_by_what_they_have_in_common),
         cmocka_unit_test(answers_are_about_their_queries),
+        cmocka_unit_test(each_query_is_told_by_what_it_asks),
+        cmocka_unit_test(each_answer_is_told_by_what_was_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

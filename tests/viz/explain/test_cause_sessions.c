@@ -292,12 +292,11 @@ static void edits_are_named_by_tick_and_point(void **state)
     (void)state;
     assert_says(one_more_edit, "one more edit at tick 5 (remove 3); tick 5: node 7/7 merged, point 3 removed");
     assert_says(one_edit_fewer, "one edit fewer at tick 4 (remove 2); tick 4: node 2 born, point 2 added");
-    assert_says(other_edit,
-                "another edit at tick 2 (move id 1, position (1, 2, -4), was move id 1, position (1, 2, 4)); tick "
-                "2: node 6 born, point 1 moved");
-    assert_says(faster_edit, "another edit at tick 2 (insert id 9, position (9, 9, 9), velocity (-1, 0, 0), was insert "
-                             "id 9, position (9, 9, 9)); tick 2: "
-                             "point 9 moved");
+    assert_says(other_edit, "another edit at tick 2 (move id 1, position (1, 2, -4), was (1, 2, 4)); tick "
+                            "2: node 6 born, point 1 moved");
+    assert_says(faster_edit,
+                "another edit at tick 2 (insert id 9, position (9, 9, 9), velocity (-1, 0, 0), was none); tick 2: "
+                "point 9 moved");
     assert_says(swap_edits, "another order of the edits at tick 2; " SAME_TICKS);
     assert_says(idle_edit, "");
     assert_says(many_edits,
@@ -339,7 +338,7 @@ static void queries_are_named_by_kind_and_tick(void **state)
                 "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked besides");
     assert_says(one_query_fewer,
                 "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range query not asked");
-    assert_says(wider_query, "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was range (-5, -5, -5) to "
+    assert_says(wider_query, "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was (-5, -5, -5) to "
                              "(5, 5, 5)); tick 0: 2 more hits in the range query (points 3 and 4)");
     assert_says(idle_query, "");
 }

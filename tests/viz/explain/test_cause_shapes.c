@@ -81,16 +81,15 @@ static void shapes_are_named_by_kind_tick_and_place(void **state)
     assert_says(one_shape_fewer, "one shape shown fewer at every tick (segment (0, 0, 0) to (9, 9, 9)); " SAME_TICKS);
     assert_says(two_more_shapes, "one more shape shown at every tick (point (7, 7, 7)), one more shape shown at tick 2 "
                                  "(point (8, 8, 8)); " SAME_TICKS);
-    assert_says(larger_shape, "another shape shown at every tick (box (-1, -1, -1) to (1, 5, 1), was box (-1, -1, -1) "
+    assert_says(larger_shape, "another shape shown at every tick (box (-1, -1, -1) to (1, 5, 1), was (-1, -1, -1) "
                               "to (1, 1, 1)); " SAME_TICKS);
-    assert_says(longer_shape, "another shape shown at every tick (segment (0, 0, 0) to (5, 9, 9), was segment (0, 0, "
+    assert_says(longer_shape, "another shape shown at every tick (segment (0, 0, 0) to (5, 9, 9), was (0, 0, "
                               "0) to (9, 9, 9)); " SAME_TICKS);
-    assert_says(moved_shape, "another shape shown at tick 2 (point (5, 2, 3), was point (1, 2, 3)); " SAME_TICKS);
+    assert_says(moved_shape, "another shape shown at tick 2 (point (5, 2, 3), was (1, 2, 3)); " SAME_TICKS);
     assert_says(moved_label,
-                "another shape shown at tick 2 (label \"start\", at (5, 5, 6), was label \"start\", at (4, "
-                "5, 6)); " SAME_TICKS);
+                "another shape shown at tick 2 (label \"start\", at (5, 5, 6), was (4, 5, 6)); " SAME_TICKS);
     assert_says(other_label, "another shape shown at tick 2 (label \"a text as long as labels may be: 46 characters\", "
-                             "at (4, 5, 6), was label \"start\", at (4, 5, 6)); " SAME_TICKS);
+                             "was \"start\", at (4, 5, 6)); " SAME_TICKS);
     assert_says(other_kind_of_shape, "one shape shown fewer at every tick (segment (0, 0, 0) to (9, 9, 9)), one more "
                                      "shape shown at every tick (point (0, 0, 0)); " SAME_TICKS);
     assert_says(shape_and_length, "another last tick (5, was 6), one shape shown fewer at every tick (segment (0, 0, "

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+#include "cause_pairs.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* So many elements about the same place among those left are looked at for the one that is most alike. */
+#define PAIR_CANDIDATES ((size_t)16)
+
+typedef struct entry {
+    json_t *element;
+    char *text; /* the whole of it */
+    size_t place;
+    bool paired;
+} entry;
+
+typedef struct entries {
+    entry *all;   /* in the order of places, but while they are sorted */
+    entry **left; /* those that are not the same as one of the other list */
+    size_t count, left_count;
+} entries;
+
+const char *cause_kind_of(json_t *element)
+{
+    const char *key = json_is_object(element) ? json_object_iter_key(json_object_iter(element)) : NULL;
+    return key ? key : "";
+}
+
+static void release(entries *e)
+{
+    for (size_t i = 0; e->all && i < e->count; i++)
+        free(e->all[i].text);
+    free(e->all);
+    free(e->left);
+}
+
+static bool make(entries *e, json_t *list)
+{
+    bool ok = true;
+    e->count = json_array_size(list);
+    e->all = calloc(e->count + 1, sizeof *e->all);
+    e->left = calloc(e->count + 1, sizeof *e->left);
+    for (size_t i = 0; e->all && i < e->count; i++) {
+        json_t *element = json_array_get(list, i);
+        char *text = json_dumps(element, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(17));
+        e->all[i] = (entry){element, text, i, false};
+        ok = ok && text;
+    }
+    return ok && e->all && e->left;
+}
+
+/* ---- The same ------------------------------------------------------------------------------------------------ */
+
+static int by_place(const void *a, const void *b)
+{
+    const entry *x = a, *y = b;
+    return x->place < y->place ? -1 : x->place > y->place;
+}
+
+static int by_text(const void *a, const void *b)
+{
+    const int order = strcmp(((const entry *)a)->text, ((const entry *)b)->text);
+    return order ? order : by_place(a, b);
+}
+
+static void join(entry *a, entry *b, size_t *mates)
+{
+    mates[b->place] = a->place;
+    a->paired = b->paired = true;
+}
+
+static void list_left(entries *e)
+{
+    qsort(e->all, e->count, sizeof *e->all, by_place);
+    for (size_t i = 0; i < e->count; i++)
+        if (!e->all[i].paired)
+            e->left[e->left_count++] = &e->all[i];
+}
+
+static void pair_same(entries *a, entries *b, size_t *mates)
+{
+    qsort(a->all, a->count, sizeof *a->all, by_text);
+    qsort(b->all, b->count, sizeof *b->all, by_text);
+    for (size_t i = 0, j = 0; i < a->count && j < b->count;) {
+        const int order = strcmp(a->all[i].text, b->all[j].text);
+        if (order == 0)
+            join(&a->all[i], &b->all[j], mates);
+        i += order <= 0;
+        j += order >= 0;
+    }
+    list_left(a);
+    list_left(b);
+}
+
+/* ---- The most alike ------------------------------------------------------------------------------------------ */
+
+/* How many numbers, words and truths are the same in the same places. */
+static unsigned count_common(json_t *a, json_t *b)
+{
+    unsigned common = 0;
+    const char *key;
+    json_t *value;
+    size_t i;
+    if (json_is_object(a))
+        json_object_foreach(a, key, value) common += count_common(value, json_object_get(b, key));
+    else if (json_is_array(a))
+        json_array_foreach(a, i, value) common += count_common(value, json_array_get(b, i));
+    else
+        common = a && b && json_equal(a, b);
+    return common;
+}
+
+/* The first candidate for the j-th that is left. */
+static size_t first_candidate(size_t j)
+{
+    return j < PAIR_CANDIDATES / 2 ? 0 : j - PAIR_CANDIDATES / 2;
+}
+
+/* 0: of unlike kinds. Of equally many values in common, the same place from either end counts. */
+static uint8_t likeness(const entries *a, size_t i, const entries *b, size_t j)
+{
+    json_t *x = a->left[i]->element, *y = b->left[j]->element;
+    if (strcmp(cause_kind_of(x), cause_kind_of(y)) != 0)
+        return 0;
+    const bool same_place = i == j || a->left_count - i == b->left_count - j;
+    const unsigned found = 1 + same_place + 2 * count_common(x, y);
+    return found < UINT8_MAX ? (uint8_t)found : UINT8_MAX;
+}
+
+/* The most alike first. */
+static bool pair_alike(entries *a, entries *b, size_t *mates)
+{
+    uint8_t *table = calloc(b->left_count + 1, PAIR_CANDIDATES), most = 0;
+    for (size_t j = 0; table && j < b->left_count; j++)
+        for (size_t k = 0; k < PAIR_CANDIDATES && first_candidate(j) + k < a->left_count; k++) {
+            const uint8_t found = likeness(a, first_candidate(j) + k, b, j);
+            table[j * PAIR_CANDIDATES + k] = found;
+            most = found > most ? found : most;
+        }
+    for (unsigned level = most; table && level > 0; level--)
+        for (size_t n = 0; n < b->left_count * PAIR_CANDIDATES; n++) {
+            if (table[n] != level)
+                continue;
+            entry *x = a->left[first_candidate(n / PAIR_CANDIDATES) + n % PAIR_CANDIDATES];
+            entry *y = b->left[n / PAIR_CANDIDATES];
+            if (!x->paired && !y->paired)
+                join(x, y, mates);
+        }
+    const bool made = table;
+    free(table);
+    return made;
+}
+
+bool cause_pair(json_t *a, json_t *b, size_t *mates)
+{
+    entries x = {0}, y = {0};
+    for (size_t j = 0; j < json_array_size(b); j++)
+        mates[j] = CAUSE_ALONE;
+    bool ok = make(&x, a) && make(&y, b);
+    if (ok) {
+        pair_same(&x, &y, mates);
+        ok = pair_alike(&x, &y, mates);
+    }
+    release(&x);
+    release(&y);
+    return ok;
+}
