@@ -6,6 +6,7 @@
 #include "film.h"
 #include "inspect.h"
 #include "inspect_answers.h"
+#include "layer.h"
 #include "number.h"
 #include "point_world.h"
 #include "progress.h"
@@ -123,6 +124,8 @@ static bool draw(const report *r, octreel_error *error)
         return false;
     if (drawn.over_budget)
         fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);
+    if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* which says so in the picture */
+        fprintf(stderr, "octreel: %s leaves out what appears smaller than --lod\n", a->picture);
     if (drawn.left_out)
         fprintf(stderr, "octreel: %" PRIu64 " element%s too far off to be in %s\n", drawn.left_out,
                 plural(drawn.left_out), a->picture);

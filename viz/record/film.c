@@ -108,8 +108,10 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
     bool ok = tree_scene_build(&s, &v, tree, about) || error_no_memory(error);
     ok = ok && picture_draw(&p, &s, error) && write_picture(&p, &s, path, error);
     if (ok)
-        *summary = (film_summary){
-            .frames = 1, .left_out = renderer_left_out(p.renderer), .over_budget = s.tally.beyond || s.tally.thinned};
+        *summary = (film_summary){.frames = 1,
+                                  .left_out = renderer_left_out(p.renderer),
+                                  .over_budget = s.tally.beyond || s.tally.thinned,
+                                  .below_lod = scene_leaves_out_small(&s.tally)};
     scene_release(&s);
     picture_close(&p);
     return ok;

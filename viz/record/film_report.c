@@ -68,6 +68,7 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_writer writer = {.out = out}, *w = &writer;
     begin_json(w, summary, folder);
     json_member_integer(w, "over_budget", summary->over_budget);
+    json_member_integer(w, "below_lod", summary->below_lod);
     json_member_integer(w, "refusals", summary->refusals);
     json_member_number(w, "seconds", seconds);
     json_member_number(w, "frames_per_second", rate_of(summary, seconds));
@@ -96,6 +97,9 @@ static void report_left_out(FILE *out, const film_summary *summary)
     if (summary->over_budget)
         fprintf(out, "%" PRIu64 " frame%s leave%s out what is beyond --budget\n", summary->over_budget,
                 plural(summary->over_budget), plural_verb(summary->over_budget));
+    if (summary->below_lod)
+        fprintf(out, "%" PRIu64 " frame%s leave%s out what appears smaller than --lod\n", summary->below_lod,
+                plural(summary->below_lod), plural_verb(summary->below_lod));
 }
 
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)

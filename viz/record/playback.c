@@ -88,6 +88,7 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     const bool done = draw_frame(p, &origin, error);
     step->left_out = origin.left_out;
     step->over_budget = p->scene.tally.beyond || p->scene.tally.thinned;
+    step->below_lod = scene_leaves_out_small(&p->scene.tally);
     return done;
 }
 

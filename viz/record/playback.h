@@ -49,7 +49,8 @@ typedef struct film_step {
     size_t refusals;  /* of points, edits and steps */
     bool gap;         /* nothing is known of it */
     bool filmed;      /* it has a frame */
-    bool over_budget; /* which leaves out what is beyond the view's budget */
+    bool over_budget; /* which leaves out what is beyond the view's budget, */
+    bool below_lod;   /* or smaller than its lod */
     uint64_t left_out;
     const char *line; /* of ticks.jsonl, its newline included; until the next tick is filmed */
     size_t size;

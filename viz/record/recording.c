@@ -112,6 +112,7 @@ static void add_to_summary(film_summary *summary, const film_step *step)
     summary->gaps += step->gap;
     summary->left_out += step->left_out;
     summary->over_budget += step->over_budget;
+    summary->below_lod += step->below_lod;
     summary->refusals += step->refusals;
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         summary->events[i] += step->events >> i & 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cli_outputs.c - what octreel writes does not take the place of what it reads, nor one of its files that of
- * another, however they are named; and a command that is refused leaves nothing. */
+ * another, however they are named; a command that is refused leaves nothing; what frames leave out is told. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +39,14 @@ static void assert_text(void **state, const char *name, const char *expected)
 {
     char *text = file_read(place_in(*state, name).path, NULL);
     assert_string_equal(text, expected);
+    free(text);
+}
+
+static void assert_has_text(void **state, const char *name, const char *part, bool there)
+{
+    char *text = file_read(place_in(*state, name).path, NULL);
+    if ((strstr(text, part) != NULL) != there)
+        fail_msg("\"%s\" %s \"%s\"", text, there ? "does not say" : "says", part);
     free(text);
 }
 
@@ -124,6 +132,41 @@ static void refused_comparison_leaves_no_evidence(void **state)
     assert_refused(state, "diff a.dig a --max-pixels 1 -o ev", "nothing can be forgiven");
 }
 
+/* Without the layer of text nothing in a frame says so. */
+static void what_lod_leaves_out_is_told_beside_the_frames(void **state)
+{
+    static const char sentence[] = "\n2 frames leave out what appears smaller than --lod\n";
+    static const char session[] = "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 1, \"points\": {\"sample\": "
+                                  "\"clustered\", \"count\": 2000, \"seed\": 1}}";
+    file_write_text(place_in(*state, "s.json").path, session);
+    do_in(state, "record s.json --size 64x36 --layers -text -o film >said");
+    assert_has_text(state, "said", sentence, true);
+    do_in(state, "record s.json --size 64x36 --layers -text --lod 0 -o whole >said");
+    assert_has_text(state, "said", "--lod", false);
+    do_in(state, "record s.json --size 64x36 --layers -text --json -o json >said");
+    assert_has_text(state, "said", "\"below_lod\": 2", true);
+}
+
+static void what_lod_leaves_out_of_a_picture_is_told_unless_it_says_so(void **state)
+{
+    FILE *out = fopen(place_in(*state, "p").path, "w");
+    assert_non_null(out);
+    for (int i = 0; i < 500; i++)
+        fprintf(out, "%d %d %d\n", i * i % 97, i * 7 % 89, i * i * i % 83);
+    assert_int_equal(fclose(out), 0);
+    static const char inspect[] = "inspect p --capacity 1 --size 64x36 -o t.png --json %s 2>said >/dev/null";
+    static const struct {
+        const char *options;
+        bool told;
+    } rows[] = {{"--layers -text", true}, {"", false}, {"--layers -text --lod 0", false}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[160];
+        snprintf(line, sizeof line, inspect, rows[i].options);
+        do_in(state, line);
+        assert_has_text(state, "said", "octreel: t.png leaves out what appears smaller than --lod\n", rows[i].told);
+    }
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -136,6 +179,8 @@ int main(void)
         IN_FOLDER(reports_do_not_replace_what_is_compared),
         IN_FOLDER(two_reports_are_two_files),
         IN_FOLDER(refused_comparison_leaves_no_evidence),
+        IN_FOLDER(what_lod_leaves_out_is_told_beside_the_frames),
+        IN_FOLDER(what_lod_leaves_out_of_a_picture_is_told_unless_it_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
