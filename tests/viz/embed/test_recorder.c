@@ -116,6 +116,33 @@ static void a_player_is_the_point_with_its_id_while_there_is_one(void **state)
     assert_films_again(&folder, &again, 4);
 }
 
+/* Without a player: what the program asked for one of its points, leaving it out. */
+static void a_query_leaves_out_who_asks(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    octree *tree = make_tree(cube(-8, 8), 1, 4, OCTREE_GROW);
+    insert_all(tree, (const double[][3]){{4, 4, 4}, {4, 4, 5}, {4, 4, 6}}, 3);
+    const octree_query queries[] = {
+        {.kind = OCTREE_QUERY_NEAREST, .target = {4, 4, 4}, .skip = OCTREE_SKIP_ID, .skip_id = 1},
+        {.kind = OCTREE_QUERY_KNEAREST, .target = {4, 4, 4}, .k = 1, .skip = OCTREE_SKIP_COINCIDENT, .epsilon = 2},
+        {.kind = OCTREE_QUERY_RANGE, .box = {{3, 3, 3}, {5, 5, 5}}, .skip = OCTREE_SKIP_ID, .skip_id = 1},
+    };
+    const octreel_tick_info asked = {.queries = queries, .query_count = 3};
+    octreel_recorder_def def = octreel_recorder_def_default();
+    def.folder = folder.path;
+    def.tree = octree_definition(tree);
+    def.width = 160;
+    def.height = 90;
+    octreel_recorder *recorder = open_recorder(&def);
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK);
+    close_recorder(recorder);
+    octree_destroy(tree);
+    assert_int_equal(count_in_lines(folder.path, "\"skip\": 1, \"id\": 2,"), 1);
+    assert_int_equal(count_in_lines(folder.path, "\"coincident\", \"epsilon\": 2, \"neighbors\": [{\"id\": 2,"), 1);
+    assert_int_equal(count_in_lines(folder.path, "\"skip\": 1, \"ids\": [2]"), 1);
+    assert_films_again(&folder, &again, 1);
+}
+
 /* Somebody else's tree: nothing but boxes. */
 static void shapes_alone_are_recorded_without_a_tree(void **state)
 {
@@ -205,6 +232,7 @@ int main(void)
         TEST(what_full_leaves_refuse_is_recorded_in_an_order_that_they_take),
         TEST(views_and_frames_are_those_that_were_asked_for),
         TEST(a_player_is_the_point_with_its_id_while_there_is_one),
+        TEST(a_query_leaves_out_who_asks),
         TEST(shapes_alone_are_recorded_without_a_tree),
         cmocka_unit_test(a_recorder_that_is_off_does_nothing),
         TEST(a_full_queue_is_told_where_nobody_waits),
