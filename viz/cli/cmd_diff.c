@@ -122,6 +122,12 @@ static bool read_causes(const command_option *option, const char *text, void *in
     return strcmp(text, "all") == 0 || read_whole(option, text, &a->causes);
 }
 
+/* "-" is standard output. */
+static bool read_report(const command_option *option, const char *text, void *into)
+{
+    return strcmp(text, "-") == 0 ? read_text(option, text, into) : read_file(option, text, into);
+}
+
 static const command_option options[] = {
     {"max-pixels", read_whole, OPTION_VALUE(arguments, options.tolerance.max_pixels), 0, UINT32_MAX},
     {"max-delta", read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta), 0, 0},
@@ -131,8 +137,8 @@ static const command_option options[] = {
     {"causes", read_causes, 0, sizeof(uint64_t), 0, UINT32_MAX},
     {"background", read_color, OPTION_VALUE(arguments, options.background), 0, 0},
     {"output", read_folder, OPTION_VALUE(arguments, folder), 0, 0},
-    {"junit", read_file, OPTION_VALUE(arguments, junit), 0, 0},
-    {"markdown", read_file, OPTION_VALUE(arguments, markdown), 0, 0},
+    {"junit", read_report, OPTION_VALUE(arguments, junit), 0, 0},
+    {"markdown", read_report, OPTION_VALUE(arguments, markdown), 0, 0},
     {0},
 };
 

@@ -163,7 +163,8 @@ static int read_options(const command_line *line, int argc, char **argv, bool *h
 static int refuse_surplus(const command_line *line, const char *word, bool has_output)
 {
     const int output = find_output(line);
-    const bool is_input = line->inputs[0] >> file_kind_of(word) & 1;
+    const file_kinds kind = 1u << file_kind_of(word);
+    const bool is_input = kind & (line->inputs[0] | FILE_KIND(RECORDING));
     if (output && !has_output && !is_input && is_meant_for(line->options[output - OWN_OPTION].read, word))
         return trouble("%s takes %s, not also \"%s\", did you mean -o %s?", line->name, line->takes, word, word);
     if (line->several)

@@ -101,7 +101,7 @@ static int refuse_word(const char *word, bool help)
         hint_offer(&h, topics[i].name);
     for (size_t i = 0; !help && i < sizeof other_words / sizeof other_words[0]; i++)
         hint_offer(&h, other_words[i]);
-    const file_kind kind = help || h.name ? KIND_UNKNOWN : file_kind_of(word);
+    const file_kind kind = help ? KIND_UNKNOWN : file_kind_of(word);
     if (file_kind_rows[kind].command)
         return trouble("there is no command \"%s\", which is %s; %s %s %s", word, file_kind_rows[kind].words,
                        hint_program(), file_kind_rows[kind].command, file_kind_rows[kind].use);

@@ -101,10 +101,20 @@ bool is_meant_for(command_option_reader *reader, const char *path)
     return reader == read_picture ? kind == NAME_PNG : kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
 }
 
+/* Only reports are written to standard output for a name. */
+static bool is_path(const command_option *option, const char *text)
+{
+    char typed[OPTION_TYPED];
+    return strcmp(text, "-") != 0 ||
+           refuse("%s takes a name, and \"-\" is none; ./- is a file of that name", option_typed(option, typed));
+}
+
 bool read_folder(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
+    if (!is_path(option, text))
+        return false;
     if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
         return **(const char **)into != 0;
     return refuse("%s takes the name of a folder, and \"%s\" is that of a %s%s", option_typed(option, typed), text,
@@ -117,7 +127,7 @@ bool read_folder(const command_option *option, const char *text, void *into)
 static bool read_file_name(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
-    return read_name(option, text, into) &&
+    return is_path(option, text) && read_name(option, text, into) &&
            (!is_folder(text) ||
             refuse("%s takes the name of a file, and \"%s\" is a folder", option_typed(option, typed), text));
 }

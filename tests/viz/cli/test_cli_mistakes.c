@@ -122,6 +122,7 @@ static void a_file_of_another_kind_names_the_command_for_it(void **state)
         {"digest a.digests", "a.digests is a file of digests, and digest takes"},
         {"accept pictures cloud.txt", "cloud.txt is a point cloud, and accept takes"},
         {"record --camera-from my.json -o x", "my.json is a session, and --camera-from takes the folder"},
+        {"rec", "there is no command \"rec\", which is a recording; "},
         {"my.json", "there is no command \"my.json\", which is a session; "},
     };
     ASSERT_MISTAKES(state, rows);
@@ -132,6 +133,10 @@ static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
     static const mistake rows[] = {
         {"record my.json x", "not also \"x\", did you mean -o x?"},
         {"record my.json x.jpg", "not also \"x.jpg\"; "},
+        {"record my.json rec", "not also \"rec\"; "},
+        {"record my.json -o -", "-o takes a name, and \"-\" is none"},
+        {"inspect cloud.txt -o -", "-o takes a name"},
+        {"digest rec -o -", "-o takes a name"},
         {"record my.json my.json", "not also \"my.json\"; "},
         {"record my.json x -o y", "not also \"x\"; "},
         {"inspect cloud.txt tree.png", "did you mean -o tree.png?"},
