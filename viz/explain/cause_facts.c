@@ -13,13 +13,22 @@ const char *cause_change_name(cause_change change)
     return names[change];
 }
 
-static cause_group *find_group(const cause_facts *facts, const char *where, const char *query, cause_change change)
+static bool is_about_all(const cause_group *group)
 {
-    for (size_t i = 0; i < facts->count; i++) {
-        cause_group *group = &facts->groups[i];
-        if (group->change == change && strcmp(group->where, where) == 0 && strcmp(group->query, query) == 0)
-            return group;
-    }
+    return group->listed[0].tick == CAUSE_NO_TICK;
+}
+
+static bool is_group(const cause_group *group, const char *where, const char *query, cause_change change)
+{
+    return group->change == change && strcmp(group->where, where) == 0 && strcmp(group->query, query) == 0;
+}
+
+static cause_group *find_group(const cause_facts *facts, const char *where, const char *query, cause_change change,
+                               bool about_all)
+{
+    for (size_t i = 0; i < facts->count; i++)
+        if (is_group(&facts->groups[i], where, query, change) && is_about_all(&facts->groups[i]) == about_all)
+            return &facts->groups[i];
     return NULL;
 }
 
@@ -38,7 +47,7 @@ static cause_group *add_group(cause_facts *facts, const char *where, const char 
 
 void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact)
 {
-    cause_group *group = find_group(facts, where, query, change);
+    cause_group *group = find_group(facts, where, query, change, fact.tick == CAUSE_NO_TICK);
     if (!group)
         group = add_group(facts, where, query, change);
     facts->out_of_memory |= !group;
@@ -51,7 +60,26 @@ void cause_add(cause_facts *facts, const char *where, const char *query, cause_c
 
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change)
 {
-    return find_group(facts, where, "", change);
+    for (size_t i = 0; i < facts->count; i++)
+        if (is_group(&facts->groups[i], where, "", change))
+            return &facts->groups[i];
+    return NULL;
+}
+
+static bool is_before(const cause_group *a, const cause_group *b)
+{
+    return !is_about_all(b) && (is_about_all(a) || a->listed[0].tick < b->listed[0].tick);
+}
+
+/* Those of the same tick stay in their order. */
+void cause_facts_sort(cause_facts *facts)
+{
+    for (size_t i = 1; i < facts->count; i++)
+        for (size_t j = i; j > 0 && is_before(&facts->groups[j], &facts->groups[j - 1]); j--) {
+            const cause_group swapped = facts->groups[j];
+            facts->groups[j] = facts->groups[j - 1];
+            facts->groups[j - 1] = swapped;
+        }
 }
 
 void cause_facts_release(cause_facts *facts)

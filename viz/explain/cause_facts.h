@@ -33,7 +33,7 @@ typedef struct cause_fact {
 
 #define CAUSE_QUERY 48
 
-/* All facts of the same kind. */
+/* All facts of the same kind, and either all about a tick each or none. */
 typedef struct cause_group {
     char where[40];
     char query[CAUSE_QUERY]; /* of facts about an answer: "the range query"; else "" */
@@ -52,6 +52,9 @@ typedef struct cause_facts {
 /* Add a fact, which refers to its values. */
 void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact);
 void cause_facts_release(cause_facts *facts);
+
+/* Put groups about all ticks first, and then the others by the first tick that they are about. */
+void cause_facts_sort(cause_facts *facts);
 
 /* The group of these facts, or null. */
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);

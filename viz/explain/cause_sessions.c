@@ -246,6 +246,7 @@ void cause_compare_sessions(const octree_session *a, const octree_session *b, ca
     free(texts[1]);
     compare_keys(a, b, facts);
     compare_bodies(a, b, facts);
+    cause_facts_sort(facts);
 }
 
 /* ---- Views --------------------------------------------------------------------------------------------------- */

@@ -287,6 +287,22 @@ static void many_edits(variant *v)
     v->session.edit_count += 4;
 }
 
+static void late_edit_and_early_key(variant *v)
+{
+    one_more_edit(v);
+    other_key(v);
+    v->queries[v->session.query_count - 1].box.max[0] = 4;
+}
+
+static void the_first_tick_comes_first(void **state)
+{
+    (void)state;
+    assert_says(late_edit_and_early_key,
+                "another query at every tick (range (-5, -5, -5) to (4, 5, 5), was (-5, -5, -5) to (5, 5, 5)), another "
+                "key at tick 3 (s, was w), one more edit at tick 5 (remove 3); tick 0: another max in the range query "
+                "((4, 5, 5), was (5, 5, 5)), another cost in the range query, another number of nodes met");
+}
+
 static void edits_are_named_by_tick_and_point(void **state)
 {
     (void)state;
@@ -353,6 +369,7 @@ int main(void)
         cmocka_unit_test(points_at_the_start_are_named),
         cmocka_unit_test(points_are_named_where_nobody_plays),
         cmocka_unit_test(keys_are_named_by_their_ticks),
+        cmocka_unit_test(the_first_tick_comes_first),
         cmocka_unit_test(edits_are_named_by_tick_and_point),
         cmocka_unit_test(queries_are_named_by_kind_and_tick),
     };
