@@ -18,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char mark[] = "recording.json";
+static const char mark[] = "recording.json", unfinished_mark[] = "recording.json.part";
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
@@ -157,15 +157,16 @@ static bool remove_all(const char *folder)
     return take_one(folder, NULL, mark) && take_rest(folder, NULL);
 }
 
-/* What a process has left that was killed; the folder aside is empty then. Where the new recording has its mark it has
- * begun, and was in its first tick. */
+/* What a process has left that was killed; the folder aside is empty then. Where the new recording has its mark it
+ * has begun, and was in its first tick; before that it has but an empty log. */
 static bool recover(const replacement *r, octreel_error *error)
 {
     bool ok = true;
     if (!is_recording(r->aside))
         ok = remove_all(r->aside);
     else
-        ok = (!folder_has(r->folder, mark) || remove_all(r->folder)) && put_back(r);
+        ok = (folder_has(r->folder, mark) ? remove_all(r->folder) : take_one(r->folder, NULL, unfinished_mark)) &&
+             put_back(r);
     return ok || error_set(error, "%s: what is there cannot be put back: %s", r->aside, strerror(errno));
 }
 
@@ -182,15 +183,24 @@ static void release(replacement *r)
     *r = (replacement){0};
 }
 
+/* Whether the folder that is open is still there: who had it before may have removed it. */
+static bool is_there(const replacement *r)
+{
+    struct stat open, named;
+    return fstat(r->lock, &open) == 0 && stat(r->aside, &named) == 0 && same_file(&open, &named);
+}
+
 static bool make_aside(replacement *r, octreel_error *error)
 {
-    if (mkdir(r->aside, 0777) == 0 || errno == EEXIST)
-        r->lock = open(r->aside, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (r->lock < 0)
+    if (mkdir(r->aside, 0777) != 0 && errno != EEXIST)
         return error_set(error, "%s: the folder cannot be made: %s", r->aside, strerror(errno));
-    if (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    r->lock = open(r->aside, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (r->lock < 0 && errno != ENOENT)
+        return error_set(error, "%s: the folder cannot be opened: %s", r->aside, strerror(errno));
+    if (r->lock >= 0 && (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && is_there(r))
         return true;
-    close(r->lock);
+    if (r->lock >= 0)
+        close(r->lock);
     r->lock = -1;
     return error_set(error, "%s: another process is replacing the recording", r->folder);
 }
@@ -209,7 +219,8 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
     *r = (replacement){.folder = strdup(folder), .aside = path_join(folder, FOLDER_ASIDE), .lock = -1};
     bool ok = (r->folder && r->aside) || error_no_memory(error);
     ok = ok && folder_make(folder, error) && replacement_check(folder, error);
-    ok = ok && make_aside(r, error) && recover(r, error) && set_aside(r, error);
+    ok = ok && make_aside(r, error) && replacement_check(folder, error); /* others may have been faster */
+    ok = ok && recover(r, error) && set_aside(r, error);
     if (!ok)
         release(r);
     return ok;

@@ -219,6 +219,8 @@ static void a_replacement_that_was_killed_is_made_good(void **state)
     const films f = film_all(state);
     for (size_t count = 1; count < 20; count += 6) {
         set_aside(&f.old, count);
+        if (count > 12)
+            file_write_text(place_below(f.old.path, "recording.json.part").path, "{");
         if (count > 18) { /* all of it: the new one has begun */
             file_write_text(place_below(f.old.path, "recording.json").path, "{\"octreel\": \"recording\"}");
             file_write_text(place_below(f.old.path, "frame_000009.png").path, "");
