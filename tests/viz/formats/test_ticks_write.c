@@ -114,7 +114,7 @@ static void line_is_exactly_this(void **state)
                               .attempt = {0.1, 50, 1e300},
                               .hits = hits,
                               .hit_count = 2,
-                              .hit_cost = {1, 2, 3, 4},
+                              .hit_cost = {1, 2, 3, 4, 0},
                               .refusals = &refused,
                               .refusal_count = 1,
                               .splits = splits,
