@@ -89,8 +89,9 @@ static void report_counts(FILE *out, const film_summary *summary, const char *fo
 static void report_left_out(FILE *out, const film_summary *summary)
 {
     if (summary->gaps)
-        fprintf(out, "%" PRIu64 " tick%s a gap: nothing is known of %s, and ticks.jsonl says why\n", summary->gaps,
-                summary->gaps == 1 ? " is" : "s are each", summary->gaps == 1 ? "it" : "them");
+        fprintf(out, "%" PRIu64 " %s, and ticks.jsonl says why\n", summary->gaps,
+                summary->gaps == 1 ? "tick is a gap: nothing is known of it"
+                                   : "ticks are gaps: nothing is known of them");
     if (summary->left_out)
         fprintf(out, "%" PRIu64 " element%s too far off to be drawn: the frames lack what is so far away\n",
                 summary->left_out, plural(summary->left_out));
