@@ -10,11 +10,14 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* A cloud holds points, all of them finite. */
+/* A cloud holds points, all of them finite, each of a later row than the one before. */
 static void check_cloud(const cloud *cloud)
 {
     if (cloud->count == 0)
         abort();
+    for (size_t i = 1; i < cloud->count; i++)
+        if (cloud_row(cloud, i) <= cloud_row(cloud, i - 1) || cloud_row(cloud, i) >= cloud->count + cloud->skipped)
+            abort();
     for (size_t i = 0; i < cloud->count; i++)
         for (int axis = 0; axis < 3; axis++)
             if (!isfinite(cloud->positions[i][axis]))
