@@ -2,6 +2,7 @@
 # embed_page.cmake - a page as C arrays: the HTML with its style and scripts put where it names them, cut in two where
 # facts go.  cmake -D SOURCE=page/index.html -D OUTPUT=page_html.c -P embed_page.cmake  makes page_html_head and
 # page_html_tail, which page_html.h declares.
+cmake_minimum_required(VERSION 3.22)
 get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)
 file(READ ${SOURCE} page)
@@ -20,6 +21,13 @@ macro(inline element regex)
 endmacro()
 inline(style "<link rel=\"stylesheet\" href=\"([^\"]*)\">")
 inline(script "<script src=\"([^\"]*)\"></script>")
+
+# The module's place stays empty where none was built.
+set(module "")
+if(MODULE)
+  file(READ ${MODULE} module)
+endif()
+string(REPLACE "@MODULE@" "${module}" page "${page}")
 
 string(FIND "${page}" "@FACTS@" cut)
 if(cut EQUAL -1)

@@ -60,22 +60,28 @@ static bool read_object(json_reader *r, json_t *object)
     return json_read_members(r, object, NULL, members, r->context);
 }
 
+bool recording_parse(const char *name, const char *text, size_t size, view *v, uint64_t *every, octreel_error *error)
+{
+    recorded found = {.every = 1};
+    json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &found, .error = error};
+    json_next_object(&r);
+    const bool done = json_read_object(&r, true, read_object);
+    *v = found.view;
+    *every = found.every;
+    return done;
+}
+
 bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error)
 {
     char reason[FILE_REASON], *text, *path = path_join(folder, "recording.json");
-    recorded found = {.every = 1};
     size_t size;
     if (!path)
         return error_no_memory(error);
     bool done = file_read_whole(path, &text, &size, reason) || error_set(error, "%s: %s", path, reason);
     if (done) {
-        json_reader r = {.name = path, .at = text, .limit = text + size, .line = 1, .context = &found, .error = error};
-        json_next_object(&r);
-        done = json_read_object(&r, true, read_object);
+        done = recording_parse(path, text, size, v, every, error);
         free(text);
     }
     free(path);
-    *v = found.view;
-    *every = found.every;
     return done;
 }

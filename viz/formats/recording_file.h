@@ -27,4 +27,7 @@ void recording_write(FILE *out, const view *v, uint64_t every);
  * with file, line and reason, when it is not a recording. */
 bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error);
 
+/* The same of a text in memory; `name` is for errors. */
+bool recording_parse(const char *name, const char *text, size_t size, view *v, uint64_t *every, octreel_error *error);
+
 #endif

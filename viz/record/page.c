@@ -2,6 +2,7 @@
 /* page.c - index.html: a recording as a page to scrub through. */
 #include "page.h"
 #include "file.h"
+#include "folder.h"
 #include "page_html.h"
 #include "text.h"
 
@@ -136,12 +137,36 @@ static bool write_ticks(const char *path, FILE *page, octreel_error *error)
     return ok;
 }
 
+/* The session as the text of an element of its own, in which a '<' can only be in a string. What is larger is left
+ * out: the page asks for the file. */
+#define MOST_SESSION ((size_t)64 << 20)
+
+static bool write_session(const char *folder, FILE *page, octreel_error *error)
+{
+    char reason[FILE_REASON], *text = NULL, *path = path_join(folder, "session.json");
+    size_t size = 0;
+    if (!path)
+        return error_no_memory(error);
+    const bool done = !folder_has(folder, "session.json") || file_read_whole(path, &text, &size, reason) ||
+                      error_set(error, "%s: %s", path, reason);
+    fputs("</script>\n<script type=\"application/json\" id=\"session\">", page);
+    for (size_t i = 0; done && size <= MOST_SESSION && i < size; i++)
+        if (text[i] == '<')
+            fputs("\\u003c", page);
+        else
+            putc(text[i], page);
+    free(text);
+    free(path);
+    return done;
+}
+
 static bool write_page(const char *folder, FILE *page, octreel_error *error)
 {
     char *about = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl");
     fwrite(page_html_head, 1, page_html_head_size, page);
-    const bool ok =
-        about && ticks ? write_about(about, page, error) && write_ticks(ticks, page, error) : error_no_memory(error);
+    const bool ok = about && ticks ? write_about(about, page, error) && write_ticks(ticks, page, error) &&
+                                         write_session(folder, page, error)
+                                   : error_no_memory(error);
     fwrite(page_html_tail, 1, page_html_tail_size, page);
     free(about);
     free(ticks);

@@ -111,9 +111,9 @@ static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *er
     return ok;
 }
 
-static bool name_elements(pick *p, renderer *r, const replay *from, octreel_error *error)
+static bool name_elements(pick *p, renderer *r, const playback *from, octreel_error *error)
 {
-    const scene *s = &from->playback.scene;
+    const scene *s = &from->scene;
     draw_touches touches = {0};
     bool ok = renderer_pixel(r, s, p->pixel[0], p->pixel[1], &touches, error);
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
@@ -124,23 +124,28 @@ static bool name_elements(pick *p, renderer *r, const replay *from, octreel_erro
             .touch = touches.items[i],
             .kind = element.kind,
             .layer = layer_rows[scene_head_of(s, element).style.layer].name,
-            .subject = describe_element(from->playback.game, &from->playback.heat, s, element),
+            .subject = describe_element(from->game, &from->heat, s, element),
         };
     }
     draw_touches_release(&touches);
     return ok;
 }
 
-static bool pick_pixel(pick *p, replay *from, const pick_options *options, octreel_error *error)
+bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error)
 {
-    const int samples = view_samples(&from->playback.view);
-    renderer *r = replay_renderer(from, &options->renderer, error);
+    const int samples = view_samples(&from->view);
     p->samples = samples * samples;
-    if (!r || !name_elements(p, r, from, error))
+    if (!name_elements(p, r, from, error))
         return false;
     if (p->count || p->radius == 0)
         return true;
-    return seek_nearest(p, r, &from->playback.scene, error) && name_elements(p, r, from, error);
+    return seek_nearest(p, r, &from->scene, error) && name_elements(p, r, from, error);
+}
+
+static bool pick_pixel(pick *p, replay *from, const pick_options *options, octreel_error *error)
+{
+    renderer *r = replay_renderer(from, &options->renderer, error);
+    return r && pick_scene(p, &from->playback, r, error);
 }
 
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error)

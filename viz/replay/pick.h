@@ -8,6 +8,7 @@
 #include "folder.h"
 #include "image.h"
 #include "pixel.h"
+#include "playback.h"
 
 #include <stdio.h>
 
@@ -42,6 +43,10 @@ typedef struct pick {
  * of, or the pixel is outside. */
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error);
 void pick_release(pick *p);
+
+/* Find what is at a pixel of the scene that a playback has made last, by a renderer of its size: fills samples, pixel,
+ * elements and count by what else is set. */
+bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error);
 
 /* Print for people, or one JSON object on one line. */
 void pick_print(FILE *out, const pick *p, bool json);

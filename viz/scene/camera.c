@@ -127,9 +127,14 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
     measure(&c, v->fit == FIT_BOX ? &v->focus : world);
     double target[3] = {0, 0, 0};
-    if (v->center.given || v->camera == CAMERA_FOLLOW)
-        camera_unit(&c, v->center.given ? v->center.place : player, target);
-    const double distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
+    const bool placed = v->center.given || v->camera == CAMERA_FOLLOW;
+    for (int i = 0; i < 3; i++)
+        c.center[i] = v->center.given ? v->center.place[i]
+                      : placed        ? player[i]
+                                      : (c.origin[i] + c.half[i] * c.size / 2) / c.scale;
+    if (placed)
+        camera_unit(&c, c.center, target);
+    const double distance = c.distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
     aim(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
         v->look.given ? v->look.elevation / 360 : cameras[v->camera].elevation);

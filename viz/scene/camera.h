@@ -26,6 +26,8 @@ typedef struct camera {
     bool perspective;
     double zoom;                  /* pixels a unit; under perspective, at distance 1 */
     double middle[2];             /* the pixel that the axis of view passes through */
+    double center[3];             /* what it looks at, at that pixel, in world coordinates */
+    double distance;              /* from the eye to it */
     double near;                  /* what is nearer than this (along forward, from the eye) is clipped */
     double near_depth, far_depth; /* the box's range of view depth, which is cut into bands */
 } camera;

@@ -386,6 +386,24 @@ octree_status octree_game_play(octree_game *game, const octree_input *input)
     return status == OCTREE_OK ? step(game, input->key ? input->key : '.', input) : status;
 }
 
+octree_status octree_game_ask(octree_game *game, const octree_query *queries, size_t count)
+{
+    if (!game || (!queries && count))
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = float_mode_is_default() ? OCTREE_OK : OCTREE_FLOAT_MODE;
+    for (size_t i = 0; status == OCTREE_OK && i < count; i++)
+        status = octree_query_check(&queries[i]);
+    if (status != OCTREE_OK)
+        return status;
+    game->hit_leaves.count = 0;
+    status = game_ask(game, queries, count);
+    if (status == OCTREE_OK)
+        status = game_finish_asking(game);
+    if (status == OCTREE_OK)
+        publish(game);
+    return status;
+}
+
 bool octree_game_over(const octree_game *game)
 {
     return !game || game->quit || game->tick.number >= octree_session_length(game->session);

@@ -78,16 +78,16 @@ function sayWalk(name, key)
 function sayMatches()
 {
     press("Home");
-    sayWalk("walk any", "n");
+    sayWalk("walk any", "j");
     press("3");
     press("Home");
-    sayWalk("walk collided", "n");
-    sayWalk("walk back", "p");
+    sayWalk("walk collided", "j");
+    sayWalk("walk back", "k");
     say("filtered", document.getElementById("filtered").textContent);
     say("chosen", [...document.querySelectorAll('[aria-pressed="true"]')].map(label => label.dataset.event).join(" "));
     document.querySelector('.lane-label[data-event="merged"]').click();
     press("Home");
-    sayWalk("walk collided or merged", "n");
+    sayWalk("walk collided or merged", "j");
     press("0");
     say("chosen none", document.querySelectorAll('[aria-pressed="true"]').length);
 }

@@ -214,7 +214,7 @@ static void filter_leads_from_match_to_match(void **state)
     assert_walk(*state, "walk collided", "0 ", " collided ");
     assert_walk(*state, "walk collided or merged", "0 ", " collided merged ");
     assert_said(*state, "walk back", "234 193 121 120 11 10 6 2 1 0");
-    assert_said(*state, "filtered", "10 ticks collided: n and p go from one to the next.");
+    assert_said(*state, "filtered", "10 ticks collided: j and k go from one to the next.");
     assert_said(*state, "chosen", "collided");
     assert_said(*state, "chosen none", "0");
 }
@@ -254,7 +254,9 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(*state, "help", "true");
     assert_said(*state, "behind the help", "0");
     assert_said(*state, "keys listed",
-                "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - n p 1 2 3 4 5 6 0 ?");
+                "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 "
+                "w s d a e f n . q Shift \xe2\x86\x90 Shift \xe2\x86\x92 Shift \xe2\x86\x91 Shift \xe2\x86\x93 "
+                "Shift Page Up Shift Page Down Esc ?");
 }
 
 /* However many ticks there are, the page has a few hundred elements. */

@@ -57,20 +57,44 @@ function eventBits(names)
     return EVENTS.reduce((bits, [name], i) => names.includes(name) ? bits | 1 << i : bits, 0);
 }
 
-/* Ten thousand ticks are ten thousand strings and a few typed arrays; of the parsed ticks none is kept. */
+/* Ten thousand ticks are ten thousand strings and a few lists of numbers; of the parsed ticks none is kept. */
 class Recording {
-    constructor(text)
+    constructor(about, lines)
+    {
+        this.about = about;
+        this.lines = [];
+        this.events = [];
+        this.filmed = []; /* the tick whose frame is the latest at this one; -1: none is */
+        this.curves = CURVES.map(([path, name]) => ({path, name, values: []}));
+        lines.forEach(line => this.append(line));
+        this.curves = this.curves.filter(curve => !this.length || curve.values.some(value => !isNaN(value)));
+    }
+
+    static parse(text)
     {
         const lines = text.trim().split("\n");
-        this.about = JSON.parse(lines[0]);
-        this.lines = lines.slice(1);
-        this.length = this.lines.length;
-        this.events = new Uint32Array(this.length);
-        this.filmed = new Int32Array(this.length).fill(-1); /* the tick whose frame is the latest at this one */
-        this.curves = CURVES.map(([path, name]) => ({path, name, values: new Float64Array(this.length)}));
-        for (let i = 0; i < this.length; i++)
-            this.index(i, this.tick(i));
-        this.curves = this.curves.filter(curve => curve.values.some(value => !isNaN(value)));
+        return new Recording(JSON.parse(lines[0]), lines.slice(1));
+    }
+
+    get length()
+    {
+        return this.lines.length;
+    }
+
+    append(line)
+    {
+        this.lines.push(line);
+        this.index(this.length - 1, this.tick(this.length - 1));
+    }
+
+    /* The first `length` ticks. */
+    cut(length)
+    {
+        const part = new Recording(this.about, []);
+        for (const list of ["lines", "events", "filmed"])
+            part[list] = this[list].slice(0, length);
+        part.curves = this.curves.map(curve => ({...curve, values: curve.values.slice(0, length)}));
+        return part;
     }
 
     tick(i)

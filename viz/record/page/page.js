@@ -7,6 +7,7 @@ const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; /* frames a second */
 const START_SPEED = 15;
 const FRAMES_AHEAD = 6;
 const SHORTEST_WAIT = 4; /* ms */
+const GROWTH_DELAY = 250; /* ms from one drawing of a timeline that grows to the next */
 const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes with each frame */
 
 const byId = id => document.getElementById(id);
@@ -15,13 +16,37 @@ class Viewer {
     constructor(recording)
     {
         this.recording = recording;
-        this.last = recording.length - 1;
-        this.page = Math.max(10, Math.round(recording.length / 20));
         this.tick = 0;
         this.filter = 0; /* bits of the events that are chosen; 0: none is */
         this.playing = false;
         this.stage = new Frames(byId("stage"), tick => recording.tick(tick).frame);
         this.timeline = new Timeline(recording, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
+        this.interaction = new Interaction(this);
+    }
+
+    get last()
+    {
+        return this.recording.length - 1;
+    }
+
+    get page()
+    {
+        return Math.max(10, Math.round(this.recording.length / 20));
+    }
+
+    /* Show another recording from now on, or the same when it has more ticks. */
+    follow(recording)
+    {
+        const other = recording !== this.recording;
+        this.recording = recording;
+        byId("slider").max = byId("tick").max = byId("last").textContent = this.last;
+        if (other)
+            this.timeline.show(recording);
+        else
+            this.growing ??= setTimeout(() => {
+                this.growing = undefined;
+                this.timeline.show(this.recording);
+            }, GROWTH_DELAY);
     }
 
     /* ---- Where to ------------------------------------------------------------------------------------------- */
@@ -75,10 +100,10 @@ class Viewer {
 
     /* ---- Playing -------------------------------------------------------------------------------------------- */
 
-    /* What is played: the chosen ticks, or all that have a frame. */
+    /* What is played: the chosen ticks, or all that have a picture. */
     isPlayed(tick)
     {
-        return this.filter ? this.matches(tick) : this.recording.hasFrame(tick);
+        return this.filter ? this.matches(tick) : this.interaction.isLive || this.recording.hasFrame(tick);
     }
 
     nextPlayed(from)
@@ -107,7 +132,7 @@ class Viewer {
     beat()
     {
         const now = performance.now();
-        if (now >= this.due && !this.stage.busy) {
+        if (now >= this.due && !this.stage.busy && !this.interaction.busy) {
             this.due = Math.max(this.due + 1000 / Number(byId("speed").value), now);
             this.playNext();
         }
@@ -149,6 +174,10 @@ class Viewer {
 
     showFrame()
     {
+        if (this.interaction.isLive) {
+            this.interaction.show(this.tick);
+            return;
+        }
         const filmed = this.recording.filmed[this.tick], caption = byId("caption");
         this.stage.show(filmed).then(() => this.prepareFrames());
         caption.hidden = filmed === this.tick;
@@ -175,7 +204,7 @@ class Viewer {
         this.timeline.choose(this.filter);
         const count = this.recording.count(this.filter);
         byId("filtered").textContent = this.filter === 0 ? "" :
-            `${counted(count, "tick")} ${this.filterNames().join(" or ")}: n and p go from one to the next.`;
+            `${counted(count, "tick")} ${this.filterNames().join(" or ")}: j and k go from one to the next.`;
     }
 
     showPlaying()
@@ -223,15 +252,23 @@ const KEYS = [
     [[" "], "space", "play or pause", viewer => viewer.playing ? viewer.pause() : viewer.play()],
     [["+", "="], "+", "faster", viewer => viewer.changeSpeed(1)],
     [["-"], "-", "slower", viewer => viewer.changeSpeed(-1)],
-    [["n"], "n", "next chosen event; with none chosen, any but moved", viewer => viewer.seekMatch(1)],
-    [["p"], "p", "previous chosen event", viewer => viewer.seekMatch(-1)],
+    [["j"], "j", "next chosen event; with none chosen, any but moved", viewer => viewer.seekMatch(1)],
+    [["k"], "k", "previous chosen event", viewer => viewer.seekMatch(-1)],
     ...EVENTS.map(([name], i) =>
         [[String(i + 1)], String(i + 1), `choose ${name}, or no longer`, viewer => viewer.toggle(1 << i)]),
     [["0"], "0", "choose no event: show all", viewer => viewer.clearFilter()],
+    ...[..."wsdaefn.q"].map(key => [[key], key, `play on from here: ${KEY_MEANINGS[key]}`,
+                                   viewer => viewer.interaction.press(key)]),
+    ...[["Left", "←", -1, 0], ["Right", "→", 1, 0], ["Up", "↑", 0, 1], ["Down", "↓", 0, -1]].map(
+        ([name, sign, dx, dy]) => [[`Shift+Arrow${name}`], `Shift ${sign}`, "turn the view; so does dragging",
+                                   viewer => viewer.interaction.turn(dx, dy)]),
+    [["Shift+PageUp"], "Shift Page Up", "closer; so does the wheel", viewer => viewer.interaction.zoom(1.25)],
+    [["Shift+PageDown"], "Shift Page Down", "farther", viewer => viewer.interaction.zoom(0.8)],
+    [["Escape"], "Esc", "back to the recording, as it was recorded", viewer => viewer.interaction.goBack()],
     [["?"], "?", "these keys", () => byId("help").showModal()],
 ];
 
-const BUTTONS = {"previous-match": "p", previous: "ArrowLeft", play: " ", next: "ArrowRight", "next-match": "n"};
+const BUTTONS = {"previous-match": "k", previous: "ArrowLeft", play: " ", next: "ArrowRight", "next-match": "j"};
 
 function actionOf(key)
 {
@@ -252,7 +289,7 @@ function isTaken(event)
 function listenToKeys(viewer)
 {
     document.addEventListener("keydown", event => {
-        const action = actionOf(event.key);
+        const action = actionOf(event.shiftKey && event.key.length > 1 ? `Shift+${event.key}` : event.key);
         if (!action || isTaken(event))
             return;
         event.preventDefault();
@@ -276,7 +313,6 @@ function listenToControls(viewer)
     byId("slider").addEventListener("input", event => viewer.goTo(Number(event.target.value)));
     byId("tick").addEventListener("change", event => typeTick(viewer, event.target.valueAsNumber));
     byId("tick").addEventListener("keydown", event => event.key === "Enter" && event.target.blur());
-    byId("stage").addEventListener("click", () => actionOf(" ")(viewer));
     byId("help-open").addEventListener("click", () => actionOf("?")(viewer));
     addEventListener("hashchange", () => viewer.readAddress());
 }
@@ -303,9 +339,8 @@ function describeRecording(recording)
     byId("stage").style.setProperty("--ratio", width / height || 16 / 9);
 }
 
-function fillControls(recording)
+function fillControls()
 {
-    byId("slider").max = byId("tick").max = byId("last").textContent = recording.length - 1;
     for (const speed of SPEEDS)
         byId("speed").append(new Option(`${speed} / s`, speed, speed === START_SPEED, speed === START_SPEED));
     for (const [, shown, words] of KEYS) {
@@ -317,19 +352,21 @@ function fillControls(recording)
 
 function openRecording()
 {
-    const recording = new Recording(byId("facts").textContent);
+    const recording = Recording.parse(byId("facts").textContent);
     if (recording.length === 0) {
         byId("message").textContent = "This recording has no ticks.";
         byId("message").hidden = false;
-        return;
+        return null;
     }
     byId("viewer").hidden = false;
     describeRecording(recording);
-    fillControls(recording);
+    fillControls();
     const viewer = new Viewer(recording);
+    viewer.follow(recording);
     listenToKeys(viewer);
     listenToControls(viewer);
     viewer.readAddress();
+    return viewer;
 }
 
-openRecording();
+const octreel = openRecording(); /* for the console */

@@ -4,7 +4,7 @@
 "use strict";
 
 const KEY_MEANINGS = {
-    w: "+y", s: "−y", d: "+x", a: "−x", e: "+z", f: "−z", n: "nearest neighbour", ".": "wait",
+    w: "+y", s: "−y", d: "+x", a: "−x", e: "+z", f: "−z", n: "nearest neighbour", ".": "wait", q: "end",
 };
 
 /* Positions are lists of three numbers and yet one thing; events are few and seen at a glance. */

@@ -95,29 +95,42 @@ class Timeline {
     /* `goTo` is called with a tick, `toggle` with the bit of an event. */
     constructor(recording, {goTo, toggle})
     {
-        this.recording = recording;
         this.root = document.getElementById("timeline");
         this.scrub = document.getElementById("scrub");
         this.cursor = document.getElementById("cursor");
-        this.tick = 0;
-        this.lanes = [...EVENTS.map((event, i) => this.eventLane(event, 1 << i, toggle)),
-                      ...recording.curves.map(curve => this.curveLane(curve))];
-        this.lanes.forEach((lane, i) => this.place(lane, i + 2));
-        this.scrub.style.gridRow = `2 / span ${this.lanes.length}`;
+        this.tick = this.bits = 0;
+        this.lanes = [];
+        this.toggle = toggle;
+        this.show(recording);
         this.followPointer(goTo);
         this.measure(); /* once and at each change of size: asking at each tick costs a layout */
         new ResizeObserver(() => this.draw()).observe(this.root);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     }
 
-    eventLane([name, sign], bit, toggle)
+    /* Another recording, or one that has more ticks. */
+    show(recording)
+    {
+        this.recording = recording;
+        for (const lane of this.lanes)
+            for (const part of [lane.label, lane.canvas, lane.shown])
+                part.remove();
+        this.lanes = [...EVENTS.map((event, i) => this.eventLane(event, 1 << i)),
+                      ...recording.curves.map(curve => this.curveLane(curve))];
+        this.lanes.forEach((lane, i) => this.place(lane, i + 2));
+        this.scrub.style.gridRow = `2 / span ${this.lanes.length}`;
+        this.choose(this.bits);
+        this.draw();
+    }
+
+    eventLane([name, sign], bit)
     {
         const count = this.recording.count(bit);
         const label = element("button", name, {type: "button", class: "lane-label", "data-event": name,
                                                "aria-pressed": "false", title: `Show ticks that ${name}`});
         label.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
         label.disabled = count === 0;
-        label.addEventListener("click", () => toggle(bit));
+        label.addEventListener("click", () => this.toggle(bit));
         const paint = (context, scale, height) => drawEvents(context, scale, height, this.recording.events, bit);
         return {name, bit, label, paint, value: () => grouped(count), kind: "event"};
     }
@@ -182,6 +195,7 @@ class Timeline {
     /* Lanes that the filter leaves out fade. */
     choose(bits)
     {
+        this.bits = bits;
         for (const {bit, label, canvas} of this.lanes) {
             if (!bit)
                 continue;

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT */
+/* drive_plays.js - plays the session of a recording in its page, in order and not, as people would: a line
+ * "what<tab>value" of what it sees. */
+"use strict";
+
+const said = [];
+
+function say(what, value)
+{
+    said.push(`${what}\t${value}\n`);
+}
+
+const wait = ms => new Promise(done => setTimeout(done, ms));
+
+async function until(isSo, what)
+{
+    for (let i = 0; !isSo(); i++) {
+        if (i > 200000)
+            throw new Error(`waited for ${what}`);
+        await wait(1);
+    }
+}
+
+/* A generator of its own: the same gestures every time. */
+let seed = 1;
+
+function random(below)
+{
+    seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0;
+    return Math.floor(seed / 2 ** 32 * below);
+}
+
+function digestOf(bytes)
+{
+    let digest = 0x811c9dc5;
+    for (let i = 0; i < bytes.length; i++)
+        digest = Math.imul(digest ^ bytes[i], 0x01000193);
+    return (digest >>> 0).toString(16).padStart(8, "0");
+}
+
+const {interaction} = octreel;
+const player = () => interaction.player;
+
+/* The tick as it is played, its scene and its pixels. */
+async function sayTick(name, tick)
+{
+    await player().goTo(tick);
+    const {engine} = player(), picture = engine.draw();
+    const {tick: number, tree} = JSON.parse(engine.facts());
+    say(`${name} ${tick}`, `${number} ${tree.digest} ${engine.digest()} ${digestOf(picture.data)}`);
+}
+
+async function sayTicks()
+{
+    const {length} = player();
+    for (let i = 0; i < length; i++)
+        await sayTick("tick", i * 101 % length);
+}
+
+function sayPicks()
+{
+    const {engine} = player();
+    for (let i = 0; i < 40; i++) {
+        const x = random(engine.view.width), y = random(engine.view.height);
+        engine.pick(x, y, 3);
+        say(`pick ${x} ${y}`, engine.text().trim());
+    }
+}
+
+/* What is asked is answered by the library, and gone with the tick. */
+async function sayAnswers()
+{
+    const digest = player().engine.digest();
+    interaction.ask({knearest: 2, at: [0, 0, 0]});
+    interaction.ask({radius: 100, at: [700, 700, 700]});
+    const {answers} = JSON.parse(player().engine.facts());
+    say("answer", JSON.stringify(answers.at(-1).radius.ids));
+    interaction.ask({range: {min: [1, 1, 1], max: [0, 0, 0]}});
+    say("refused", byId("told").textContent);
+    interaction.ask();
+    player().engine.draw();
+    say("asked nothing", player().engine.digest() === digest);
+}
+
+async function sayTakenOver()
+{
+    octreel.goTo(30);
+    await until(() => !interaction.busy && player().engine.tick === 30, "tick 30");
+    for (const key of "wwdnes.afnnq")
+        await interaction.press(key);
+    say("taken", `${octreel.tick} of ${octreel.last}`);
+    octreel.goTo(35);
+    await until(() => !interaction.busy && player().engine.tick === 35, "tick 35");
+    await interaction.press("e");
+    say("taken again", `${octreel.tick} of ${octreel.last}`);
+    say("session", player().save().replaceAll("\n", " "));
+    for (let tick = 0; tick <= octreel.last; tick++)
+        await sayTick("taken", tick);
+    interaction.goBack();
+    say("given back", `${octreel.tick} of ${octreel.last}`);
+    await interaction.start();
+}
+
+/* Whatever is done to the page, it goes on, and a tick is the same tick. Pictures are not waited for: the browser's
+ * clock would run ahead. */
+function act()
+{
+    const gestures = [
+        () => interaction.live.turn(random(200) - 100, random(200) - 100),
+        () => interaction.live.move(random(200) - 100, random(200) - 100),
+        () => interaction.live.zoom(0.5 + random(100) / 50, random(160), random(90)),
+        () => interaction.live.look({camera: ["iso", "top", "follow", "orbit", "moon"][random(5)]}),
+        () => interaction.live.look({slice: [undefined, {z: 100}, {w: 1}][random(3)]}),
+        () => interaction.live.look({diagram: ["none", "beside", "only"][random(3)]}),
+        () => interaction.live.look({depths: [undefined, [0, 2], [3, 1]][random(3)]}),
+        () => interaction.live.lookAsRecorded(),
+        () => player().engine.pick(random(160), random(90), 2),
+        () => octreel.goTo(random(octreel.last + 1)),
+        () => interaction.press("wsadefn."[random(8)]),
+        () => interaction.ask({nearest: [random(1000), random(1000), NaN]}),
+    ];
+    gestures[random(gestures.length)]();
+}
+
+async function sayRandom()
+{
+    for (let i = 0; i < 600; i++) {
+        act();
+        await interaction.pressed;
+    }
+    await until(() => !interaction.busy, "the end of it");
+    interaction.goBack();
+    await interaction.start();
+    for (let i = 0; i < 12; i++)
+        await sayTick("again", random(octreel.last + 1));
+}
+
+async function sayDropped(name, text)
+{
+    const before = player();
+    await interaction.open(new File([text], name));
+    say(`dropped ${name}`, `${player() === before} ${byId("told").textContent}`);
+}
+
+async function drive()
+{
+    say("plays by itself", await interaction.start());
+    await until(() => player().scout.tick === player().length - 1, "the end of the session");
+    await sayTicks();
+    await player().goTo(219);
+    player().engine.draw();
+    sayPicks();
+    await sayAnswers();
+    await sayTakenOver();
+    await sayRandom();
+    await sayDropped("frame.png", "\x89PNG\r\n");
+    await sayDropped("newer.json", '{"octreel": "session", "version": 9}');
+    await sayDropped("cut.json", '{"octreel": "session", "version": 1, "points": [[1, 2');
+    await sayDropped("nan.json", '{"octreel": "session", "version": 1, "points": [[1, 2, NaN]]}');
+    await sayDropped("cloud.json", '{"octreel": "session", "version": 1, "points": {"file": "utm.txt"}}');
+    await sayDropped("good.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 3]], "keys": "ww"}');
+    await until(() => octreel.recording.length === 3, "the ticks of the session that was dropped");
+    say("dropped", `${octreel.last} ${JSON.parse(octreel.recording.lines[2]).player}`);
+    say("errors", errors.join(" "));
+    const list = document.body.appendChild(document.createElement("pre"));
+    list.id = "said";
+    list.textContent = said.join("");
+}
+
+const errors = [];
+addEventListener("error", event => errors.push(event.message));
+addEventListener("unhandledrejection", event => errors.push(event.reason));
+drive().catch(error => { document.body.textContent = error.stack; });

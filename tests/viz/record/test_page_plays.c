@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: MIT */
+/* test_page_plays.c - index.html in headless Chromium plays the session by itself: the same ticks, scenes and pixels as
+ * the recording's, whatever the way there; what is picked, asked and taken over is what the program says of it. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "browser.h"
+#include "commands.h"
+#include "fixture.h"
+#include "pick.h"
+#include "png_read.h"
+#include "recordings.h"
+#include "session_file.h"
+#include "tick_lines.h"
+#include "ticks_write.h"
+
+enum { LAST = 252 }; /* tick of the default session */
+
+/* A recording of the default session, and what its page said while drive_plays.js played it. */
+typedef struct driven {
+    void *folder; /* a temp_folder */
+    char *said;   /* null where the page cannot play */
+} driven;
+
+static bool page_plays(const char *page)
+{
+    char *text = file_read(page, NULL);
+    const bool plays = strstr(text, "id=\"module\"></script>") == NULL;
+    free(text);
+    return plays;
+}
+
+static int drive_page(void **state)
+{
+    driven *d = calloc(1, sizeof *d);
+    *state = d;
+    if (!d || temp_folder_make(&d->folder) != 0)
+        return -1;
+    const place film = place_in(d->folder, "film"), page = place_below(film.path, "index.html");
+    const octree_session session = octree_session_default();
+    const film_options options = small_film(film.path);
+    assert_filmed(&session, &options);
+    if (browser_is_there() && page_plays(page.path))
+        d->said = browser_drive(d->folder, page.path, OCTREEL_DRIVE_PLAYS);
+    return 0;
+}
+
+static int forget_page(void **state)
+{
+    driven *d = *state;
+    const int status = nested_folder_remove(&d->folder);
+    free(d->said);
+    free(d);
+    return status;
+}
+
+static const driven *need_page(void **state)
+{
+    const driven *d = *state;
+    need_browser();
+    if (d->said)
+        return d;
+    print_message("octreel was built without WebAssembly: its pages do not play\n");
+    skip();
+    return d;
+}
+
+/* ---- Ticks -------------------------------------------------------------------------------------------------- */
+
+/* Of the colours, four bytes a pixel, as drive_plays.js does. */
+static uint32_t digest_pixels(const char *path)
+{
+    octreel_error error;
+    image frame;
+    uint32_t digest = 0x811c9dc5;
+    if (!image_read_png(path, &frame, &error))
+        fail_msg("%s", error.text);
+    for (int y = 0; y < frame.height; y++)
+        for (int x = 0; x < frame.width; x++) {
+            const image_color color = image_color_at(&frame, x, y);
+            const uint8_t bytes[] = {color.r, color.g, color.b, 255};
+            for (int i = 0; i < 4; i++)
+                digest = (digest ^ bytes[i]) * 0x01000193;
+        }
+    image_release(&frame);
+    return digest;
+}
+
+typedef struct expectation {
+    const char *said, *name, *folder;
+    bool some; /* ticks may be missing */
+} expectation;
+
+static void assert_tick_said(const char *line, size_t number, void *context)
+{
+    const expectation *e = context;
+    char what[64], sought[80], expected[128];
+    snprintf(what, sizeof what, "%s %zu", e->name, number);
+    snprintf(sought, sizeof sought, "\n%s\t", what);
+    if (e->some && !strstr(e->said, sought))
+        return;
+    json_t *tick = json_read(line);
+    snprintf(expected, sizeof expected, "%zu %s %s %08x", number,
+             json_string_value(json_member(json_member(tick, "tree"), "digest")),
+             json_string_value(json_member(tick, "scene")), digest_pixels(frame_place(e->folder, number).path));
+    assert_said_about(e->said, what, expected);
+    json_decref(tick);
+}
+
+static void assert_ticks_said(const driven *d, const char *name, const char *folder, size_t count, bool some)
+{
+    expectation e = {d->said, name, folder, some};
+    assert_int_equal(for_each_line(folder, assert_tick_said, &e), count);
+}
+
+static void every_tick_is_that_of_the_recording_in_any_order(void **state)
+{
+    const driven *d = need_page(state);
+    assert_said_about(d->said, "plays by itself", "true");
+    assert_ticks_said(d, "tick", place_in(d->folder, "film").path, LAST + 1, false);
+}
+
+static void gestures_at_random_change_no_tick_and_raise_no_error(void **state)
+{
+    const driven *d = need_page(state);
+    assert_ticks_said(d, "again", place_in(d->folder, "film").path, LAST + 1, true);
+    assert_said_about(d->said, "errors", "");
+}
+
+/* ---- Questions ---------------------------------------------------------------------------------------------- */
+
+/* All but the name of the file, which a page does not have. */
+static void assert_same_pick(const char *said, const char *frame, int x, int y)
+{
+    octreel_error error;
+    pick found;
+    char *text;
+    size_t size;
+    if (!pick_frame(frame, &(pick_options){.x = x, .y = y, .radius = 3}, &found, &error))
+        fail_msg("%s", error.text);
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    pick_print(out, &found, true);
+    assert_int_equal(fclose(out), 0);
+    text[strcspn(text, "\n")] = 0;
+    assert_string_equal(strstr(said, "\"tick\""), strstr(text, "\"tick\""));
+    pick_release(&found);
+    free(text);
+}
+
+static void a_click_says_what_pick_says(void **state)
+{
+    const driven *d = need_page(state);
+    const place frame = frame_place(place_in(d->folder, "film").path, 219);
+    int picks = 0;
+    for (const char *at = d->said; (at = strstr(at, "\npick ")) != NULL; picks++) {
+        int x, y;
+        at += strlen("\npick ");
+        assert_int_equal(sscanf(at, "%d %d", &x, &y), 2);
+        char *said = strndup(strchr(at, '\t') + 1, strcspn(strchr(at, '\t') + 1, "\n"));
+        assert_same_pick(said, frame.path, x, y);
+        free(said);
+    }
+    assert_int_equal(picks, 40);
+}
+
+static void what_is_asked_is_answered_by_the_library(void **state)
+{
+    const driven *d = need_page(state);
+    assert_said_about(d->said, "answer", "[7]");
+    assert_said_about(d->said, "refused", "what is asked: range: min is above max on x");
+    assert_said_about(d->said, "asked nothing", "true");
+}
+
+/* ---- Playing on --------------------------------------------------------------------------------------------- */
+
+static void what_is_played_on_is_a_session_that_films_the_same(void **state)
+{
+    const driven *d = need_page(state);
+    const place film = place_in(d->folder, "played");
+    octreel_error error;
+    session_file session;
+    assert_said_about(d->said, "taken", "41 of 41");
+    assert_said_about(d->said, "taken again", "36 of 36");
+    char *text = said_about(d->said, "session");
+    if (!session_parse("the session", "", text, strlen(text), &session, &error))
+        fail_msg("%s", error.text);
+    const film_options options = small_film(film.path);
+    assert_filmed(&session.session, &options);
+    assert_ticks_said(d, "taken", film.path, 37, false);
+    assert_said_about(d->said, "given back", "36 of 252");
+    session_release(&session);
+    free(text);
+}
+
+static void what_cannot_be_opened_is_said_and_leaves_what_was_there(void **state)
+{
+    const driven *d = need_page(state);
+    static const char *const rows[][2] = {
+        {"frame.png", "true frame.png cannot be opened: it is no session.json"},
+        {"newer.json", "true newer.json cannot be opened: line 1: version:"},
+        {"cut.json", "true cut.json cannot be opened: line 1: "},
+        {"nan.json", "true nan.json cannot be opened: line 1: "},
+        {"cloud.json", "true cloud.json cannot be opened: "},
+        {"good.json", "false "},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char what[64];
+        snprintf(what, sizeof what, "dropped %s", rows[i][0]);
+        char *told = said_about(d->said, what);
+        if (strncmp(told, rows[i][1], strlen(rows[i][1])) != 0)
+            fail_msg("%s: \"%s\" and not \"%s\"", what, told, rows[i][1]);
+        free(told);
+    }
+    assert_said_about(d->said, "dropped", "2 0,100,0");
+}
+
+static void the_page_of_the_default_session_is_small(void **state)
+{
+    const driven *d = need_page(state);
+    struct stat about;
+    assert_int_equal(stat(place_below(place_in(d->folder, "film").path, "index.html").path, &about), 0);
+    assert_true(about.st_size < 400000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_tick_is_that_of_the_recording_in_any_order),
+        cmocka_unit_test(a_click_says_what_pick_says),
+        cmocka_unit_test(what_is_asked_is_answered_by_the_library),
+        cmocka_unit_test(what_is_played_on_is_a_session_that_films_the_same),
+        cmocka_unit_test(gestures_at_random_change_no_tick_and_raise_no_error),
+        cmocka_unit_test(what_cannot_be_opened_is_said_and_leaves_what_was_there),
+        cmocka_unit_test(the_page_of_the_default_session_is_small),
+    };
+    return cmocka_run_group_tests(tests, drive_page, forget_page);
+}

@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: MIT */
+/* interaction.js - the page plays: at the first gesture it begins to draw by itself, and from any tick the keys of the
+ * game play on. */
+"use strict";
+
+const LONG_WAIT = 100; /* ms: what takes longer has a bar */
+
+/* The view of a session that has none: that of a recording without what depends on its world. */
+function plainView(about)
+{
+    const {fit, look, center, zoom, slice, region, depths, ...view} = about;
+    return view;
+}
+
+class Interaction {
+    constructor(viewer)
+    {
+        this.viewer = viewer;
+        this.stage = byId("stage");
+        this.busy = false;
+        this.recorded = viewer.recording;
+        if (byId("module").textContent.trim())
+            this.listen();
+    }
+
+    get isLive()
+    {
+        return this.live !== undefined;
+    }
+
+    tell(text)
+    {
+        byId("told").textContent = text;
+    }
+
+    /* ---- Begin and end ------------------------------------------------------------------------------------------ */
+
+    /* Begin to draw, once. False where that cannot be, which is told. */
+    start()
+    {
+        return this.starting ??= this.begin().catch(error => {
+            this.starting = undefined;
+            this.tell(`The page cannot play: ${error.message}`);
+            return false;
+        });
+    }
+
+    async begin()
+    {
+        this.module ??= await compileModule();
+        if (!this.module)
+            throw new Error("this browser has no WebAssembly, or does not unpack it");
+        const session = byId("session").textContent.trim();
+        if (!session)
+            throw new Error("the session is not in the page, as it is large; drop session.json here");
+        await this.take(session, this.recorded.about, this.recorded);
+        return true;
+    }
+
+    /* Play a session from now on. */
+    async take(session, view, recording)
+    {
+        const player = new Player(this.module, session, view, (tick, engine) => this.hear(tick, engine));
+        if (recording.length === 0)
+            recording.append(player.engine.facts());
+        this.player = player;
+        this.recorded = recording;
+        this.makeControls(player.engine.choices());
+        this.live = new Live(this.stage, player, {
+            told: text => this.tell(text),
+            picked: (pick, place) => this.showPick(pick, place),
+            changed: () => this.showView(),
+        });
+        this.viewer.follow(recording);
+        this.showView();
+        this.showTaken();
+        for (const shown of ["view", "asking", "live-end"])
+            byId(shown).hidden = false;
+        byId("live-start").hidden = byId("hint").hidden = true;
+        byId("caption").hidden = true;
+        this.stage.classList.remove("stale");
+        this.playAhead();
+        await this.show(this.viewer.tick);
+    }
+
+    makeControls(choices)
+    {
+        if (this.controls)
+            return;
+        this.controls = new ViewControls(byId("view-rows"), choices, changes => this.live.look(changes));
+        this.form = new AskForm(byId("ask"), choices.queries, {ask: query => this.ask(query), forget: () => this.ask()});
+    }
+
+    playAhead()
+    {
+        const start = performance.now(), bar = byId("ahead");
+        this.player.playAhead((tick, last) => {
+            bar.hidden = tick >= last || performance.now() - start < LONG_WAIT;
+            bar.value = last > 0 ? tick / last : 1;
+        }).catch(error => this.tell(error.message));
+    }
+
+    /* A tick that was played: its facts, where they are not known. */
+    hear(tick, engine)
+    {
+        const recording = this.viewer.recording;
+        if (recording.length !== tick)
+            return;
+        recording.append(engine.facts());
+        this.viewer.follow(recording);
+    }
+
+    /* Show a tick; of several that are asked for meanwhile, the last. */
+    async show(tick)
+    {
+        this.wanted = Math.min(tick, this.player.length - 1);
+        if (this.busy)
+            return;
+        this.busy = true;
+        try {
+            do {
+                await this.player.goTo(this.wanted);
+                await this.live.draw();
+            } while (this.player.engine.tick !== this.wanted);
+        } catch (error) {
+            this.tell(error.message);
+        }
+        this.busy = false;
+    }
+
+    /* To the recording and its frames. */
+    goBack()
+    {
+        if (!this.isLive)
+            return;
+        this.player.run++;
+        this.live.hide();
+        this.live = this.starting = undefined;
+        for (const hidden of ["view", "asking", "live-end", "save", "taken", "picked", "ahead"])
+            byId(hidden).hidden = true;
+        byId("live-start").hidden = byId("hint").hidden = false;
+        this.tell("");
+        this.viewer.stage.shown = -1;
+        this.viewer.follow(this.recorded);
+        this.viewer.goTo(this.viewer.tick);
+    }
+
+    /* By keys, which begin as dragging does. */
+    async turn(dx, dy)
+    {
+        if (await this.start())
+            this.live.turnStep(dx, dy);
+    }
+
+    async zoom(factor)
+    {
+        if (await this.start())
+            this.live.zoomStep(factor);
+    }
+
+    /* ---- Taking over -------------------------------------------------------------------------------------------- */
+
+    /* One key after the other, however fast they come. */
+    press(key)
+    {
+        this.pressed = (this.pressed ?? Promise.resolve()).then(() => this.playKey(key));
+        return this.pressed;
+    }
+
+    async playKey(key)
+    {
+        if (!(await this.start()))
+            return;
+        const {viewer, player} = this;
+        viewer.pause();
+        await player.goTo(viewer.tick);
+        if (key === "q") {
+            this.tell(player.isTaken ? "The game has ended. Save it, or go back to the recording." : "");
+            return;
+        }
+        try {
+            player.press(key);
+        } catch (error) {
+            this.tell(error.message);
+            return;
+        }
+        const recording = viewer.recording === this.recorded || viewer.recording.length > viewer.tick + 1
+            ? viewer.recording.cut(viewer.tick + 1) : viewer.recording;
+        recording.append(player.engine.facts());
+        viewer.follow(recording);
+        this.showTaken();
+        this.playAhead();
+        viewer.goTo(recording.length - 1);
+    }
+
+    showTaken()
+    {
+        const {isTaken, taken, keys} = this.player;
+        byId("taken").hidden = byId("save").hidden = !isTaken;
+        byId("taken").textContent = `Played from tick ${grouped(taken)}: ${keys.slice(-24)}`;
+    }
+
+    save()
+    {
+        const blob = new Blob([this.player.save()], {type: "application/json"});
+        const link = element("a", "", {href: URL.createObjectURL(blob), download: "session.json"});
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+        this.tell("octreel record session.json films exactly this.");
+    }
+
+    async open(file)
+    {
+        try {
+            this.module ??= await compileModule();
+            const text = await file.text();
+            if (!/^\s*\{/.test(text))
+                throw new Error("it is no session.json");
+            await this.take(text, plainView(this.recorded.about), new Recording(this.recorded.about, []));
+            this.starting = Promise.resolve(true);
+            this.viewer.goTo(0);
+        } catch (error) {
+            this.tell(`${file.name} cannot be opened: ${error.message.replace(/^the session:/, "line ")}`);
+        }
+    }
+
+    /* Ask something else about this tick, or nothing. What is asked is answered in the picture and among the facts. */
+    ask(query)
+    {
+        const {engine} = this.player;
+        try {
+            this.player.replay();
+            if (query)
+                engine.ask([query]);
+            this.tell("");
+        } catch (error) {
+            this.tell(error.message.replace(/^the question:\d+: queries\[0\]\.?/, "what is asked: "));
+        }
+        showTick(byId("facts-of-tick"), JSON.parse(engine.facts()));
+        return this.live.draw();
+    }
+
+    /* ---- What is shown ------------------------------------------------------------------------------------------ */
+
+    showView()
+    {
+        const {view} = this.player.engine;
+        const options = optionsOf(view, this.recorded.about);
+        this.controls.show(view);
+        byId("view-options").hidden = options === "";
+        byId("view-options").querySelector("code").textContent = options;
+    }
+
+    showPick({pixel, color, elements}, place)
+    {
+        const {min, max} = this.player.engine.world();
+        this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])));
+        const root = byId("picked"), list = element("ol");
+        for (const {text} of elements)
+            list.append(element("li", text));
+        root.hidden = false;
+        root.replaceChildren(pixel ? element("h2", `At (${pixel.join(", ")}), ${color}`) :
+                                     element("h2", "Nothing is drawn there"), list);
+    }
+
+    /* ---- Gestures ----------------------------------------------------------------------------------------------- */
+
+    listen()
+    {
+        const {stage} = this;
+        byId("live-bar").hidden = false;
+        document.body.classList.add("plays");
+        byId("live-start").addEventListener("click", () => this.start());
+        byId("live-end").addEventListener("click", () => this.goBack());
+        byId("save").addEventListener("click", () => this.save());
+        const held = new Set(); /* a click may end before the page has begun to draw */
+        stage.addEventListener("pointerdown", event => {
+            held.add(event.pointerId);
+            this.start().then(begun => begun && (held.has(event.pointerId) ? this.live.down(event) : this.live.pickAt(event)));
+        });
+        stage.addEventListener("pointermove", event => this.live?.drag(event));
+        for (const end of ["pointerup", "pointercancel"])
+            stage.addEventListener(end, event => {
+                held.delete(event.pointerId);
+                if (this.live?.up(event))
+                    this.live.pickAt(event);
+            });
+        stage.addEventListener("contextmenu", event => event.preventDefault());
+        stage.addEventListener("wheel", event => {
+            event.preventDefault();
+            this.start().then(begun => begun && this.live.wheel(event));
+        }, {passive: false});
+        document.addEventListener("dragover", event => event.preventDefault());
+        document.addEventListener("drop", event => {
+            event.preventDefault();
+            if (event.dataTransfer.files.length > 0)
+                this.open(event.dataTransfer.files[0]);
+        });
+    }
+}

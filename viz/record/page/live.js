@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: MIT */
+/* live.js - the picture that the page draws by itself, in place of the recorded frame: turned, moved and zoomed by
+ * pointer, and asked what is at a pixel. */
+"use strict";
+
+const DEGREES_A_PIXEL = 0.3;
+const ZOOM_A_NOTCH = 1.0015; /* to the power of what a wheel turns */
+const ZOOMS = [0.001, 1e6];  /* what --zoom takes */
+const CLICK = 4;             /* CSS pixels: what moves less is a click */
+const PICK_RADIUS = 5;
+const KEY_STEP = 16;         /* pixels that a key turns by */
+
+const MARK_COLOR = "#ffffff";
+
+const BOX_EDGES = [0, 1, 2, 3].flatMap(i => [[i, i + 4], [2 * i, 2 * i + 1], [i + (i & 2), i + (i & 2) + 2]]);
+
+const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+const rounded = number => Number(number.toPrecision(8)); /* enough, and short on a command line */
+
+class Live {
+    /* `player` plays; `told(text)` shows a sentence, `picked(pick)` what was clicked. */
+    constructor(stage, player, {told, picked, changed})
+    {
+        this.stage = stage;
+        this.player = player;
+        this.told = told;
+        this.picked = picked;
+        this.changed = changed;
+        this.recorded = player.engine.view;
+        this.canvas = element("canvas", "", {class: "live", role: "img"});
+        this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
+        this.subject = null; /* what is marked: {node} or {point} */
+        this.pointers = new Map();
+    }
+
+    get engine()
+    {
+        return this.player.engine;
+    }
+
+    get view()
+    {
+        return this.engine.view;
+    }
+
+    /* That of the picture; a gesture may come before there is one. */
+    get camera()
+    {
+        if (!this.seen)
+            this.drawNow();
+        return this.seen;
+    }
+
+    get isShown()
+    {
+        return this.canvas.isConnected;
+    }
+
+    hide()
+    {
+        this.canvas.remove();
+        this.marks.remove();
+        this.drawn = undefined;
+    }
+
+    /* ---- Drawing ----------------------------------------------------------------------------------------------- */
+
+    /* Draw soon: many changes at once are one picture. */
+    draw()
+    {
+        this.waiting ??= new Promise(done => requestAnimationFrame(() => {
+            this.waiting = undefined;
+            this.drawNow();
+            done();
+        }));
+        return this.waiting;
+    }
+
+    drawNow()
+    {
+        try {
+            const picture = this.engine.draw();
+            this.canvas.width = picture.width;
+            this.canvas.height = picture.height;
+            this.canvas.getContext("2d").putImageData(picture, 0, 0);
+            this.canvas.dataset.tick = this.engine.tick;
+            this.canvas.setAttribute("aria-label", `The picture of tick ${this.engine.tick}`);
+            this.seen = this.engine.camera();
+            if (!this.isShown)
+                this.stage.replaceChildren(this.canvas, this.marks);
+            this.mark();
+        } catch (error) {
+            this.told(error.message);
+        }
+    }
+
+    /* Change the view; what it refuses leaves it as it was. */
+    look(changes)
+    {
+        const view = {...this.view, ...changes};
+        for (const [name, value] of Object.entries(view))
+            if (value === undefined)
+                delete view[name];
+        try {
+            this.engine.look(view);
+            this.told("");
+        } catch (error) {
+            this.told(error.message.replace(/^the view:\d+: /, ""));
+        }
+        this.changed();
+        return this.draw();
+    }
+
+    lookAsRecorded()
+    {
+        this.engine.look(this.recorded);
+        this.changed();
+        return this.draw();
+    }
+
+    /* ---- Turning, moving, zooming ----------------------------------------------------------------------------- */
+
+    direction()
+    {
+        const {right, forward} = this.camera, turn = 180 / Math.PI;
+        return [Math.atan2(right[1], right[0]) * turn, Math.asin(clamp(-forward[2], -1, 1)) * turn];
+    }
+
+    turn(dx, dy)
+    {
+        const [azimuth, elevation] = this.direction();
+        const turned = ((azimuth - dx * DEGREES_A_PIXEL) % 360 + 540) % 360 - 180;
+        return this.look({look: [rounded(turned), rounded(clamp(elevation + dy * DEGREES_A_PIXEL, -90, 90))]});
+    }
+
+    /* Where the view's center is when what it shows moves by pixels of the picture. */
+    moved(dx, dy)
+    {
+        const {right, up, center, pixel} = this.camera;
+        return center.map((at, i) => rounded(at - (right[i] * dx - up[i] * dy) * pixel));
+    }
+
+    move(dx, dy)
+    {
+        return this.look({center: this.moved(dx, dy)});
+    }
+
+    /* What is at a pixel of the picture stays there. */
+    zoom(factor, x, y)
+    {
+        const before = this.view.zoom ?? 1, after = clamp(before * factor, ...ZOOMS);
+        const {middle} = this.camera, away = after / before - 1;
+        const center = this.moved((middle[0] - x) * away / (1 + away), (middle[1] - y) * away / (1 + away));
+        return this.look({zoom: rounded(after), center});
+    }
+
+    /* ---- The pointer -------------------------------------------------------------------------------------------- */
+
+    /* A place on the page as a pixel of the picture, which lies in the middle of the stage as large as it can. */
+    pixelAt(event)
+    {
+        const box = this.stage.getBoundingClientRect(), {width, height} = this.view;
+        const scale = Math.min(box.width / width, box.height / height);
+        return [(event.clientX - box.left - (box.width - width * scale) / 2) / scale,
+                (event.clientY - box.top - (box.height - height * scale) / 2) / scale, scale];
+    }
+
+    down(event)
+    {
+        this.stage.setPointerCapture?.(event.pointerId);
+        this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY, far: 0});
+    }
+
+    /* One pointer turns, or moves with shift or another button than the first; two move and zoom. */
+    drag(event)
+    {
+        const pointer = this.pointers.get(event.pointerId);
+        if (!pointer)
+            return;
+        const [x, y, scale] = this.pixelAt(event);
+        const dx = event.clientX - pointer.x, dy = event.clientY - pointer.y;
+        pointer.far += Math.hypot(dx, dy);
+        if (pointer.far < CLICK)
+            return;
+        const other = [...this.pointers].find(([id]) => id !== event.pointerId)?.[1];
+        if (other) {
+            const [from, to] = [pointer, {x: event.clientX, y: event.clientY}].map(
+                at => Math.hypot(at.x - other.x, at.y - other.y));
+            this.move(dx / 2 / scale, dy / 2 / scale);
+            this.drawNow();
+            if (from > 0)
+                this.zoom(to / from, x, y);
+        } else if (event.shiftKey || event.buttons & ~1) {
+            this.move(dx / scale, dy / scale);
+        } else {
+            this.turn(dx, dy);
+        }
+        pointer.x = event.clientX;
+        pointer.y = event.clientY;
+        this.drawNow();
+    }
+
+    up(event)
+    {
+        const pointer = this.pointers.get(event.pointerId);
+        this.pointers.delete(event.pointerId);
+        return pointer !== undefined && pointer.far < CLICK && event.type === "pointerup" && event.button === 0;
+    }
+
+    wheel(event)
+    {
+        const [x, y] = this.pixelAt(event);
+        this.zoom(ZOOM_A_NOTCH ** -(event.deltaY * (event.deltaMode ? 30 : 1)), x, y);
+        this.drawNow();
+    }
+
+    /* ---- What is there ------------------------------------------------------------------------------------------ */
+
+    pickAt(event)
+    {
+        const [x, y] = this.pixelAt(event).map(Math.floor), {width, height} = this.view;
+        if (x < 0 || y < 0 || x >= width || y >= height)
+            return;
+        const pick = this.engine.pick(x, y, PICK_RADIUS);
+        this.subject = pick.elements.find(found => found.point) ?? pick.elements.find(found => found.node) ?? null;
+        this.picked(pick, this.placeOfSubject() ?? this.placeAt([x, y]));
+        this.mark();
+    }
+
+    /* What keys do: turn by a step, and zoom about the middle. */
+    turnStep(dx, dy)
+    {
+        return this.turn(dx * KEY_STEP, dy * KEY_STEP);
+    }
+
+    zoomStep(factor)
+    {
+        return this.zoom(factor, ...this.camera.middle);
+    }
+
+    /* Where what was picked is; null where nothing was. */
+    placeOfSubject()
+    {
+        if (this.subject?.point)
+            return this.engine.point(this.subject.point.id) ?? this.subject.point.position;
+        const box = this.subject?.node?.box;
+        return box ? box.min.map((low, i) => (low + box.max[i]) / 2) : null;
+    }
+
+    /* The place that is seen at a pixel, as far away as what the camera looks at. */
+    placeAt([x, y])
+    {
+        const {middle} = this.camera;
+        return this.moved(middle[0] - x, middle[1] - y);
+    }
+
+    /* Mark what was picked, where it is at this tick. */
+    mark()
+    {
+        const {width, height} = this.view, point = this.subject?.point && this.engine.point(this.subject.point.id);
+        this.marks.width = width;
+        this.marks.height = height;
+        const context = this.marks.getContext("2d");
+        context.strokeStyle = MARK_COLOR;
+        context.lineWidth = 2;
+        context.beginPath();
+        if (point)
+            this.tracePoint(context, point);
+        else if (this.subject?.node)
+            this.traceBox(context, this.subject.node.box);
+        context.stroke();
+    }
+
+    tracePoint(context, place)
+    {
+        const [[x, y]] = this.engine.project([place]);
+        if (!isNaN(x))
+            context.arc(x, y, 9, 0, 2 * Math.PI);
+    }
+
+    traceBox(context, {min, max})
+    {
+        const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(i => [0, 1, 2].map(axis => (i >> axis & 1 ? max : min)[axis]));
+        const seen = this.engine.project(corners);
+        for (const [from, to] of BOX_EDGES) {
+            if (isNaN(seen[from][0]) || isNaN(seen[to][0]))
+                continue;
+            context.moveTo(...seen[from]);
+            context.lineTo(...seen[to]);
+        }
+    }
+}

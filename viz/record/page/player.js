@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+/* player.js - any tick of a session at once: one engine plays ahead and keeps states, another goes back to them and
+ * draws. What is played by keys follows the session from the tick at which they took over. */
+"use strict";
+
+const SLICE = 12;         /* ms of playing before the page may do something else */
+const STATE_INTERVAL = 40; /* ms of playing from one state to the next: what going anywhere costs at most */
+const MOST_AHEAD = 64 << 20; /* bytes of a state: larger sessions are not played ahead, as that takes two of them */
+
+const rest = () => new Promise(done => setTimeout(done));
+
+class Player {
+    /* `heard(tick, facts)` is told each tick that is played for the first time. */
+    constructor(module, session, view, heard)
+    {
+        this.module = module;
+        this.heard = heard;
+        this.states = new States();
+        this.keys = ""; /* played after tick `taken` */
+        this.run = 0;   /* the number of what goes on in the background; a new one ends the old */
+        this.engine = new Engine(module);
+        this.engine.open(session, view);
+        this.taken = this.length - 1;
+        this.states.keep(this.engine, false);
+        this.scout = null; /* who plays ahead */
+        if (this.engine.used().length <= MOST_AHEAD) {
+            this.scout = new Engine(module);
+            this.scout.restore(this.states.before(0));
+        }
+    }
+
+    /* The ticks that are known. */
+    get length()
+    {
+        return this.isTaken ? this.taken + 1 + this.keys.length : this.engine.length;
+    }
+
+    get isTaken()
+    {
+        return this.keys.length > 0;
+    }
+
+    /* Play the tick after an engine's. */
+    step(engine)
+    {
+        engine.step(engine.tick >= this.taken ? this.keys[engine.tick - this.taken] : "");
+    }
+
+    /* Play ahead in the background, to the end of what is known, and keep states on the way. */
+    async playAhead(progress)
+    {
+        const run = ++this.run, scout = this.scout;
+        let since = 0;
+        while (scout && run === this.run && scout.tick + 1 < this.length) {
+            const start = performance.now();
+            let now = start;
+            while (scout.tick + 1 < this.length && now - start < SLICE && since + now - start < STATE_INTERVAL) {
+                this.step(scout);
+                this.heard(scout.tick, scout);
+                now = performance.now();
+            }
+            since += now - start;
+            if (since >= STATE_INTERVAL) {
+                this.states.keep(scout, this.isTaken);
+                since = 0;
+            }
+            progress(scout.tick, this.length - 1);
+            await rest();
+        }
+        if (run === this.run)
+            progress(this.length - 1, this.length - 1);
+    }
+
+    /* Bring the engine that draws to a tick. False where another call came meanwhile. */
+    async goTo(tick)
+    {
+        const going = this.going = {};
+        const state = this.states.before(tick), engine = this.engine;
+        if (engine.tick > tick || state.tick > engine.tick)
+            this.restore(engine, state);
+        for (let start = performance.now(); engine.tick < tick && engine.tick + 1 < this.length;) {
+            this.step(engine);
+            if (performance.now() - start < SLICE)
+                continue;
+            await rest();
+            start = performance.now();
+            if (going !== this.going)
+                return false;
+        }
+        return true;
+    }
+
+    /* The tick that is shown, played once more: without what was asked about it since. */
+    replay()
+    {
+        const {engine} = this, {tick} = engine;
+        for (this.restore(engine, this.states.before(tick)); engine.tick < tick;)
+            this.step(engine);
+    }
+
+    restore(engine, state)
+    {
+        engine.restore(state);
+        if (this.isTaken)
+            engine.setKeys(this.taken, this.keys);
+    }
+
+    /* Play a key after the tick that is shown: what was known after it is left. */
+    press(key)
+    {
+        const {engine, scout} = this;
+        if (!this.isTaken || engine.tick < this.taken) {
+            this.taken = engine.tick;
+            this.keys = "";
+        }
+        this.keys = this.keys.slice(0, engine.tick - this.taken) + key;
+        this.going = {};
+        engine.setKeys(this.taken, this.keys);
+        if (scout?.tick > engine.tick)
+            this.rewind(state => state.tick > engine.tick);
+        else
+            scout?.setKeys(this.taken, this.keys);
+        this.step(engine);
+    }
+
+    /* Forget states, and play ahead from the last that is left. */
+    rewind(isForgotten)
+    {
+        this.run++;
+        this.states.forget(isForgotten);
+        if (this.scout)
+            this.restore(this.scout, this.states.list.at(-1));
+    }
+
+    /* Back to the session as it was given. */
+    giveBack()
+    {
+        this.keys = "";
+        this.rewind(state => state.isTaken);
+        this.restore(this.engine, this.states.list.at(-1));
+        this.taken = this.length - 1;
+    }
+
+    /* The session with the keys that were played. */
+    save()
+    {
+        return this.engine.session();
+    }
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/* view.js - the controls of what the page draws: a row a member of recording.json, and the choices as the program names
+ * them. */
+"use strict";
+
+const AXES = ["x", "y", "z"];
+
+const numbersOf = text => text.trim() === "" ? [] : text.split(/[\s,]+/).map(Number);
+
+/* Members of the view, their names for people, and how they are entered: as one of the program's choices, a switch, a
+ * number, or a text that is read and written by two functions. Empty is off. */
+const VIEW_ROWS = [
+    ["camera", "camera", "choice"],
+    ["color_by", "nodes by", "choice"],
+    ["diagram", "diagram", "choice"],
+    ["labels", "labels", "switch"],
+    ["leaves", "only leaves", "switch"],
+    ["depths", "depths", "text", {
+        hint: "2:5",
+        read: text => {
+            const [from, to = from] = text.split(":").map(Number);
+            return [from, to];
+        },
+        write: ([from, to]) => `${from}:${to}`,
+    }],
+    ["slice", "slice", "text", {
+        hint: "z=100",
+        read: text => ({[text.trim()[0]]: Number(text.split("=")[1])}),
+        write: slice => Object.entries(slice).map(([axis, at]) => `${axis}=${at}`).join(),
+    }],
+    ["region", "region", "text", {
+        hint: "six numbers",
+        read: text => ({min: numbersOf(text).slice(0, 3), max: numbersOf(text).slice(3)}),
+        write: ({min, max}) => [...min, ...max].join(","),
+    }],
+    ["lod", "detail (px)", "number"],
+    ["budget", "most boxes", "number"],
+];
+
+class ViewControls {
+    /* `change(members)` is called with what is chosen. */
+    constructor(root, choices, change)
+    {
+        this.root = root;
+        this.choices = choices;
+        this.change = change;
+        this.rows = VIEW_ROWS.map(([member, name, kind, text]) => {
+            const input = this[kind](member, text);
+            const row = element("label", element("span", name));
+            row.append(input.element);
+            root.append(row);
+            return {member, show: input.show};
+        });
+        this.layers = element("fieldset", element("legend", "layers"));
+        this.boxes = choices.layers.map(layer => this.layer(layer));
+        root.append(this.layers);
+    }
+
+    choice(member)
+    {
+        const select = element("select");
+        for (const name of this.choices[member] ?? [])
+            select.append(new Option(name, name));
+        select.addEventListener("change", () => {
+            /* Another camera is to be seen from where it stands. */
+            const own = member === "camera" ? {look: undefined, center: undefined, zoom: undefined} : {};
+            this.change({[member]: select.value, ...own});
+            select.blur();
+        });
+        return {element: select, show: value => select.value = value ?? this.choices[member][0]};
+    }
+
+    switch(member)
+    {
+        const box = element("input", "", {type: "checkbox"});
+        box.addEventListener("change", () => this.change({[member]: box.checked || undefined}));
+        return {element: box, show: value => box.checked = value ?? false};
+    }
+
+    number(member)
+    {
+        const input = element("input", "", {type: "number", min: 0});
+        input.addEventListener("change", () => this.change({[member]: input.valueAsNumber || 0}));
+        return {element: input, show: value => input.value = value ?? 0};
+    }
+
+    text(member, {hint, read, write})
+    {
+        const input = element("input", "", {type: "text", placeholder: hint});
+        input.addEventListener("change", () => this.change({[member]: input.value.trim() ? read(input.value) : undefined}));
+        return {element: input, show: value => input.value = value ? write(value) : ""};
+    }
+
+    layer({name, words, color})
+    {
+        const box = element("input", "", {type: "checkbox", "data-layer": name});
+        const label = element("label", box, {title: words});
+        const swatch = element("i");
+        swatch.style.background = color;
+        label.append(swatch, name);
+        this.layers.append(label);
+        box.addEventListener("change", () => this.change(
+            {layers: this.boxes.filter(other => other.checked).map(other => other.dataset.layer)}));
+        return box;
+    }
+
+    show(view)
+    {
+        for (const {member, show} of this.rows)
+            show(view[member]);
+        for (const box of this.boxes)
+            box.checked = view.layers.includes(box.dataset.layer);
+    }
+}
+
+/* The options of a command line that give one view in place of another. */
+function optionsOf(view, recorded)
+{
+    const written = {
+        camera: value => `--camera ${value}`, color_by: value => `--color-by ${value}`,
+        diagram: value => `--diagram ${value}`, labels: () => "--labels", leaves: () => "--leaves",
+        depths: ([from, to]) => `--depths ${from}:${to}`,
+        slice: slice => `--slice ${Object.entries(slice)[0].join("=")}`,
+        region: ({min, max}) => `--region ${[...min, ...max].join(",")}`,
+        lod: value => `--lod ${value}`, budget: value => `--budget ${value}`,
+        look: value => `--look ${value.join(",")}`, center: value => `--center ${value.join(",")}`,
+        zoom: value => `--zoom ${value}`, layers: value => `--layers ${value.join(",") || "none"}`,
+    };
+    return Object.entries(view)
+        .filter(([name, value]) => written[name] && JSON.stringify(value) !== JSON.stringify(recorded[name]))
+        .map(([name, value]) => written[name](value)).join(" ");
+}

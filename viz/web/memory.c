@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* memory.c - the end of the memory in use, kept in that memory: a page that returns to an earlier state of it returns
+ * to an earlier end, and what was got from the browser since then is used again. In place of wasi-libc's sbrk(), which
+ * would ask the browser for more. */
+#include <stddef.h>
+#include <stdint.h>
+#include <unistd.h>
+
+#define BROWSER_PAGE ((size_t)65536)
+
+extern unsigned char __heap_base; /* the linker's: where nothing else lies */
+
+static size_t end;
+
+/* The bytes from 0 on that hold the module's state. */
+size_t web_used(void)
+{
+    return end ? end : (size_t)&__heap_base;
+}
+
+void *sbrk(intptr_t more)
+{
+    const size_t before = web_used(), wanted = before + (size_t)more;
+    const size_t there = (size_t)__builtin_wasm_memory_size(0) * BROWSER_PAGE;
+    if (more < 0 || wanted < before ||
+        (wanted > there &&
+         __builtin_wasm_memory_grow(0, (wanted - there + BROWSER_PAGE - 1) / BROWSER_PAGE) == (size_t)-1))
+        return (void *)-1;
+    end = wanted;
+    return (void *)before;
+}

@@ -1,0 +1,459 @@
+/* SPDX-License-Identifier: MIT */
+/* module.c - what the page of a recording plays and draws with, as WebAssembly: the game, the scene and the pixels of
+ * this program, for one session at a time.
+ *
+ * Every function is exported under its name. Those that return bool are false with the reason in web_text(), which is
+ * also where the others leave their texts, until the next call. Texts that are given are written to web_room() before.
+ * All that a session needs is in this module's memory, so that a copy of it is a state that the page can return to:
+ * web_used() bytes from 0 on. */
+#include "describe.h"
+#include "layer.h"
+#include "pick.h"
+#include "playback.h"
+#include "recording_file.h"
+#include "renderer.h"
+#include "session_file.h"
+#include "text.h"
+#include "theme.h"
+#include "view_options.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct web {
+    session_file session;
+    playback playback;
+    bool open, drawn; /* there is a playback; its last tick has been drawn */
+    char *room, *text;
+    size_t room_size, text_size;
+    uint8_t *rgba;
+    octreel_error error;
+} web;
+
+static web page;
+
+/* ---- Texts -------------------------------------------------------------------------------------------------- */
+
+/* Room for the texts that the next call is given; null where there is no memory. */
+char *web_room(size_t size)
+{
+    if (size + 1 > page.room_size) {
+        free(page.room);
+        page.room = malloc(size + 1);
+        page.room_size = page.room ? size + 1 : 0;
+    }
+    return page.room;
+}
+
+const char *web_text(void)
+{
+    return page.text ? page.text : page.error.text;
+}
+
+size_t web_text_size(void)
+{
+    return page.text ? page.text_size : strlen(page.error.text);
+}
+
+static bool fails(void)
+{
+    free(page.text);
+    page.text = NULL;
+    return false;
+}
+
+/* What `write` prints becomes web_text(). */
+static bool say_text(bool (*write)(FILE *out))
+{
+    text_stream s;
+    fails();
+    const bool written = text_stream_begin(&s) && write(s.stream);
+    if (text_stream_end(&s, &page.text) && written) {
+        page.text_size = s.size;
+        return true;
+    }
+    if (written)
+        error_no_memory(&page.error);
+    return fails();
+}
+
+/* ---- The session -------------------------------------------------------------------------------------------- */
+
+static void close_all(void)
+{
+    if (page.open)
+        playback_close(&page.playback);
+    session_release(&page.session);
+    free(page.rgba);
+    page.rgba = NULL;
+    page.open = page.drawn = false;
+}
+
+/* Open a session and play its tick 0: in the room there is its text, of `session` bytes, and after it that of a
+ * recording.json. What was open before is closed. */
+bool web_open(size_t session, size_t recording)
+{
+    view v;
+    uint64_t every;
+    close_all();
+    if (!recording_parse("the view", page.room + session, recording, &v, &every, &page.error) ||
+        !session_parse("the session", "", page.room, session, &page.session, &page.error))
+        return fails();
+    free(page.room);
+    page.room = NULL;
+    page.room_size = 0;
+    page.open = playback_open(&page.playback, &page.session.session, &v, &page.error);
+    if (!page.open)
+        close_all();
+    return page.open || fails();
+}
+
+/* Play a tick: by a key, or with 0 the session's next. */
+bool web_step(int key)
+{
+    const octree_input input = {.key = (char)key};
+    page.drawn = false;
+    return (key ? playback_play(&page.playback, &input, &page.error) : playback_advance(&page.playback, &page.error)) ||
+           fails();
+}
+
+double web_tick(void)
+{
+    return (double)octree_game_tick(page.playback.game)->number;
+}
+
+/* Ticks after tick 0. */
+double web_length(void)
+{
+    return (double)octree_session_length(&page.session.session);
+}
+
+/* The world's lowest and highest corner, three doubles each. */
+const double *web_world(void)
+{
+    return page.session.session.tree.world.min;
+}
+
+static bool write_facts(FILE *out)
+{
+    tick_write(out, octree_game_tick(page.playback.game), &(tick_extras){0});
+    return true;
+}
+
+/* The tick's line of ticks.jsonl, without its frame. */
+bool web_facts(void)
+{
+    return say_text(write_facts);
+}
+
+/* ---- The picture -------------------------------------------------------------------------------------------- */
+
+/* View the session by the recording.json in the room from now on. */
+bool web_view(size_t recording)
+{
+    view v, *now = &page.playback.view;
+    uint64_t every;
+    if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) ||
+        !picture_fit(&v, octree_game_tree(page.playback.game), &page.error))
+        return fails();
+    if (v.width != now->width || v.height != now->height || view_samples(&v) != view_samples(now)) {
+        picture_close(&page.playback.picture);
+        free(page.rgba);
+        page.rgba = NULL;
+    }
+    *now = v;
+    page.drawn = false;
+    return true;
+}
+
+static bool open_picture(void)
+{
+    playback *p = &page.playback;
+    const size_t pixels = (size_t)p->view.width * (size_t)p->view.height;
+    if (!p->picture.renderer && !picture_open(&p->picture, &p->view, &(renderer_choice){0}, &page.error))
+        return false;
+    page.rgba = page.rgba ? page.rgba : malloc(4 * pixels);
+    return page.rgba || error_no_memory(&page.error);
+}
+
+static void color_pixels(const image *frame)
+{
+    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    uint8_t *to = page.rgba;
+    for (size_t i = 0; i < pixels; i++, to += 4) {
+        const uint8_t *from = frame->pixels + i * (size_t)frame->channels;
+        const image_color color =
+            frame->channels == 1 ? frame->palette.colors[*from] : (image_color){from[0], from[1], from[2]};
+        to[0] = color.r;
+        to[1] = color.g;
+        to[2] = color.b;
+        to[3] = 255;
+    }
+}
+
+/* Draw the tick as it is viewed: rows of 4 bytes a pixel, red first, from the top; null with the reason in web_text().
+ */
+const uint8_t *web_draw(void)
+{
+    playback *p = &page.playback;
+    fails();
+    if (!open_picture() || !playback_scene(p, &page.error) || !picture_draw(&p->picture, &p->scene, &page.error))
+        return NULL;
+    color_pixels(&p->picture.frame);
+    page.drawn = true;
+    return page.rgba;
+}
+
+int web_width(void)
+{
+    return page.playback.view.width;
+}
+
+int web_height(void)
+{
+    return page.playback.view.height;
+}
+
+static bool write_digest(FILE *out)
+{
+    char text[DIGEST_TEXT];
+    fputs(digest_print(scene_digest(&page.playback.scene), text), out);
+    return true;
+}
+
+/* The digest of the scene that was drawn. */
+bool web_digest(void)
+{
+    return say_text(write_digest);
+}
+
+static bool write_camera(FILE *out)
+{
+    const camera *c = &page.playback.scene.camera;
+    json_writer writer = {.out = out}, *w = &writer;
+    const double zoom = c->perspective ? c->zoom / c->distance : c->zoom;
+    json_write_begin_object(w);
+    json_member_vector(w, "right", c->right);
+    json_member_vector(w, "up", c->up);
+    json_member_vector(w, "forward", c->forward);
+    json_member_vector(w, "center", c->center);
+    json_member_begin_array(w, "middle");
+    json_write_number(w, c->middle[0]);
+    json_write_number(w, c->middle[1]);
+    json_write_end_array(w);
+    json_member_number(w, "pixel", c->size / 2 / c->scale / zoom);
+    json_write_end_object(w);
+    return true;
+}
+
+/* The camera of the picture that was drawn, as JSON: its axes, the place it looks at and at which pixel, and how long a
+ * pixel is there, in world units. */
+bool web_camera(void)
+{
+    return say_text(write_camera);
+}
+
+/* Turn places of the world, three doubles each in the room, into pixels of the picture that was drawn, two doubles each
+ * in the same room: NaN where they are not before the camera. */
+void web_project(size_t count)
+{
+    double *numbers = (double *)(void *)page.room;
+    for (size_t i = 0; i < count; i++) {
+        double place[3], pixel[2] = {NAN, NAN};
+        memcpy(place, numbers + 3 * i, sizeof place);
+        camera_pixel(&page.playback.scene.camera, place, pixel);
+        memcpy(numbers + 2 * i, pixel, sizeof pixel);
+    }
+}
+
+/* ---- Questions ---------------------------------------------------------------------------------------------- */
+
+static struct {
+    int x, y, radius;
+} picked;
+
+static bool write_pick(FILE *out)
+{
+    playback *p = &page.playback;
+    pick found = {.path = "",
+                  .asked = {picked.x, picked.y},
+                  .pixel = {picked.x, picked.y},
+                  .radius = picked.radius,
+                  .tick = octree_game_tick(p->game)->number,
+                  .width = p->view.width,
+                  .height = p->view.height};
+    if (!pick_scene(&found, p, p->picture.renderer, &page.error))
+        return false;
+    found.color = image_color_at(&p->picture.frame, found.pixel[0], found.pixel[1]);
+    pick_print(out, &found, true);
+    pick_release(&found);
+    return true;
+}
+
+/* What is at a pixel of the picture that was drawn, as JSON: see pick.h. */
+bool web_pick(int x, int y, int radius)
+{
+    picked.x = x;
+    picked.y = y;
+    picked.radius = radius;
+    if ((!page.drawn && !web_draw()) || x < 0 || y < 0 || x >= web_width() || y >= web_height())
+        return fails();
+    return say_text(write_pick);
+}
+
+/* Ask about the tick what the header of a session in the room asks at every tick; the answers are among the facts from
+ * then on, until the next tick. */
+bool web_ask(size_t size)
+{
+    session_file asked;
+    if (!session_parse("the question", "", page.room, size, &asked, &page.error))
+        return fails();
+    const octree_status status = octree_game_ask(page.playback.game, asked.session.queries, asked.session.query_count);
+    session_release(&asked);
+    page.drawn = false;
+    return status == OCTREE_OK || (error_set(&page.error, "%s", octree_status_text(status)), fails());
+}
+
+typedef struct sought {
+    uint64_t id;
+    const octree_point *found;
+} sought;
+
+static octree_walk_order seek_point(const octree_node *node, void *context)
+{
+    sought *s = context;
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        if (node->points[i].id == s->id)
+            s->found = &node->points[i];
+    return s->found ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+/* Where the point of an id is, three doubles; null when there is none. Cost: O(points). */
+const double *web_point(double id)
+{
+    sought s = {.id = (uint64_t)id};
+    octree_walk(octree_game_tree(page.playback.game), seek_point, &s);
+    return s.found ? s.found->position : NULL;
+}
+
+/* ---- What is played becomes a session ----------------------------------------------------------------------- */
+
+/* What is of ticks after `last`, among items that ascend by tick with those of every tick at the end. */
+#define CUT_AFTER(items, count, last)                                                                                  \
+    do {                                                                                                               \
+        size_t kept = 0;                                                                                               \
+        for (size_t i = 0; i < (count); i++)                                                                           \
+            if ((items)[i].tick <= (last) || (items)[i].tick == OCTREE_EVERY_TICK)                                     \
+                (items)[kept++] = (items)[i];                                                                          \
+        (count) = kept;                                                                                                \
+    } while (0)
+
+/* Change the session: as it is up to a tick that has been played, and then nothing but the keys in the room, `count` of
+ * them. They are played by web_step(). */
+bool web_keys(double last, size_t count)
+{
+    octree_session *s = &page.session.session;
+    const size_t known = s->keys ? strlen(s->keys) : 0, before = (size_t)last;
+    char *keys = malloc(before + count + 1);
+    if (!keys)
+        return error_no_memory(&page.error), fails();
+    memset(keys, '.', before);
+    if (known > 0)
+        memcpy(keys, s->keys, known < before ? known : before);
+    memcpy(keys + before, page.room, count);
+    keys[before + count] = 0;
+    free((char *)s->keys);
+    s->keys = keys;
+    s->ticks = before + count;
+    CUT_AFTER((octree_edit *)s->edits, s->edit_count, before);
+    CUT_AFTER((octree_query *)s->queries, s->query_count, before);
+    CUT_AFTER((octree_shape *)s->shapes, s->shape_count, before);
+    page.drawn = false;
+    return true;
+}
+
+static bool write_session(FILE *out)
+{
+    return session_write(&page.session.session, out);
+}
+
+/* The session as session.json. */
+bool web_session(void)
+{
+    return say_text(write_session);
+}
+
+/* ---- What there is to choose from --------------------------------------------------------------------------- */
+
+static void write_names(json_writer *w, const char *key, json_name *names)
+{
+    json_member_begin_array(w, key);
+    for (int i = 0; names(i); i++)
+        json_write_string(w, names(i));
+    json_write_end_array(w);
+}
+
+static void write_color(json_writer *w, theme_role role)
+{
+    char text[8];
+    const theme_color c = theme_color_at(theme_index(role, 0));
+    snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
+    json_member_text(w, "color", text);
+}
+
+/* Of the members that a kind reads, the one that bears its name in a session comes first. */
+static void write_query_kinds(json_writer *w)
+{
+    static const struct {
+        octree_query_member bit;
+        const char *name;
+    } members[] = {{OCTREE_QUERY_HAS_BOX, "box"},
+                   {OCTREE_QUERY_HAS_K, "k"},
+                   {OCTREE_QUERY_HAS_RADIUS, "radius"},
+                   {OCTREE_QUERY_HAS_TARGET, "at"}};
+    json_member_begin_array(w, "queries");
+    for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
+        const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
+        json_write_begin_object(w);
+        json_member_text(w, "name", about->name);
+        json_member_text(w, "words", about->words);
+        json_member_begin_array(w, "members");
+        for (int pass = 0; pass < 2; pass++)
+            for (size_t i = 0; i < sizeof members / sizeof members[0]; i++)
+                if (about->members & members[i].bit && (about->named_by == members[i].bit) == !pass)
+                    json_write_string(w, members[i].name);
+        json_write_end_array(w);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+static bool write_choices(FILE *out)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    json_write_begin_object(w);
+    for (size_t i = 0; view_option_at(i); i++) {
+        const view_option *option = view_option_at(i);
+        if (option->member.name && option->member.names && option->member.names != view_layer_at)
+            write_names(w, option->member.name, option->member.names);
+    }
+    json_member_begin_array(w, "layers");
+    for (int i = 0; i < LAYER_COUNT; i++) {
+        json_write_begin_object(w);
+        json_member_text(w, "name", layer_rows[i].name);
+        json_member_text(w, "words", layer_rows[i].words);
+        write_color(w, (theme_role)layer_rows[i].role);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+    write_query_kinds(w);
+    json_write_end_object(w);
+    return true;
+}
+
+/* The cameras, layers and other choices of a view, and the kinds of queries with what they read, as JSON. */
+bool web_choices(void)
+{
+    return say_text(write_choices);
+}
