@@ -47,7 +47,7 @@ static void print_help(void)
         "frames/s   by the clock on the wall, without the first frame of each process\n"
         "times      so many times the naive way's; and, where others use the machine too, what their processor times "
         "say\n"
-        "draw       processor milliseconds of a frame up to its pixels: tick, scene, digest, quads, GL\n"
+        "draw       processor milliseconds of a frame up to its pixels: tick, scene, digest, quads, filling\n"
         "encode     the same of its file: pixel digest, PNG, rename\n"
         "floor      the part of draw and encode that the encoder would take alone, for pixels that are known\n"
         "Exit status: 0 done, whether or not goals were reached, 2 trouble.\n",

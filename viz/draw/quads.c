@@ -40,17 +40,20 @@ static void append(quad_list *list, const quad *q)
     added->index = list->index;
 }
 
-static bool is_within(const quad *q, int32_t limit)
+/* As unsigned numbers what is negative is beyond the limit too. */
+static bool is_within(const quad *q, uint32_t limit)
 {
-    bool within = true;
-    for (int i = 0; i < 4; i++)
-        within &= q->x[i] >= 0 && q->y[i] >= 0 && q->x[i] <= limit && q->y[i] <= limit;
-    return within;
+    uint32_t most = 0;
+    for (int i = 0; i < 4; i++) {
+        most = (uint32_t)q->x[i] > most ? (uint32_t)q->x[i] : most;
+        most = (uint32_t)q->y[i] > most ? (uint32_t)q->y[i] : most;
+    }
+    return most <= limit;
 }
 
 void quads_add(quad_list *list, const quad *q)
 {
-    if (list->limit == 0 || is_within(q, list->limit)) {
+    if (list->limit == 0 || is_within(q, (uint32_t)list->limit)) {
         append(list, q);
         return;
     }

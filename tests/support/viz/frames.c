@@ -5,11 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-renderer *open_renderer(int width, int height)
-{
-    return open_renderer_of(DRAW_AUTO, width, height);
-}
-
 static renderer *open_chosen(const renderer_choice *choice, int width, int height)
 {
     octreel_error error = {""};
@@ -19,14 +14,19 @@ static renderer *open_chosen(const renderer_choice *choice, int width, int heigh
     return r;
 }
 
+renderer *open_renderer(int width, int height)
+{
+    return open_chosen(&(renderer_choice){0}, width, height);
+}
+
 renderer *open_renderer_of(draw_context kind, int width, int height)
 {
-    return open_chosen(&(renderer_choice){.context = kind}, width, height);
+    return open_chosen(&(renderer_choice){.context = kind, .fill = DRAW_FILL_GL}, width, height);
 }
 
 renderer *open_gl_renderer(int width, int height)
 {
-    return open_chosen(&(renderer_choice){.fill = DRAW_FILL_GL}, width, height);
+    return open_renderer_of(DRAW_AUTO, width, height);
 }
 
 renderer *open_renderer_for(const scene *s)

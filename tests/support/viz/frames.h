@@ -9,10 +9,10 @@
 
 /* A renderer; the test fails, with the sentence, when there is none. */
 renderer *open_renderer(int width, int height);
-renderer *open_renderer_of(draw_context kind, int width, int height);
 
-/* One whose quads GL fills. */
+/* One whose quads GL fills: of any context, or of one kind. */
 renderer *open_gl_renderer(int width, int height);
+renderer *open_renderer_of(draw_context kind, int width, int height);
 
 /* One of a scene's size in samples. */
 renderer *open_renderer_for(const scene *s);

@@ -50,7 +50,7 @@ static void each_context_films_and_is_named(void **state)
         const char *name = draw_context_name((draw_context)kind);
         const place folder = place_in(*state, name);
         char option[32];
-        snprintf(option, sizeof option, "--context %s", name);
+        snprintf(option, sizeof option, "--fill gl --context %s", name);
         if (draw_context_built((draw_context)kind))
             assert_drawn_by(NULL, option, &folder, "context", name);
         else
@@ -111,7 +111,7 @@ static void egl_draws_where_osmesa_cannot_be_loaded(void **state)
     char path[96];
     const command_setting without = {.environment = {hide_libraries(*state, names, path)}};
     const place folder = place_in(*state, "film"), other = place_in(*state, "other");
-    assert_drawn_by(&without, "", &folder, "context", "egl");
+    assert_drawn_by(&without, "--fill gl", &folder, "context", "egl");
     assert_not_drawn(&without, "--context osmesa", &other, "libosmesa6");
 }
 

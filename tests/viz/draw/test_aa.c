@@ -275,7 +275,7 @@ static void a_poor_processor_makes_the_same_bytes(void **state)
     command_result result = run_octreel(NULL, "record --camera orbit --every 90 --aa 4 --size 160x90 -o %s", a.path);
     assert_done(&result);
     command_release(&result);
-    result = run_octreel(&poor, "record --camera orbit --every 90 --aa 4 --size 160x90 -o %s", b.path);
+    result = run_octreel(&poor, "record --fill gl --camera orbit --every 90 --aa 4 --size 160x90 -o %s", b.path);
     assert_done(&result);
     command_release(&result);
     assert_same_folders(a.path, b.path, "renderer.json");

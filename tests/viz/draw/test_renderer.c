@@ -76,17 +76,20 @@ static void the_renderer_says_who_draws(void **state)
     renderer_close(NULL);
 }
 
+/* What fills quads by default, and GL. */
+static renderer *(*const open_either[])(int width, int height) = {open_renderer, open_gl_renderer};
+
 static void extreme_sizes_are_drawn_to_their_edges(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{1, 1}, {2, 1}, {1, 16384}, {16384, 1}, {16384, 3}, {7, 4099}, {255, 257}};
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        const int width = sizes[i][0], height = sizes[i][1];
+    for (size_t i = 0; i < 2 * (sizeof sizes / sizeof sizes[0]); i++) {
+        const int width = sizes[i / 2][0], height = sizes[i / 2][1];
         const view v = view_of(width, height, CAMERA_ISO, VIEW_ALL_LAYERS);
         const octree_box world = cube(-1, 1);
         const scene_style style = {.layer = LAYER_TEXT, .role = ROLE_TEXT};
         scene s = empty_scene(&v, &world);
-        renderer *r = open_renderer(width, height);
+        renderer *r = open_either[i % 2](width, height);
         uint8_t *blank = draw(r, &s);
         assert_int_equal(lit_pixels(blank, &s), 0);
         scene_add_panel(&s, (scene_panel){.x = 0, .y = 0, .width = 1, .height = 1, .style = style});
@@ -108,9 +111,8 @@ static void extreme_sizes_are_drawn_to_their_edges(void **state)
 }
 
 /* A quarter of a billion pixels: only what is asked for is looked at. */
-static void the_largest_picture_is_drawn_to_its_corners(void **state)
+static void check_largest_picture(renderer *(*open)(int width, int height))
 {
-    (void)state;
     enum { SIDE = VIEW_MAX_SIDE };
     const view v = view_of(SIDE, SIDE, CAMERA_ISO, VIEW_ALL_LAYERS);
     const octree_box world = cube(-1, 1);
@@ -122,7 +124,7 @@ static void the_largest_picture_is_drawn_to_its_corners(void **state)
         scene_add_panel(
             &s,
             (scene_panel){.x = i % 2 * (SIDE - 1), .y = i / 2 * (SIDE - 1), .width = 1, .height = 1, .style = style});
-    renderer *r = open_renderer(SIDE, SIDE);
+    renderer *r = open(SIDE, SIDE);
     uint8_t *frame = malloc(last + 1);
     assert_non_null(frame);
     if (!renderer_draw(r, &s, frame, &error))
@@ -135,6 +137,13 @@ static void the_largest_picture_is_drawn_to_its_corners(void **state)
     free(frame);
     scene_release(&s);
     renderer_close(r);
+}
+
+static void the_largest_picture_is_drawn_to_its_corners(void **state)
+{
+    (void)state;
+    check_largest_picture(open_either[0]);
+    check_largest_picture(open_either[1]);
 }
 
 /* Infinite and too far for doubles; NaN cannot be in a scene, since it is refused when it is added. */
