@@ -34,7 +34,9 @@ function(compile_wasm source objects)
 endfunction()
 
 check_wasm(has_wasm)
-if(NOT has_wasm)
+if(NOT has_wasm AND OCTREEL_REQUIRE_ORACLES)
+  message(FATAL_ERROR "The pages that play need clang, lld, wasi-libc and libclang-rt-dev-wasm32 (their Debian names)")
+elseif(NOT has_wasm)
   message(STATUS "Pages of recordings will not play: clang, lld, wasi-libc and clang's runtime for wasm32 are needed "
                  "(Debian: clang lld wasi-libc libclang-rt-dev-wasm32)")
   return()
