@@ -80,6 +80,27 @@ static void compare_sorted(const octree_session *a, const octree_session *b, boo
     free(bs.points);
 }
 
+static bool same_bodies(const octree_session *a, const octree_session *b)
+{
+    return a->body_count == b->body_count &&
+           (a->body_count == 0 || memcmp(a->bodies, b->bodies, a->body_count * sizeof *a->bodies) == 0);
+}
+
+/* Whether unlike bodies were made by seeds on both sides: then how they were made is compared. */
+static bool both_sampled(const octree_session *a, const octree_session *b)
+{
+    return a->sampled.known && b->sampled.known && !same_bodies(a, b);
+}
+
+/* Whether that tells why the bodies differ. */
+static bool tells_sampled(const cause_facts *facts)
+{
+    for (size_t i = 0; i < facts->count; i++)
+        if (strncmp(facts->groups[i].where, "sampled", 7) == 0)
+            return true;
+    return false;
+}
+
 static bool same_ids(const octree_session *a, const octree_session *b)
 {
     for (size_t i = 0; i < a->body_count; i++)
@@ -92,8 +113,7 @@ static bool same_ids(const octree_session *a, const octree_session *b)
  * come later. */
 static void compare_bodies(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
-    if (a->body_count == b->body_count &&
-        (a->body_count == 0 || memcmp(a->bodies, b->bodies, a->body_count * sizeof *a->bodies) == 0))
+    if (same_bodies(a, b) || tells_sampled(facts))
         return;
     compare_sorted(a, b, false, facts);
     if (cause_group_of(facts, "points", CAUSE_MORE) || cause_group_of(facts, "points", CAUSE_LESS))
@@ -126,7 +146,7 @@ static void compare_keys(const octree_session *a, const octree_session *b, cause
 /* ---- The rest, as it is written ------------------------------------------------------------------------------- */
 
 /* A session file without points and keys, which are compared elsewhere. "ticks" is the length in force. */
-static char *write_session(const octree_session *session)
+static char *write_session(const octree_session *session, bool sampled)
 {
     octree_session rest = *session;
     text_stream s;
@@ -134,6 +154,7 @@ static char *write_session(const octree_session *session)
     rest.bodies = NULL;
     rest.body_count = 0;
     rest.keys = NULL;
+    rest.sampled.known = rest.sampled.known && sampled;
     rest.ticks = octree_session_length(session);
     if (text_stream_begin(&s))
         session_write(&rest, s.stream);
@@ -237,7 +258,8 @@ static void compare_texts(const cause_place *place, const char *x, const char *y
 void cause_compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const cause_place place = {facts, "", "", CAUSE_NO_TICK, true};
-    char *texts[2] = {write_session(a), write_session(b)};
+    const bool sampled = both_sampled(a, b);
+    char *texts[2] = {write_session(a, sampled), write_session(b, sampled)};
     if (!texts[0] || !texts[1])
         facts->out_of_memory = true;
     else if (strcmp(texts[0], texts[1]) != 0)

@@ -256,6 +256,8 @@ const json_member session_header_members[] = {
     {"ticks", JSON_CODEC(read_ticks, json_write_uint64, has_end), HEADER(session.ticks), .max = SESSION_LAST_TICK},
     {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries},
     {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes},
+    {"sampled", &json_structure, HEADER(session.sampled), .given = offsetof(session_header, session.sampled.known),
+     .members = session_sampled_members},
     {"points", &session_points_codec, HEADER(session)},
     {"velocities", &session_velocities_codec, HEADER(session)},
     {0},

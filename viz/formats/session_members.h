@@ -63,6 +63,9 @@ bool session_take_world(json_reader *r, json_t *header);
 /* Points, in a list, a file or a sample; and velocities by id, which are never written: bodies have theirs. */
 extern const json_codec session_points_codec, session_velocities_codec;
 
+/* octree_sampled: what points that are listed were, where they were a sample. */
+extern const json_member session_sampled_members[];
+
 /* A body: id, position and velocity. */
 extern const json_member session_body_members[];
 

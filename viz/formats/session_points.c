@@ -169,34 +169,45 @@ bool session_take_world(json_reader *r, json_t *header)
     return true;
 }
 
-typedef struct sample {
-    octree_sample_kind kind;
-    uint64_t count, seed;
-} sample;
-
 static const char *sample_at(int n)
 {
     return octree_sample_name((octree_sample_kind)n);
 }
 
+#define SAMPLED(field) offsetof(octree_sampled, field)
+
+static const json_member sample_members[] = {
+    {"sample", &json_choice, SAMPLED(points.kind), .required = true, .names = sample_at},
+    {"count", &json_uint64, SAMPLED(points.count), .required = true, .max = SESSION_MOST_SAMPLES},
+    {"seed", &json_uint64, SAMPLED(points.seed), .max = JSON_LARGEST_WHOLE},
+    {0},
+};
+
+static const json_member random_velocities_members[] = {
+    {"speed", &json_positive, SAMPLED(velocities.speed), .required = true},
+    {"seed", &json_uint64, SAMPLED(velocities.seed), .max = JSON_LARGEST_WHOLE},
+    {0},
+};
+
+const json_member session_sampled_members[] = {
+    {"points", &json_structure, .given = SAMPLED(by_points), .members = sample_members},
+    {"velocities", &json_structure, .given = SAMPLED(by_velocities), .members = random_velocities_members},
+    {0},
+};
+
 static bool read_sample(json_reader *r, json_t *value, const json_place *at)
 {
-    static const json_member members[] = {
-        {"sample", &json_choice, offsetof(sample, kind), .required = true, .names = sample_at},
-        {"count", &json_uint64, offsetof(sample, count), .required = true, .max = SESSION_MOST_SAMPLES},
-        {"seed", &json_uint64, offsetof(sample, seed), .max = JSON_LARGEST_WHOLE},
-        {0},
-    };
-    const session_loader *s = r->context;
-    sample wanted = {.seed = 1};
-    if (!json_read_members(r, value, at, members, &wanted))
+    session_loader *s = r->context;
+    octree_sampled wanted = {.points.seed = 1, .by_points = true, .known = true};
+    if (!json_read_members(r, value, at, sample_members, &wanted))
         return false;
-    const size_t count = (size_t)wanted.count;
+    s->header.session.sampled = wanted;
+    const size_t count = (size_t)wanted.points.count;
     double(*positions)[3] = malloc((count > 0 ? count : 1) * sizeof *positions);
     if (!positions)
         return json_fail(r, at, "out of memory for %zu points", count);
     const octree_status status =
-        octree_sample(wanted.kind, wanted.seed, &s->header.session.tree.world, count, positions);
+        octree_sample(wanted.points.kind, wanted.points.seed, &s->header.session.tree.world, count, positions);
     const bool done = status == OCTREE_OK ? copy_points(r, at, &(cloud){.positions = positions, .count = count})
                                           : json_fail(r, at, "%s", octree_status_text(status));
     free(positions);
@@ -291,25 +302,18 @@ static bool read_velocity_list(json_reader *r, json_t *list, const json_place *a
     return done;
 }
 
-typedef struct random_velocities {
-    double speed;
-    uint64_t seed;
-} random_velocities;
-
 static bool read_random_velocities(json_reader *r, json_t *value, const json_place *at)
 {
-    static const json_member members[] = {
-        {"speed", &json_positive, offsetof(random_velocities, speed), .required = true},
-        {"seed", &json_uint64, offsetof(random_velocities, seed), .max = JSON_LARGEST_WHOLE},
-        {0},
-    };
-    const session_loader *s = r->context;
-    random_velocities wanted = {.seed = 1};
-    if (!json_read_members(r, value, at, members, &wanted))
+    session_loader *s = r->context;
+    octree_sampled *sampled = &s->header.session.sampled;
+    sampled->velocities.seed = 1;
+    if (!json_read_members(r, value, at, random_velocities_members, sampled))
         return false;
+    sampled->by_velocities = sampled->known = true;
+    uint64_t state = sampled->velocities.seed;
     for (size_t i = 0; i < s->header.session.body_count; i++)
         for (int axis = 0; axis < 3; axis++)
-            s->bodies[i].velocity[axis] = wanted.speed * (2 * octree_random_unit(&wanted.seed) - 1);
+            s->bodies[i].velocity[axis] = sampled->velocities.speed * (2 * octree_random_unit(&state) - 1);
     return true;
 }
 

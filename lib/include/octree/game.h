@@ -18,6 +18,7 @@
 #define OCTREE_GAME_H
 
 #include "octree/octree.h"
+#include "octree/sample.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -151,6 +152,20 @@ typedef struct octree_gap {
     char why[OCTREE_GAP_TEXT]; /* printable ASCII, one character at least, with its final zero */
 } octree_gap;
 
+/* How bodies were made, where that was by seeds. */
+typedef struct octree_sampled {
+    struct {
+        octree_sample_kind kind;
+        uint64_t count, seed;
+    } points; /* octree_sample() in the world */
+    struct {
+        double speed;
+        uint64_t seed;
+    } velocities; /* within +-speed on each axis */
+    bool by_points, by_velocities;
+    bool known; /* false: nothing else of it is read */
+} octree_sampled;
+
 /* All that is needed to play. It is borrowed, with its arrays: they must outlive the game. */
 typedef struct octree_session {
     octree_def tree;
@@ -167,6 +182,7 @@ typedef struct octree_session {
     size_t shape_count;
     const octree_gap *gaps; /* ascending by tick, one a tick at most */
     size_t gap_count;
+    octree_sampled sampled; /* what session files say of the bodies beside listing them; the game does not read it */
 } octree_session;
 
 /* The paper's session: world [-1000, 1000]^3, capacity 2, depth 5, eleven points, the player at the origin with step

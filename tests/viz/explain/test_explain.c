@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_explain.c - why two recordings differ, frame by frame: what their files say, and where they are not believed. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include "explained.h"
 #include "fixture.h"
 #include "layer.h"
+#include "session_file.h"
 
 #define KEYS "wdn."
 #define TICKS 5
@@ -104,6 +106,51 @@ static void frames_that_differ_before_ticks_do_are_told(void **state)
     comparison_of made = assert_explained(&a, &b, 10);
     assert_string_equal(made.why.headline, "another collision box (45, was 30): the same happens in all ticks that "
                                            "both have; frames differ from tick 0 on");
+    comparison_release(&made);
+}
+
+static place film_sample(const temp_folder *own, const char *name, int seed, int speed_seed)
+{
+    const place folder = place_in(own, name);
+    const film_options options = small_film(folder.path);
+    char text[512];
+    session_file made;
+    octreel_error error;
+    sprintf(
+        text,
+        "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 2, \"points\": {\"sample\": \"uniform\", \"count\": 40, "
+        "\"seed\": %d}, \"velocities\": {\"speed\": 5, \"seed\": %d}}",
+        seed, speed_seed);
+    assert_true(session_parse(name, "", text, strlen(text), &made, &error));
+    assert_filmed(&made.session, &options);
+    session_release(&made);
+    return folder;
+}
+
+static void assert_headline(const place *a, const place *b, const char *expected)
+{
+    comparison_of made = assert_explained(a, b, 10);
+    assert_string_equal(made.why.headline, expected);
+    comparison_release(&made);
+}
+
+static void another_seed_is_the_cause_and_not_its_points(void **state)
+{
+    const place a = film_sample(*state, "a", 1, 1), b = film_sample(*state, "b", 2, 1);
+    const place c = film_sample(*state, "c", 1, 7), d = place_in(*state, "d");
+    assert_headline(&a, &b, "another seed of the points (2, was 1): every tick from 0 differs");
+    assert_headline(&a, &c,
+                    "another seed of the velocities (7, was 1): every tick from 1 differs; frames differ from "
+                    "tick 0 on");
+    octreel_error error;
+    session_file again;
+    film_options options = small_film(d.path);
+    assert_true(session_read(place_below(a.path, "session.json").path, &again, &error));
+    ((octree_body *)again.session.bodies)[7].position[0] = 500;
+    assert_filmed(&again.session, &options);
+    session_release(&again);
+    comparison_of made = assert_explained(&a, &d, 10);
+    assert_holds(made.why.headline, "another point at the start (point 8: (500, ");
     comparison_release(&made);
 }
 
@@ -240,6 +287,7 @@ int main(void)
         TEST(an_edit_is_the_headline_and_its_point_the_cause),
         TEST(another_view_is_no_difference_of_ticks),
         TEST(frames_that_differ_before_ticks_do_are_told),
+        TEST(another_seed_is_the_cause_and_not_its_points),
         TEST(heat_of_earlier_ticks_is_a_cause),
         TEST(recordings_of_unlike_length_say_where_each_ends),
         TEST(a_line_edited_by_hand_is_not_believed),
