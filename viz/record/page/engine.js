@@ -182,14 +182,18 @@ class Engine {
 }
 
 const BLOCK = 4096;
-const MOST_STATE_BYTES = 96 << 20;
+const MOST_STATE_BYTES = 160 << 20;
+const STATE_INTERVAL = 40; /* ms of playing from one state to the next: what going anywhere costs at most */
 
 /* States of an engine at some of its ticks. A state is its memory in blocks, of which it shares those that are the same
- * as in the state before it. */
+ * as in the state before it. Where they become too many every other one goes, and the next are as far apart as those
+ * that stay. */
 class States {
     constructor()
     {
         this.list = []; /* by tick */
+        this.bytes = 0;
+        this.interval = STATE_INTERVAL;
     }
 
     /* The last state that is not after a tick; null when there is none. */
@@ -201,6 +205,10 @@ class States {
     forget(isForgotten)
     {
         this.list = this.list.filter(state => !isForgotten(state));
+        const blocks = new Set(this.list.flatMap(state => state.blocks));
+        this.bytes = 0;
+        for (const block of blocks)
+            this.bytes += block.length;
     }
 
     /* `isTaken`: keys have changed the session. */
@@ -208,13 +216,16 @@ class States {
     {
         const bytes = engine.used(), last = this.list.at(-1), blocks = [];
         for (let at = 0; at < bytes.length; at += BLOCK)
-            blocks.push(States.block(bytes, at, last?.blocks[at / BLOCK]));
+            blocks.push(this.block(bytes, at, last?.blocks[at / BLOCK]));
         this.list.push({tick: engine.tick, isTaken, size: bytes.length, blocks});
-        while (this.list.length > 2 && this.bytes() > MOST_STATE_BYTES)
-            this.list = this.list.filter((state, i) => i % 2 === 0);
+        if (this.bytes <= MOST_STATE_BYTES || this.list.length < 3)
+            return;
+        const gone = new Set(this.list.filter((state, i) => i % 2 === 1));
+        this.forget(state => gone.has(state));
+        this.interval *= 2;
     }
 
-    static block(bytes, at, last)
+    block(bytes, at, last)
     {
         const size = Math.min(BLOCK, bytes.length - at);
         if (last?.length === size && size === BLOCK) {
@@ -225,15 +236,7 @@ class States {
             if (i === now.length)
                 return last;
         }
+        this.bytes += size;
         return bytes.slice(at, at + size);
-    }
-
-    bytes()
-    {
-        const blocks = new Set(this.list.flatMap(state => state.blocks));
-        let sum = 0;
-        for (const block of blocks)
-            sum += block.length;
-        return sum;
     }
 }

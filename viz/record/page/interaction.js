@@ -4,6 +4,7 @@
 "use strict";
 
 const LONG_WAIT = 100; /* ms: what takes longer has a bar */
+const FEW = 4; /* elements at a pixel that are shown without asking for more */
 
 /* The view of a session that has none: that of a recording without what depends on its world. */
 function plainView(about)
@@ -255,12 +256,17 @@ class Interaction {
     {
         const {min, max} = this.player.engine.world();
         this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])));
-        const root = byId("picked"), list = element("ol");
-        for (const {text} of elements)
-            list.append(element("li", text));
+        const root = byId("picked"), texts = elements.map(({text}) => element("li", text));
+        const list = element("ol"), rest = texts.splice(FEW);
+        list.append(...texts);
         root.hidden = false;
-        root.replaceChildren(pixel ? element("h2", `At (${pixel.join(", ")}), ${color}`) :
-                                     element("h2", "Nothing is drawn there"), list);
+        root.replaceChildren(element("h2", pixel ? `At (${pixel.join(", ")}), ${color}` : "Nothing is drawn there"), list);
+        if (rest.length === 0)
+            return;
+        const more = element("details", element("summary", `and ${rest.length} more`));
+        more.append(element("ol", "", {start: FEW + 1}));
+        more.lastChild.append(...rest);
+        root.append(more);
     }
 
     /* ---- Gestures ----------------------------------------------------------------------------------------------- */

@@ -4,7 +4,6 @@
 "use strict";
 
 const SLICE = 12;         /* ms of playing before the page may do something else */
-const STATE_INTERVAL = 40; /* ms of playing from one state to the next: what going anywhere costs at most */
 const MOST_AHEAD = 64 << 20; /* bytes of a state: larger sessions are not played ahead, as that takes two of them */
 
 const rest = () => new Promise(done => setTimeout(done));
@@ -54,13 +53,13 @@ class Player {
         while (scout && run === this.run && scout.tick + 1 < this.length) {
             const start = performance.now();
             let now = start;
-            while (scout.tick + 1 < this.length && now - start < SLICE && since + now - start < STATE_INTERVAL) {
+            while (scout.tick + 1 < this.length && now - start < SLICE && since + now - start < this.states.interval) {
                 this.step(scout);
                 this.heard(scout.tick, scout);
                 now = performance.now();
             }
             since += now - start;
-            if (since >= STATE_INTERVAL) {
+            if (since >= this.states.interval) {
                 this.states.keep(scout, this.isTaken);
                 since = 0;
             }
