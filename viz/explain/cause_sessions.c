@@ -4,6 +4,7 @@
 #include "session_file.h"
 #include "text.h"
 #include "recording_file.h"
+#include "view_options.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -273,7 +274,17 @@ void cause_compare_sessions(const octree_session *a, const octree_session *b, ca
 
 /* ---- Views --------------------------------------------------------------------------------------------------- */
 
-/* As recording.json has it. */
+/* A switch that is off is left out of recording.json. */
+static void add_switches(json_t *object)
+{
+    for (size_t i = 0; view_option_at(i); i++) {
+        const json_member *member = &view_option_at(i)->member;
+        if (member->name && member->codec == &json_bool && !json_object_get(object, member->name))
+            json_object_set_new(object, member->name, json_false());
+    }
+}
+
+/* As recording.json has it, and switches that are off. */
 static json_t *view_object(const cause_view *v)
 {
     text_stream s;
@@ -283,6 +294,7 @@ static json_t *view_object(const cause_view *v)
         recording_write(s.stream, &v->view, v->every);
     json_t *object = text_stream_end(&s, &text) && text ? json_loads(text, PARSE_FLAGS, &error) : NULL;
     free(text);
+    add_switches(object);
     return object;
 }
 

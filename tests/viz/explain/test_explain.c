@@ -96,6 +96,19 @@ static void another_view_is_no_difference_of_ticks(void **state)
     comparison_release(&made);
 }
 
+static void a_switch_that_is_off_is_told_as_off(void **state)
+{
+    const octree_session session = short_session(KEYS);
+    film_options options = small_film("");
+    const place a = film_in(*state, "a", &session, &options);
+    options.view.labels = true;
+    const place b = film_in(*state, "b", &session, &options);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_string_equal(made.why.headline,
+                        "another rule for labels (on, was off): the same ticks, looked at in another way");
+    comparison_release(&made);
+}
+
 /* A larger collision box is drawn in every frame. */
 static void frames_that_differ_before_ticks_do_are_told(void **state)
 {
@@ -286,6 +299,7 @@ int main(void)
         TEST(no_more_frames_are_explained_than_are_asked_for),
         TEST(an_edit_is_the_headline_and_its_point_the_cause),
         TEST(another_view_is_no_difference_of_ticks),
+        TEST(a_switch_that_is_off_is_told_as_off),
         TEST(frames_that_differ_before_ticks_do_are_told),
         TEST(another_seed_is_the_cause_and_not_its_points),
         TEST(heat_of_earlier_ticks_is_a_cause),
