@@ -139,7 +139,7 @@ static bool write_ticks(const char *path, FILE *page, octreel_error *error)
 
 /* The session as the text of an element of its own, in which a '<' can only be in a string. What is larger is left
  * out: the page asks for the file. */
-#define MOST_SESSION ((size_t)64 << 20)
+#define MOST_SESSION ((size_t)128 << 20)
 
 static bool write_session(const char *folder, FILE *page, octreel_error *error)
 {

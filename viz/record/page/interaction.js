@@ -4,6 +4,7 @@
 "use strict";
 
 const LONG_WAIT = 100; /* ms: what takes longer has a bar */
+const LARGE = 1 << 20; /* letters of a session */
 const FEW = 4; /* elements at a pixel that are shown without asking for more */
 
 /* The view of a session that has none: that of a recording without what depends on its world. */
@@ -58,9 +59,15 @@ class Interaction {
         return true;
     }
 
-    /* Play a session from now on. */
+    /* Play a session from now on. A large one takes a while to be read, of which nothing is known. */
     async take(session, view, recording)
     {
+        const bar = byId("ahead");
+        if (session.length > LARGE) {
+            bar.removeAttribute("value");
+            bar.hidden = false;
+            await new Promise(done => setTimeout(done, 50));
+        }
         const player = new Player(this.module, session, view, (tick, engine) => this.hear(tick, engine));
         if (recording.length === 0)
             recording.append(player.engine.facts());
