@@ -256,7 +256,7 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(*state, "keys listed",
                 "\xe2\x86\x92 \xe2\x86\x90 Page Down Page Up Home End space + - j k 1 2 3 4 5 6 0 "
                 "w s d a e f n . q Shift \xe2\x86\x90 Shift \xe2\x86\x92 Shift \xe2\x86\x91 Shift \xe2\x86\x93 "
-                "Shift Page Up Shift Page Down Esc ?");
+                "Shift Page Up Shift Page Down c Esc ?");
 }
 
 /* However many ticks there are, the page has a few hundred elements. */

@@ -160,6 +160,12 @@ class Interaction {
             this.live.turnStep(dx, dy);
     }
 
+    async pick()
+    {
+        if (await this.start())
+            this.live.pickAt();
+    }
+
     async zoom(factor)
     {
         if (await this.start())

@@ -216,9 +216,10 @@ class Live {
 
     /* ---- What is there ------------------------------------------------------------------------------------------ */
 
+    /* At a place on the page; without one, in the middle of what the camera looks at. */
     pickAt(event)
     {
-        const [x, y] = this.pixelAt(event).map(Math.floor), {width, height} = this.view;
+        const [x, y] = (event ? this.pixelAt(event) : this.camera.middle).map(Math.floor), {width, height} = this.view;
         if (x < 0 || y < 0 || x >= width || y >= height)
             return;
         const pick = this.engine.pick(x, y, PICK_RADIUS);

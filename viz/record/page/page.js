@@ -264,6 +264,7 @@ const KEYS = [
                                    viewer => viewer.interaction.turn(dx, dy)]),
     [["Shift+PageUp"], "Shift Page Up", "closer; so does the wheel", viewer => viewer.interaction.zoom(1.25)],
     [["Shift+PageDown"], "Shift Page Down", "farther", viewer => viewer.interaction.zoom(0.8)],
+    [["c"], "c", "what is in the middle of the view; a click says it of any place", viewer => viewer.interaction.pick()],
     [["Escape"], "Esc", "back to the recording, as it was recorded", viewer => viewer.interaction.goBack()],
     [["?"], "?", "these keys", () => byId("help").showModal()],
 ];

@@ -11,6 +11,9 @@ const numbersOf = text => text.trim() === "" ? [] : text.split(/[\s,]+/).map(Num
  * number, or a text that is read and written by two functions. Empty is off. */
 const VIEW_ROWS = [
     ["camera", "camera", "choice"],
+    ["look", "look from", "text", {hint: "30,22", read: numbersOf, write: look => look.join(",")}],
+    ["center", "at", "text", {hint: "x,y,z", read: numbersOf, write: center => center.join(",")}],
+    ["zoom", "zoom", "text", {hint: "1", read: Number, write: String}],
     ["color_by", "nodes by", "choice"],
     ["diagram", "diagram", "choice"],
     ["labels", "labels", "switch"],
