@@ -148,7 +148,7 @@ static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
         {"record my.json -o x.mp4", "is that of a film: ffmpeg makes films of the frames in it"},
         {"record my.json -o my.json", "-o takes the name of a folder, and \"my.json\" is that of a file"},
         {"record my.json -o .", "-o takes a folder of its own for the frames, and \".\" is the current one"},
-        {"record my.json -o ../$(basename $(pwd))/", "is the current one"},
+        {"record my.json -o ../\"$(basename \"$(pwd)\")\"/", "is the current one"},
         {"inspect cloud.txt -o x.jpg", "-o takes the name of a PNG, and \"x.jpg\" is none"},
         {"inspect cloud.txt -o .", "-o takes the name of a file, and \".\" is a folder"},
         {"inspect cloud.txt --nodes x.png", "--nodes writes text, and \"x.png\" is the name of a picture"},

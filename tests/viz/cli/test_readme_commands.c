@@ -85,9 +85,10 @@ static void assert_quoted(const char *readme, const char *said)
 
 static void lay_out_clone(const temp_folder *folder)
 {
-    command_result made = run_script("cd '%s' && mkdir -p build/bin && ln -s '%s' build/bin/octreel && mkdir tests && "
-                                     "ln -s '%s/tests/examples' tests",
-                                     folder->name, octreel_program(), OCTREEL_ROOT);
+    const shell_word examples = shell_quote(OCTREEL_ROOT "/tests/examples");
+    command_result made = run_script("cd '%s' && mkdir -p build/bin && ln -s %s build/bin/octreel && mkdir tests && "
+                                     "ln -s %s tests",
+                                     folder->name, octreel_program(), examples.text);
     assert_done(&made);
     command_release(&made);
 }

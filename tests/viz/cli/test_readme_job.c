@@ -35,10 +35,10 @@ static char *read_block(void)
 static void check_out(const job *j, const char *name)
 {
     const char *folder = ((temp_folder *)j->folder)->name;
+    const shell_word examples = shell_quote(OCTREEL_ROOT "/tests/examples");
     command_result result =
-        run_script("cd '%s' && mkdir -p %s/build/bin %s/tests && ln -s '%s' %s/build/bin/octreel && "
-                   "cp -R '" OCTREEL_ROOT "/tests/examples' %s/tests",
-                   folder, name, name, octreel_program(), name, name);
+        run_script("cd '%s' && mkdir -p %s/build/bin %s/tests && ln -s %s %s/build/bin/octreel && cp -R %s %s/tests",
+                   folder, name, name, octreel_program(), name, examples.text, name);
     assert_done(&result);
     command_release(&result);
 }
