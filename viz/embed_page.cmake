@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # embed_page.cmake - a page as C arrays: the HTML with its style and scripts put where it names them, cut in two where
 # facts go.  cmake -D SOURCE=page/index.html -D OUTPUT=page_html.c -P embed_page.cmake  makes page_html_head and
-# page_html_tail, which page_html.h declares.
+# page_html_tail, and of a page that takes @MODULE@ page_html_plays, which page_html.h declares.
 cmake_minimum_required(VERSION 3.22)
 get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)
@@ -27,6 +27,7 @@ set(module "")
 if(MODULE)
   file(READ ${MODULE} module)
 endif()
+string(FIND "${page}" "@MODULE@" takes_module)
 string(REPLACE "@MODULE@" "${module}" page "${page}")
 
 string(FIND "${page}" "@FACTS@" cut)
@@ -45,4 +46,8 @@ foreach(part head tail)
   string(APPEND source "\nconst unsigned char ${name}_${part}[] = {\n${bytes}\n};\n"
                        "const size_t ${name}_${part}_size = sizeof ${name}_${part};\n")
 endforeach()
+if(NOT takes_module EQUAL -1)
+  string(COMPARE NOTEQUAL "${module}" "" plays)
+  string(APPEND source "\nconst bool ${name}_plays = ${plays};\n")
+endif()
 file(WRITE ${OUTPUT} "${source}")

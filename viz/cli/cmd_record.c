@@ -21,6 +21,7 @@ static const char help[] =
     "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait, q "
     "end\n"
     "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n"
+    "      --no-frames       draw nothing: the session, its ticks, and a page that draws them by itself\n"
     "      --ticks A:B       film the ticks from A to B - 1 alone, as a chunk; chunks go into one folder, from any "
     "number\n"
     "                        of machines, and octreel join makes it whole; A: and :B will do, B may be beyond the end\n"
@@ -45,7 +46,8 @@ typedef struct arguments {
     const char *session, *keys;
     film_options film;
     view_options view;
-    bool json;
+    uint64_t every; /* 0: not given */
+    bool no_frames, json;
 } arguments;
 
 static bool read_ticks(const command_option *option, const char *text, void *into)
@@ -65,7 +67,8 @@ static bool read_ticks(const command_option *option, const char *text, void *int
 static const command_option options[] = {
     {"output", read_folder, OPTION_VALUE(arguments, film.folder), 0, 0},
     {"keys", read_text, OPTION_VALUE(arguments, keys), 0, 0},
-    {"every", read_whole, OPTION_VALUE(arguments, film.every), 1, 1000000000},
+    {"every", read_whole, OPTION_VALUE(arguments, every), 1, 1000000000},
+    {"no-frames", read_flag, OPTION_VALUE(arguments, no_frames), 0, 0},
     {"ticks", read_ticks, OPTION_VALUE(arguments, film), 0, 0},
     {"jobs", read_whole, OPTION_VALUE(arguments, film.jobs), 1, FILM_MOST_JOBS},
     {"fill", read_fill, OPTION_VALUE(arguments, film.renderer.fill), 0, 0},
@@ -103,7 +106,7 @@ static int film_it(arguments *a, const octree_session *session)
 static const char *find_missing(const arguments *a)
 {
     const char *folder = a->film.folder;
-    if (!a->film.resume || a->session || a->keys || a->film.every || first_view_option(&a->view))
+    if (!a->film.resume || a->session || a->keys || a->every || a->no_frames || first_view_option(&a->view))
         return NULL;
     if (!folder_has(folder, "recording.json"))
         return "recording.json";
@@ -124,8 +127,7 @@ static bool read_film(arguments *a)
         !recording_read(a->film.folder, &a->film.view, &every, &error)) {
         return refuse("%s", error.text);
     }
-    if (a->film.every == 0)
-        a->film.every = every;
+    a->film.every = a->no_frames ? 0 : a->every ? a->every : every;
     return read_view(&a->view, &a->film.view);
 }
 
@@ -183,6 +185,8 @@ int cmd_record(int argc, char **argv)
     if (a.film.replace && (a.film.resume || a.film.last != 0))
         return trouble("--replace does not go with %s: it begins a whole recording anew",
                        a.film.resume ? "--resume" : "--ticks");
+    if (a.no_frames && a.every)
+        return trouble("--no-frames films no tick, and --every some: give one of them");
     a.session = argv[optind];
     return read_film(&a) ? play(&a) : EXIT_TROUBLE;
 }

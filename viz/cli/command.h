@@ -5,6 +5,7 @@
 
 /* argv[0] is the program's name; returns the exit status. */
 int cmd_record(int argc, char **argv);
+int cmd_play(int argc, char **argv);
 int cmd_join(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
 int cmd_pick(int argc, char **argv);

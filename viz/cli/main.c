@@ -17,6 +17,7 @@ typedef struct command {
 
 static const command commands[] = {
     {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
+    {"play", cmd_play, "make a page of a session that plays it in a browser, and films nothing"},
     {"join", cmd_join, "make a recording that was filmed in chunks whole"},
     {"verify", cmd_verify, "play a recording again: is it still what its session makes?"},
     {"pick", cmd_pick, "say what is drawn at a pixel of a frame"},

@@ -219,7 +219,9 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
     else if (octree_session_gap(&r->replay.session.session, tick))
         fprintf(out, "%s has a gap there: %s", r->side->path,
                 octree_session_gap(&r->replay.session.session, tick)->why);
-    else if (tick % r->view.every)
+    else if (r->view.every == 0)
+        fprintf(out, "%s has no frames", r->side->path);
+    else if (!frame_is_due(tick, r->view.every))
         fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
     else
         fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);

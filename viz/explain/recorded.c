@@ -100,7 +100,7 @@ static char *expected_line(const recorded *r, const octree_game *game, size_t *s
     char name[FRAME_NAME], *text;
     tick_extras extras = {0};
     text_stream s;
-    if (!tick->gap && tick->number % r->view.every == 0) {
+    if (!tick->gap && frame_is_due(tick->number, r->view.every)) {
         extras.frame = frame_name(tick->number, name);
         extras.scene_digest = scene_of(r, tick->number);
     }

@@ -59,6 +59,8 @@ static file_kind find_kind(const char *bytes, size_t size)
     for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++)
         if (size >= beginnings[i].size && memcmp(bytes, beginnings[i].bytes, beginnings[i].size) == 0)
             return beginnings[i].kind;
+    if (strstr(bytes, "<title>Octreel recording</title>"))
+        return KIND_PAGE;
     const file_kind found = find_json_kind(strncmp(bytes, byte_order_mark, 3) == 0 ? bytes + 3 : bytes);
     return found != KIND_UNKNOWN || !cloud_begins((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
 }

@@ -16,6 +16,7 @@
     X(PNG, "a PNG", "diff", "compares pictures, and pick tells what a recorded frame shows")                           \
     X(DIGESTS, "a file of digests", "diff", "compares frames with it")                                                 \
     X(CLOUD, "a point cloud", "inspect", "draws it")                                                                   \
+    X(PAGE, "a page of octreel's", NULL, "a browser opens it")                                                         \
     X(PART, "a part of a recording", NULL, "the recording is the folder that it is in")                                \
     X(OTHER_PICTURE, "a picture, but no PNG", NULL, "convert it first")                                                \
     X(OTHER_CLOUD, "a LAS or LAZ file", NULL, "convert it to PLY, PCD or text first")                                  \

@@ -31,10 +31,15 @@ bool frame_parse_name(const char *name, uint64_t *tick)
     return strcmp(name, frame_name(*tick, again)) == 0;
 }
 
+bool frame_is_due(uint64_t tick, uint64_t every)
+{
+    return every > 0 && tick % every == 0;
+}
+
 bool frame_is_name(const char *name, uint64_t ticks, uint64_t every)
 {
     uint64_t tick;
-    return frame_parse_name(name, &tick) && tick < ticks && tick % every == 0;
+    return frame_parse_name(name, &tick) && tick < ticks && frame_is_due(tick, every);
 }
 
 static char *frame_path(const char *folder, uint64_t tick, octreel_error *error)

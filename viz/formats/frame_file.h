@@ -19,7 +19,10 @@ char *frame_name(uint64_t tick, char name[FRAME_NAME]);
 /* The tick of a frame's name; false for any other name. */
 bool frame_parse_name(const char *name, uint64_t *tick);
 
-/* Whether it is that of a frame of a recording with so many ticks, of which each every-th is filmed. */
+/* Whether a tick has a frame in a recording of which each every-th tick is filmed; with 0, none is. */
+bool frame_is_due(uint64_t tick, uint64_t every);
+
+/* Whether it is the name of a frame of such a recording with so many ticks. */
 bool frame_is_name(const char *name, uint64_t ticks, uint64_t every);
 
 /* Where a frame comes from; its texts say so. */

@@ -20,7 +20,7 @@ static const json_member own_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
     {"theme", &json_constant, .about = THEME_NAME},
-    {"every", &json_uint64, offsetof(recorded, every), .min = 1, .max = SESSION_LAST_TICK},
+    {"every", &json_uint64, offsetof(recorded, every), .max = SESSION_LAST_TICK},
 };
 
 #define MOST_MEMBERS 32

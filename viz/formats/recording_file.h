@@ -2,6 +2,7 @@
 /* recording_file.h - recording.json: the version of a recording, and its view.
  *
  *   {"octreel": "recording", "version": 2, the view, "theme": "night", "every": 1}
+ * "every" is 0 where no tick has a frame.
  * The members of the view are those of view_options.c:
  *   "width": 1280, "height": 720, "camera": "iso", "layers": ["world", "nodes", ...], "color_by": "depth",
  *   "lod": 2, "budget": 250000, "aa": 1, and, where they are not off,

@@ -29,7 +29,7 @@ static bool find_share(const octree_session *session, const film_options *option
 /* The frames by which a share is divided among jobs: one before its first tick counts too, for the ticks after it. */
 static uint64_t count_frames(const film_share *share, uint64_t every)
 {
-    return (share->last - 1) / every - share->first / every + 1;
+    return every == 0 ? 0 : (share->last - 1) / every - share->first / every + 1;
 }
 
 unsigned film_default_jobs(const octree_session *session, const film_options *options)

@@ -13,7 +13,7 @@ typedef struct film_options {
     const char *folder;
     view view;
     renderer_choice renderer;
-    uint64_t every; /* film ticks 0, every, 2 * every ...; at least 1. ticks.jsonl has all ticks */
+    uint64_t every; /* film ticks 0, every, 2 * every ...; 0: none, and nothing is drawn. ticks.jsonl has all ticks */
     /* A chunk: the ticks [first, last) alone; last 0 is all of them, and beyond the end is the end. Chunks of one
      * recording go into one folder, in any order or at the same time; see join.h for what makes it whole. */
     uint64_t first, last;

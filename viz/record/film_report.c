@@ -3,6 +3,7 @@
 #include "film_report.h"
 #include "hint.h"
 #include "json_write.h"
+#include "page.h"
 #include "point_world.h"
 #include "text.h"
 
@@ -38,6 +39,10 @@ static void put_commands(FILE *out, const char *folder, uint64_t frames)
 
 static void put_uses(FILE *out, const film_summary *summary, const char *folder)
 {
+    if (summary->frames == 0) {
+        fputs(page_plays() ? "\nIts index.html draws it in a browser, and plays on\n" : "", out);
+        return;
+    }
     fputs("\nIts index.html shows it in a browser. ffmpeg, where it is installed, makes of it a film, an animated PNG "
           "and "
           "a contact sheet:\n",
@@ -82,8 +87,11 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
 
 static void report_counts(FILE *out, const film_summary *summary, const char *folder)
 {
-    fprintf(out, "%s: %" PRIu64 " tick%s, %" PRIu64 " frame%s", folder, summary->ticks, plural(summary->ticks),
-            summary->frames, plural(summary->frames));
+    fprintf(out, "%s: %" PRIu64 " tick%s, ", folder, summary->ticks, plural(summary->ticks));
+    if (summary->frames == 0)
+        fputs("no frames", out);
+    else
+        fprintf(out, "%" PRIu64 " frame%s", summary->frames, plural(summary->frames));
 }
 
 static void report_left_out(FILE *out, const film_summary *summary)
@@ -118,7 +126,10 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
         return;
     }
     report_counts(out, summary, options->folder);
-    fprintf(out, ", %.1f s, %.0f frames a second\n", seconds, rate_of(summary, seconds));
+    fprintf(out, ", %.1f s", seconds);
+    if (summary->frames > 0)
+        fprintf(out, ", %.0f frames a second", rate_of(summary, seconds));
+    putc('\n', out);
     report_left_out(out, summary);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)

@@ -116,7 +116,7 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
     char begin[48];
     uint64_t scene;
     const uint64_t tick = j->summary->ticks;
-    const bool gap = octree_session_gap(j->session, tick), filmed = !gap && tick % j->options->every == 0;
+    const bool gap = octree_session_gap(j->session, tick), filmed = !gap && frame_is_due(tick, j->options->every);
     const int length = snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
     if (strncmp(j->line, begin, (size_t)length) != 0 || read_scene(j->line, size, tick, &scene) != filmed)
         return error_set(error, "%s/%s: has no line of tick %" PRIu64 " where it should be", j->options->folder,
@@ -211,7 +211,8 @@ bool join_chunks(film_options *options, film_summary *summary, octreel_error *er
         return false;
     j.session = &file.session;
     summary->total = octree_session_length(j.session) + 1;
-    bool ok = check_renderer_file(options->folder, error) && find_chunks(&j, error) && write_ticks(&j, error);
+    bool ok = (options->every == 0 || check_renderer_file(options->folder, error)) && find_chunks(&j, error) &&
+              write_ticks(&j, error);
     if (ok && summary->ticks == summary->total)
         ok = page_write(options->folder, error) && folder_sweep(options->folder, error);
     session_release(&file);

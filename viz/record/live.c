@@ -148,7 +148,7 @@ static bool digest_file(const char *path, uint64_t *digest, octreel_error *error
 static bool sign_frames(const live_recording *live, uint64_t digest, octreel_error *error)
 {
     size_t gap = 0;
-    for (uint64_t tick = 0; tick < live->summary.ticks; tick += live->options.every)
+    for (uint64_t tick = 0; live->options.every && tick < live->summary.ticks; tick += live->options.every)
         if (gap < live->gap_count && live->gaps[gap] == tick)
             gap++;
         else if (!frame_set_session(live->folder, tick, digest, error))
@@ -219,7 +219,7 @@ static bool film_tick(live_recording *live, octreel_error *error)
 {
     film_step step;
     return playback_tick(&live->playback, &step, error) && recording_add(&live->recording, &step, error) &&
-           (!step.gap || step.tick % live->options.every || note_gap(live, step.tick, error));
+           (!step.gap || !frame_is_due(step.tick, live->options.every) || note_gap(live, step.tick, error));
 }
 
 bool live_begin(live_recording *live, octreel_error *error)

@@ -2,7 +2,6 @@
 /* page.c - index.html: a recording as a page to scrub through. */
 #include "page.h"
 #include "file.h"
-#include "folder.h"
 #include "page_html.h"
 #include "text.h"
 
@@ -108,19 +107,63 @@ static bool write_facts(const char *text, size_t size, FILE *page, const char *p
     return ok || error_set(error, "%s:%ju: is no JSON object, so index.html cannot be written", path, line);
 }
 
-static bool write_about(const char *path, FILE *page, octreel_error *error)
+/* Written to a page that may hold '<' in its strings alone. */
+static void put_session(FILE *page, const char *text, size_t size)
 {
-    char reason[FILE_REASON], *text;
+    for (size_t i = 0; i < size; i++)
+        if (text[i] == '<')
+            fputs("\\u003c", page);
+        else
+            putc(text[i], page);
+}
+
+/* ---- A page ------------------------------------------------------------------------------------------------- */
+
+bool page_plays(void)
+{
+    return page_html_plays;
+}
+
+bool page_begin(FILE *page, const char *path, const char *recording, size_t size, octreel_error *error)
+{
+    fwrite(page_html_head, 1, page_html_head_size, page);
+    return write_facts(recording, size, page, path, 1, error);
+}
+
+bool page_add(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error)
+{
+    return write_facts(line, size, page, path, number, error);
+}
+
+void page_end(FILE *page, const char *session, size_t size)
+{
+    fputs("</script>\n<script type=\"application/json\" id=\"session\">", page);
+    if (size <= PAGE_MOST_SESSION)
+        put_session(page, session, size);
+    fwrite(page_html_tail, 1, page_html_tail_size, page);
+}
+
+/* ---- That of a folder --------------------------------------------------------------------------------------- */
+
+static bool read_file(const char *path, char **text, size_t *size, octreel_error *error)
+{
+    char reason[FILE_REASON];
+    return file_read_whole(path, text, size, reason) || error_set(error, "%s: %s", path, reason);
+}
+
+static bool begin(FILE *page, const char *path, octreel_error *error)
+{
+    char *text;
     size_t size;
-    if (!file_read_whole(path, &text, &size, reason))
-        return error_set(error, "%s: %s", path, reason);
-    const bool ok = write_facts(text, size, page, path, 1, error);
+    if (!read_file(path, &text, &size, error))
+        return false;
+    const bool ok = page_begin(page, path, text, size, error);
     free(text);
     return ok;
 }
 
 /* A last line that was torn when the recording broke off is not a tick. */
-static bool write_ticks(const char *path, FILE *page, octreel_error *error)
+static bool add_ticks(FILE *page, const char *path, octreel_error *error)
 {
     char *line = NULL;
     size_t room = 0;
@@ -128,7 +171,7 @@ static bool write_ticks(const char *path, FILE *page, octreel_error *error)
     bool ok = true;
     FILE *ticks = fopen(path, "rb");
     for (uintmax_t number = 1; ticks && ok && (size = getline(&line, &room, ticks)) > 0 && line[size - 1] == '\n';)
-        ok = write_facts(line, (size_t)size, page, path, number++, error);
+        ok = page_add(page, path, number++, line, (size_t)size, error);
     if (!ticks || ferror(ticks))
         ok = error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     if (ticks)
@@ -137,39 +180,27 @@ static bool write_ticks(const char *path, FILE *page, octreel_error *error)
     return ok;
 }
 
-/* The session as the text of an element of its own, in which a '<' can only be in a string. What is larger is left
- * out: the page asks for the file. */
-#define MOST_SESSION ((size_t)128 << 20)
-
-static bool write_session(const char *folder, FILE *page, octreel_error *error)
+static bool end(FILE *page, const char *path, octreel_error *error)
 {
-    char reason[FILE_REASON], *text = NULL, *path = path_join(folder, "session.json");
+    char *text = NULL;
     size_t size = 0;
-    if (!path)
-        return error_no_memory(error);
-    const bool done = !folder_has(folder, "session.json") || file_read_whole(path, &text, &size, reason) ||
-                      error_set(error, "%s: %s", path, reason);
-    fputs("</script>\n<script type=\"application/json\" id=\"session\">", page);
-    for (size_t i = 0; done && size <= MOST_SESSION && i < size; i++)
-        if (text[i] == '<')
-            fputs("\\u003c", page);
-        else
-            putc(text[i], page);
+    struct stat status;
+    const bool ok = stat(path, &status) != 0 || read_file(path, &text, &size, error);
+    page_end(page, text, size);
     free(text);
-    free(path);
-    return done;
+    return ok;
 }
 
 static bool write_page(const char *folder, FILE *page, octreel_error *error)
 {
-    char *about = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl");
-    fwrite(page_html_head, 1, page_html_head_size, page);
-    const bool ok = about && ticks ? write_about(about, page, error) && write_ticks(ticks, page, error) &&
-                                         write_session(folder, page, error)
-                                   : error_no_memory(error);
-    fwrite(page_html_tail, 1, page_html_tail_size, page);
-    free(about);
+    char *recording = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl"),
+         *session = path_join(folder, "session.json");
+    const bool ok = recording && ticks && session
+                        ? begin(page, recording, error) && add_ticks(page, ticks, error) && end(page, session, error)
+                        : error_no_memory(error);
+    free(recording);
     free(ticks);
+    free(session);
     return ok;
 }
 

@@ -59,7 +59,7 @@ bool playback_play(playback *p, const octree_input *input, octreel_error *error)
 bool playback_film(playback *p, const playback_target *target, octreel_error *error)
 {
     p->target = *target;
-    return picture_open(&p->picture, &p->view, &target->renderer, error);
+    return target->every == 0 || picture_open(&p->picture, &p->view, &target->renderer, error);
 }
 
 bool playback_scene(playback *p, octreel_error *error)
@@ -114,7 +114,7 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
                         .events = tick->events,
                         .refusals = tick->refusal_count,
                         .gap = tick->gap,
-                        .filmed = !tick->gap && tick->number % p->target.every == 0};
+                        .filmed = !tick->gap && frame_is_due(tick->number, p->target.every)};
     p->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
     return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);
 }

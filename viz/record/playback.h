@@ -26,7 +26,7 @@ typedef enum playback_frames {
 typedef struct playback_target {
     playback_frames frames;
     const char *folder; /* not read by FRAMES_SHOW */
-    uint64_t every;     /* ticks 0, every, 2 * every ... have a frame, but for gaps; at least 1 */
+    uint64_t every;     /* ticks 0, every, 2 * every ... have a frame, but for gaps; 0: none has */
     renderer_choice renderer;
 } playback_target;
 
@@ -61,7 +61,7 @@ typedef struct film_step {
 bool playback_open(playback *p, const octree_session *session, const view *v, octreel_error *error);
 void playback_close(playback *p);
 
-/* Open what draws the ticks to be filmed. */
+/* Open what draws the ticks to be filmed, if any. */
 bool playback_film(playback *p, const playback_target *target, octreel_error *error);
 
 /* Play the next tick of the session, or one that is not in it. */

@@ -28,7 +28,7 @@ bool recording_film(const recording *r, playback *p, octreel_error *error)
 /* What is known of a recording before its first tick. */
 typedef struct beginning {
     const view *view;
-    renderer_info info;
+    renderer_info info;    /* where there are frames */
     session_bytes session; /* no bytes: it is not known yet */
 } beginning;
 
@@ -36,7 +36,7 @@ static bool write_files(const recording *r, const folder_place *place, const beg
 {
     return write_recording_file(place, b->view, r->options->every, error) &&
            (!b->session.bytes || write_session_file(place, &b->session, error)) &&
-           write_renderer_file(place, &b->info, error);
+           (r->options->every == 0 || write_renderer_file(place, &b->info, error));
 }
 
 static bool open_log(recording *r, octreel_error *error)
@@ -96,7 +96,8 @@ bool recording_begin(recording *r, playback *p, octreel_error *error)
     beginning b = {.view = &p->view};
     if (r->session && !make_session_bytes(r->session, &b.session, error))
         return false;
-    b.info = renderer_about(p->picture.renderer);
+    if (r->options->every > 0)
+        b.info = renderer_about(p->picture.renderer);
     p->session_digest = b.session.digest;
     const bool begun = (is_chunk(r) || r->options->resume ? begin_shared : begin_alone)(r, &b, error);
     free(b.session.bytes);

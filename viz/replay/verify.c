@@ -87,7 +87,6 @@ static bool is_file(const char *path)
 static bool check_first_frame(verifying *v, octreel_error *error)
 {
     char name[FRAME_NAME], *path = path_join(v->folder, frame_name(0, name));
-    v->filmed_session = v->replay.session_digest;
     if (!path)
         return error_no_memory(error);
     if (is_file(path)) {
@@ -249,6 +248,13 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
 
 /* ---- The recording ------------------------------------------------------------------------------------------ */
 
+static void tell_renderer(verifying *v)
+{
+    const renderer_info info = renderer_about(v->replay.playback.picture.renderer);
+    who_draws(&info, v->report->drawn_now, sizeof v->report->drawn_now);
+    v->report->fill = info.fill;
+}
+
 static bool play_again(verifying *v, octreel_error *error)
 {
     const film_share all = {.last = v->replay.ticks};
@@ -258,9 +264,8 @@ static bool play_again(verifying *v, octreel_error *error)
     if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.film.view, error) ||
         !playback_film(&v->replay.playback, &target, error))
         return false;
-    const renderer_info info = renderer_about(v->replay.playback.picture.renderer);
-    who_draws(&info, v->report->drawn_now, sizeof v->report->drawn_now);
-    v->report->fill = info.fill;
+    if (v->replay.playback.picture.renderer)
+        tell_renderer(v);
     if (!playback_run(&v->replay.playback, &all, check_tick, NULL, v, error))
         return v->stopped;
     check_end_of_lines(v);
@@ -271,8 +276,12 @@ static bool verify_all(verifying *v, octreel_error *error)
 {
     if (!replay_read(&v->replay, v->folder, error) || !lines_open(&v->lines, v->folder, error))
         return false;
-    who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
-    return check_first_frame(v, error) && (v->stopped || play_again(v, error)) && check_extra_frames(v, error);
+    v->filmed_session = v->replay.session_digest;
+    v->report->has_frames = v->replay.film.every > 0;
+    if (v->report->has_frames)
+        who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
+    return (!v->report->has_frames || check_first_frame(v, error)) && (v->stopped || play_again(v, error)) &&
+           check_extra_frames(v, error);
 }
 
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error)
@@ -296,12 +305,20 @@ static const struct {
 #undef VERIFY_ROW
 };
 
+static void print_identical(FILE *out, const char *folder, const verify_report *report)
+{
+    fprintf(out, "%s: identical: %" PRIu64 " tick%s, ", folder, report->ticks, plural(report->ticks));
+    if (report->has_frames)
+        fprintf(out, "%" PRIu64 " frame%s\n", report->frames, plural(report->frames));
+    else
+        fputs("by what happened in them alone: it has no frames\n", out);
+}
+
 static void print_people(FILE *out, const char *folder, const verify_report *report)
 {
     const octree_gap *gap = &report->first_gap;
     if (report->count == 0)
-        fprintf(out, "%s: identical: %" PRIu64 " tick%s, %" PRIu64 " frame%s\n", folder, report->ticks,
-                plural(report->ticks), report->frames, plural(report->frames));
+        print_identical(out, folder, report);
     if (report->gaps > 0)
         fprintf(out, "%s: %" PRIu64 " of these ticks %s: nothing is known of %s; the first is tick %" PRIu64 ": %s\n",
                 folder, report->gaps, report->gaps == 1 ? "is a gap" : "are gaps", report->gaps == 1 ? "it" : "them",

@@ -45,11 +45,12 @@ typedef struct verify_finding {
 typedef struct verify_report {
     size_t count; /* of findings; 0: identical */
     verify_finding findings[VERIFY_MOST];
+    bool has_frames;        /* else the ticks alone are compared, and nothing is drawn */
     uint64_t ticks, frames; /* that are the same, before the first that differs */
     uint64_t gaps;          /* of those ticks: nothing is known of them, which is no difference */
     octree_gap first_gap;   /* where there are any */
     uint64_t pixels;        /* of PIXELS: how many differ */
-    char drawn_by[384];     /* the renderer of the recording, as renderer.json has it */
+    char drawn_by[384];     /* the renderer of the recording, as renderer.json has it; "" without frames */
     char drawn_now[384];    /* the renderer of this process; "" where nothing was drawn */
     const char *fill;       /* draw_fill_name() of what filled its pixels: "gl"; "" likewise */
 } verify_report;

@@ -142,8 +142,33 @@ async function sayDropped(name, text)
     say(`dropped ${name}`, `${player() === before} ${byId("told").textContent}`);
 }
 
+function end()
+{
+    say("errors", errors.join(" "));
+    const list = document.body.appendChild(document.createElement("pre"));
+    list.id = "said";
+    list.textContent = said.join("");
+}
+
+/* A page without frames, to which nothing is done, and then what leaves what it shows. */
+async function driveAlone()
+{
+    const isShown = () => byId("stage").querySelector("canvas.live")?.dataset.tick === String(octreel.tick);
+    await until(isShown, "a picture");
+    say("begins", `${octreel.tick} ${byId("caption").hidden} ${byId("about").textContent}`);
+    await until(() => player().scout.tick === player().length - 1, "the end of the session");
+    await sayTicks();
+    await interaction.press("w");
+    interaction.goBack();
+    await until(isShown, "a picture again");
+    say("given back", `${interaction.isLive} ${octreel.last}`);
+    end();
+}
+
 async function drive()
 {
+    if (!octreel.recording.hasFrames)
+        return driveAlone();
     say("plays by itself", await interaction.start());
     await until(() => player().scout.tick === player().length - 1, "the end of the session");
     await sayTicks();
@@ -161,10 +186,7 @@ async function drive()
     await sayDropped("good.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 3]], "keys": "ww"}');
     await until(() => octreel.recording.length === 3, "the ticks of the session that was dropped");
     say("dropped", `${octreel.last} ${JSON.parse(octreel.recording.lines[2]).player}`);
-    say("errors", errors.join(" "));
-    const list = document.body.appendChild(document.createElement("pre"));
-    list.id = "said";
-    list.textContent = said.join("");
+    return end();
 }
 
 const errors = [];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_page_plays.c - index.html in headless Chromium plays the session by itself: the same ticks, scenes and pixels as
  * the recording's, whatever the way there; what is picked, asked and taken over is what the program says of it. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,6 +10,7 @@
 #include "commands.h"
 #include "fixture.h"
 #include "pick.h"
+#include "played_page.h"
 #include "png_read.h"
 #include "recordings.h"
 #include "session_file.h"
@@ -216,6 +218,53 @@ static void what_cannot_be_opened_is_said_and_leaves_what_was_there(void **state
     assert_said_about(d->said, "dropped", "2 0,100,0");
 }
 
+/* ---- Without frames ----------------------------------------------------------------------------------------- */
+
+static place write_page_without_frames(const driven *d)
+{
+    const place page = place_in(d->folder, "played.html");
+    const octree_session session = octree_session_default();
+    const film_options options = small_film("");
+    film_summary summary;
+    octreel_error error;
+    FILE *file = fopen(page.path, "wb");
+    assert_non_null(file);
+    if (!write_played_page(&session, &options, file, &summary, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(summary.ticks, LAST + 1);
+    return page;
+}
+
+static void a_page_without_frames_draws_at_once(void **state)
+{
+    const driven *d = need_page(state);
+    const place page = write_page_without_frames(d);
+    const driven alone = {d->folder, browser_drive(d->folder, page.path, OCTREEL_DRIVE_PLAYS)};
+    assert_said_about(alone.said, "begins", "0 true driven 253 ticks · 160 × 90 · iso");
+    assert_ticks_said(&alone, "tick", place_in(d->folder, "film").path, LAST + 1, false);
+    assert_said_about(alone.said, "given back", "true 252");
+    assert_said_about(alone.said, "errors", "");
+    free(alone.said);
+}
+
+/* As where the program was not built for pages. */
+static void a_page_that_cannot_draw_says_what_can(void **state)
+{
+    const driven *d = need_page(state);
+    const place page = write_page_without_frames(d);
+    char *text = file_read(page.path, NULL), *module = strstr(text, "id=\"module\">") + strlen("id=\"module\">");
+    FILE *file = fopen(page.path, "wb");
+    assert_non_null(file);
+    fprintf(file, "%.*s%s", (int)(module - text), text, strstr(module, "</script>"));
+    assert_int_equal(fclose(file), 0);
+    char *shown = browser_open(d->folder, page.path, "");
+    assert_non_null(strstr(shown, "<p id=\"caption\">This recording has no frames, and this page has no program that "
+                                  "draws them"));
+    free(shown);
+    free(text);
+}
+
 static void the_page_of_the_default_session_is_small(void **state)
 {
     const driven *d = need_page(state);
@@ -233,6 +282,8 @@ int main(void)
         cmocka_unit_test(what_is_played_on_is_a_session_that_films_the_same),
         cmocka_unit_test(gestures_at_random_change_no_tick_and_raise_no_error),
         cmocka_unit_test(what_cannot_be_opened_is_said_and_leaves_what_was_there),
+        cmocka_unit_test(a_page_without_frames_draws_at_once),
+        cmocka_unit_test(a_page_that_cannot_draw_says_what_can),
         cmocka_unit_test(the_page_of_the_default_session_is_small),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);

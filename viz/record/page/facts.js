@@ -110,6 +110,11 @@ class Recording {
             curve.values[i] = amountOf(factAt(tick, curve.path));
     }
 
+    get hasFrames()
+    {
+        return this.filmed.at(-1) >= 0;
+    }
+
     hasFrame(i)
     {
         return this.filmed[i] === i;

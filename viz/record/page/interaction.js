@@ -21,7 +21,8 @@ class Interaction {
         this.stage = byId("stage");
         this.busy = false;
         this.recorded = viewer.recording;
-        if (byId("module").textContent.trim())
+        this.plays = byId("module").textContent.trim() !== "";
+        if (this.plays)
             this.listen();
     }
 
@@ -51,11 +52,12 @@ class Interaction {
     {
         this.module ??= await compileModule();
         if (!this.module)
-            throw new Error("this browser has no WebAssembly, or does not unpack it");
-        const session = byId("session").textContent.trim();
-        if (!session)
+            throw new Error("this browser has no WebAssembly, or does not unpack it; another one may, " +
+                            "and octreel record films session.json");
+        this.session ??= byId("session").textContent.trim();
+        if (!this.session)
             throw new Error("the session is not in the page, as it is large; drop session.json here");
-        await this.take(session, this.recorded.about, this.recorded);
+        await this.take(this.session, this.recorded.about, this.recorded);
         return true;
     }
 
@@ -72,6 +74,7 @@ class Interaction {
         if (recording.length === 0)
             recording.append(player.engine.facts());
         this.player = player;
+        this.session = session;
         this.recorded = recording;
         this.makeControls(player.engine.choices());
         this.live = new Live(this.stage, player, {

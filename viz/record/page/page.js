@@ -10,6 +10,10 @@ const SHORTEST_WAIT = 4; /* ms */
 const GROWTH_DELAY = 250; /* ms from one drawing of a timeline that grows to the next */
 const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes with each frame */
 
+const NO_FRAMES = "This recording has no frames.";
+const NO_MODULE = "This recording has no frames, and this page has no program that draws them: let octreel record film " +
+    "session.json.";
+
 const byId = id => document.getElementById(id);
 
 class Viewer {
@@ -178,6 +182,10 @@ class Viewer {
             this.interaction.show(this.tick);
             return;
         }
+        if (!this.recording.hasFrames) {
+            this.drawOrSay();
+            return;
+        }
         const filmed = this.recording.filmed[this.tick], caption = byId("caption");
         this.stage.show(filmed).then(() => this.prepareFrames());
         caption.hidden = filmed === this.tick;
@@ -185,6 +193,14 @@ class Viewer {
         caption.textContent = filmed < 0 ? "No tick so far has a frame." :
             `Tick ${this.tick} ${why}: this is the frame of tick ${filmed}.`;
         byId("stage").classList.toggle("stale", filmed !== this.tick);
+    }
+
+    /* Without any frames the page draws at once, or says what would; why it cannot is told by who begins. */
+    async drawOrSay()
+    {
+        const caption = byId("caption");
+        caption.textContent = this.interaction.plays ? NO_FRAMES : NO_MODULE;
+        caption.hidden = this.interaction.plays && await this.interaction.start();
     }
 
     prepareFrames()
@@ -320,9 +336,11 @@ function listenToControls(viewer)
 
 /* ---- The page ----------------------------------------------------------------------------------------------- */
 
-function folderName()
+/* That of the folder, or of a page with a name of its own. */
+function recordingName()
 {
-    const name = location.pathname.split("/").at(-2) ?? "";
+    const [folder, file] = location.pathname.split("/").slice(-2);
+    const name = file === "index.html" || !file ? folder ?? "" : file.replace(/\.html$/, "");
     try {
         return decodeURIComponent(name);
     } catch {
@@ -332,11 +350,11 @@ function folderName()
 
 function describeRecording(recording)
 {
-    const {width, height, camera} = recording.about, folder = folderName();
+    const {width, height, camera} = recording.about, name = recordingName();
     const frames = recording.filmed.reduce((count, filmed, i) => count + (filmed === i ? 1 : 0), 0);
-    const parts = [counted(recording.length, "tick"), counted(frames, "frame"), `${width} × ${height}`, camera];
-    byId("about").append(element("strong", folder), " ", parts.filter(Boolean).join(" · "));
-    document.title = folder ? `${folder} – Octreel` : "Octreel recording";
+    const parts = [counted(recording.length, "tick"), frames && counted(frames, "frame"), `${width} × ${height}`, camera];
+    byId("about").append(element("strong", name), " ", parts.filter(Boolean).join(" · "));
+    document.title = name ? `${name} – Octreel` : "Octreel recording";
     byId("stage").style.setProperty("--ratio", width / height || 16 / 9);
 }
 

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_play.c - octreel play: a session becomes a page that plays it, without a frame; and octreel record
+ * --no-frames. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "fixture.h"
+#include "recordings.h"
+
+#define HEADER "{\"octreel\": \"session\", \"version\": 1,\n"
+#define WITHOUT "built without WebAssembly"
+
+/* Run play in a folder; the test is skipped where this build's pages do not play, which play says. */
+static command_result play_in(const temp_folder *folder, const char *arguments)
+{
+    command_result result = run_script("cd %s && %s play %s", folder->name, octreel_program(), arguments);
+    if (result.status != 2 || !strstr(result.err, WITHOUT))
+        return result;
+    assert_trouble(&result, WITHOUT);
+    assert_int_equal(temp_folder_count(folder), 0);
+    print_message("octreel was built without WebAssembly: its pages do not play\n");
+    skip();
+    return result;
+}
+
+static char *assert_holds(const char *page, const char *part)
+{
+    char *text = file_read(page, NULL);
+    if (!strstr(text, part))
+        fail_msg("%s does not hold %s", page, part);
+    assert_non_null(strstr(text, "</html>\n"));
+    return text;
+}
+
+static void the_default_session_becomes_a_page(void **state)
+{
+    command_result result = play_in(*state, "");
+    const place page = place_in(*state, "octreel.html");
+    assert_done(&result);
+    command_result named =
+        run_script("echo \"octreel.html: 253 ticks; open it in a browser: file://$PWD/%s\"", page.path);
+    assert_string_equal(result.out, named.out);
+    command_release(&named);
+    free(assert_holds(page.path, "{\"tick\":252,"));
+    assert_int_equal(temp_folder_count(*state), 1);
+    command_release(&result);
+}
+
+/* The page of play is that of a recording without frames. */
+static void it_is_the_page_of_a_recording_without_frames(void **state)
+{
+    const place page = place_in(*state, "p.html"), film = place_in(*state, "film");
+    command_result result = play_in(*state, "--keys=wwd --camera orbit --size 160x90 -o p.html");
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "record --no-frames --keys=wwd --camera orbit --size 160x90 -o %s", film.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, ": 4 ticks, no frames, "));
+    assert_null(strstr(result.out, "ffmpeg"));
+    command_release(&result);
+    char *a = file_read(page.path, NULL), *b = file_read(place_below(film.path, "index.html").path, NULL);
+    assert_string_equal(a, b);
+    free(a);
+    free(b);
+}
+
+static void the_name_is_that_of_the_session(void **state)
+{
+    assert_int_equal(mkdir(place_in(*state, "in").path, 0777), 0);
+    file_write_text(place_in(*state, "in/walk 50%.json").path, HEADER "\"points\": [[1, 2, 3]], \"keys\": \"w\"}\n");
+    command_result result = play_in(*state, "'in/walk 50%.json'");
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "walk 50%.html: 2 ticks; "));
+    assert_non_null(strstr(result.out, "/walk%2050%25.html\n"));
+    command_release(&result);
+    free(assert_holds(place_in(*state, "walk 50%.html").path, "\"keys\": \"w\""));
+    result = play_in(*state, "'in/walk 50%.json'"); /* again: it is a page of play's */
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void what_is_no_page_of_play_stays(void **state)
+{
+    static const char *const rows[][2] = {
+        {"-o mine.html", "mine.html: is there already, and no page of octreel's"},
+        {"mine.json -o new.html", "mine.json:1: "},
+        {"s.json -o s.json", "s.json"},
+        {"-o film/index.html", "film/index.html: is the page of a recording"},
+        {"-o film", "\"film\" is a folder"},
+        {"-o p.png", "p.png"},
+        {"-o ''", "-o takes a name"},
+        {"-o none/p.html", "none/p.html"},
+        {"s.json mine.html", "play takes one session"},
+        {"film", "film is a recording"},
+        {"--keys=x", "key 1"},
+        {"--slice z=5000", "outside the world"},
+        {"absent.json", "absent.json: there is no such file"},
+    };
+    command_result result = play_in(*state, "-o - | grep -c '</html>'");
+    assert_string_equal(result.out, "1\n");
+    command_release(&result);
+    file_write_text(place_in(*state, "mine.html").path, "<!DOCTYPE html>mine\n");
+    file_write_text(place_in(*state, "mine.json").path, "{}\n");
+    file_write_text(place_in(*state, "s.json").path, HEADER "\"keys\": \"w\"}\n");
+    result = run_octreel(NULL, "record --no-frames --keys=w -o %s", place_in(*state, "film").path);
+    assert_done(&result);
+    command_release(&result);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        result = play_in(*state, rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+        assert_int_equal(temp_folder_count(*state), 4);
+    }
+    free(assert_holds(place_in(*state, "film/index.html").path, "{\"tick\":1,"));
+}
+
+static void frames_and_none_are_asked_for_alone(void **state)
+{
+    command_result result = run_octreel(NULL, "record --no-frames --every 2 -o %s", place_in(*state, "film").path);
+    assert_trouble(&result, "--no-frames films no tick, and --every some");
+    assert_int_equal(temp_folder_count(*state), 0);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(the_default_session_becomes_a_page),
+        IN_FOLDER(it_is_the_page_of_a_recording_without_frames),
+        IN_FOLDER(the_name_is_that_of_the_session),
+        IN_FOLDER(what_is_no_page_of_play_stays),
+        IN_FOLDER(frames_and_none_are_asked_for_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

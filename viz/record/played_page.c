@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+#include "played_page.h"
+#include "folder_files.h"
+#include "page.h"
+#include "playback.h"
+#include "recording_file.h"
+#include "text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A page while its session is played. */
+typedef struct playing {
+    const film_options *options;
+    film_summary *summary;
+    FILE *page;
+} playing;
+
+static bool add_tick(void *context, const film_step *step, octreel_error *error)
+{
+    const playing *p = context;
+    const film_options *o = p->options;
+    if (!page_add(p->page, "the session's ticks", step->tick + 1, step->line, step->size, error))
+        return false;
+    p->summary->ticks++;
+    if (o->progress)
+        o->progress(p->summary->ticks, p->summary->total, o->context);
+    return true;
+}
+
+static bool keeps_going(void *context)
+{
+    const film_options *o = ((const playing *)context)->options;
+    return !o->keep_going || o->keep_going(o->context);
+}
+
+/* With recording.json as it is where no tick has a frame. */
+static bool begin_page(FILE *page, const view *v, octreel_error *error)
+{
+    text_stream s;
+    char *text;
+    if (text_stream_begin(&s))
+        recording_write(s.stream, v, 0);
+    if (!text_stream_end(&s, &text))
+        return error_no_memory(error);
+    const bool ok = page_begin(page, "recording.json", text, s.size, error);
+    free(text);
+    return ok;
+}
+
+static bool play(playing *p, const octree_session *session, octreel_error *error)
+{
+    const film_share all = {.last = p->summary->total};
+    playback played;
+    const bool ok = playback_open(&played, session, &p->options->view, error) &&
+                    begin_page(p->page, &played.view, error) &&
+                    playback_run(&played, &all, add_tick, keeps_going, p, error);
+    playback_close(&played);
+    return ok;
+}
+
+static bool check_size(size_t size, octreel_error *error)
+{
+    return size <= PAGE_MOST_SESSION ||
+           error_set(error,
+                     "the session is larger than the %zu MB that a page holds: record it (--no-frames), and drop its "
+                     "session.json on its page",
+                     PAGE_MOST_SESSION / 1000000);
+}
+
+/* Nothing has to be written to see that a session is far too large. */
+static size_t least_size(const octree_session *session)
+{
+    return (session->keys ? strlen(session->keys) : 0) + session->body_count * strlen("[0,0,0],");
+}
+
+bool write_played_page(const octree_session *session, const film_options *options, FILE *page, film_summary *summary,
+                       octreel_error *error)
+{
+    session_bytes written;
+    *summary = (film_summary){.total = octree_session_length(session) + 1};
+    if (!page_plays())
+        return error_set(error, "this octreel was built without WebAssembly (clang, lld, wasi-libc), so no page of its "
+                                "own plays: octreel record films the session");
+    if (!check_size(least_size(session), error) || !make_session_bytes(session, &written, error))
+        return false;
+    const bool ok = check_size(written.size, error) && play(&(playing){options, summary, page}, session, error);
+    if (ok)
+        page_end(page, written.bytes, written.size);
+    free(written.bytes);
+    return ok;
+}
