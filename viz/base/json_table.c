@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "json_table.h"
+#include "hint.h"
 #include "octree/octree.h"
 
 #include <inttypes.h>
@@ -17,11 +18,14 @@ static bool is_member(const json_member *table, const char *name)
 /* The line is the member's, the place that of its object. */
 static bool fail_unknown(json_reader *r, const json_place *at, const json_member *table, const char *name)
 {
-    char known[200] = "";
-    for (size_t length = 0; table->name && length < sizeof known; table++)
-        length += (size_t)snprintf(known + length, sizeof known - length, "%s %s", length ? "," : "", table->name);
-    return json_fail_line(r, json_line(r, &(json_place){at, name, 0}), at, "unknown member \"%.40s\"; known:%s", name,
-                          known);
+    char known[200] = "", text[HINT_TEXT];
+    hint h = hint_for(name, strlen(name));
+    for (size_t length = 0; table->name && length < sizeof known; table++) {
+        length += (size_t)snprintf(known + length, sizeof known - length, "%s%s", length ? ", " : "", table->name);
+        hint_offer(&h, table->name);
+    }
+    return json_fail_line(r, json_line(r, &(json_place){at, name, 0}), at, "unknown member \"%.40s\"%sknown: %s", name,
+                          hint_text(&h, "", text), known);
 }
 
 static bool read_member(json_reader *r, json_t *object, const json_place *at, const json_member *row, void *into)

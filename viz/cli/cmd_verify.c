@@ -13,7 +13,8 @@ static const char help[] =
     "identical, or which tick is the first that differs, and in what: the session, what happened (a fact of\n"
     "ticks.jsonl), what is drawn (the scene), or only its pixels, and then who drew both; and which frames or lines "
     "are\n"
-    "missing, torn or too many. Files are not changed.\n\n";
+    "missing, torn or too many. Of gaps, ticks that a program which recorded itself could not hand over, it says how\n"
+    "many there are and why; they are no finding. Files are not changed.\n\n";
 
 static const char more_help[] = "      --json            print JSON\n"
                                 "  -h, --help\n\n"

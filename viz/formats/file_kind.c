@@ -50,7 +50,10 @@ static file_kind find_json_kind(const char *text)
         return KIND_PART;
     name = strstr(at, "\"octreel\"");
     at = name ? skip(name + strlen("\"octreel\""), ":") : NULL;
-    return !at ? KIND_UNKNOWN : skip(at, "\"session\"") ? KIND_SESSION : skip(at, "\"") ? KIND_PART : KIND_UNKNOWN;
+    return !at                         ? KIND_UNKNOWN
+           : skip(at, "\"session\"")   ? KIND_SESSION
+           : skip(at, "\"recording\"") ? KIND_PART
+                                       : KIND_UNKNOWN;
 }
 
 static file_kind find_kind(const char *bytes, size_t size)

@@ -237,18 +237,6 @@ static void lay_over(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
-static void lay_over_wide(uint8_t *pixels, size_t count, image_color ground)
-{
-    const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
-    for (size_t n = 0; n < count; n++) {
-        uint16_t from[4], to[3];
-        memcpy(from, pixels + n * sizeof from, sizeof from);
-        for (size_t i = 0; i < 3; i++)
-            to[i] = (uint16_t)mix(from[i], grounds[i], from[3], 65535);
-        memcpy(pixels + n * sizeof to, to, sizeof to);
-    }
-}
-
 static bool fits_bytes(const uint8_t *samples, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -257,10 +245,24 @@ static bool fits_bytes(const uint8_t *samples, size_t count)
     return true;
 }
 
-/* 16 bits a sample are kept only if needed, so that equal pictures are stored alike. */
-static void narrow_where_exact(image *band, size_t samples)
+/* Laying over rounds. A pixel that 8 bits hold is rounded to those, so that a file's depth does not show. */
+static void lay_over_wide(uint8_t *pixels, size_t count, image_color ground)
 {
-    const size_t count = samples * (size_t)band->width * (size_t)band->height;
+    const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
+    for (size_t n = 0; n < count; n++) {
+        uint16_t from[4], to[3];
+        memcpy(from, pixels + n * sizeof from, sizeof from);
+        const unsigned unit = fits_bytes(pixels + n * sizeof from, 4) ? 257 : 1;
+        for (size_t i = 0; i < 3; i++)
+            to[i] = (uint16_t)(mix(from[i] / unit, grounds[i] / unit, from[3] / unit, 65535 / unit) * unit);
+        memcpy(pixels + n * sizeof to, to, sizeof to);
+    }
+}
+
+/* 16 bits a sample are kept only if needed, so that equal pictures are stored alike. */
+static void narrow_where_exact(image *band)
+{
+    const size_t count = 3 * (size_t)band->width * (size_t)band->height;
     if (!band->wide || !fits_bytes(band->pixels, count))
         return;
     for (size_t i = 0; i < count; i++)
@@ -268,18 +270,15 @@ static void narrow_where_exact(image *band, size_t samples)
     band->wide = false;
 }
 
-/* From what libpng delivered to what an image holds. Laying over rounds to the samples' depth, so that what 8 bits hold
- * is narrowed before it. */
+/* From what libpng delivered to what an image holds. */
 static void convert(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
     if (s->samples == 1)
         s->beyond = s->beyond || !image_has_colors(band); /* libpng lets indices beyond the palette pass */
-    if (s->samples == 4) {
-        narrow_where_exact(band, 4);
+    if (s->samples == 4)
         (band->wide ? lay_over_wide : lay_over)(band->pixels, count, s->background);
-    }
-    narrow_where_exact(band, 3);
+    narrow_where_exact(band);
 }
 
 /* The rows to read, and where their pixels go. */

@@ -110,7 +110,7 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
     if (ok)
         *summary = (film_summary){.frames = 1,
                                   .left_out = renderer_left_out(p.renderer),
-                                  .over_budget = s.tally.beyond || s.tally.thinned,
+                                  .over_budget = scene_leaves_out_beyond(&s.tally),
                                   .below_lod = scene_leaves_out_small(&s.tally)};
     scene_release(&s);
     picture_close(&p);

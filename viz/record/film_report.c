@@ -136,7 +136,10 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
         fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     putc('\n', out);
     if (summary->refusals)
-        fprintf(out, "refusals of points, edits and steps: %" PRIu64 "; ticks.jsonl names them\n", summary->refusals);
+        fprintf(out,
+                "refusals of points, edits and steps, but for steps out of the world: %" PRIu64
+                "; ticks.jsonl names them\n",
+                summary->refusals);
     if (options->last != 0)
         report_chunk(out, summary, options);
     else

@@ -87,7 +87,7 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     frame_origin origin = {.tick = step->tick, .session = p->session_digest, .scene = p->extras.scene_digest};
     const bool done = draw_frame(p, &origin, error);
     step->left_out = origin.left_out;
-    step->over_budget = p->scene.tally.beyond || p->scene.tally.thinned;
+    step->over_budget = scene_leaves_out_beyond(&p->scene.tally);
     step->below_lod = scene_leaves_out_small(&p->scene.tally);
     return done;
 }

@@ -112,7 +112,13 @@ typedef struct scene_tally {
     size_t marked_visited, marked_pruned; /* nodes that it marks as visited or pruned by the tick */
 } scene_tally;
 
-/* Whether the view's lod leaves anything out. */
+/* Whether the view's budget leaves anything out. */
+static inline bool scene_leaves_out_beyond(const scene_tally *tally)
+{
+    return tally->beyond || tally->thinned || tally->arrows.thinned;
+}
+
+/* Whether its lod does. */
 static inline bool scene_leaves_out_small(const scene_tally *tally)
 {
     return tally->small || tally->small_met || tally->arrows.small;

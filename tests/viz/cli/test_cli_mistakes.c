@@ -17,6 +17,7 @@ static int make_kinds(void **state)
     if (temp_folder_make(state) != 0)
         return -1;
     file_write_text(place_in(*state, "my.json").path, "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 2}\n");
+    file_write_text(place_in(*state, "sesion.json").path, "{\"octreel\": \"sesion\", \"version\": 1, \"ticks\": 2}\n");
     file_write_text(place_in(*state, "cloud.txt").path, "x y z\n1 2 3\n4 5 6\n");
     file_write_text(place_in(*state, "notes").path, "no cloud, no session\n");
     file_write_text(place_in(*state, "a.jpg").path, "\xff\xd8\xff\xe0 and so on");
@@ -104,6 +105,7 @@ static void a_file_of_another_kind_names_the_command_for_it(void **state)
         {"record rec/recording.json -o x", "the recording is the folder that it is in"},
         {"record absent.json -o x", "absent.json: there is no such file or folder"},
         {"record notes -o x", "notes:1: '{' expected"},
+        {"record sesion.json -o x", "sesion.json:1: octreel: expected \"session\""},
         {"inspect my.json", "my.json is a session, and inspect takes one point cloud; "},
         {"inspect a.png", "a.png is a PNG, and inspect takes"},
         {"inspect rec", "octreel verify plays it again"},
@@ -122,6 +124,7 @@ static void a_file_of_another_kind_names_the_command_for_it(void **state)
         {"digest a.digests", "a.digests is a file of digests, and digest takes"},
         {"accept pictures cloud.txt", "cloud.txt is a point cloud, and accept takes"},
         {"record --camera-from my.json -o x", "my.json is a session, and --camera-from takes the folder"},
+        {"record --camera-from absent -o x", "absent: there is no such file or folder"},
         {"rec", "there is no command \"rec\", which is a recording; "},
         {"my.json", "there is no command \"my.json\", which is a session; "},
     };

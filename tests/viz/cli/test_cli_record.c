@@ -257,11 +257,20 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
 static void a_budget_that_bites_is_told(void **state)
 {
     const place film = place_in(*state, "film"), points = place_in(*state, "p.txt"),
-                picture = place_in(*state, "p.png");
+                picture = place_in(*state, "p.png"), session = place_in(*state, "s.json"),
+                arrows = place_in(*state, "arrows");
     command_result result =
         run_octreel(NULL, "record --every 100 --budget 5 --layers -text " SMALL " -o %s", film.path);
     assert_done(&result);
     assert_non_null(strstr(result.out, "3 frames leave out what is beyond --budget"));
+    command_release(&result);
+    file_write_text(session.path,
+                    "{\"octreel\": \"session\", \"version\": 1, \"velocities\": {\"speed\": 40, \"seed\": 1},"
+                    " \"points\": {\"sample\": \"uniform\", \"count\": 40, \"seed\": 1}, \"ticks\": 1}");
+    result =
+        run_octreel(NULL, "record %s --budget 1000 --layers velocities " SMALL " -o %s", session.path, arrows.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "2 frames leave out what is beyond --budget")); /* all arrows but one */
     command_release(&result);
     file_write_text(points.path, "1 2 3\n4 5 6\n7 8 9\n");
     result = run_octreel(NULL, "inspect %s --budget 1 --layers points " SMALL " -o %s", points.path, picture.path);

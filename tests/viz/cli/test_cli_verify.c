@@ -159,6 +159,7 @@ static void help_teaches(void **state)
     assert_non_null(strstr(result.out, "usage: octreel verify RECORDING"));
     assert_non_null(strstr(result.out, "--context"));
     assert_non_null(strstr(result.out, "0 identical, 1 differs, 2 trouble"));
+    assert_non_null(strstr(result.out, " gaps"));
     command_release(&result);
     result = run_octreel(NULL, "--help");
     assert_non_null(strstr(result.out, "  verify "));

@@ -135,8 +135,9 @@ static void header_with_bad_members_is_refused(void **state)
          "2: version: the session was made by a newer Octreel"},
         {"{\"octreel\":\"session\",\"version\":0}", "1: version: expected a whole number from 1"},
         {"{\"octreel\":\"session\",\"version\":1.5}", "1: version: expected a whole number from 1"},
-        {HEADER "\"keyz\":1}", "2: unknown member \"keyz\"; known: octreel, version, world, tree, player, keys, ticks, "
-                               "queries, shapes, sampled, points, velocities"},
+        {HEADER "\"keyz\":1}",
+         "2: unknown member \"keyz\", did you mean keys? known: octreel, version, world, tree, player, keys, ticks, "
+         "queries, shapes, sampled, points, velocities"},
         {HEADER "\"\\u001b[0m\":1}", "2: unknown member \"?[0m\"; known: octreel"},
         {HEADER "\"world\":5}", "2: world: expected an object, found 5"},
         {HEADER "\"world\":{\"min\":[0,0,0]}}", "2: world: the member \"max\" is missing"},
@@ -154,7 +155,7 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"tree\":{\"full\":\"maybe\"}}", "2: tree.full: expected one of refuse, grow, found \"maybe\""},
         {HEADER "\"tree\":{\"full\":true}}", "2: tree.full: expected one of refuse, grow, found true"},
         {HEADER "\"player\":{\"stepp\":0}}",
-         "2: player: unknown member \"stepp\"; known: id, body, position, step, box_size, sweep"},
+         "2: player: unknown member \"stepp\", did you mean step? known: id, body, position, step, box_size, sweep"},
         {HEADER "\"player\":{\"body\":true,\"id\":1,\"position\":[500,0,0]}}",
          "2: player: unknown member \"position\"; known: id, body, box_size, sweep"},
         {HEADER "\"player\":{\"step\":5,\n\"body\":true}}",
@@ -191,8 +192,9 @@ static void bad_points_are_refused(void **state)
                                              "found 4.5"},
         {HEADER "\"points\":[[1,2,\"3\"]]}", "2: points[0][2]: expected a number, found \"3\""},
         {HEADER "\"points\":[{\"id\":1}]}", "2: points[0]: the member \"position\" is missing"},
-        {HEADER "\"points\":[{\"id\":1,\"postion\":[]}]}", "2: points[0]: unknown member \"postion\"; known: id, "
-                                                           "position, velocity"},
+        {HEADER "\"points\":[{\"id\":1,\"postion\":[]}]}",
+         "2: points[0]: unknown member \"postion\", did you mean position? known: id, "
+         "position, velocity"},
         {HEADER "\"points\":[{\"position\":[1,2,3],\n\"velocity\":5}]}",
          "3: points[0].velocity: expected three numbers "
          "[x, y, z], found 5"},

@@ -257,14 +257,15 @@ static void wide_files_of_narrow_pictures_become_narrow(void **state)
     image_release(&image);
 }
 
-/* A picture of one row with these bytes a sample, each of which 16 bits hold twice. */
-static void save_row(const char *path, int depth, int color_type, const uint8_t *samples, size_t count)
+/* A picture of one row with these bytes a sample, each of which 16 bits hold twice; but the first sample is by `finer`
+ * of 65535 off that. */
+static void save_row(const char *path, int depth, int color_type, const uint8_t *samples, size_t count, uint8_t finer)
 {
     static const uint8_t filter_none = 0;
     png_bytes file, rows = {.size = 0};
     png_bytes_put(&rows, &filter_none, 1);
     for (size_t i = 0; i < count; i++)
-        png_bytes_put(&rows, (uint8_t[]){samples[i], samples[i]}, depth == 16 ? 2 : 1);
+        png_bytes_put(&rows, (uint8_t[]){samples[i], samples[i] + (i == 0 ? finer : 0)}, depth == 16 ? 2 : 1);
     png_put_header(&file, (uint32_t)count / (uint32_t)samples_of(color_type), 1, depth, color_type, false);
     png_put_rows_and_end(&file, &rows);
     png_bytes_save(&file, file.size, path);
@@ -277,9 +278,9 @@ static void what_is_transparent_is_the_same_picture_in_8_and_16_bits(void **stat
     static const int types[] = {GREY_ALPHA, RGB_ALPHA};
     const char *path = temp_file(*state, "a.png");
     for (int i = 0; i < 2; i++) {
-        save_row(path, 8, types[i], samples, sizeof samples);
+        save_row(path, 8, types[i], samples, sizeof samples, 0);
         image narrow = assert_read(path);
-        save_row(path, 16, types[i], samples, sizeof samples);
+        save_row(path, 16, types[i], samples, sizeof samples, 0);
         image wide = assert_read(path);
         assert_false(wide.wide);
         assert_true(wide.transparent && narrow.transparent);
@@ -287,6 +288,25 @@ static void what_is_transparent_is_the_same_picture_in_8_and_16_bits(void **stat
         image_release(&narrow);
         image_release(&wide);
     }
+}
+
+/* One pixel that only 16 bits hold changes none of the others. */
+static void a_pixel_is_laid_over_alike_whatever_the_others_are(void **state)
+{
+    static const uint8_t samples[] = {10, 20, 30, 100, 200, 3, 77, 1, 255, 128, 0, 254, 9, 8, 7, 0, 1, 2, 3, 255};
+    const char *path = temp_file(*state, "a.png");
+    save_row(path, 8, RGB_ALPHA, samples, sizeof samples, 0);
+    image narrow = assert_read(path);
+    save_row(path, 16, RGB_ALPHA, samples, sizeof samples, 2);
+    image wide = assert_read(path);
+    assert_true(wide.wide);
+    for (int i = 3; i < 3 * wide.width; i++) {
+        uint16_t sample;
+        memcpy(&sample, wide.pixels + 2 * i, sizeof sample);
+        assert_int_equal(sample, narrow.pixels[i] * 257);
+    }
+    image_release(&narrow);
+    image_release(&wide);
 }
 
 static uint64_t color_space_of(const char *path, const char *type, const char *data, size_t size)
@@ -534,6 +554,7 @@ int main(void)
         WITH_FOLDER(size_is_told_of_files_that_begin_and_end_as_png),
         WITH_FOLDER(wide_files_of_narrow_pictures_become_narrow),
         WITH_FOLDER(what_is_transparent_is_the_same_picture_in_8_and_16_bits),
+        WITH_FOLDER(a_pixel_is_laid_over_alike_whatever_the_others_are),
         WITH_FOLDER(what_samples_mean_is_kept_as_one_number),
         WITH_FOLDER(pixels_that_a_file_is_too_short_for_are_refused),
         WITH_FOLDER(pipe_is_refused_without_waiting),

@@ -68,7 +68,8 @@ static void an_edit_of_what_is_not_there_is_told_as_refused(void **state)
     film_report(out, &summary, &options, 1, false);
     assert_int_equal(fclose(out), 0);
     assert_non_null(strstr(text, " refused 1,"));
-    assert_non_null(strstr(text, "\nrefusals of points, edits and steps: 2; ticks.jsonl names them\n"));
+    assert_non_null(strstr(
+        text, "\nrefusals of points, edits and steps, but for steps out of the world: 2; ticks.jsonl names them\n"));
     free(text);
 }
 
