@@ -369,6 +369,7 @@ bool web_keys(double last, size_t count)
     CUT_AFTER((octree_edit *)s->edits, s->edit_count, before);
     CUT_AFTER((octree_query *)s->queries, s->query_count, before);
     CUT_AFTER((octree_shape *)s->shapes, s->shape_count, before);
+    CUT_AFTER((octree_gap *)s->gaps, s->gap_count, before);
     page.drawn = false;
     return true;
 }

@@ -87,25 +87,35 @@ static void decode(char *text)
 }
 
 /* "driven.html" beside the page. */
-static place write_driven_page(const char *page, const char *script)
+static place write_driven_page(const char *page, const char *const scripts[])
 {
     place driven;
     const char *slash = strrchr(page, '/');
     snprintf(driven.path, sizeof driven.path, "%.*sdriven.html", slash == NULL ? 0 : (int)(slash + 1 - page), page);
-    char *page_text = file_read(page, NULL), *script_text = file_read(script, NULL);
+    char *text = file_read(page, NULL);
     FILE *file = fopen(driven.path, "w");
     assert_non_null(file);
-    fprintf(file, "%s<script>\n%s</script>\n", page_text, script_text);
+    fputs(text, file);
+    for (size_t i = 0; scripts[i] != NULL; i++) {
+        free(text);
+        text = file_read(scripts[i], NULL);
+        fprintf(file, "<script>\n%s</script>\n", text);
+    }
     assert_int_equal(fclose(file), 0);
-    free(page_text);
-    free(script_text);
+    free(text);
     return driven;
 }
 
 char *browser_drive(const temp_folder *own, const char *page, const char *script)
 {
+    const char *const scripts[] = {script, NULL};
+    return browser_drive_all(own, page, scripts);
+}
+
+char *browser_drive_all(const temp_folder *own, const char *page, const char *const scripts[])
+{
     static const char begin[] = "<pre id=\"said\">";
-    const place driven = write_driven_page(page, script);
+    const place driven = write_driven_page(page, scripts);
     char *text = browser_open(own, driven.path, ""), *said = strstr(text, begin);
     const size_t size = strlen(text);
     if (said == NULL)

@@ -21,6 +21,9 @@ char *browser_open(const temp_folder *own, const char *path, const char *hash);
  * them; the caller frees it. The test fails when the script does not come to its end. */
 char *browser_drive(const temp_folder *own, const char *page, const char *script);
 
+/* The same with several scripts, one behind the other; a null ends them. */
+char *browser_drive_all(const temp_folder *own, const char *page, const char *const scripts[]);
+
 /* What was said about something; the caller frees it. The test fails when nothing was. */
 char *said_about(const char *said, const char *what);
 void assert_said_about(const char *said, const char *what, const char *expected);

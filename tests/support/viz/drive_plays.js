@@ -3,53 +3,6 @@
  * "what<tab>value" of what it sees. */
 "use strict";
 
-const said = [];
-
-function say(what, value)
-{
-    said.push(`${what}\t${value}\n`);
-}
-
-const wait = ms => new Promise(done => setTimeout(done, ms));
-
-async function until(isSo, what)
-{
-    for (let i = 0; !isSo(); i++) {
-        if (i > 200000)
-            throw new Error(`waited for ${what}`);
-        await wait(1);
-    }
-}
-
-/* A generator of its own: the same gestures every time. */
-let seed = 1;
-
-function random(below)
-{
-    seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0;
-    return Math.floor(seed / 2 ** 32 * below);
-}
-
-function digestOf(bytes)
-{
-    let digest = 0x811c9dc5;
-    for (let i = 0; i < bytes.length; i++)
-        digest = Math.imul(digest ^ bytes[i], 0x01000193);
-    return (digest >>> 0).toString(16).padStart(8, "0");
-}
-
-const {interaction} = octreel;
-const player = () => interaction.player;
-
-/* The tick as it is played, its scene and its pixels. */
-async function sayTick(name, tick)
-{
-    await player().goTo(tick);
-    const {engine} = player(), picture = engine.draw();
-    const {tick: number, tree} = JSON.parse(engine.facts());
-    say(`${name} ${tick}`, `${number} ${tree.digest} ${engine.digest()} ${digestOf(picture.data)}`);
-}
-
 async function sayTicks()
 {
     const {length} = player();
@@ -142,14 +95,6 @@ async function sayDropped(name, text)
     say(`dropped ${name}`, `${player() === before} ${byId("told").textContent}`);
 }
 
-function end()
-{
-    say("errors", errors.join(" "));
-    const list = document.body.appendChild(document.createElement("pre"));
-    list.id = "said";
-    list.textContent = said.join("");
-}
-
 /* A page without frames, to which nothing is done, and then what leaves what it shows. */
 async function driveAlone()
 {
@@ -162,7 +107,6 @@ async function driveAlone()
     interaction.goBack();
     await until(isShown, "a picture again");
     say("given back", `${interaction.isLive} ${octreel.last}`);
-    end();
 }
 
 async function drive()
@@ -186,10 +130,6 @@ async function drive()
     await sayDropped("good.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 3]], "keys": "ww"}');
     await until(() => octreel.recording.length === 3, "the ticks of the session that was dropped");
     say("dropped", `${octreel.last} ${JSON.parse(octreel.recording.lines[2]).player}`);
-    return end();
 }
 
-const errors = [];
-addEventListener("error", event => errors.push(event.message));
-addEventListener("unhandledrejection", event => errors.push(event.reason));
-drive().catch(error => { document.body.textContent = error.stack; });
+run(drive);

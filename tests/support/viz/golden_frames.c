@@ -59,8 +59,6 @@ const golden_frame golden_frames[] = {
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
 
-#define MOST_BODIES 400
-
 /* What else the views of some frames have. */
 static const struct {
     const char *name;
@@ -111,7 +109,7 @@ static octree_session sampled_session(octree_sample_kind kind, const octree_quer
                                       size_t count)
 {
     octree_session session = octree_session_default();
-    double positions[MOST_BODIES][3];
+    double positions[GOLDEN_MOST_BODIES][3];
     octree_sample(kind, 5, &session.tree.world, count, positions);
     for (size_t i = 0; i < count; i++)
         bodies[i] = (octree_body){.id = i + 100, .position = {positions[i][0], positions[i][1], positions[i][2]}};
@@ -150,14 +148,14 @@ static octree_session swept_session(void)
     return session;
 }
 
-static octree_session session_of(const golden_frame *frame, octree_body bodies[MOST_BODIES])
+static octree_session session_of(const golden_frame *frame, octree_body bodies[GOLDEN_MOST_BODIES])
 {
     octree_session session = octree_session_default();
     if (!frame->points)
         return session;
     switch (frame->points[0]) {
     case 'c': /* 400 clustered points, and a region that some of them are in */
-        return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, MOST_BODIES);
+        return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, GOLDEN_MOST_BODIES);
     case 'k':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
     case 'm':
@@ -174,6 +172,25 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[M
     session.queries = NULL;
     session.query_count = 0;
     return session;
+}
+
+bool golden_is_played(const golden_frame *frame)
+{
+    return strcmp(frame->name, "broken") != 0 && strcmp(frame->name, "asked") != 0;
+}
+
+bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *error)
+{
+    const view_option *camera = view_option_named("camera"), *layers = view_option_named("layers");
+    play->session = session_of(frame, play->bodies);
+    play->view = view_of_frame(frame);
+    if (!camera->parse(camera, frame->camera, &play->view, error) ||
+        !layers->parse(layers, frame->layers, &play->view, error))
+        return false;
+    if (octree_game_create(&play->session, &play->game) != OCTREE_OK)
+        return error_set(error, "%s: the session cannot be played", frame->name);
+    camera_fit(&play->view, octree_game_tree(play->game));
+    return true;
 }
 
 /* One point is written into another's cell. */
@@ -196,17 +213,11 @@ static bool build_scene(scene *s, const golden_frame *frame, const view *v, cons
 
 bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
 {
-    octree_body bodies[MOST_BODIES];
-    const octree_session session = session_of(frame, bodies);
-    view v = view_of_frame(frame);
-    const view_option *camera = view_option_named("camera"), *layers = view_option_named("layers");
-    octree_game *game;
+    golden_play play;
     *s = (scene){0};
-    if (!camera->parse(camera, frame->camera, &v, error) || !layers->parse(layers, frame->layers, &v, error))
+    if (!golden_open(frame, &play, error))
         return false;
-    if (octree_game_create(&session, &game) != OCTREE_OK)
-        return error_set(error, "%s: the session cannot be played", frame->name);
-    camera_fit(&v, octree_game_tree(game));
+    octree_game *game = play.game;
     heat h = {0};
     bool ok = heat_add_tick(&h, game);
     for (uint64_t tick = 0; tick < frame->tick; tick++) {
@@ -215,7 +226,7 @@ bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
     }
     if (strcmp(frame->name, "broken") == 0)
         break_game(game);
-    ok = (ok && build_scene(s, frame, &v, game, &h)) || error_set(error, "%s: there is no scene", frame->name);
+    ok = (ok && build_scene(s, frame, &play.view, game, &h)) || error_set(error, "%s: there is no scene", frame->name);
     heat_release(&h);
     octree_game_destroy(game);
     return ok;

@@ -6,6 +6,7 @@
 #include "context.h"
 #include "folder.h"
 #include "image.h"
+#include "octree/game.h"
 #include "scene.h"
 
 typedef struct golden_frame {
@@ -20,6 +21,22 @@ typedef struct golden_frame {
 
 extern const golden_frame golden_frames[];
 extern const size_t golden_frame_count;
+
+#define GOLDEN_MOST_BODIES 400
+
+/* A session that is played, and how it is viewed: it must stay where it was made. */
+typedef struct golden_play {
+    octree_session session;
+    octree_body bodies[GOLDEN_MOST_BODIES];
+    view view;
+    octree_game *game;
+} golden_play;
+
+/* Whether it is a tick of a session: two are of a tree alone, or of one that is broken. */
+bool golden_is_played(const golden_frame *frame);
+
+/* Tick 0 of its session; the caller destroys the game. */
+bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *error);
 
 /* What one shows; *s is to be released, also where it fails. */
 bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error);

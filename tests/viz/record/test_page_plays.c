@@ -7,15 +7,11 @@
 #include <sys/stat.h>
 
 #include "browser.h"
-#include "commands.h"
+#include "driven_page.h"
 #include "fixture.h"
-#include "pick.h"
 #include "played_page.h"
-#include "png_read.h"
 #include "recordings.h"
 #include "session_file.h"
-#include "tick_lines.h"
-#include "ticks_write.h"
 
 enum { LAST = 252 }; /* tick of the default session */
 
@@ -24,14 +20,6 @@ typedef struct driven {
     void *folder; /* a temp_folder */
     char *said;   /* null where the page cannot play */
 } driven;
-
-static bool page_plays(const char *page)
-{
-    char *text = file_read(page, NULL);
-    const bool plays = strstr(text, "id=\"module\"></script>") == NULL;
-    free(text);
-    return plays;
-}
 
 static int drive_page(void **state)
 {
@@ -43,8 +31,7 @@ static int drive_page(void **state)
     const octree_session session = octree_session_default();
     const film_options options = small_film(film.path);
     assert_filmed(&session, &options);
-    if (browser_is_there() && page_plays(page.path))
-        d->said = browser_drive(d->folder, page.path, OCTREEL_DRIVE_PLAYS);
+    d->said = play_page(d->folder, page.path, (const char *const[]){"drive_plays.js", NULL});
     return 0;
 }
 
@@ -60,96 +47,27 @@ static int forget_page(void **state)
 static const driven *need_page(void **state)
 {
     const driven *d = *state;
-    need_browser();
-    if (d->said)
-        return d;
-    print_message("octreel was built without WebAssembly: its pages do not play\n");
-    skip();
+    need_playing_page(place_below(place_in(d->folder, "film").path, "index.html").path);
     return d;
 }
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* Of the colours, four bytes a pixel, as drive_plays.js does. */
-static uint32_t digest_pixels(const char *path)
-{
-    octreel_error error;
-    image frame;
-    uint32_t digest = 0x811c9dc5;
-    if (!image_read_png(path, &frame, &error))
-        fail_msg("%s", error.text);
-    for (int y = 0; y < frame.height; y++)
-        for (int x = 0; x < frame.width; x++) {
-            const image_color color = image_color_at(&frame, x, y);
-            const uint8_t bytes[] = {color.r, color.g, color.b, 255};
-            for (int i = 0; i < 4; i++)
-                digest = (digest ^ bytes[i]) * 0x01000193;
-        }
-    image_release(&frame);
-    return digest;
-}
-
-typedef struct expectation {
-    const char *said, *name, *folder;
-    bool some; /* ticks may be missing */
-} expectation;
-
-static void assert_tick_said(const char *line, size_t number, void *context)
-{
-    const expectation *e = context;
-    char what[64], sought[80], expected[128];
-    snprintf(what, sizeof what, "%s %zu", e->name, number);
-    snprintf(sought, sizeof sought, "\n%s\t", what);
-    if (e->some && !strstr(e->said, sought))
-        return;
-    json_t *tick = json_read(line);
-    snprintf(expected, sizeof expected, "%zu %s %s %08x", number,
-             json_string_value(json_member(json_member(tick, "tree"), "digest")),
-             json_string_value(json_member(tick, "scene")), digest_pixels(frame_place(e->folder, number).path));
-    assert_said_about(e->said, what, expected);
-    json_decref(tick);
-}
-
-static void assert_ticks_said(const driven *d, const char *name, const char *folder, size_t count, bool some)
-{
-    expectation e = {d->said, name, folder, some};
-    assert_int_equal(for_each_line(folder, assert_tick_said, &e), count);
-}
-
 static void every_tick_is_that_of_the_recording_in_any_order(void **state)
 {
     const driven *d = need_page(state);
     assert_said_about(d->said, "plays by itself", "true");
-    assert_ticks_said(d, "tick", place_in(d->folder, "film").path, LAST + 1, false);
+    assert_ticks_said(d->said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
 }
 
 static void gestures_at_random_change_no_tick_and_raise_no_error(void **state)
 {
     const driven *d = need_page(state);
-    assert_ticks_said(d, "again", place_in(d->folder, "film").path, LAST + 1, true);
+    assert_ticks_said(d->said, "again", place_in(d->folder, "film").path, LAST + 1, true);
     assert_said_about(d->said, "errors", "");
 }
 
 /* ---- Questions ---------------------------------------------------------------------------------------------- */
-
-/* All but the name of the file, which a page does not have. */
-static void assert_same_pick(const char *said, const char *frame, int x, int y)
-{
-    octreel_error error;
-    pick found;
-    char *text;
-    size_t size;
-    if (!pick_frame(frame, &(pick_options){.x = x, .y = y, .radius = 3}, &found, &error))
-        fail_msg("%s", error.text);
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    pick_print(out, &found, true);
-    assert_int_equal(fclose(out), 0);
-    text[strcspn(text, "\n")] = 0;
-    assert_string_equal(strstr(said, "\"tick\""), strstr(text, "\"tick\""));
-    pick_release(&found);
-    free(text);
-}
 
 static void a_click_says_what_pick_says(void **state)
 {
@@ -161,7 +79,7 @@ static void a_click_says_what_pick_says(void **state)
         at += strlen("\npick ");
         assert_int_equal(sscanf(at, "%d %d", &x, &y), 2);
         char *said = strndup(strchr(at, '\t') + 1, strcspn(strchr(at, '\t') + 1, "\n"));
-        assert_same_pick(said, frame.path, x, y);
+        assert_pick_said(said, frame.path, x, y, 3);
         free(said);
     }
     assert_int_equal(picks, 40);
@@ -190,7 +108,7 @@ static void what_is_played_on_is_a_session_that_films_the_same(void **state)
         fail_msg("%s", error.text);
     const film_options options = small_film(film.path);
     assert_filmed(&session.session, &options);
-    assert_ticks_said(d, "taken", film.path, 37, false);
+    assert_ticks_said(d->said, "taken", film.path, 37, false);
     assert_said_about(d->said, "given back", "36 of 252");
     session_release(&session);
     free(text);
@@ -240,9 +158,9 @@ static void a_page_without_frames_draws_at_once(void **state)
 {
     const driven *d = need_page(state);
     const place page = write_page_without_frames(d);
-    const driven alone = {d->folder, browser_drive(d->folder, page.path, OCTREEL_DRIVE_PLAYS)};
+    const driven alone = {d->folder, play_page(d->folder, page.path, (const char *const[]){"drive_plays.js", NULL})};
     assert_said_about(alone.said, "begins", "0 true driven 253 ticks · 160 × 90 · iso");
-    assert_ticks_said(&alone, "tick", place_in(d->folder, "film").path, LAST + 1, false);
+    assert_ticks_said(alone.said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
     assert_said_about(alone.said, "given back", "true 252");
     assert_said_about(alone.said, "errors", "");
     free(alone.said);

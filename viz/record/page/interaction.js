@@ -73,6 +73,7 @@ class Interaction {
         const player = new Player(this.module, session, view, (tick, engine) => this.hear(tick, engine));
         if (recording.length === 0)
             recording.append(player.engine.facts());
+        this.player?.stop();
         this.player = player;
         this.session = session;
         this.recorded = recording;
@@ -144,7 +145,7 @@ class Interaction {
     {
         if (!this.isLive)
             return;
-        this.player.run++;
+        this.player.stop();
         this.live.hide();
         this.live = this.starting = undefined;
         for (const hidden of ["view", "asking", "live-end", "save", "taken", "picked", "ahead"])
@@ -190,7 +191,10 @@ class Interaction {
             return;
         const {viewer, player} = this;
         viewer.pause();
-        await player.goTo(viewer.tick);
+        while (!(await player.goTo(viewer.tick)) && player === this.player)
+            ; /* other calls want other ticks, or the same */
+        if (!this.isLive || player !== this.player)
+            return;
         if (key === "q") {
             this.tell(player.isTaken ? "The game has ended. Save it, or go back to the recording." : "");
             return;

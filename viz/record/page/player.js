@@ -70,6 +70,12 @@ class Player {
             progress(this.length - 1, this.length - 1);
     }
 
+    /* Play no further ahead. */
+    stop()
+    {
+        this.run++;
+    }
+
     /* Bring the engine that draws to a tick. False where another call came meanwhile. */
     async goTo(tick)
     {

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* driven_page.h - what a page said while scripts played it, drive.js the first of them, held against the program. */
+#ifndef DRIVEN_PAGE_H
+#define DRIVEN_PAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "temp_folder.h"
+
+/* Whether there are a browser and a page that plays; where not, the test is skipped and says so. */
+void need_playing_page(const char *page);
+
+/* Play a page by the scripts of tests/support/viz with these names, or by whole paths, behind drive.js; a null ends
+ * them. The lines that were said, or null where there is no browser or the page does not play. */
+char *play_page(const temp_folder *own, const char *page, const char *const scripts[]);
+
+/* Of the colours of a PNG, four bytes a pixel, as drive.js does. */
+uint32_t digest_of_png(const char *path);
+
+/* What was said of "<name> <tick>" is what the recording in the folder has of all its ticks, which are `count`: facts,
+ * scenes and frames. `some`: not each was said. */
+void assert_ticks_said(const char *said, const char *name, const char *folder, size_t count, bool some);
+
+/* A text of JSON is what pick says of a pixel, all but the name of the file, which a page does not have. */
+void assert_pick_said(const char *said, const char *frame, int x, int y, int radius);
+
+#endif
