@@ -18,7 +18,8 @@ static const char help[] =
     "usage: octreel diff REFERENCE COMPARED [OPTION ...]\n\n"
     "Compare pictures, exactly unless told otherwise. Each side is a PNG, a folder of PNGs (those directly in it), a\n"
     "recording, or a file of digests made by octreel digest. Frames belong together by their names; a frame without a\n"
-    "reference is a difference, and so is a reference without a frame.\n\n"
+    "reference is a difference, and so is a reference without a frame. Of recordings without frames the ticks are\n"
+    "compared.\n\n"
     "Forgiven is only what is asked for, and every verdict says so:\n"
     "      --max-pixels N    up to N unlike pixels a frame, after all below is forgiven\n"
     "      --max-delta D     colours no farther apart than D in the unit YIQ (Kotsarenko and Ramos 2010), from 0, the\n"
@@ -193,7 +194,8 @@ static bool print_report(const arguments *a, const diff_report *report, octreel_
         ok = diff_report_junit(stdout, report);
     else if (is_stdout(a->markdown))
         ok = diff_report_markdown(stdout, report);
-    else if (report->result->found[FOUND_UNREADABLE] < report->result->count) /* else nothing was compared */
+    else if (report->result->by_ticks ||
+             report->result->found[FOUND_UNREADABLE] < report->result->count) /* else nothing was compared */
         diff_report_text(stdout, report);
     return ok || error_set(error, "there is no memory to print the report");
 }

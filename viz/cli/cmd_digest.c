@@ -38,7 +38,9 @@ static int digest_it(const char *folder, const char *path, image_color backgroun
     if (!diff_side_open(&side, folder, &error))
         return trouble("%s", error.text);
     int status = EXIT_DONE;
-    if (side.count == 0)
+    if (side.no_frames)
+        status = trouble("%s was recorded without frames, of which there could be digests", folder);
+    else if (side.count == 0)
         status = trouble("%s: there is no PNG in it", folder);
     else if (!diff_side_spared(&side, &output, &error) || !digest_all(&side, background, &error) ||
              !write_file(&side, path, &error))

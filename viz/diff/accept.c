@@ -52,13 +52,13 @@ static bool open_sides(accepting *a, octreel_error *error)
         return false;
     if (a->frames.kind == DIFF_DIGESTS)
         return error_set(error, "%s: pictures are accepted, not digests of them", o->frames);
-    if (a->frames.count == 0)
+    if (a->frames.count == 0 && !a->frames.no_frames)
         return error_set(error, "%s: there is no PNG in it", o->frames);
     a->is_new = access(o->reference, F_OK) != 0;
     if (a->is_new) {
         if (!check_new(o, a->frames.kind, error))
             return false;
-        a->reference = (diff_side){.path = o->reference, .kind = a->frames.kind};
+        a->reference = (diff_side){.path = o->reference, .kind = a->frames.kind, .no_frames = a->frames.no_frames};
         return true;
     }
     if (!diff_side_open(&a->reference, o->reference, error))
@@ -66,8 +66,9 @@ static bool open_sides(accepting *a, octreel_error *error)
     if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
         return error_set(error, "%s is a recording, %s is none: its ticks would be those of other frames", o->reference,
                          o->frames);
+    /* An empty folder is to become one. */
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
-        a->reference.kind = DIFF_RECORDING; /* an empty folder is to become one */
+        a->reference = (diff_side){.path = o->reference, .kind = DIFF_RECORDING, .no_frames = a->frames.no_frames};
     return true;
 }
 
@@ -111,7 +112,7 @@ static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *erro
 
 static bool decide(accepting *a, octreel_error *error)
 {
-    a->actions = calloc(a->result.count, sizeof *a->actions);
+    a->actions = calloc(a->result.count + 1, sizeof *a->actions);
     if (!a->actions)
         return error_no_memory(error);
     for (size_t i = 0; i < a->result.count; i++) {
@@ -240,6 +241,11 @@ static bool write_all(const accepting *a, octreel_error *error)
 static void tell(const accepting *a)
 {
     size_t said = 0;
+    if (a->result.by_ticks) {
+        fprintf(a->out, "%s: the ticks are %s\n", a->reference.path,
+                a->result.verdict == DIFF_SAME ? "those of before" : "new");
+        return;
+    }
     for (size_t i = 0; i < a->result.count; i++)
         if (a->actions[i] != KEPT && said++ < LIST_LINES)
             say(a, &a->result.pairs[i], a->actions[i]);

@@ -99,10 +99,13 @@ static bool is_single(const diff_side *a, const diff_side *b)
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error)
 {
     const diff_side *const sides[2] = {a, b};
+    if (a->no_frames != b->no_frames)
+        return error_set(error, "%s was recorded without frames, and %s has some", a->no_frames ? a->path : b->path,
+                         a->no_frames ? b->path : a->path);
     if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single(a, b))
         return error_set(error, "a picture is compared with a picture, or the digest of one: %s is one, %s is not",
                          a->kind == DIFF_PICTURE ? a->path : b->path, a->kind == DIFF_PICTURE ? b->path : a->path);
-    if (a->count + b->count == 0)
+    if (a->count + b->count == 0 && !a->no_frames)
         return error_set(error, "there is nothing to compare: neither %s nor %s has a PNG in it", a->path, b->path);
     for (int i = 0; i < 2; i++) {
         if (sides[i]->kind != DIFF_DIGESTS)
@@ -127,7 +130,7 @@ static int order_of(const diff_side *a, size_t i, const diff_side *b, size_t j)
 
 static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *result, octreel_error *error)
 {
-    result->pairs = calloc(a->count + b->count, sizeof *result->pairs);
+    result->pairs = calloc(a->count + b->count + 1, sizeof *result->pairs);
     if (!result->pairs)
         return error_no_memory(error);
     for (size_t i = 0, j = 0; i < a->count || j < b->count;) {
@@ -316,6 +319,17 @@ static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octr
     return true;
 }
 
+static bool compare_ticks(const diff_side *a, const diff_side *b, diff_result *result, octreel_error *error)
+{
+    char *paths[2] = {path_join(a->path, "ticks.jsonl"), path_join(b->path, "ticks.jsonl")};
+    const bool ok = (paths[0] && paths[1]) || error_no_memory(error);
+    result->by_ticks = true;
+    result->verdict = ok && same_bytes(paths[0], paths[1]) ? DIFF_SAME : DIFF_DIFFERENT;
+    free(paths[0]);
+    free(paths[1]);
+    return ok;
+}
+
 static void sum_up(diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++) {
@@ -332,13 +346,15 @@ bool diff_run(const diff_side *a, const diff_side *b, const diff_options *option
     *result = (diff_result){.options = *options};
     if (!diff_check(a, b, options, error) || !make_pairs(a, b, result, error))
         return false;
-    pending p = {.pairs = malloc(result->count * sizeof *p.pairs), .options = options};
+    pending p = {.pairs = malloc((result->count + 1) * sizeof *p.pairs), .options = options};
     bool ok = p.pairs || error_no_memory(error);
     for (size_t i = 0; ok && i < result->count; i++)
         if (result->pairs[i].a && result->pairs[i].b)
             p.pairs[p.count++] = &result->pairs[i];
     ok = ok && compare_all(a, b, &p, error);
     free(p.pairs);
+    if (ok && a->no_frames)
+        ok = compare_ticks(a, b, result, error);
     if (ok)
         sum_up(result);
     else

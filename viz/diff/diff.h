@@ -68,10 +68,11 @@ typedef struct diff_result {
     size_t count;
     size_t found[DIFF_FINDINGS]; /* pairs of each finding */
     diff_verdict verdict;
+    bool by_ticks; /* neither recording has frames, so ticks.jsonl was compared, byte by byte */
 } diff_result;
 
 /* False with an error when the sides cannot be compared at all: a picture with a folder, a tolerance for digests,
- * two empty folders. No picture is read. */
+ * two empty folders, frames with a recording that has none by its recording.json. No picture is read. */
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
 /* Compare b with the reference a, on all cores. Identical files are found by their bytes; the others are decoded. Of a

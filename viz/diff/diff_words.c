@@ -122,6 +122,10 @@ void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdi
 {
     const size_t *found = result->found, different = diff_count_different(result);
     fprintf(out, "%s: ", diff_verdict_name(verdict));
+    if (result->by_ticks) {
+        fputs("the ticks, without frames", out);
+        return;
+    }
     if (different)
         fprintf(out, "%zu of ", different);
     fprintf(out, "%zu frame%s", result->count, plural(result->count));

@@ -5,6 +5,7 @@
 #include "digest_file.h"
 #include "file_kind.h"
 #include "frame_file.h"
+#include "recording_file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -66,15 +67,25 @@ static bool belongs(const diff_side *side, const char *name)
     return side->kind == DIFF_RECORDING ? frame_parse_name(name, &tick) : is_png_name(name);
 }
 
+/* What recording.json cannot tell is told by who reads it for more. */
+static bool is_without_frames(const diff_side *side)
+{
+    octreel_error ignored;
+    uint64_t every = 1;
+    view v;
+    return side->kind == DIFF_RECORDING && recording_read(side->path, &v, &every, &ignored) && every == 0;
+}
+
 static bool read_folder(diff_side *side, octreel_error *error)
 {
     DIR *entries = opendir(side->path);
     if (!entries)
         return error_set(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
     side->kind = folder_has(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
+    side->no_frames = is_without_frames(side);
     bool ok = true;
     errno = 0;
-    for (struct dirent *entry; ok && (entry = readdir(entries)); errno = 0)
+    for (struct dirent *entry; ok && !side->no_frames && (entry = readdir(entries)); errno = 0)
         if (belongs(side, entry->d_name))
             ok = diff_side_add(side, entry->d_name, (frame_digest){0}, error);
     if (ok && errno)

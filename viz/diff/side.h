@@ -29,11 +29,13 @@ typedef struct diff_side {
     diff_kind kind;
     diff_frame *frames; /* in the order of their names' bytes, no name twice */
     size_t count, room;
+    bool no_frames;         /* a recording that was made without: its ticks are compared */
     image_color background; /* of a file of digests: what transparent pixels were laid over */
 } diff_side;
 
 /* Open what a path names. A folder has the PNG files directly in it whose names do not begin with a dot; a recording
- * has its frames. False with an error when it is none of the four; side is then empty. */
+ * has its frames, of which it may say that there are none. False with an error when it is none of the four; side is
+ * then empty. */
 bool diff_side_open(diff_side *side, const char *path, octreel_error *error);
 void diff_side_release(diff_side *side);
 

@@ -174,8 +174,8 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
     film->renderer.any_renderer = def->any_renderer;
     if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
         return refuse(r, OCTREEL_BAD_OPTION, "any_renderer: it goes with the context \"egl\" alone");
-    if (def->every < 1 || def->every > SESSION_LAST_TICK)
-        return refuse(r, OCTREEL_BAD_OPTION, "every: it must be 1 to %d", SESSION_LAST_TICK);
+    if (def->every > SESSION_LAST_TICK)
+        return refuse(r, OCTREEL_BAD_OPTION, "every: it must be 0, for no frames, to %d", SESSION_LAST_TICK);
     if (def->queue_ticks < 1)
         return refuse(r, OCTREEL_BAD_OPTION, "queue_ticks: the queue must hold at least one tick");
     return OCTREEL_OK;

@@ -219,8 +219,6 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
     else if (octree_session_gap(&r->replay.session.session, tick))
         fprintf(out, "%s has a gap there: %s", r->side->path,
                 octree_session_gap(&r->replay.session.session, tick)->why);
-    else if (r->view.every == 0)
-        fprintf(out, "%s has no frames", r->side->path);
     else if (!frame_is_due(tick, r->view.every))
         fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
     else
@@ -402,7 +400,7 @@ static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_re
 static bool explain_pairs(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     bool ok = true;
-    e->pairs = calloc(result->count, sizeof *e->pairs);
+    e->pairs = calloc(result->count + 1, sizeof *e->pairs);
     if (!e->pairs)
         return error_no_memory(error);
     e->count = result->count;

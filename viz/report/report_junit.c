@@ -79,10 +79,30 @@ static bool write_case(FILE *out, const diff_report *report, size_t i)
     return true;
 }
 
+/* Of recordings without frames the ticks are the one case. */
+static void write_ticks_case(FILE *out, const diff_report *report)
+{
+    const char *headline = report->why->headline ? report->why->headline : "";
+    fputs("    <testcase", out);
+    write_attribute(out, "classname", report->b->path);
+    fputs(" name=\"ticks.jsonl\" time=\"0\"", out);
+    if (report->result->verdict == DIFF_SAME) {
+        fputs("/>\n", out);
+        return;
+    }
+    fputs(">\n      <failure type=\"ticks\" message=\"different: ", out);
+    write_escaped(out, headline, escape_xml);
+    fputs("\">different: ", out);
+    write_escaped(out, headline, escape_xml);
+    fputs("</failure>\n    </testcase>\n", out);
+}
+
 static void write_counts(FILE *out, const diff_result *result)
 {
-    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"0\" time=\"0\">\n", result->count,
-            diff_count_different(result), result->found[FOUND_UNREADABLE]);
+    const bool ticks_differ = result->by_ticks && result->verdict != DIFF_SAME;
+    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"0\" time=\"0\">\n",
+            result->count + result->by_ticks, diff_count_different(result) + ticks_differ,
+            result->found[FOUND_UNREADABLE]);
 }
 
 /* What holds for all of them: the verdict, why, and how they were compared. */
@@ -116,6 +136,8 @@ bool diff_report_junit(FILE *out, const diff_report *report)
     fputs("  <testsuite", out);
     write_attribute(out, "name", report->a->path);
     write_counts(out, report->result);
+    if (report->result->by_ticks)
+        write_ticks_case(out, report);
     for (size_t i = 0; ok && i < report->result->count; i++)
         ok = write_case(out, report, i);
     ok = ok && write_summary(out, report);

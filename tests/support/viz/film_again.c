@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* film_again.c - see film_again.h. */
 #include "film_again.h"
+#include "frame_file.h"
 
 #include <jansson.h>
 #include <stdlib.h>
@@ -36,7 +37,7 @@ static void count_frame(const char *line, size_t number, void *context)
 {
     frame_count *c = context;
     json_t *tick = json_read(line);
-    c->frames += number % c->every == 0 && !json_object_get(tick, "gap");
+    c->frames += frame_is_due(number, c->every) && !json_object_get(tick, "gap");
     json_decref(tick);
 }
 

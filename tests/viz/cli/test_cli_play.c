@@ -128,10 +128,8 @@ static void frames_and_none_are_asked_for_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(the_default_session_becomes_a_page),
-        IN_FOLDER(it_is_the_page_of_a_recording_without_frames),
-        IN_FOLDER(the_name_is_that_of_the_session),
-        IN_FOLDER(what_is_no_page_of_play_stays),
+        IN_FOLDER(the_default_session_becomes_a_page),  IN_FOLDER(it_is_the_page_of_a_recording_without_frames),
+        IN_FOLDER(the_name_is_that_of_the_session),     IN_FOLDER(what_is_no_page_of_play_stays),
         IN_FOLDER(frames_and_none_are_asked_for_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

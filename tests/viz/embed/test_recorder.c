@@ -74,6 +74,18 @@ static void views_and_frames_are_those_that_were_asked_for(void **state)
     moving_tree_release(&m);
 }
 
+static void without_frames_there_are_the_ticks_and_nothing_is_drawn(void **state)
+{
+    const place folder = place_in(*state, "film");
+    moving_tree m;
+    moving_tree_make(&m, OCTREE_GROW, 3);
+    octreel_recorder_def def = small_recorder(&m, folder.path);
+    def.every = 0;
+    record_and_compare(state, &def, &m);
+    assert_false(file_exists(place_below(folder.path, "renderer.json").path));
+    moving_tree_release(&m);
+}
+
 static size_t count_in_lines(const char *folder, const char *text)
 {
     char *lines = file_read(place_below(folder, "ticks.jsonl").path, NULL);
@@ -231,6 +243,7 @@ int main(void)
         TEST(what_is_recorded_is_what_the_tree_was_and_films_again_to_the_same_bytes),
         TEST(what_full_leaves_refuse_is_recorded_in_an_order_that_they_take),
         TEST(views_and_frames_are_those_that_were_asked_for),
+        TEST(without_frames_there_are_the_ticks_and_nothing_is_drawn),
         TEST(a_player_is_the_point_with_its_id_while_there_is_one),
         TEST(a_query_leaves_out_who_asks),
         TEST(shapes_alone_are_recorded_without_a_tree),

@@ -63,7 +63,7 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(aa, 3, OCTREEL_BAD_OPTION, "aa takes 1, 2 or 4");
     REFUSE(lod, NAN, OCTREEL_BAD_OPTION, "lod takes pixels from 0");
     REFUSE(budget, UINT64_MAX, OCTREEL_BAD_OPTION, "budget takes");
-    REFUSE(every, 0, OCTREEL_BAD_OPTION, "every");
+    REFUSE(every, UINT64_MAX, OCTREEL_BAD_OPTION, "every");
     REFUSE(queue_ticks, 0, OCTREEL_BAD_OPTION, "queue_ticks");
     REFUSE(tree.leaf_capacity, OCTREE_AUTO, OCTREEL_BAD_OPTION, "tree: give the capacity in force");
     REFUSE(tree.leaf_capacity, 0, OCTREEL_BAD_OPTION, "tree: the leaf capacity");

@@ -93,7 +93,7 @@ typedef struct octreel_recorder_def {
     double lod;           /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
     uint64_t budget;      /* the most boxes, and the most points, of a frame; 0: any number */
     int aa;               /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
-    uint64_t every;       /* film each N-th tick; ticks.jsonl has all of them */
+    uint64_t every;       /* film each N-th tick, or none with 0: the page draws. ticks.jsonl has all of them */
     const char *context;  /* what draws off-screen: "auto", "osmesa", "egl" */
     bool any_renderer;    /* with "egl": a graphics card will do; frames are then the same on that card alone */
     size_t queue_ticks;   /* ticks that may wait for the worker, at least 1 */

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_no_frames.c - the commands about recordings, of recordings without frames: their ticks are compared, and
+ * taken over. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "edits.h"
+#include "fixture.h"
+#include "recordings.h"
+
+/* "a" and "same" are of one session, "b" takes another way from tick 3 on, and "film" has frames. */
+static int make_recordings(void **state)
+{
+    static const char *const rows[][2] = {
+        {"a", "--no-frames --keys=wwd"},
+        {"same", "--no-frames --keys=wwd"},
+        {"b", "--no-frames --keys=wwe"},
+        {"film", "--size 160x90 --keys=wwd"},
+    };
+    if (temp_folder_make(state) != 0)
+        return -1;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_octreel(NULL, "record %s -o %s", rows[i][1], place_in(*state, rows[i][0]).path);
+        assert_done(&result);
+        command_release(&result);
+    }
+    return 0;
+}
+
+static command_result run_in(const temp_folder *folder, const char *arguments)
+{
+    return run_script("cd %s && env -u CI %s %s", folder->name, octreel_program(), arguments);
+}
+
+static void assert_says(const temp_folder *folder, const char *arguments, int status, const char *part)
+{
+    command_result result = run_in(folder, arguments);
+    if (result.status != status || !strstr(result.out, part))
+        fail_msg("octreel %s: %d, \"%s\" (%s) and not \"%s\"", arguments, result.status, result.out, result.err, part);
+    assert_string_equal(result.err, "");
+    command_release(&result);
+}
+
+static void verify_says_by_what_it_is_identical(void **state)
+{
+    assert_says(*state, "verify a", 0, "a: identical: 4 ticks, by what happened in them alone: it has no frames\n");
+    assert_says(*state, "verify a --json", 0, "\"drawn_by\": null, \"drawn_now\": null, \"fill\": null}\n");
+}
+
+static void diff_compares_their_ticks(void **state)
+{
+    assert_says(*state, "diff a same", 0, "same: the ticks, without frames\ncompared exactly\n");
+    assert_says(*state, "diff a b", 1, "different: the ticks, without frames\nanother key");
+    assert_says(*state, "diff a b --json", 1, "{\"verdict\": \"different\", \"headline\": \"another key");
+    assert_says(*state, "diff a b --markdown -", 1, "### octreel diff: different: the ticks, without frames\n");
+    assert_says(*state, "diff a b -o evidence", 1, "evidence: evidence/report.html\n");
+}
+
+static void a_file_that_was_changed_is_a_difference(void **state)
+{
+    edit_file(place_in(*state, "same").path, "ticks.jsonl", "\"key\": \"d\"", "\"key\": \"a\"");
+    assert_says(*state, "diff a same", 1, "same/ticks.jsonl at tick 3 is not what its session gives");
+}
+
+static void junit_has_a_case_of_the_ticks(void **state)
+{
+    assert_says(*state, "diff a same --junit -", 0,
+                "tests=\"1\" failures=\"0\" errors=\"0\" skipped=\"0\" time=\"0\">\n"
+                "    <testcase classname=\"same\" name=\"ticks.jsonl\" time=\"0\"/>\n");
+    assert_says(*state, "diff a b --junit -", 1,
+                "tests=\"1\" failures=\"1\" errors=\"0\" skipped=\"0\" time=\"0\">\n"
+                "    <testcase classname=\"b\" name=\"ticks.jsonl\" time=\"0\">\n"
+                "      <failure type=\"ticks\" message=\"different: another key");
+}
+
+static void what_has_frames_is_not_compared_with_what_has_none(void **state)
+{
+    static const char *const rows[][2] = {
+        {"diff a film", "a was recorded without frames, and film has some"},
+        {"diff film a", "a was recorded without frames, and film has some"},
+        {"diff a film/frame_000000.png", "a was recorded without frames"},
+        {"accept film a", "a was recorded without frames"},
+        {"accept a film", "a was recorded without frames"},
+        {"accept a b frame_000000.png", "there is no frame frame_000000.png"},
+        {"digest a", "a was recorded without frames"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_in(*state, rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+    }
+}
+
+static void accept_takes_the_ticks_over(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b"), new = place_in(*state, "new");
+    assert_says(*state, "accept a same", 0, "a: the ticks are those of before\n");
+    assert_says(*state, "accept a b", 0, "a: the ticks are new\n");
+    assert_same_folders(a.path, b.path, NULL);
+    assert_says(*state, "accept new b", 0, "new: the ticks are new\n");
+    assert_same_folders(new.path, b.path, NULL);
+}
+
+#define OF_RECORDINGS(test) cmocka_unit_test_setup_teardown(test, make_recordings, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        OF_RECORDINGS(verify_says_by_what_it_is_identical),
+        OF_RECORDINGS(diff_compares_their_ticks),
+        OF_RECORDINGS(a_file_that_was_changed_is_a_difference),
+        OF_RECORDINGS(junit_has_a_case_of_the_ticks),
+        OF_RECORDINGS(what_has_frames_is_not_compared_with_what_has_none),
+        OF_RECORDINGS(accept_takes_the_ticks_over),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
