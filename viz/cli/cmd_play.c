@@ -3,6 +3,7 @@
 #include "command.h"
 #include "command_line.h"
 #include "file.h"
+#include "film_report.h"
 #include "folder.h"
 #include "played_page.h"
 #include "progress.h"
@@ -142,6 +143,8 @@ static int play_it(arguments *a, const octree_session *session)
     a->film.context = &w;
     const bool ok = write_file(a, session, &summary, &error);
     progress_end(&w.progress);
+    if (ok)
+        film_report_start(stderr, &summary.start, session);
     if (!ok)
         trouble("%s", error.text);
     else if (strcmp(a->page, "-") != 0)

@@ -55,7 +55,7 @@ static bool film_alone(recording *r, playback *p, octreel_error *error)
            recording_end(r, playback_run(p, &r->share, recording_add, keeps_going, r, error), error);
 }
 
-static film_start count_start(const octree_session *session, const octree_tick *tick)
+film_start film_count_start(const octree_session *session, const octree_tick *tick)
 {
     film_start start = {.points = session->body_count};
     for (size_t i = 0; i < tick->refusal_count; i++) {
@@ -78,7 +78,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
     bool ok = playback_open(&p, session, &options->view, error);
     if (ok)
-        summary->start = count_start(session, octree_game_tick(p.game));
+        summary->start = film_count_start(session, octree_game_tick(p.game));
     ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_alone(&r, &p, error));
     playback_close(&p);
     return ok;

@@ -13,6 +13,9 @@
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   octreel_error *error);
 
+/* What tick 0 of a session refused. */
+film_start film_count_start(const octree_session *session, const octree_tick *tick);
+
 /* As many processes as this machine has cores, but no more than have a few frames to film each. */
 unsigned film_default_jobs(const octree_session *session, const film_options *options);
 

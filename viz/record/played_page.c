@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "played_page.h"
+#include "film.h"
 #include "folder_files.h"
 #include "page.h"
 #include "playback.h"
@@ -52,9 +53,10 @@ static bool play(playing *p, const octree_session *session, octreel_error *error
 {
     const film_share all = {.last = p->summary->total};
     playback played;
-    const bool ok = playback_open(&played, session, &p->options->view, error) &&
-                    begin_page(p->page, &played.view, error) &&
-                    playback_run(&played, &all, add_tick, keeps_going, p, error);
+    bool ok = playback_open(&played, session, &p->options->view, error);
+    if (ok)
+        p->summary->start = film_count_start(session, octree_game_tick(played.game));
+    ok = ok && begin_page(p->page, &played.view, error) && playback_run(&played, &all, add_tick, keeps_going, p, error);
     playback_close(&played);
     return ok;
 }

@@ -100,7 +100,7 @@ async function driveAlone()
 {
     const isShown = () => byId("stage").querySelector("canvas.live")?.dataset.tick === String(octreel.tick);
     await until(isShown, "a picture");
-    say("begins", `${octreel.tick} ${byId("caption").hidden} ${byId("about").textContent}`);
+    say("begins", `${octreel.tick} ${byId("caption").hidden} ${byId("hint").hidden} ${byId("about").textContent}`);
     await until(() => player().scout.tick === player().length - 1, "the end of the session");
     await sayTicks();
     await interaction.press("w");

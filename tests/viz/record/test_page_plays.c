@@ -159,7 +159,7 @@ static void a_page_without_frames_draws_at_once(void **state)
     const driven *d = need_page(state);
     const place page = write_page_without_frames(d);
     const driven alone = {d->folder, play_page(d->folder, page.path, (const char *const[]){"drive_plays.js", NULL})};
-    assert_said_about(alone.said, "begins", "0 true driven 253 ticks · 160 × 90 · iso");
+    assert_said_about(alone.said, "begins", "0 true false driven 253 ticks · 160 × 90 · iso");
     assert_ticks_said(alone.said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
     assert_said_about(alone.said, "given back", "true 252");
     assert_said_about(alone.said, "errors", "");

@@ -88,7 +88,8 @@ class Interaction {
         this.showTaken();
         for (const shown of ["view", "asking", "live-end"])
             byId(shown).hidden = false;
-        byId("live-start").hidden = byId("hint").hidden = true;
+        byId("live-start").hidden = true;
+        byId("hint").hidden = recording.hasFrames; /* else nobody began, and has not read it */
         byId("caption").hidden = true;
         this.stage.classList.remove("stale");
         this.playAhead();
