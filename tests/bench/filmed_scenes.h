@@ -10,21 +10,26 @@ typedef struct filmed_scene {
     const char *name, *about;
     size_t points; /* clustered, capacity 8; 0 is the default session */
     view_camera camera;
-    double lod;         /* pixels */
-    uint64_t budget;    /* boxes and points a frame; 0 is any number */
-    double least_times; /* the goal in frames a second: so many times the naive way's; 0 is none */
-    double least_fps;   /* the same as a number */
-    bool small_start;   /* the goals for memory and for the first frame hold */
-    int shorter;        /* it is filmed for so many times fewer frames */
-    int naive_shorter;  /* and by the naive way for so many times fewer again */
+    double lod;          /* pixels */
+    uint64_t budget;     /* boxes and points a frame; 0 is any number */
+    double least_times;  /* the goal in frames a second: so many times the naive way's; 0 is none */
+    double least_fps;    /* the same as a number */
+    bool small_start;    /* the goals for memory and for the first frame hold */
+    int shorter;         /* it is filmed for so many times fewer frames */
+    int naive_shorter;   /* and by the naive way for so many times fewer again */
+    double page_fps;     /* the goal of its page in frames a second; 0: its page is not measured */
+    uint64_t page_ticks; /* of the page's session; 0 is as many as frames are drawn */
+    double page_kb;      /* the goal for the page's size; 0 is none */
+    double scrub_ms;     /* the goal for going to any tick; 0 is none */
 } filmed_scene;
 
 #define FILMED_SCENES 5
 extern const filmed_scene filmed_scenes[FILMED_SCENES];
 
-/* Goals of every scene that has small_start. */
+/* Goals of every scene that has small_start, and of every page. */
 #define GOAL_MIB 200.0
 #define GOAL_FIRST_MS 300.0
+#define GOAL_PAGE_MIB 300.0
 
 /* The view of a scene: 1280 x 720, text on. The naive way leaves nothing out. */
 view filmed_view(const filmed_scene *scene);

@@ -4,6 +4,8 @@
 #include "film.h"
 #include "frame_file.h"
 #include "naive.h"
+#include "page.h"
+#include "page_timing.h"
 #include "playback.h"
 
 #include <errno.h>
@@ -192,6 +194,30 @@ static bool film_naive(work *w)
     return ok;
 }
 
+/* ---- The page ----------------------------------------------------------------------------------------------- */
+
+static bool film_page(work *w)
+{
+    film_summary summary;
+    octreel_error error;
+    page_times t;
+    const film_options options = {.folder = w->order->folder, .view = filmed_view(w->order->scene), .every = 0};
+    if (!page_plays())
+        return fail(w, "octreel was built without WebAssembly");
+    if (!film_session(w->session, &options, &summary, &error))
+        return fail(w, error.text);
+    if (!page_time(w->order->browser, w->order->folder, w->order->frames, &t, w->result->trouble,
+                   sizeof w->result->trouble))
+        return false;
+    w->result->first_ms = t.first_ms;
+    w->result->frame_ms = t.frame_ms;
+    w->result->draw_ms = t.draw_ms;
+    w->result->scrub_ms = t.scrub_ms;
+    w->result->mib = t.mib;
+    w->result->page_kb = t.kb;
+    return true;
+}
+
 /* ---- A process of its own ----------------------------------------------------------------------------------- */
 
 /* Linux counts both in kilobytes. */
@@ -203,17 +229,25 @@ static double peak_mib(void)
     return (double)(own.ru_maxrss > children.ru_maxrss ? own.ru_maxrss : children.ru_maxrss) / 1024;
 }
 
+static uint64_t count_ticks(const filming_order *order)
+{
+    const uint64_t page_ticks = order->who == FILM_PAGE ? order->scene->page_ticks : 0;
+    return page_ticks ? page_ticks : order->frames;
+}
+
 static void do_work(const filming_order *order, double started, int result_end)
 {
     static bool (*const films[FILM_KINDS])(work *) = {
-        [FILM_NAIVE] = film_naive, [FILM_OCTREEL] = film_octreel, [FILM_PARTS] = film_parts};
+        [FILM_NAIVE] = film_naive, [FILM_OCTREEL] = film_octreel, [FILM_PARTS] = film_parts, [FILM_PAGE] = film_page};
     filming result = {0};
     filmed_session made;
     work w = {.order = order, .result = &result, .started = started, .apart = 1};
-    bool ok = filmed_session_make(&made, order->scene, order->frames) || fail(&w, "there is no memory for the session");
+    bool ok =
+        filmed_session_make(&made, order->scene, count_ticks(order)) || fail(&w, "there is no memory for the session");
     w.session = &made.session;
     ok = ok && films[order->who](&w);
-    result.mib = peak_mib();
+    if (order->who != FILM_PAGE)
+        result.mib = peak_mib();
     _exit(ok + (write(result_end, &result, sizeof result) == sizeof result) == 2 ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 

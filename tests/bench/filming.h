@@ -9,6 +9,7 @@ typedef enum filming_who {
     FILM_NAIVE,   /* see naive.h: one process, one thread */
     FILM_OCTREEL, /* film_session(), by as many processes as asked for */
     FILM_PARTS,   /* what Octreel does for a frame, part by part: one process */
+    FILM_PAGE,    /* the page of a recording, see page_timing.h: frames are drawn, and none is written */
     FILM_KINDS
 } filming_who;
 
@@ -16,8 +17,9 @@ typedef struct filming_order {
     const filmed_scene *scene;
     filming_who who;
     uint64_t frames;
-    unsigned jobs;      /* of FILM_OCTREEL */
-    const char *folder; /* where there is room for frames; what is put there is removed again */
+    unsigned jobs;       /* of FILM_OCTREEL */
+    const char *folder;  /* where there is room for frames; what is put there is removed again */
+    const char *browser; /* of FILM_PAGE */
 } filming_order;
 
 /* Milliseconds; what a kind does not measure is 0. */
@@ -27,6 +29,7 @@ typedef struct filming {
     double draw_ms, encode_ms; /* of a processor, the two parts of a frame: all up to its pixels, and its file */
     double floor_ms;           /* of a processor: what the encoder alone takes for these pixels */
     double mib;                /* the most memory of the process, or of the largest where there are several */
+    double scrub_ms, page_kb;  /* of a page: see page_timing.h */
     char trouble[512];         /* why it failed; "" when it did not */
 } filming;
 

@@ -20,6 +20,7 @@ typedef struct options {
     int rounds;
     uint64_t frames;
     const char *folder;
+    const char *browser; /* null once it is known that pages cannot be measured */
     bool json;
 } options;
 
@@ -42,8 +43,10 @@ static void print_help(void)
         "      --rounds N     film each N times and take the medians (default 3; at most %d)\n"
         "      --folder DIR   where frames are written, and removed again (default: /dev/shm where there is one, else\n"
         "                     the current folder; a disk is measured with them)\n"
+        "      --browser NAME plays the pages of S, M and L (default chromium; another of its kind will do)\n"
         "      --json         a line for each scene and who films it, for programs\n"
         "  -h, --help\n\n"
+        "naive, octreel: what films. page: index.html draws by itself, on ticks of its own, one after the other\n"
         "frames/s   by the clock on the wall, without the first frame of each process\n"
         "times      so many times the naive way's; and, where others use the machine too, what their processor times "
         "say\n"
@@ -89,6 +92,9 @@ static void take_option(options *o, int name, char *value)
     case 'f':
         take_folder(o, value);
         break;
+    case 'b':
+        o->browser = value;
+        break;
     case 'j':
         o->json = true;
         break;
@@ -103,15 +109,13 @@ static void take_option(options *o, int name, char *value)
 static options read_options(int argc, char **argv)
 {
     static const struct option names[] = {
-        {"scene", required_argument, NULL, 's'},
-        {"frames", required_argument, NULL, 'n'},
-        {"rounds", required_argument, NULL, 'r'},
-        {"folder", required_argument, NULL, 'f'},
-        {"json", no_argument, NULL, 'j'},
-        {"help", no_argument, NULL, 'h'},
-        {NULL, 0, NULL, 0},
+        {"scene", required_argument, NULL, 's'},   {"frames", required_argument, NULL, 'n'},
+        {"rounds", required_argument, NULL, 'r'},  {"folder", required_argument, NULL, 'f'},
+        {"browser", required_argument, NULL, 'b'}, {"json", no_argument, NULL, 'j'},
+        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0},
     };
-    options o = {.rounds = 3, .frames = 600, .folder = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "."};
+    options o = {
+        .rounds = 3, .frames = 600, .browser = "chromium", .folder = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "."};
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;)
         take_option(&o, name, optarg);
     if (optind < argc)
@@ -141,6 +145,8 @@ static filming medians(const filming *rounds, int count)
         .encode_ms = median_of(rounds, count, offsetof(filming, encode_ms)),
         .floor_ms = median_of(rounds, count, offsetof(filming, floor_ms)),
         .mib = median_of(rounds, count, offsetof(filming, mib)),
+        .scrub_ms = median_of(rounds, count, offsetof(filming, scrub_ms)),
+        .page_kb = median_of(rounds, count, offsetof(filming, page_kb)),
     };
 }
 
@@ -154,18 +160,34 @@ static uint64_t count_frames(const options *o, const filmed_scene *scene, filmin
     return frames < FRAMES_AT_LEAST - 2 ? FRAMES_AT_LEAST - 2 : frames;
 }
 
-/* All of them, round by round in turn. */
-static void measure(const options *o, const filmed_scene *scene, filming result[FILM_KINDS])
+static bool has_page(const options *o, const filmed_scene *scene)
 {
-    filming rounds[FILM_KINDS][ROUNDS_AT_MOST];
+    return o->browser && scene->page_fps > 0;
+}
+
+static void leave_pages_out(options *o, const char *why)
+{
+    fprintf(stderr, "octreel-bench: pages are left out: %s\n", why);
+    o->browser = NULL;
+}
+
+/* All of them, round by round in turn. */
+static void measure(options *o, const filmed_scene *scene, filming result[FILM_KINDS])
+{
+    static filming rounds[FILM_KINDS][ROUNDS_AT_MOST];
     char folder[FOLDER_ROOM];
     for (int round = 0; round < o->rounds; round++)
         for (int who = 0; who < FILM_KINDS; who++) {
+            filming *f = &rounds[who][round];
             snprintf(folder, sizeof folder, "%s/octreel-bench-%ld", o->folder, (long)getpid());
-            const filming_order order = {scene, (filming_who)who, count_frames(o, scene, (filming_who)who), JOBS,
-                                         folder};
-            if (!film_scene(&order, &rounds[who][round]))
-                stop("%s", rounds[who][round].trouble);
+            const filming_order order = {scene, (filming_who)who, count_frames(o, scene, (filming_who)who),
+                                         JOBS,  folder,           o->browser};
+            if (who == FILM_PAGE && !has_page(o, scene))
+                continue;
+            if (!film_scene(&order, f) && who != FILM_PAGE)
+                stop("%s", f->trouble);
+            if (f->trouble[0])
+                leave_pages_out(o, f->trouble);
         }
     for (int who = 0; who < FILM_KINDS; who++)
         result[who] = medians(rounds[who], o->rounds);
@@ -228,6 +250,34 @@ static void print_octreel(const filmed_scene *scene, const filming result[FILM_K
            f->first_ms, first, f->mib, memory, parts->draw_ms, parts->encode_ms, 100 * floor_of(parts));
 }
 
+static void print_page(const filmed_scene *scene, const filming result[FILM_KINDS])
+{
+    const filming *f = &result[FILM_PAGE];
+    const double fps = 1e3 / f->frame_ms;
+    char goal[32], first[32], memory[32];
+    snprintf(goal, sizeof goal, ">= %g/s %s", scene->page_fps, verdict(fps >= scene->page_fps));
+    snprintf(first, sizeof first, "<%g %s", GOAL_FIRST_MS, verdict(f->first_ms < GOAL_FIRST_MS));
+    snprintf(memory, sizeof memory, "<%g %s", GOAL_PAGE_MIB, verdict(f->mib < GOAL_PAGE_MIB));
+    print_row(scene, "page", f);
+    printf(" %7.1f %6s %-14s %6.0f ms %-11s %5.0f MiB %-9s %8.1f   %.0f kB", result[FILM_NAIVE].frame_ms / f->frame_ms,
+           "", goal, f->first_ms, first, f->mib, memory, f->draw_ms, f->page_kb);
+    if (scene->page_kb > 0)
+        printf(" <%g %s", scene->page_kb, verdict(f->page_kb < scene->page_kb));
+    printf(", to any tick %.0f ms", f->scrub_ms);
+    if (scene->scrub_ms > 0)
+        printf(" <%g %s", scene->scrub_ms, verdict(f->scrub_ms < scene->scrub_ms));
+    putchar('\n');
+}
+
+static void print_page_json(const filmed_scene *scene, const filming result[FILM_KINDS])
+{
+    const filming *f = &result[FILM_PAGE];
+    printf("{\"scene\":\"%s\",\"who\":\"page\",\"fps\":%.2f,\"draw_ms\":%.3f,\"times_naive\":%.3f,"
+           "\"first_frame_ms\":%.1f,\"mib\":%.1f,\"page_kb\":%.1f,\"scrub_ms\":%.1f}\n",
+           scene->name, 1e3 / f->frame_ms, f->draw_ms, result[FILM_NAIVE].frame_ms / f->frame_ms, f->first_ms, f->mib,
+           f->page_kb, f->scrub_ms);
+}
+
 static void print_json(const filmed_scene *scene, const filming result[FILM_KINDS])
 {
     static const char *const names[] = {[FILM_NAIVE] = "naive", [FILM_OCTREEL] = "octreel"};
@@ -245,7 +295,7 @@ static void print_json(const filmed_scene *scene, const filming result[FILM_KIND
 
 int main(int argc, char **argv)
 {
-    const options o = read_options(argc, argv);
+    options o = read_options(argc, argv);
     if (!o.json)
         print_heading(o.rounds);
     for (int i = 0; i < FILMED_SCENES; i++) {
@@ -256,9 +306,13 @@ int main(int argc, char **argv)
         measure(&o, &filmed_scenes[i], result);
         if (o.json) {
             print_json(&filmed_scenes[i], result);
+            if (has_page(&o, &filmed_scenes[i]))
+                print_page_json(&filmed_scenes[i], result);
         } else {
             print_naive(&filmed_scenes[i], &result[FILM_NAIVE]);
             print_octreel(&filmed_scenes[i], result);
+            if (has_page(&o, &filmed_scenes[i]))
+                print_page(&filmed_scenes[i], result);
         }
     }
     finish(EXIT_DONE);

@@ -6,8 +6,13 @@
 #include <cmocka.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "browser.h"
 #include "commands.h"
+#include "files.h"
+#include "page.h"
 #include "temp_folder.h"
 #include "tick_lines.h"
 
@@ -16,23 +21,40 @@ static command_result run_bench(const char *arguments)
     return run_script("%s %s", shell_quote(OCTREEL_BENCH).text, arguments);
 }
 
+#define FILM_A_FEW "--scene S --frames 6 --rounds 1 "
+
+/* Pages are left out, with a sentence. */
+static command_result film_without_browser(const char *arguments)
+{
+    command_result run =
+        run_script("%s --browser no-such-browser " FILM_A_FEW "%s", shell_quote(OCTREEL_BENCH).text, arguments);
+    assert_int_equal(run.status, 0);
+    assert_string_equal(run.err, page_plays()
+                                     ? "octreel-bench: pages are left out: there is no no-such-browser\n"
+                                     : "octreel-bench: pages are left out: octreel was built without WebAssembly\n");
+    return run;
+}
+
+static void assert_figures(const char *line, const char *who, const char *const *positive, size_t count)
+{
+    assert_non_null(line);
+    json_t *told = json_read(line);
+    assert_string_equal(json_string_value(json_member(told, "scene")), "S");
+    assert_string_equal(json_string_value(json_member(told, "who")), who);
+    for (size_t i = 0; i < count; i++)
+        assert_true(json_number_value(json_member(told, positive[i])) > 0);
+    json_decref(told);
+}
+
 static void json_tells_who_filmed_what_how_fast(void **state)
 {
     static const char *const who[] = {"naive", "octreel"};
+    static const char *const positive[] = {"fps", "draw_ms", "encode_ms", "times_naive", "first_frame_ms", "mib"};
     (void)state;
-    command_result run = run_bench("--json --scene S --frames 6 --rounds 1 --folder .");
-    assert_done(&run);
+    command_result run = film_without_browser("--json --folder .");
     const char *line = strtok(run.out, "\n");
-    for (int i = 0; i < 2; i++, line = strtok(NULL, "\n")) {
-        assert_non_null(line);
-        json_t *told = json_read(line);
-        assert_string_equal(json_string_value(json_member(told, "scene")), "S");
-        assert_string_equal(json_string_value(json_member(told, "who")), who[i]);
-        static const char *const positive[] = {"fps", "draw_ms", "encode_ms", "times_naive", "first_frame_ms", "mib"};
-        for (size_t j = 0; j < sizeof positive / sizeof positive[0]; j++)
-            assert_true(json_number_value(json_member(told, positive[j])) > 0);
-        json_decref(told);
-    }
+    for (int i = 0; i < 2; i++, line = strtok(NULL, "\n"))
+        assert_figures(line, who[i], positive, sizeof positive / sizeof positive[0]);
     assert_null(line);
     command_release(&run);
 }
@@ -40,8 +62,7 @@ static void json_tells_who_filmed_what_how_fast(void **state)
 static void table_holds_every_figure_against_its_goal(void **state)
 {
     (void)state;
-    command_result run = run_bench("--scene S --frames 6 --rounds 1 --folder .");
-    assert_done(&run);
+    command_result run = film_without_browser("--folder .");
     const char *row = strstr(run.out, "octreel");
     assert_non_null(row);
     row = strstr(row, ">= 10x ");
@@ -51,13 +72,35 @@ static void table_holds_every_figure_against_its_goal(void **state)
     command_release(&run);
 }
 
+/* In a folder whose name an address would have to encode; the browser's files go with the frames. */
+static void page_is_timed_beside_what_films(void **state)
+{
+    static const char *const positive[] = {"fps", "draw_ms", "times_naive", "first_frame_ms",
+                                           "mib", "page_kb", "scrub_ms"};
+    temp_folder *folder = *state;
+    const place odd = place_in(folder, "a #100% of it");
+    need_browser();
+    if (!page_plays()) {
+        print_message("octreel was built without WebAssembly: its pages do not play\n");
+        skip();
+    }
+    assert_int_equal(mkdir(odd.path, 0777), 0);
+    command_result run =
+        run_script("%s --json " FILM_A_FEW "--folder %s", shell_quote(OCTREEL_BENCH).text, shell_quote(odd.path).text);
+    assert_done(&run);
+    strtok(run.out, "\n");
+    strtok(NULL, "\n");
+    assert_figures(strtok(NULL, "\n"), "page", positive, sizeof positive / sizeof positive[0]);
+    assert_int_equal(rmdir(odd.path), 0);
+    command_release(&run);
+}
+
 static void nothing_is_left_of_its_frames(void **state)
 {
     temp_folder *folder = *state;
     char arguments[128];
-    snprintf(arguments, sizeof arguments, "--scene S --frames 6 --rounds 1 --folder %s", folder->name);
-    command_result run = run_bench(arguments);
-    assert_done(&run);
+    snprintf(arguments, sizeof arguments, "--folder %s", folder->name);
+    command_result run = film_without_browser(arguments);
     assert_int_equal(temp_folder_count(folder), 0);
     command_release(&run);
 }
@@ -82,6 +125,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(json_tells_who_filmed_what_how_fast),
         cmocka_unit_test(table_holds_every_figure_against_its_goal),
+        cmocka_unit_test_setup_teardown(page_is_timed_beside_what_films, temp_folder_make, nested_folder_remove),
         cmocka_unit_test_setup_teardown(nothing_is_left_of_its_frames, temp_folder_make, temp_folder_remove),
         cmocka_unit_test(unknown_words_are_refused_with_a_sentence),
     };

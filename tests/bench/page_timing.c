@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/* page_timing.c - see page_timing.h. */
+#include "page_timing.h"
+#include "file.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { NOT_FOUND = 127 };
+
+typedef struct play {
+    const char *browser;
+    char page[PATH_MAX], profile[PATH_MAX + 32];
+    char *why;
+    size_t room;
+} play;
+
+static bool fail(play *p, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(p->why, p->room, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+/* ---- The script --------------------------------------------------------------------------------------------- */
+
+static bool add_script(play *p, uint64_t frames, page_times *times)
+{
+    char reason[FILE_REASON], *script;
+    size_t size;
+    if (!file_read_whole(PAGE_SCRIPT, &script, &size, reason))
+        return fail(p, "%s: %s", PAGE_SCRIPT, reason);
+    FILE *page = fopen(p->page, "ab");
+    if (page) {
+        fseek(page, 0, SEEK_END);
+        times->kb = (double)ftell(page) / 1000;
+        fprintf(page, "<script>const FRAMES = %" PRIu64 ";</script>\n<script type=\"module\">\n", frames);
+        fwrite(script, 1, size, page);
+        fputs("</script>\n", page);
+    }
+    free(script);
+    return (page && fclose(page) == 0) || fail(p, "%s: %s", p->page, strerror(errno));
+}
+
+/* ---- The browser -------------------------------------------------------------------------------------------- */
+
+/* What the page says on the console becomes lines of the browser's standard error. Frames follow each other as fast as
+ * they are made, in a window that shows the picture at its size. timeout(1) ends the browser with all its processes. */
+static pid_t start_browser(const play *p, int said)
+{
+    const pid_t child = fork();
+    if (child != 0)
+        return child;
+    if (dup2(said, STDERR_FILENO) >= 0 && freopen("/dev/null", "r", stdin) && freopen("/dev/null", "w", stdout))
+        execlp("timeout", "timeout", "120", p->browser, "--headless", "--no-sandbox", "--disable-gpu",
+               "--disable-extensions", "--no-first-run", "--disable-background-networking",
+               "--disable-component-update", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1920,1200",
+               "--disable-frame-rate-limit", "--disable-gpu-vsync", "--enable-precise-memory-info",
+               "--enable-logging=stderr", p->profile, p->page, (char *)NULL);
+    _exit(NOT_FOUND);
+}
+
+/* The rest of the line that the script says; the caller frees `line`. Null where the browser ends before. */
+static const char *hear(FILE *said, char **line)
+{
+    static const char sign[] = "\"octreel-bench: ";
+    size_t room = 0;
+    while (getline(line, &room, said) > 0) {
+        const char *found = strstr(*line, sign);
+        if (found)
+            return found + sizeof sign - 1;
+    }
+    return NULL;
+}
+
+static bool read_times(play *p, const char *told, page_times *times)
+{
+    static const char left_out[] = "left out: ";
+    double bytes;
+    if (strncmp(told, left_out, sizeof left_out - 1) == 0)
+        return fail(p, "%.*s", (int)strcspn(told, "\"\n") - (int)sizeof left_out + 1, told + sizeof left_out - 1);
+    if (sscanf(told, "first %lf frame %lf draw %lf scrub %lf bytes %lf", &times->first_ms, &times->frame_ms,
+               &times->draw_ms, &times->scrub_ms, &bytes) != 5)
+        return fail(p, "it says \"%.100s\"", told);
+    times->mib = bytes / (1 << 20);
+    return true;
+}
+
+/* The browser may write into its folder until it has ended. */
+static int end_browser(pid_t browser, FILE *said)
+{
+    int status = -1;
+    kill(browser, SIGTERM);
+    while (getc(said) != EOF)
+        continue;
+    while (waitpid(browser, &status, 0) < 0 && errno == EINTR)
+        continue;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static bool run_browser(play *p, page_times *times)
+{
+    int ends[2];
+    char *line = NULL;
+    if (pipe(ends) != 0)
+        return fail(p, "%s", strerror(errno));
+    const pid_t browser = start_browser(p, ends[1]);
+    close(ends[1]);
+    FILE *said = browser > 0 ? fdopen(ends[0], "r") : NULL;
+    if (!said)
+        return close(ends[0]), fail(p, "%s", strerror(errno));
+    const char *told = hear(said, &line);
+    const bool ok = told && read_times(p, told, times);
+    const int status = end_browser(browser, said);
+    fclose(said);
+    free(line);
+    if (!told && status == NOT_FOUND)
+        return fail(p, "there is no %s", p->browser);
+    return ok || told || fail(p, "%s ended without having played", p->browser);
+}
+
+/* The browser takes paths from anywhere, and one from the root cannot be an option. */
+static bool find_page(play *p, const char *folder)
+{
+    char current[PATH_MAX] = "";
+    if (folder[0] != '/' && !getcwd(current, sizeof current))
+        return fail(p, "%s", strerror(errno));
+    const char *between = folder[0] == '/' ? "" : "/";
+    const int profile =
+        snprintf(p->profile, sizeof p->profile, "--user-data-dir=%s%s%s/browser", current, between, folder);
+    const int page = snprintf(p->page, sizeof p->page, "%s%s%s/index.html", current, between, folder);
+    return (profile < (int)sizeof p->profile && page < (int)sizeof p->page) || fail(p, "%s", strerror(ENAMETOOLONG));
+}
+
+bool page_time(const char *browser, const char *folder, uint64_t frames, page_times *times, char *why, size_t room)
+{
+    play p = {.browser = browser, .why = why, .room = room};
+    return find_page(&p, folder) && add_script(&p, frames, times) && run_browser(&p, times);
+}
