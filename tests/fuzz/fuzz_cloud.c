@@ -10,10 +10,10 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* A cloud holds points, all of them finite, each of a later row than the one before. */
+/* A cloud holds points, all of them finite, each of a later row than the one before; why some were skipped is known. */
 static void check_cloud(const cloud *cloud)
 {
-    if (cloud->count == 0)
+    if (cloud->count == 0 || (cloud->skipped > 0) != (cloud->why_skipped != NULL))
         abort();
     for (size_t i = 1; i < cloud->count; i++)
         if (cloud_row(cloud, i) <= cloud_row(cloud, i - 1) || cloud_row(cloud, i) >= cloud->count + cloud->skipped)
@@ -26,12 +26,12 @@ static void check_cloud(const cloud *cloud)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const char *const names[] = {"fuzz", "fuzz.ply", "fuzz.pcd"};
+    static const char *const names[] = {"fuzz", "fuzz.ply", "fuzz.pcd", "fuzz.las"};
     cloud cloud;
     octreel_error error = {""};
     if (size == 0)
         return 0;
-    if (cloud_parse(names[data[0] % 3], data + 1, size - 1, &cloud, &error))
+    if (cloud_parse(names[data[0] % 4], data + 1, size - 1, &cloud, &error))
         check_cloud(&cloud);
     else if (error.text[0] == '\0' || cloud.positions || cloud.count > 0 || cloud.skipped > 0)
         abort();

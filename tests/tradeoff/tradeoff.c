@@ -36,7 +36,7 @@ static void print_help(void)
         stdout);
     for (int i = 0; i < KNOBS; i++)
         printf("%s %s", i % 5 == 0 ? "\n                       " : "", all_knobs[i]->name);
-    fputs("\n      --cloud FILE      one more scene: a point cloud (x y z text, PLY or PCD)\n"
+    fputs("\n      --cloud FILE      one more scene: a point cloud (x y z text, PLY, PCD or LAS)\n"
           "      --session FILE    a recorded session instead of the one that is made up\n"
           "      --quick           few points, one round: the bounds are checked, the times mean little\n"
           "      --json            print a line a row, for programs, instead of the headlines\n"

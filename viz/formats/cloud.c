@@ -65,7 +65,7 @@ static bool parse_filled(cloud_file *file)
     if (file->out->count > 0)
         return true;
     if (file->out->skipped > 0)
-        return cloud_fail(file, "holds no points: all %zu have a NaN or an infinity", file->out->skipped);
+        return cloud_fail(file, "holds no points: all %zu are %s", file->out->skipped, file->out->why_skipped);
     return cloud_fail(file, "holds no points");
 }
 

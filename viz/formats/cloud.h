@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud.h - the points of a file: `x y z` text, PLY and PCD, in double precision.
+/* cloud.h - the points of a file: `x y z` text, PLY, PCD and LAS, in double precision.
  *
  * Text: one point a line, its first three columns; columns are separated by blanks and tabs, by commas or by
  *   semicolons, the same throughout a line. Further columns, blank lines, comments (# and //) and a first line of
  *   column names are skipped.
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
  * PCD: 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
+ * LAS: 1.0 to 1.5, all point formats; coordinates are record * scale + offset in doubles, the bits that laspy computes.
+ *   Records that are withheld, which is deleted, are skipped. LAZ and COPC, which are compressed, are refused.
  *
- * The contents decide which of them a file is, and the ending .ply or .pcd where the contents do not. A file that is
- * cut off is an error: no point is lost in silence. What follows the last point and does not fit the header, such as a
- * newline after a compressed block, is not needed: it is passed over with a note.
+ * The contents decide which of them a file is, and the ending .ply, .pcd or .las where the contents do not. A file that
+ * is cut off is an error: no point is lost in silence. What follows the last point and does not fit the header, such as
+ * a newline after a compressed block, is not needed: it is passed over with a note.
  */
 #ifndef FORMATS_CLOUD_H
 #define FORMATS_CLOUD_H
@@ -20,11 +22,13 @@
 #include <stddef.h>
 
 typedef struct cloud {
-    double (*positions)[3]; /* `count` rows of x, y, z, in the file's order and units; all finite; owned */
-    size_t count;           /* at least 1 in a cloud that was read */
-    size_t skipped;         /* points of a PLY or PCD file with a NaN or an infinity, its sign for "no return" */
-    size_t *rows;           /* `count`: which point of the file, skipped ones counted, each is; null: all are; owned */
-    char note[512];         /* a sentence about what follows the last point and does not belong there; "" for nothing */
+    double (*positions)[3];  /* `count` rows of x, y, z, in the file's order and units; all finite; owned */
+    size_t count;            /* at least 1 in a cloud that was read */
+    size_t skipped;          /* points of the file that are left out */
+    const char *why_skipped; /* what they are: "without finite coordinates", the sign of PLY and PCD for "no return", or
+                              * "marked as withheld", LAS's for deleted; null when none are; a constant */
+    size_t *rows;            /* `count`: which point of the file, skipped ones counted, each is; null: all are; owned */
+    char note[512]; /* a sentence about what follows the last point and does not belong there; "" for nothing */
 } cloud;
 
 /* The place of a point among all of its file, those that were skipped included; from 0 on. */

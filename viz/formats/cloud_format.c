@@ -24,11 +24,17 @@ static bool add_row(cloud_file *file)
     return true;
 }
 
+void cloud_skip(const cloud_file *file, const char *why)
+{
+    file->out->skipped++;
+    file->out->why_skipped = why;
+}
+
 bool cloud_add(cloud_file *file, const double position[3])
 {
     cloud *points = file->out;
     if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
-        points->skipped++;
+        cloud_skip(file, "without finite coordinates");
         return true;
     }
     void *grown = array_reserve(points->positions, points->count + 1, &file->room, sizeof *points->positions);
@@ -233,7 +239,7 @@ void cloud_note_lines(const cloud_file *file, cloud_lines *lines)
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-static uint64_t read_bits(unsigned size, bool big_endian, const unsigned char *bytes)
+uint64_t cloud_bits_read(unsigned size, bool big_endian, const unsigned char *bytes)
 {
     uint64_t bits = 0;
     for (unsigned i = 0; i < size; i++)
@@ -264,7 +270,7 @@ static double signed_of_bits(unsigned size, uint64_t bits)
 
 double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char *bytes)
 {
-    uint64_t bits = read_bits(type.size, big_endian, bytes);
+    uint64_t bits = cloud_bits_read(type.size, big_endian, bytes);
     switch (type.kind) {
     case CLOUD_FLOAT:
         return float_of_bits(type.size, bits);

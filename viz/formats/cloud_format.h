@@ -25,6 +25,7 @@ typedef struct cloud_file {
 
 /* Each format, in the order in which they are tried; the last takes what no other recognises. */
 #define CLOUD_FORMAT_MAP(X)                                                                                            \
+    X(las)                                                                                                             \
     X(pcd)                                                                                                             \
     X(ply)                                                                                                             \
     X(text)
@@ -44,8 +45,11 @@ bool cloud_text_begins(const cloud_file *file);
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Append a point; one that is not finite is counted as skipped instead. False when there is no memory. */
+/* Append a point; one that is not finite is skipped instead. False when there is no memory. */
 bool cloud_add(cloud_file *file, const double position[3]);
+
+/* Pass over a point of the file; `why` is a constant, the same for all of a file. */
+void cloud_skip(const cloud_file *file, const char *why);
 
 /* Report at each 65536th call that `done` of `total` have been read. `times` counts the calls. */
 void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total);
@@ -121,6 +125,9 @@ typedef struct cloud_scalar {
     cloud_scalar_kind kind;
     unsigned size; /* 1, 2, 4 or 8 bytes; floats are of 4 or 8 */
 } cloud_scalar;
+
+/* The whole number of 1 to 8 bytes at `bytes`. */
+uint64_t cloud_bits_read(unsigned size, bool big_endian, const unsigned char *bytes);
 
 /* The number at `bytes`; integers beyond 2^53 are rounded. */
 double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char *bytes);

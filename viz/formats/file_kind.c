@@ -24,7 +24,6 @@ static const struct {
     {MAGIC("\xff\xd8\xff"), KIND_OTHER_PICTURE},
     {MAGIC("GIF8"), KIND_OTHER_PICTURE},
     {MAGIC("II*\0"), KIND_OTHER_PICTURE},
-    {MAGIC("LASF"), KIND_OTHER_CLOUD},
     {MAGIC("\x1f\x8b"), KIND_PACKED},
     {MAGIC("PK\3\4"), KIND_PACKED},
     {MAGIC("\x28\xb5\x2f\xfd"), KIND_PACKED},
@@ -108,7 +107,7 @@ name_kind name_kind_of(const char *path)
         {".png", NAME_PNG},
         {".jpg.jpeg.gif.bmp.webp.tif.tiff.svg", NAME_PICTURE},
         {".mp4.webm.mkv.avi.mov.apng", NAME_FILM},
-        {".json.jsonl.txt.csv.xml.html.md.pdf.digests.ply.pcd.xyz", NAME_FILE},
+        {".json.jsonl.txt.csv.xml.html.md.pdf.digests.ply.pcd.xyz.las.laz", NAME_FILE},
     };
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
     const size_t length = dot ? strlen(dot) : 0;

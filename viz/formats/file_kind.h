@@ -19,7 +19,6 @@
     X(PAGE, "a page of octreel's", NULL, "a browser opens it")                                                         \
     X(PART, "a part of a recording", NULL, "the recording is the folder that it is in")                                \
     X(OTHER_PICTURE, "a picture, but no PNG", NULL, "convert it first")                                                \
-    X(OTHER_CLOUD, "a LAS or LAZ file", NULL, "convert it to PLY, PCD or text first")                                  \
     X(PACKED, "a compressed file", NULL, "unpack it first")
 
 typedef enum file_kind {

@@ -34,7 +34,7 @@ static octree_status insert_all(const cloud *c, inspection *result)
 
 bool inspect_build(const cloud *c, const octree_def *def, inspection *result, octreel_error *error)
 {
-    *result = (inspection){.points = c->count, .skipped = c->skipped};
+    *result = (inspection){.points = c->count, .skipped = c->skipped, .why_skipped = c->why_skipped};
     octree_status status = octree_create(def, &result->tree);
     if (status == OCTREE_OK)
         status = insert_all(c, result);
@@ -157,7 +157,7 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
     fprintf(out, "  points    %zu in the file, %zu in the tree, %zu refused, %zu outside the world\n", i->points,
             stats->points, i->refused, i->outside);
     if (i->skipped)
-        fprintf(out, "  skipped   %zu without finite coordinates\n", i->skipped);
+        fprintf(out, "  skipped   %zu %s\n", i->skipped, i->why_skipped);
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
     fprintf(out, "  nodes     %zu, %zu of them %s; deepest %u; fullest leaf %zu point%s\n", stats->nodes, stats->leaves,

@@ -10,11 +10,12 @@
 #include <stdio.h>
 
 typedef struct inspection {
-    octree *tree;   /* a point's id is its row of the cloud */
-    size_t points;  /* of the cloud */
-    size_t skipped; /* points of the file without finite coordinates */
-    size_t refused; /* points refused by a full leaf, under OCTREE_REFUSE */
-    size_t outside; /* points outside the world */
+    octree *tree;            /* a point's id is its row of the cloud */
+    size_t points;           /* of the cloud */
+    size_t skipped;          /* points of the file that are left out */
+    const char *why_skipped; /* what they are, as in cloud.h */
+    size_t refused;          /* points refused by a full leaf, under OCTREE_REFUSE */
+    size_t outside;          /* points outside the world */
 } inspection;
 
 /* Insert every point of a cloud into a new tree. */

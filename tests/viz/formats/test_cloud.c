@@ -95,7 +95,7 @@ static void text_with_a_nul_byte_is_refused(void **state)
     static const char text[] = "1 2 3\n4 5\0 6\n";
     (void)state;
     assert_refuses("a", text, sizeof text - 1,
-                   "a:2: holds a NUL byte, so it is no text; known are x y z text, PLY and PCD");
+                   "a:2: holds a NUL byte, so it is no text; known are x y z text, PLY, PCD and LAS");
 }
 
 static void long_name_keeps_its_end_and_the_reason(void **state)
@@ -165,7 +165,7 @@ static void formats_are_listed_for_people(void **state)
 {
     char names[CLOUD_FORMAT_NAMES];
     (void)state;
-    assert_string_equal(cloud_format_names(names), "x y z text, PLY and PCD");
+    assert_string_equal(cloud_format_names(names), "x y z text, PLY, PCD and LAS");
 }
 
 int main(void)

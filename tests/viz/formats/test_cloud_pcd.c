@@ -190,7 +190,7 @@ static void pcd_data_that_does_not_fit_its_header_is_refused(void **state)
     static const refusal rows[] = {
         {TYPES "POINTS 0\nDATA ascii\n", "a.pcd: holds no points"},
         {TYPES "POINTS 0\nDATA binary\n", "a.pcd: holds no points"},
-        {TYPES "POINTS 1\nDATA ascii\nnan nan nan\n", "a.pcd: holds no points: all 1 have a NaN or an infinity"},
+        {TYPES "POINTS 1\nDATA ascii\nnan nan nan\n", "a.pcd: holds no points: all 1 are without finite coordinates"},
         {TYPES "POINTS 2\nDATA ascii\n1 2 3\n", "a.pcd:6: the file ends after 1 of 2 points"},
         {TYPES "POINTS 1\nDATA ascii\n1 2\n", "a.pcd:6: has 2 values instead of 3"},
         {TYPES "POINTS 1\nDATA ascii\n1 2 3 4\n", "a.pcd:6: has 4 values instead of 3"},

@@ -161,7 +161,7 @@ static void ply_data_that_does_not_fit_its_header_is_refused(void **state)
     static const refusal rows[] = {
         {ASCII "element vertex 0\n" XYZ "end_header\n", "a.ply: holds no points"},
         {ASCII "element vertex 2\n" XYZ "end_header\nnan 1 1\n1 inf 1\n",
-         "a.ply: holds no points: all 2 have a NaN or an infinity"},
+         "a.ply: holds no points: all 2 are without finite coordinates"},
         {ASCII "element vertex 2\n" XYZ "end_header\n1 2 3\n", "a.ply:8: the file ends after 1 of 2 'vertex'"},
         {ASCII "element vertex 18446744073709551615\n" XYZ "end_header\n1 2 3\n",
          "a.ply:8: the file ends after 1 of 18446744073709551615 'vertex'"},

@@ -202,6 +202,24 @@ static void points_are_stored_refused_or_outside(void **state)
     assert_null(made.tree);
 }
 
+static void points_that_were_skipped_are_told_with_the_reason(void **state)
+{
+    double positions[1][3] = {{0, 0, 0}};
+    const cloud c = {.positions = positions, .count = 1, .skipped = 3, .why_skipped = "marked as withheld"};
+    const octree_def def = define(cube(-1, 1), 2, 3, OCTREE_GROW);
+    char text[4096] = "";
+    inspection made;
+    octreel_error error = {""};
+    FILE *out = fmemopen(text, sizeof text, "w");
+    (void)state;
+    assert_non_null(out);
+    assert_true(inspect_build(&c, &def, &made, &error));
+    inspect_print(&made, "cloud", false, out);
+    assert_int_equal(fclose(out), 0);
+    assert_non_null(strstr(text, "\n  skipped   3 marked as withheld\n"));
+    inspect_release(&made);
+}
+
 static void definition_that_a_tree_refuses_is_an_error(void **state)
 {
     double positions[1][3] = {{0, 0, 0}};
@@ -227,6 +245,7 @@ int main(void)
         cmocka_unit_test(world_is_about_the_middle_of_the_points),
         cmocka_unit_test(worlds_of_random_extents_hold_their_points),
         cmocka_unit_test(points_are_stored_refused_or_outside),
+        cmocka_unit_test(points_that_were_skipped_are_told_with_the_reason),
         cmocka_unit_test(definition_that_a_tree_refuses_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cloud_las.c - the LAS reader, held against the tables of the specification: LAS 1.0 to 1.5, point formats 0 to
+ * 10. */
+#include "clouds.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { VERSIONS = 6, FORMATS = 11 };
+
+static const unsigned header_sizes[VERSIONS] = {227, 227, 227, 235, 375, 393};
+static const unsigned record_sizes[FORMATS] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+/* What a file of two records says of itself; zeroed: LAS 1.0 of point format 0 and nothing more than that has. */
+typedef struct las {
+    unsigned minor, format;
+    unsigned records_before; /* bytes between the header and the points */
+    unsigned extra;          /* bytes of each record that the format does not have */
+    double scale[3], offset[3];
+    int32_t points[2][3];
+} las;
+
+/* Records that are two_points: not each of them is a number of hundredths, so the scales are what makes them. */
+static const las two = {.scale = {0.5, 1e10, 0.1}, .offset = {1.5, 2, 0}, .points = {{-1, 0, 30}, {-12, 5, 1}}};
+
+static las two_of(unsigned minor, unsigned format)
+{
+    las l = two;
+    l.minor = minor;
+    l.format = format;
+    return l;
+}
+
+static const double two_read[2][3] = {{1, 2, 30 * 0.1}, {-4.5, 5e10 + 2, 0.1}};
+
+static void put_zeros(bytes *file, size_t count)
+{
+    while (count-- > 0)
+        put(file, "", 1);
+}
+
+static void put_to(bytes *file, size_t end)
+{
+    assert_true(end >= file->size);
+    put_zeros(file, end - file->size);
+}
+
+/* The fields of the table "Public Header Block" in their order; what no reader needs for positions is set to a pattern
+ * that would show. */
+static void put_header(bytes *file, const las *l)
+{
+    const unsigned size = header_sizes[l->minor];
+    const uint64_t count = 2, points = size + l->records_before;
+    const bool wide_alone = l->format >= 6;
+    put_text(file, "LASF");
+    put_bits(file, 0x0000beef, 4, false); /* file source, global encoding */
+    put_text(file, "0123456789abcdef");   /* project */
+    put_bits(file, 1, 1, false);
+    put_bits(file, l->minor, 1, false);
+    put_text(file, "system identifier, of 32 bytes..generating software, 32 bytes...");
+    put_bits(file, 2026 << 16 | 326, 4, false); /* day and year */
+    put_bits(file, size, 2, false);
+    put_bits(file, points, 4, false);
+    put_bits(file, 0, 4, false); /* variable length records */
+    put_bits(file, l->format, 1, false);
+    put_bits(file, record_sizes[l->format] + l->extra, 2, false);
+    put_bits(file, l->minor >= 4 && wide_alone ? 0 : count, 4, false);
+    for (int i = 0; i < 5; i++)
+        put_bits(file, 0x01010101, 4, false); /* by return */
+    for (int axis = 0; axis < 3; axis++)
+        put_double(file, l->scale[axis], false);
+    for (int axis = 0; axis < 3; axis++)
+        put_double(file, l->offset[axis], false);
+    for (int i = 0; i < 6; i++)
+        put_double(file, -7e77, false); /* bounds */
+    assert_int_equal(file->size, 227);
+    if (l->minor >= 3)
+        put_bits(file, 0, 8, false); /* waveforms */
+    if (l->minor >= 4) {
+        put_zeros(file, 12); /* extended variable length records: start and number */
+        put_bits(file, count, 8, false);
+        for (int i = 0; i < 15; i++)
+            put_bits(file, 0x01010101, 8, false); /* by return */
+    }
+    put_to(file, size);
+    for (unsigned i = 0; i < l->records_before; i++)
+        put(file, "V", 1);
+}
+
+/* A record whose further fields are all ones, but for the flags. */
+static void put_record(bytes *file, const las *l, const int32_t point[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        put_bits(file, (uint32_t)point[axis], 4, false);
+    put_bits(file, 0xffff, 2, false); /* intensity */
+    put_bits(file, 0xff, 1, false);   /* returns */
+    put_bits(file, l->minor == 0 ? 0xff : l->format < 6 ? 0x7f : 0xfb, 1, false);
+    for (unsigned i = 16; i < record_sizes[l->format] + l->extra; i++)
+        put_bits(file, 0xff, 1, false);
+}
+
+static bytes make(const las *l)
+{
+    bytes file = {.size = 0};
+    put_header(&file, l);
+    for (int i = 0; i < 2; i++)
+        put_record(&file, l, l->points[i]);
+    return file;
+}
+
+static void set_bits(bytes *file, size_t at, uint64_t bits, unsigned size)
+{
+    bytes field = {.size = 0};
+    put_bits(&field, bits, size, false);
+    memcpy(file->data + at, field.data, size);
+}
+
+static void set_double(bytes *file, size_t at, double value)
+{
+    bytes field = {.size = 0};
+    put_double(&field, value, false);
+    memcpy(file->data + at, field.data, 8);
+}
+
+/* ---- What is read ------------------------------------------------------------------------------------------- */
+
+static void las_is_read_in_every_version_and_point_format(void **state)
+{
+    (void)state;
+    for (unsigned minor = 0; minor < VERSIONS; minor++)
+        for (unsigned format = 0; format < FORMATS; format++)
+            for (unsigned more = 0; more < 4; more++) {
+                las l = two_of(minor, format);
+                l.extra = more & 1 ? 7 : 0;
+                l.records_before = more & 2 ? 61 : 0;
+                const bytes file = make(&l);
+                assert_reads("a.las", file.data, file.size, two_read, 2, 0);
+                assert_reads("content decides.xyz", file.data, file.size, two_read, 2, 0);
+            }
+}
+
+static void las_that_is_cut_off_is_refused(void **state)
+{
+    (void)state;
+    for (unsigned minor = 0; minor < VERSIONS; minor++) {
+        const las l = two_of(minor, minor < 4 ? 3 : 7);
+        const bytes file = make(&l);
+        assert_refuses_every_beginning("a.las", &file);
+    }
+}
+
+/* A product and a sum, each rounded once: what the specification writes, and what laspy and PDAL compute. */
+static void las_coordinate_is_a_product_and_a_sum_of_doubles(void **state)
+{
+    static const struct {
+        int32_t record;
+        double scale, offset;
+    } rows[] = {
+        {INT32_MAX, 0.001, 500000},  {INT32_MIN, 0.001, 5400000.123},
+        {1234567891, 0.01, -0.1},    {-987654321, 1.0 / 3, 1e9 / 7},
+        {1, 0x1p-1074, 0},           {INT32_MIN, 0x1p-1074, 0},
+        {3, 0x1.8p-1073, 0x1p-1074}, {7, -0.1, 0.7},
+        {INT32_MAX, 1e290, -1e299},  {1, 0x1p-52, 1},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        las l = two;
+        l.scale[1] = rows[i].scale;
+        l.offset[1] = rows[i].offset;
+        l.points[0][1] = rows[i].record;
+        l.points[1][1] = 0;
+        const volatile double product = (double)rows[i].record * rows[i].scale, sum = product + rows[i].offset;
+        const double expected[2][3] = {{1, sum, two_read[0][2]}, {-4.5, rows[i].offset, 0.1}};
+        const bytes file = make(&l);
+        assert_reads("a.las", file.data, file.size, expected, 2, 0);
+    }
+}
+
+static void las_1_0_may_have_a_signature_before_its_points(void **state)
+{
+    const las l = two;
+    bytes file = {.size = 0};
+    (void)state;
+    put_header(&file, &l);
+    put_bits(&file, 0xccdd, 2, false);
+    for (int i = 0; i < 2; i++)
+        put_record(&file, &l, l.points[i]);
+    assert_reads("points at it.las", file.data, file.size, two_read, 2, 0);
+    set_bits(&file, 96, 229, 4);
+    assert_reads("points behind it.las", file.data, file.size, two_read, 2, 0);
+    las same = two;
+    same.points[0][0] = 0xccdd;
+    same.scale[0] = 1;
+    const double expected[2][3] = {{0xccdd + 1.5, 2, two_read[0][2]}, {-10.5, two_read[1][1], 0.1}};
+    file = make(&same);
+    assert_reads("a coordinate that looks like it.las", file.data, file.size, expected, 2, 0);
+}
+
+static void las_counts_of_either_kind_are_read(void **state)
+{
+    const las l = two_of(4, 2);
+    bytes file = make(&l);
+    (void)state;
+    set_bits(&file, 107, 0, 4);
+    assert_reads("the wide one alone.las", file.data, file.size, two_read, 2, 0);
+    set_bits(&file, 107, 2, 4);
+    set_bits(&file, 247, 0, 8);
+    assert_reads("the narrow one alone.las", file.data, file.size, two_read, 2, 0);
+}
+
+/* "Withheld" is the specification's word for deleted. In LAS 1.0 the bit is a part of the class. */
+static void las_points_that_are_withheld_are_skipped_and_keep_their_place(void **state)
+{
+    (void)state;
+    for (unsigned minor = 0; minor < VERSIONS; minor++)
+        for (unsigned format = 0; format < FORMATS; format++) {
+            const las l = two_of(minor, format);
+            bytes file = make(&l);
+            cloud cloud;
+            octreel_error error;
+            file.data[header_sizes[minor] + 15] = format < 6 ? 0x80 : 0x04;
+            assert_true(cloud_parse("a.las", file.data, file.size, &cloud, &error));
+            assert_int_equal(cloud.count, minor == 0 ? 2 : 1);
+            assert_int_equal(cloud.skipped, minor == 0 ? 0 : 1);
+            assert_int_equal(cloud_row(&cloud, cloud.count - 1), 1);
+            if (minor > 0)
+                assert_string_equal(cloud.why_skipped, "marked as withheld");
+            cloud_release(&cloud);
+        }
+}
+
+static void las_of_nothing_but_withheld_points_is_refused(void **state)
+{
+    const las l = two_of(2, 0);
+    bytes file = make(&l);
+    (void)state;
+    file.data[227 + 15] = 0x80;
+    file.data[227 + 20 + 15] = 0xff;
+    assert_refuses("a.las", file.data, file.size, "a.las: holds no points: all 2 are marked as withheld");
+}
+
+/* ---- What follows the points -------------------------------------------------------------------------------- */
+
+static void las_bytes_beyond_the_last_point_are_noted_unless_the_header_names_them(void **state)
+{
+    las l = two_of(4, 4);
+    bytes file = make(&l);
+    char note[128];
+    const size_t end = file.size;
+    (void)state;
+    put_zeros(&file, 5);
+    assert_reads("a.las", file.data, file.size, two_read, 2, 0);
+    put_text(&file, "record");
+    snprintf(note, sizeof note,
+             "a.las:byte %zu: more data follows than the header counts; the points before it were read", end + 5);
+    assert_reads_and_notes("a.las", file.data, file.size, two_read, 2, 0, note);
+    set_bits(&file, 235, end + 5, 8);
+    set_bits(&file, 243, 1, 4);
+    assert_reads("named as a record.las", file.data, file.size, two_read, 2, 0);
+    set_bits(&file, 243, 0, 4);
+    set_bits(&file, 227, end + 5, 8);
+    assert_reads("named as a waveform.las", file.data, file.size, two_read, 2, 0);
+    set_bits(&file, 227, end + 6, 8);
+    assert_reads_and_notes("a.las", file.data, file.size, two_read, 2, 0, note);
+}
+
+static void las_whose_points_run_into_what_follows_is_refused(void **state)
+{
+    las l = two_of(4, 4);
+    bytes file = make(&l);
+    (void)state;
+    set_bits(&file, 227, 488, 8);
+    assert_refuses("a.las", file.data, file.size,
+                   "a.las:byte 227: the waveforms begin at byte 488, and not between 489, the end of the points, and "
+                   "489, that of the file");
+    set_bits(&file, 227, 490, 8);
+    assert_refuses("a.las", file.data, file.size,
+                   "a.las:byte 227: the waveforms begin at byte 490, and not between 489, the end of the points, and "
+                   "489, that of the file");
+    set_bits(&file, 227, 0, 8);
+    set_bits(&file, 235, UINT64_MAX, 8);
+    assert_reads("none is counted.las", file.data, file.size, two_read, 2, 0);
+    set_bits(&file, 243, 1, 4);
+    assert_refuses(
+        "a.las", file.data, file.size,
+        "a.las:byte 235: the extended records begin at byte 18446744073709551615, and not between 489, the end of "
+        "the points, and 489, that of the file");
+}
+
+/* ---- Headers that cannot be followed ------------------------------------------------------------------------ */
+
+static void las_headers_that_cannot_be_followed_are_refused(void **state)
+{
+    static const struct {
+        unsigned minor, format;
+        size_t at;
+        unsigned size;
+        uint64_t bits;
+        const char *sentence;
+    } rows[] = {
+        {2, 3, 0, 1, 'l', ":byte 0: is not a LAS file: its first bytes are not LASF"},
+        {2, 3, 24, 1, 2, ":byte 24: LAS 2.2 is not a known version: 1.0 to 1.5"},
+        {2, 3, 25, 1, 6, ":byte 24: LAS 1.6 is not a known version: 1.0 to 1.5"},
+        {2, 3, 94, 2, 226, ":byte 94: a header of 226 bytes is announced, and that of LAS 1.2 has 227"},
+        {4, 3, 94, 2, 227, ":byte 94: a header of 227 bytes is announced, and that of LAS 1.4 has 375"},
+        {2, 3, 94, 2, 65535, ":byte 94: a header of 65535 bytes is announced, and points from byte 227 on"},
+        {2, 3, 96, 4, 226, ":byte 94: a header of 227 bytes is announced, and points from byte 226 on"},
+        {2, 3, 96, 4, 296, ":byte 96: points are announced from byte 296 on, and the file has 295 bytes"},
+        {2, 3, 96, 4, UINT32_MAX, ":byte 96: points are announced from byte 4294967295 on, and the file has 295 bytes"},
+        {2, 3, 104, 1, 11, ":byte 104: 11 is not a known point format: 0 to 10"},
+        {2, 3, 104, 1, 63, ":byte 104: 63 is not a known point format: 0 to 10"},
+        {2, 3, 105, 2, 33, ":byte 105: points of 33 bytes are announced, and those of format 3 have at least 34"},
+        {2, 0, 105, 2, 0, ":byte 105: points of 0 bytes are announced, and those of format 0 have at least 20"},
+        {2, 3, 107, 4, 0, ": holds no points"},
+        {2, 3, 107, 4, 3, ":byte 227: 3 points of 34 bytes are announced, and 68 bytes follow"},
+        {2, 3, 107, 4, UINT32_MAX, ":byte 227: 4294967295 points of 34 bytes are announced, and 68 bytes follow"},
+        {4, 3, 247, 8, 1, ":byte 247: the count of points is 1, and 2 at byte 107: correct the header"},
+        {4, 6, 247, 8, UINT64_MAX,
+         ":byte 375: 18446744073709551615 points of 30 bytes are announced, and 60 bytes follow"},
+        {4, 6, 247, 8, UINT64_C(1) << 63,
+         ":byte 375: 9223372036854775808 points of 30 bytes are announced, and 60 bytes follow"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const las l = two_of(rows[i].minor, rows[i].format);
+        char sentence[256];
+        bytes file = make(&l);
+        set_bits(&file, rows[i].at, rows[i].bits, rows[i].size);
+        snprintf(sentence, sizeof sentence, "a.las%s", rows[i].sentence);
+        assert_refuses("a.las", file.data, file.size, sentence);
+    }
+}
+
+static void las_scales_that_make_no_coordinates_are_refused(void **state)
+{
+    static const struct {
+        size_t at;
+        double value;
+        const char *sentence;
+    } rows[] = {
+        {131, 0, "a.las:byte 131: the scale of x is 0, which makes no coordinates"},
+        {139, -0.0, "a.las:byte 139: the scale of y is -0, which makes no coordinates"},
+        {147, NAN, "a.las:byte 147: the scale of z is nan, which makes no coordinates"},
+        {131, INFINITY, "a.las:byte 131: the scale of x is inf, which makes no coordinates"},
+        {163, NAN, "a.las:byte 163: the offset of y is nan, which makes no coordinates"},
+        {171, -INFINITY, "a.las:byte 171: the offset of z is -inf, which makes no coordinates"},
+        {131, 1e308, "a.las:byte 247: x is beyond the largest double"},
+        {131, -1.7e308, "a.las:byte 247: x is beyond the largest double"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        bytes file = make(&two);
+        set_double(&file, rows[i].at, rows[i].value);
+        assert_refuses("a.las", file.data, file.size, rows[i].sentence);
+    }
+}
+
+static void las_that_is_compressed_is_refused_with_the_way_out(void **state)
+{
+    static const unsigned flags[] = {0x80, 0x40, 0xc0};
+    (void)state;
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        const las l = two_of(4, 7);
+        bytes file = make(&l);
+        file.data[104] |= flags[i];
+        assert_refuses("a.laz", file.data, file.size,
+                       "a.laz: is compressed LAS (LAZ or COPC), which is not read; decompress it first, as in: pdal "
+                       "translate in.laz out.las");
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(las_is_read_in_every_version_and_point_format),
+        cmocka_unit_test(las_that_is_cut_off_is_refused),
+        cmocka_unit_test(las_coordinate_is_a_product_and_a_sum_of_doubles),
+        cmocka_unit_test(las_1_0_may_have_a_signature_before_its_points),
+        cmocka_unit_test(las_counts_of_either_kind_are_read),
+        cmocka_unit_test(las_points_that_are_withheld_are_skipped_and_keep_their_place),
+        cmocka_unit_test(las_of_nothing_but_withheld_points_is_refused),
+        cmocka_unit_test(las_bytes_beyond_the_last_point_are_noted_unless_the_header_names_them),
+        cmocka_unit_test(las_whose_points_run_into_what_follows_is_refused),
+        cmocka_unit_test(las_headers_that_cannot_be_followed_are_refused),
+        cmocka_unit_test(las_scales_that_make_no_coordinates_are_refused),
+        cmocka_unit_test(las_that_is_compressed_is_refused_with_the_way_out),
+    };
+    return cmocka_run_group_tests_name("cloud_las", tests, NULL, NULL);
+}

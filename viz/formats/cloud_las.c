@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT */
+/* cloud_las.c - the points of a LAS file, version 1.0 to 1.5, the format of laser surveys by the ASPRS.
+ *
+ * A record begins with three integers. Each makes a coordinate by the scale and the offset of its axis, record * scale
+ * + offset in doubles: a product and a sum, each rounded once, which is what the specification writes and others
+ * compute.
+ */
+#include "cloud_format.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+static const char signature[] = {'L', 'A', 'S', 'F'};
+
+/* Where the header has what is read of it. */
+enum {
+    AT_VERSION = 24, /* major, minor */
+    AT_HEADER_SIZE = 94,
+    AT_POINTS = 96,
+    AT_FORMAT = 104,
+    AT_LENGTH = 105,
+    AT_COUNT = 107,
+    AT_SCALES = 131,
+    AT_OFFSETS = 155,
+    AT_WAVEFORMS = 227,    /* from 1.3 on */
+    AT_RECORDS = 235,      /* from 1.4 on: extended variable length records */
+    AT_RECORD_COUNT = 243, /* the same */
+    AT_WIDE_COUNT = 247,   /* the same */
+};
+
+/* The size of the header by the minor version. */
+static const unsigned header_sizes[] = {227, 227, 227, 235, 375, 393};
+enum { VERSIONS = sizeof header_sizes / sizeof header_sizes[0] };
+
+/* The bytes of a record by the point format; a file may have more in each. X, Y and Z are in the same place in all. */
+static const unsigned record_sizes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+enum {
+    FORMATS = sizeof record_sizes / sizeof record_sizes[0],
+    COMPRESSED = 0xc0, /* what LAZ adds to the format */
+    AT_FLAGS = 15,     /* in a record, all formats */
+};
+
+typedef struct las_reader {
+    cloud_file *file;
+    unsigned minor, format, header_size;
+    unsigned withheld; /* the bit of a record's flags */
+    uint64_t first, length, count;
+    double scale[3], offset[3];
+} las_reader;
+
+static bool is_las(const cloud_file *file)
+{
+    return file->size >= sizeof signature && memcmp(file->bytes, signature, sizeof signature) == 0;
+}
+
+/* ---- Header ------------------------------------------------------------------------------------------------- */
+
+static uint64_t read_whole(const las_reader *reader, size_t at, unsigned size)
+{
+    return cloud_bits_read(size, false, reader->file->bytes + at);
+}
+
+static bool read_version(las_reader *reader)
+{
+    const cloud_file *file = reader->file;
+    if (file->size < header_sizes[0])
+        return cloud_fail_byte(file, file->size, "the file ends in its header");
+    const unsigned major = file->bytes[AT_VERSION];
+    reader->minor = file->bytes[AT_VERSION + 1];
+    if (major != 1 || reader->minor >= VERSIONS)
+        return cloud_fail_byte(file, AT_VERSION, "LAS %u.%u is not a known version: 1.0 to 1.%d", major, reader->minor,
+                               VERSIONS - 1);
+    reader->header_size = (unsigned)read_whole(reader, AT_HEADER_SIZE, 2);
+    if (reader->header_size < header_sizes[reader->minor])
+        return cloud_fail_byte(file, AT_HEADER_SIZE, "a header of %u bytes is announced, and that of LAS 1.%u has %u",
+                               reader->header_size, reader->minor, header_sizes[reader->minor]);
+    return file->size >= header_sizes[reader->minor] ||
+           cloud_fail_byte(file, file->size, "the file ends in its header");
+}
+
+static bool read_format(las_reader *reader)
+{
+    const cloud_file *file = reader->file;
+    reader->format = file->bytes[AT_FORMAT];
+    reader->length = read_whole(reader, AT_LENGTH, 2);
+    if (reader->format & COMPRESSED)
+        return cloud_fail(file, "is compressed LAS (LAZ or COPC), which is not read; decompress it first, as in: pdal "
+                                "translate in.laz out.las");
+    if (reader->format >= FORMATS)
+        return cloud_fail_byte(file, AT_FORMAT, "%u is not a known point format: 0 to %d", reader->format, FORMATS - 1);
+    if (reader->length < record_sizes[reader->format])
+        return cloud_fail_byte(file, AT_LENGTH,
+                               "points of %" PRIu64 " bytes are announced, and those of format %u have at least %u",
+                               reader->length, reader->format, record_sizes[reader->format]);
+    if (reader->minor > 0) /* the class is the whole byte in 1.0 */
+        reader->withheld = reader->format < 6 ? 0x80 : 0x04;
+    return true;
+}
+
+/* From 1.4 on there are two counts, one of which may be 0. Which one is right where they differ has been answered both
+ * ways, by the specification and by the readers in use. */
+static bool read_count(las_reader *reader)
+{
+    const uint64_t narrow = read_whole(reader, AT_COUNT, 4);
+    const uint64_t wide = reader->minor >= 4 ? read_whole(reader, AT_WIDE_COUNT, 8) : 0;
+    reader->count = wide ? wide : narrow;
+    return !narrow || reader->count == narrow ||
+           cloud_fail_byte(reader->file, AT_WIDE_COUNT,
+                           "the count of points is %" PRIu64 ", and %" PRIu64 " at byte %d: correct the header", wide,
+                           narrow, AT_COUNT);
+}
+
+static bool read_factor(const las_reader *reader, unsigned at, const char *what, bool may_be_zero, double *factor)
+{
+    static const cloud_scalar real = {CLOUD_FLOAT, 8};
+    *factor = cloud_scalar_read(real, false, reader->file->bytes + at);
+    return (isfinite(*factor) && (may_be_zero || *factor != 0)) ||
+           cloud_fail_byte(reader->file, at, "%s is %g, which makes no coordinates", what, *factor);
+}
+
+static bool read_factors(las_reader *reader)
+{
+    static const char *const scales[] = {"the scale of x", "the scale of y", "the scale of z"};
+    static const char *const offsets[] = {"the offset of x", "the offset of y", "the offset of z"};
+    for (unsigned axis = 0; axis < 3; axis++)
+        if (!read_factor(reader, AT_SCALES + 8 * axis, scales[axis], false, &reader->scale[axis]) ||
+            !read_factor(reader, AT_OFFSETS + 8 * axis, offsets[axis], true, &reader->offset[axis]))
+            return false;
+    return true;
+}
+
+/* ---- Where the points are ----------------------------------------------------------------------------------- */
+
+/* LAS 1.0 has two bytes before the points, and some writers let the header point at them. */
+static void pass_signature(las_reader *reader, uint64_t left)
+{
+    static const unsigned char start[] = {0xdd, 0xcc};
+    if (reader->minor == 0 && left >= sizeof start && (left - sizeof start) / reader->length >= reader->count &&
+        memcmp(reader->file->bytes + reader->first, start, sizeof start) == 0)
+        reader->first += sizeof start;
+}
+
+static bool find_points(las_reader *reader)
+{
+    const cloud_file *file = reader->file;
+    reader->first = read_whole(reader, AT_POINTS, 4);
+    if (reader->first < reader->header_size)
+        return cloud_fail_byte(file, AT_HEADER_SIZE,
+                               "a header of %u bytes is announced, and points from byte %" PRIu64 " on",
+                               reader->header_size, reader->first);
+    if (reader->first > file->size)
+        return cloud_fail_byte(file, AT_POINTS,
+                               "points are announced from byte %" PRIu64 " on, and the file has %zu bytes",
+                               reader->first, file->size);
+    pass_signature(reader, file->size - reader->first);
+    const uint64_t left = file->size - reader->first;
+    return reader->count <= left / reader->length ||
+           cloud_fail_byte(file, (size_t)reader->first,
+                           "%" PRIu64 " points of %" PRIu64 " bytes are announced, and %" PRIu64 " bytes follow",
+                           reader->count, reader->length, left);
+}
+
+/* Keep in *next where something begins behind the points: at a place that the header has, 0 for nothing. */
+static bool find_follower(const las_reader *reader, size_t at, const char *what, uint64_t *next)
+{
+    const uint64_t end = reader->first + reader->count * reader->length, start = read_whole(reader, at, 8);
+    if (start == 0)
+        return true;
+    if (start < end || start > reader->file->size)
+        return cloud_fail_byte(reader->file, at,
+                               "%s begin at byte %" PRIu64 ", and not between %" PRIu64
+                               ", the end of the points, and %zu, that of the file",
+                               what, start, end, reader->file->size);
+    if (start < *next)
+        *next = start;
+    return true;
+}
+
+/* Waveforms and extended variable length records may follow the points. What follows and is neither is noted. */
+static bool check_end(const las_reader *reader)
+{
+    static const bool has_waveforms[FORMATS] = {[4] = true, [5] = true, [9] = true, [10] = true};
+    cloud_file before = *reader->file;
+    uint64_t next = before.size;
+    if (reader->minor >= 3 && has_waveforms[reader->format] &&
+        !find_follower(reader, AT_WAVEFORMS, "the waveforms", &next))
+        return false;
+    if (reader->minor >= 4 && read_whole(reader, AT_RECORD_COUNT, 4) > 0 &&
+        !find_follower(reader, AT_RECORDS, "the extended records", &next))
+        return false;
+    before.size = (size_t)next;
+    cloud_note_bytes(&before, (size_t)(reader->first + reader->count * reader->length));
+    return true;
+}
+
+/* ---- Points ------------------------------------------------------------------------------------------------- */
+
+static bool add_point(const las_reader *reader, size_t at)
+{
+    static const cloud_scalar integer = {CLOUD_SIGNED, 4};
+    const unsigned char *record = reader->file->bytes + at;
+    double position[3];
+    if (record[AT_FLAGS] & reader->withheld) {
+        cloud_skip(reader->file, "marked as withheld");
+        return true;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        position[axis] = cloud_scalar_read(integer, false, record + 4 * axis) * reader->scale[axis];
+        position[axis] += reader->offset[axis];
+        if (!isfinite(position[axis]))
+            return cloud_fail_byte(reader->file, at, "%c is beyond the largest double", "xyz"[axis]);
+    }
+    return cloud_add(reader->file, position);
+}
+
+static bool parse_las(cloud_file *file)
+{
+    las_reader reader = {.file = file};
+    if (!is_las(file))
+        return cloud_fail_byte(file, 0, "is not a LAS file: its first bytes are not LASF");
+    if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_factors(&reader) ||
+        !find_points(&reader) || !check_end(&reader))
+        return false;
+    for (uint64_t i = 0; i < reader.count; i++) {
+        cloud_tell(file, i, i, reader.count);
+        if (!add_point(&reader, (size_t)(reader.first + i * reader.length)))
+            return false;
+    }
+    return true;
+}
+
+const cloud_format cloud_las = {"LAS", ".las", is_las, parse_las};
