@@ -100,8 +100,9 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
 {
     const diff_side *const sides[2] = {a, b};
     if (a->no_frames != b->no_frames)
-        return error_set(error, "%s was recorded without frames, and %s has some", a->no_frames ? a->path : b->path,
-                         a->no_frames ? b->path : a->path);
+        return error_set(error,
+                         "%s was recorded without frames, and is compared with such a recording alone: %s is none",
+                         a->no_frames ? a->path : b->path, a->no_frames ? b->path : a->path);
     if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single(a, b))
         return error_set(error, "a picture is compared with a picture, or the digest of one: %s is one, %s is not",
                          a->kind == DIFF_PICTURE ? a->path : b->path, a->kind == DIFF_PICTURE ? b->path : a->path);
