@@ -14,7 +14,9 @@ static const char help[] =
     "ticks.jsonl), what is drawn (the scene), or only its pixels, and then who drew both; and which frames or lines "
     "are\n"
     "missing, torn or too many. Of gaps, ticks that a program which recorded itself could not hand over, it says how\n"
-    "many there are and why; they are no finding. Files are not changed.\n\n";
+    "many there are and why; they are no finding. Of a recording without frames the facts alone are compared. Files "
+    "are\n"
+    "not changed.\n\n";
 
 static const char more_help[] = "      --json            print JSON\n"
                                 "  -h, --help\n\n"
