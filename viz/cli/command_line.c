@@ -164,8 +164,8 @@ static int refuse_surplus(const command_line *line, const char *word, bool has_o
 {
     const int output = find_output(line);
     const file_kinds kind = 1u << file_kind_of(word);
-    const bool is_input = kind & (line->inputs[0] | FILE_KIND(RECORDING));
-    if (output && !has_output && !is_input && is_meant_for(line->options[output - OWN_OPTION].read, word))
+    const bool no_output = word[0] == '-' || kind & (line->inputs[0] | FILE_KIND(RECORDING));
+    if (output && !has_output && !no_output && is_meant_for(line->options[output - OWN_OPTION].read, word))
         return trouble("%s takes %s, not also \"%s\", did you mean -o %s?", line->name, line->takes, word, word);
     if (line->several)
         return trouble("%s takes %s, not also \"%s\"; for several: for f in %s; do %s %s \"$f\" -o \"$f.png\"; done",

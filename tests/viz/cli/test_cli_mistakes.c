@@ -142,6 +142,7 @@ static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
         {"inspect cloud.txt -o -", "-o takes a name"},
         {"digest rec -o -", "-o takes a name"},
         {"record my.json my.json", "not also \"my.json\"; "},
+        {"record -- my.json -o", "not also \"-o\"; "},
         {"record my.json x -o y", "not also \"x\"; "},
         {"inspect cloud.txt tree.png", "did you mean -o tree.png?"},
         {"inspect cloud.txt cloud.txt", "for several: for f in *.pcd; do "},

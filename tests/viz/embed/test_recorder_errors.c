@@ -171,7 +171,9 @@ static void refuse_queries(octreel_recorder *recorder, const octree *tree)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const octree_query queries[2] = {{.kind = OCTREE_QUERY_NEAREST}, rows[i]};
         const octreel_tick_info about = {.queries = queries, .query_count = 2};
-        assert_refused(recorder, tree, &about, OCTREEL_BAD_QUERY, "queries[1]: ");
+        const bool unlisted = rows[i].skip == OCTREE_SKIP_COINCIDENT || rows[i].kind == OCTREE_QUERY_KINDS;
+        assert_refused(recorder, tree, &about, OCTREEL_BAD_QUERY,
+                       unlisted ? "queries[1]: there is no such kind or no such skip" : "queries[1]: ");
     }
 }
 
