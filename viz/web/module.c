@@ -25,6 +25,7 @@ typedef struct web {
     session_file session;
     playback playback;
     bool open, drawn; /* there is a playback; its last tick has been drawn */
+    unsigned counted; /* layers that show sums over all ticks, where those are made */
     char *room, *text;
     size_t room_size, text_size;
     uint8_t *rgba;
@@ -103,6 +104,7 @@ bool web_open(size_t session, size_t recording)
     free(page.room);
     page.room = NULL;
     page.room_size = 0;
+    page.counted = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
     page.open = playback_open(&page.playback, &page.session.session, &v, &page.error);
     if (!page.open)
         close_all();
@@ -113,9 +115,13 @@ bool web_open(size_t session, size_t recording)
 bool web_step(int key)
 {
     const octree_input input = {.key = (char)key};
+    playback *p = &page.playback;
+    const unsigned layers = p->view.layers;
     page.drawn = false;
-    return (key ? playback_play(&page.playback, &input, &page.error) : playback_advance(&page.playback, &page.error)) ||
-           fails();
+    p->view.layers |= page.counted;
+    const bool done = key ? playback_play(p, &input, &page.error) : playback_advance(p, &page.error);
+    p->view.layers = layers;
+    return done || fails();
 }
 
 double web_tick(void)
@@ -165,6 +171,12 @@ bool web_view(size_t recording)
     *now = v;
     page.drawn = false;
     return true;
+}
+
+/* Whether the view shows sums over all ticks that are not made: the session is to be opened by this view. */
+bool web_lacks_sums(void)
+{
+    return page.playback.view.layers & VIEW_HEAT_LAYERS & ~page.counted;
 }
 
 static bool open_picture(void)

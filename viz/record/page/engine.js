@@ -86,6 +86,12 @@ class Engine {
         this.view = view;
     }
 
+    /* Whether the view shows sums over all ticks that the engine has not made. */
+    get lacksSums()
+    {
+        return Boolean(this.wasm.web_lacks_sums());
+    }
+
     /* The picture of the tick. */
     draw()
     {

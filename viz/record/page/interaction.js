@@ -82,6 +82,7 @@ class Interaction {
             told: text => this.tell(text),
             picked: (pick, place) => this.showPick(pick, place),
             changed: () => this.showView(),
+            again: () => this.playAgain(),
         });
         this.viewer.follow(recording);
         this.showView();
@@ -111,6 +112,14 @@ class Interaction {
             bar.hidden = tick >= last || performance.now() - start < LONG_WAIT;
             bar.value = last > 0 ? tick / last : 1;
         }).catch(error => this.tell(error.message));
+    }
+
+    /* All from the beginning, up to what is shown. */
+    playAgain()
+    {
+        this.player.reopen(this.session);
+        this.playAhead();
+        return this.show(this.viewer.tick);
     }
 
     /* A tick that was played: its facts, where they are not known. */

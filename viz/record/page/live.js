@@ -19,13 +19,14 @@ const rounded = number => Number(number.toPrecision(8)); /* enough, and short on
 
 class Live {
     /* `player` plays; `told(text)` shows a sentence, `picked(pick)` what was clicked. */
-    constructor(stage, player, {told, picked, changed})
+    constructor(stage, player, {told, picked, changed, again})
     {
         this.stage = stage;
         this.player = player;
         this.told = told;
         this.picked = picked;
         this.changed = changed;
+        this.again = again; /* plays from tick 0 to this one */
         this.recorded = player.engine.view;
         this.canvas = element("canvas", "", {class: "live", role: "img"});
         this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
@@ -108,7 +109,7 @@ class Live {
             this.told(error.message.replace(/^the view:\d+: /, ""));
         }
         this.changed();
-        return this.draw();
+        return this.engine.lacksSums ? this.again() : this.draw();
     }
 
     lookAsRecorded()

@@ -146,6 +146,19 @@ class Player {
         this.taken = this.length - 1;
     }
 
+    /* Open the session once more, for a view that shows sums over all ticks: the engine is then at tick 0. */
+    reopen(session)
+    {
+        const {engine} = this;
+        this.stop();
+        this.going = {};
+        engine.open(session, engine.view);
+        this.states = new States();
+        this.states.keep(engine, false);
+        for (const one of this.scout ? [engine, this.scout] : [engine])
+            this.restore(one, this.states.list[0]);
+    }
+
     /* The session with the keys that were played. */
     save()
     {

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/* page_campaign.c - as many random inputs as asked for in the page of a recording, in headless Chromium: keys, drags,
+ * clicks, scrubs, controls, questions and dropped files, as drive_campaign.js has them. No exception may come of them,
+ * and what is shown must be what an engine shows that has played the session from its beginning. */
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "browser.h"
+#include "driven_page.h"
+#include "files.h"
+#include "fixture.h"
+#include "program.h"
+#include "recordings.h"
+
+const char program_name[] = "octreel-page-campaign";
+
+enum { INPUTS_A_PAGE = 20000 }; /* after which there is another browser, by another seed */
+
+typedef struct options {
+    uint64_t seed, inputs;
+} options;
+
+static options asked;
+static uint64_t findings;
+
+static options read_options(int argc, char **argv)
+{
+    static const struct option known[] = {{"seed", required_argument, NULL, 's'},
+                                          {"inputs", required_argument, NULL, 'n'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+    options o = {.seed = 1, .inputs = 1000000};
+    for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
+        switch (option) {
+        case 's':
+            o.seed = (uint64_t)take_whole("--seed", optarg, 0, 4294967295.0);
+            break;
+        case 'n':
+            o.inputs = (uint64_t)take_whole("--inputs", optarg, 1, 1e9);
+            break;
+        case 'h':
+            puts("usage: octreel-page-campaign [--seed N] [--inputs N]\n"
+                 "Random inputs to the page of the default session: by seed 1, and a million of them.");
+            finish(EXIT_DONE);
+        default:
+            exit(EXIT_TROUBLE); /* getopt has said why */
+        }
+    if (optind < argc)
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
+    return o;
+}
+
+static uint64_t number_said(const char *said, const char *what)
+{
+    char *text = said_about(said, what);
+    const uint64_t number = strtoull(text, NULL, 10);
+    free(text);
+    return number;
+}
+
+/* Returns the inputs that there were. */
+static uint64_t drive(const temp_folder *own, const place *page, uint64_t seed, uint64_t inputs)
+{
+    const place given = place_in(own, "given.js");
+    char text[128];
+    snprintf(text, sizeof text, "const given = {seed: %" PRIu64 ", inputs: %" PRIu64 "};\n", seed, inputs);
+    file_write_text(given.path, text);
+    char *said = play_page(own, page->path, (const char *const[]){given.path, "drive_campaign.js", NULL});
+    const uint64_t done = number_said(said, "inputs"), found = number_said(said, "findings");
+    if (found > 0)
+        printf("seed %" PRIu64 ", %" PRIu64 " inputs:%s", seed, done, strstr(said, "\nfinding "));
+    findings += found;
+    free(said);
+    return done;
+}
+
+static void no_input_raises_an_error_or_shows_what_is_wrong(void **state)
+{
+    const place film = place_in(*state, "film"), page = place_below(film.path, "index.html");
+    const octree_session session = octree_session_default();
+    film_options o = small_film(film.path);
+    uint64_t done = 0;
+    need_browser();
+    o.every = 4;
+    assert_filmed(&session, &o);
+    need_playing_page(page.path);
+    for (uint64_t i = 0; done < asked.inputs; i++) {
+        const uint64_t left = asked.inputs - done;
+        done += drive(*state, &page, asked.seed + i, left < INPUTS_A_PAGE ? left : INPUTS_A_PAGE);
+        if (isatty(STDERR_FILENO))
+            fprintf(stderr, "\r%" PRIu64 " inputs, %" PRIu64 " findings", done, findings);
+    }
+    printf("%" PRIu64 " inputs: %" PRIu64 " findings\n", done, findings);
+    assert_int_equal(findings, 0);
+}
+
+static int make_folder(void **state)
+{
+    return temp_folder_make(state);
+}
+
+int main(int argc, char **argv)
+{
+    asked = read_options(argc, argv);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(no_input_raises_an_error_or_shows_what_is_wrong, make_folder,
+                                        nested_folder_remove),
+    };
+    finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
+}
