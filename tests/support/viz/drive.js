@@ -55,7 +55,7 @@ function digestOf(bytes)
     return (digest >>> 0).toString(16).padStart(8, "0");
 }
 
-const {interaction} = octreel;
+const interaction = typeof octreel === "object" ? octreel.interaction : undefined;
 const player = () => interaction.player;
 
 /* The tick as it is played, its scene and its pixels. */

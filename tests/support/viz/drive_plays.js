@@ -88,11 +88,11 @@ async function sayRandom()
         await sayTick("again", random(octreel.last + 1));
 }
 
-async function sayDropped(name, text)
+async function sayDropped(name, text, more = {})
 {
-    const before = player();
-    await interaction.open(new File([text], name));
-    say(`dropped ${name}`, `${player() === before} ${byId("told").textContent}`);
+    const before = player(), file = new File([text], name);
+    await interaction.open(Object.defineProperties(file, more));
+    say(`dropped ${name.includes("\n") ? "marked" : name}`, `${player() === before} ${byId("told").textContent}`);
 }
 
 /* A page without frames, to which nothing is done, and then what leaves what it shows. */
@@ -127,6 +127,15 @@ async function drive()
     await sayDropped("cut.json", '{"octreel": "session", "version": 1, "points": [[1, 2');
     await sayDropped("nan.json", '{"octreel": "session", "version": 1, "points": [[1, 2, NaN]]}');
     await sayDropped("cloud.json", '{"octreel": "session", "version": 1, "points": {"file": "utm.txt"}}');
+    await sayDropped("huge.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 1e999]]}');
+    await sayDropped("label.json", '{"octreel": "session", "version": 1, "shapes": [{"label": "\u202eabc", "at": [0, 0, 0]}]}');
+    await sayDropped("a\u202egnp\n.json", "");
+    await sayDropped("binary", new Uint8Array(20 << 20));
+    await sayDropped("large.json", "{", {size: {value: 300 << 20}});
+    await sayDropped("folder", "{", {slice: {value: () => ({text: () => Promise.reject(new Error("no file"))})}});
+    await sayDropped("ticks.json", '{"octreel": "session", "version": 1, "ticks": 1000000000, "keys": "ww"}');
+    say("long", `${player().length} ${player().engine.length}`);
+    await sayDropped("text.json", '{"octreel": "session", "version": 1, "shapes": [{"label": "<\/script><b>", "at": [0, 0, 0]}]}');
     await sayDropped("good.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 3]], "keys": "ww"}');
     await until(() => octreel.recording.length === 3, "the ticks of the session that was dropped");
     say("dropped", `${octreel.last} ${JSON.parse(octreel.recording.lines[2]).player}`);

@@ -14,7 +14,7 @@
 #include "recordings.h"
 #include "tick_lines.h"
 
-static bool page_plays(const char *page)
+bool page_has_module(const char *page)
 {
     char *text = file_read(page, NULL);
     const bool plays = strstr(text, "id=\"module\"></script>") == NULL;
@@ -25,13 +25,13 @@ static bool page_plays(const char *page)
 void need_playing_page(const char *page)
 {
     need_browser();
-    if (page_plays(page))
+    if (page_has_module(page))
         return;
     print_message("octreel was built without WebAssembly: its pages do not play\n");
     skip();
 }
 
-char *play_page(const temp_folder *own, const char *page, const char *const scripts[])
+char *drive_page_by(const temp_folder *own, const char *page, const char *const scripts[])
 {
     place places[4];
     const char *paths[5] = {places[0].path};
@@ -43,7 +43,28 @@ char *play_page(const temp_folder *own, const char *page, const char *const scri
                  strchr(scripts[i], '/') ? "" : OCTREEL_DRIVES "/", scripts[i]);
         paths[count] = places[count].path;
     }
-    return browser_is_there() && page_plays(page) ? browser_drive_all(own, page, paths) : NULL;
+    return browser_drive_all(own, page, paths);
+}
+
+char *play_page(const temp_folder *own, const char *page, const char *const scripts[])
+{
+    return browser_is_there() && page_has_module(page) ? drive_page_by(own, page, scripts) : NULL;
+}
+
+place write_given(const temp_folder *own, const json_t *given)
+{
+    const place path = place_in(own, "given.js");
+    char *text = json_dumps(given, JSON_COMPACT | JSON_ENSURE_ASCII);
+    FILE *file = fopen(path.path, "w");
+    assert_non_null(text);
+    assert_non_null(file);
+    fputs("const given = ", file);
+    for (const char *at = text; *at; at++)
+        fputs(*at == '<' ? "\\u003c" : (char[]){*at, 0}, file);
+    fputs(";\n", file);
+    assert_int_equal(fclose(file), 0);
+    free(text);
+    return path;
 }
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */

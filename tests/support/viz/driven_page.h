@@ -7,7 +7,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "temp_folder.h"
+#include <jansson.h>
+
+#include "files.h"
+
+/* Whether a page holds the program. */
+bool page_has_module(const char *page);
 
 /* Whether there are a browser and a page that plays; where not, the test is skipped and says so. */
 void need_playing_page(const char *page);
@@ -15,6 +20,12 @@ void need_playing_page(const char *page);
 /* Play a page by the scripts of tests/support/viz with these names, or by whole paths, behind drive.js; a null ends
  * them. The lines that were said, or null where there is no browser or the page does not play. */
 char *play_page(const temp_folder *own, const char *page, const char *const scripts[]);
+
+/* The same for any page, where there is a browser. */
+char *drive_page_by(const temp_folder *own, const char *page, const char *const scripts[]);
+
+/* A script for them that defines `given`, in whose texts no '<' is. */
+place write_given(const temp_folder *own, const json_t *given);
 
 /* Of the colours of a PNG, four bytes a pixel, as drive.js does. */
 uint32_t digest_of_png(const char *path);

@@ -123,6 +123,14 @@ static void what_cannot_be_opened_is_said_and_leaves_what_was_there(void **state
         {"cut.json", "true cut.json cannot be opened: line 1: "},
         {"nan.json", "true nan.json cannot be opened: line 1: "},
         {"cloud.json", "true cloud.json cannot be opened: "},
+        {"huge.json", "true huge.json cannot be opened: line 1: "},
+        {"label.json", "true label.json cannot be opened: line 1: "},
+        {"marked", "true a?gnp?.json cannot be opened: it is no session.json"},
+        {"binary", "true binary cannot be opened: it is no session.json"},
+        {"large.json", "true large.json cannot be opened: it is larger than 256 MiB, which a page does not take"},
+        {"folder", "true folder cannot be opened: it cannot be read; of a folder, drop the session.json that is in it"},
+        {"ticks.json", "false The session has 1,000,000,001 ticks, of which this page plays the first 100,000."},
+        {"text.json", "false "},
         {"good.json", "false "},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -133,6 +141,7 @@ static void what_cannot_be_opened_is_said_and_leaves_what_was_there(void **state
             fail_msg("%s: \"%s\" and not \"%s\"", what, told, rows[i][1]);
         free(told);
     }
+    assert_said_about(d->said, "long", "100000 1000000001");
     assert_said_about(d->said, "dropped", "2 0,100,0");
 }
 

@@ -5,15 +5,24 @@
 
 const NO_FILE = 8; /* EBADF: what every call of a system says, since a page has no files */
 
-/* The module that this page holds, compiled; null where the page or the browser has none. */
+const moduleText = () => document.getElementById("module")?.textContent.trim();
+
+/* Whether the page holds the module and the browser takes it. */
+function hasModule()
+{
+    return Boolean(moduleText()) && typeof WebAssembly === "object" && typeof DecompressionStream === "function";
+}
+
+/* The module, compiled. */
 async function compileModule()
 {
-    const text = document.getElementById("module")?.textContent.trim();
-    if (!text || typeof WebAssembly !== "object" || typeof DecompressionStream !== "function")
-        return null;
-    const packed = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
-    const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
+    try {
+        const packed = Uint8Array.from(atob(moduleText()), letter => letter.charCodeAt(0));
+        const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+        return await WebAssembly.compile(await new Response(unpacked).arrayBuffer());
+    } catch (error) {
+        throw new Error(`the program in this page is damaged (${error.message}); record or copy the page again`);
+    }
 }
 
 class Engine {

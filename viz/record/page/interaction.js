@@ -5,6 +5,7 @@
 
 const LONG_WAIT = 100; /* ms: what takes longer has a bar */
 const LARGE = 1 << 20; /* letters of a session */
+const MOST_FILE = 256 << 20; /* bytes of a session that is dropped */
 const FEW = 4; /* elements at a pixel that are shown without asking for more */
 
 /* The view of a session that has none: that of a recording without what depends on its world. */
@@ -14,6 +15,22 @@ function plainView(about)
     return view;
 }
 
+/* The name of a file as a word of a sentence: on one line, in one direction, and not too long. */
+const shownName = name => name.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "?").replace(/^(.{60}).+$/u, "$1…");
+
+/* The text of a session file. One that is none is not read to its end, nor one that no page could hold. */
+async function readSession(file)
+{
+    const read = part => part.text().catch(() => {
+        throw new Error("it cannot be read; of a folder, drop the session.json that is in it");
+    });
+    if (!/^\s*\{/.test(await read(file.slice(0, 4096))))
+        throw new Error("it is no session.json");
+    if (file.size > MOST_FILE)
+        throw new Error(`it is larger than ${MOST_FILE >> 20} MiB, which a page does not take; octreel record films it`);
+    return read(file);
+}
+
 class Interaction {
     constructor(viewer)
     {
@@ -21,7 +38,7 @@ class Interaction {
         this.stage = byId("stage");
         this.busy = false;
         this.recorded = viewer.recording;
-        this.plays = byId("module").textContent.trim() !== "";
+        this.plays = hasModule();
         if (this.plays)
             this.listen();
     }
@@ -51,9 +68,6 @@ class Interaction {
     async begin()
     {
         this.module ??= await compileModule();
-        if (!this.module)
-            throw new Error("this browser has no WebAssembly, or does not unpack it; another one may, " +
-                            "and octreel record films session.json");
         this.session ??= byId("session").textContent.trim();
         if (!this.session)
             throw new Error("the session is not in the page, as it is large; drop session.json here");
@@ -70,7 +84,7 @@ class Interaction {
             bar.hidden = false;
             await new Promise(done => setTimeout(done, 50));
         }
-        const player = new Player(this.module, session, view, (tick, engine) => this.hear(tick, engine));
+        const player = this.makePlayer(session, view, recording.length);
         if (recording.length === 0)
             recording.append(player.engine.facts());
         this.player?.stop();
@@ -93,8 +107,19 @@ class Interaction {
         byId("hint").hidden = recording.hasFrames; /* else nobody began, and has not read it */
         byId("caption").hidden = true;
         this.stage.classList.remove("stale");
+        this.tell(player.isCut ? `The session has ${grouped(player.engine.length)} ticks, of which this page plays the ` +
+                                 `first ${grouped(player.length)}.` : "");
         this.playAhead();
         await this.show(this.viewer.tick);
+    }
+
+    makePlayer(session, view, known)
+    {
+        try {
+            return new Player(this.module, session, view, known, (tick, engine) => this.hear(tick, engine));
+        } finally {
+            byId("ahead").hidden = true;
+        }
     }
 
     makeControls(choices)
@@ -244,14 +269,12 @@ class Interaction {
     {
         try {
             this.module ??= await compileModule();
-            const text = await file.text();
-            if (!/^\s*\{/.test(text))
-                throw new Error("it is no session.json");
+            const text = await readSession(file);
             await this.take(text, plainView(this.recorded.about), new Recording(this.recorded.about, []));
             this.starting = Promise.resolve(true);
             this.viewer.goTo(0);
         } catch (error) {
-            this.tell(`${file.name} cannot be opened: ${error.message.replace(/^the session:/, "line ")}`);
+            this.tell(`${shownName(file.name)} cannot be opened: ${error.message.replace(/^the session:/, "line ")}`);
         }
     }
 
@@ -330,7 +353,7 @@ class Interaction {
         document.addEventListener("drop", event => {
             event.preventDefault();
             if (event.dataTransfer.files.length > 0)
-                this.open(event.dataTransfer.files[0]);
+                this.opening = this.open(event.dataTransfer.files[0]);
         });
     }
 }

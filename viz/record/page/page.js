@@ -13,6 +13,8 @@ const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes with e
 const NO_FRAMES = "This recording has no frames.";
 const NO_MODULE = "This recording has no frames, and this page has no program that draws them: let octreel record film " +
     "session.json.";
+const NO_BROWSER = "This recording has no frames, and this browser has no WebAssembly to draw them, or does not unpack it: " +
+    "another one may, and octreel record films session.json.";
 
 const byId = id => document.getElementById(id);
 
@@ -199,7 +201,7 @@ class Viewer {
     async drawOrSay()
     {
         const caption = byId("caption");
-        caption.textContent = this.interaction.plays ? NO_FRAMES : NO_MODULE;
+        caption.textContent = this.interaction.plays ? NO_FRAMES : moduleText() ? NO_BROWSER : NO_MODULE;
         caption.hidden = this.interaction.plays && await this.interaction.start();
     }
 
@@ -257,6 +259,19 @@ class Viewer {
 
 /* ---- Keys and buttons --------------------------------------------------------------------------------------- */
 
+/* As below, where the page plays. */
+const PLAYING_KEYS = [
+    ...[..."wsdaefn.q"].map(key => [[key], key, `play on from here: ${KEY_MEANINGS[key]}`,
+                                   viewer => viewer.interaction.press(key)]),
+    ...[["Left", "←", -1, 0], ["Right", "→", 1, 0], ["Up", "↑", 0, 1], ["Down", "↓", 0, -1]].map(
+        ([name, sign, dx, dy]) => [[`Shift+Arrow${name}`], `Shift ${sign}`, "turn the view; so does dragging",
+                                   viewer => viewer.interaction.turn(dx, dy)]),
+    [["Shift+PageUp"], "Shift Page Up", "closer; so does the wheel", viewer => viewer.interaction.zoom(1.25)],
+    [["Shift+PageDown"], "Shift Page Down", "farther", viewer => viewer.interaction.zoom(0.8)],
+    [["c"], "c", "what is in the middle of the view; a click says it of any place", viewer => viewer.interaction.pick()],
+    [["Escape"], "Esc", "back to the recording, as it was recorded", viewer => viewer.interaction.goBack()],
+];
+
 /* Keys as KeyboardEvent names them, as people read them, what they do in words, and what they do. */
 const KEYS = [
     [["ArrowRight"], "→", "next tick", viewer => viewer.step(1)],
@@ -273,15 +288,7 @@ const KEYS = [
     ...EVENTS.map(([name], i) =>
         [[String(i + 1)], String(i + 1), `choose ${name}, or no longer`, viewer => viewer.toggle(1 << i)]),
     [["0"], "0", "choose no event: show all", viewer => viewer.clearFilter()],
-    ...[..."wsdaefn.q"].map(key => [[key], key, `play on from here: ${KEY_MEANINGS[key]}`,
-                                   viewer => viewer.interaction.press(key)]),
-    ...[["Left", "←", -1, 0], ["Right", "→", 1, 0], ["Up", "↑", 0, 1], ["Down", "↓", 0, -1]].map(
-        ([name, sign, dx, dy]) => [[`Shift+Arrow${name}`], `Shift ${sign}`, "turn the view; so does dragging",
-                                   viewer => viewer.interaction.turn(dx, dy)]),
-    [["Shift+PageUp"], "Shift Page Up", "closer; so does the wheel", viewer => viewer.interaction.zoom(1.25)],
-    [["Shift+PageDown"], "Shift Page Down", "farther", viewer => viewer.interaction.zoom(0.8)],
-    [["c"], "c", "what is in the middle of the view; a click says it of any place", viewer => viewer.interaction.pick()],
-    [["Escape"], "Esc", "back to the recording, as it was recorded", viewer => viewer.interaction.goBack()],
+    ...(hasModule() ? PLAYING_KEYS : []),
     [["?"], "?", "these keys", () => byId("help").showModal()],
 ];
 
@@ -377,6 +384,7 @@ function openRecording()
         byId("message").hidden = false;
         return null;
     }
+    byId("message").hidden = true;
     byId("viewer").hidden = false;
     describeRecording(recording);
     fillControls();

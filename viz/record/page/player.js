@@ -6,13 +6,16 @@
 const SLICE = 12;         /* ms of playing before the page may do something else */
 const MOST_AHEAD = 64 << 20; /* bytes of a state: larger sessions are not played ahead, as that takes two of them */
 
+const MOST_TICKS = 100000; /* that are played ahead; a session may say a billion */
+
 const rest = () => new Promise(done => setTimeout(done));
 
 class Player {
-    /* `heard(tick, facts)` is told each tick that is played for the first time. */
-    constructor(module, session, view, heard)
+    /* `known`: ticks whose facts are known. `heard(tick, engine)` is told each tick that is played ahead. */
+    constructor(module, session, view, known, heard)
     {
         this.module = module;
+        this.most = Math.max(MOST_TICKS, known);
         this.heard = heard;
         this.states = new States();
         this.keys = ""; /* played after tick `taken` */
@@ -28,10 +31,15 @@ class Player {
         }
     }
 
-    /* The ticks that are known. */
+    /* The ticks that are played. */
     get length()
     {
-        return this.isTaken ? this.taken + 1 + this.keys.length : this.engine.length;
+        return this.isTaken ? this.taken + 1 + this.keys.length : Math.min(this.engine.length, this.most);
+    }
+
+    get isCut()
+    {
+        return !this.isTaken && this.engine.length > this.most;
     }
 
     get isTaken()

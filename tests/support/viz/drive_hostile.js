@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* drive_hostile.js - opens pages that are not as octreel wrote them (`given`: names and texts), each in a frame, and
+ * uses what there is of them. */
+"use strict";
+
+/* Before and behind a page: what it may not do in a frame, what it lacks, what is looked at. */
+const BEFORE = "<script>var faults = []; history.replaceState = () => {}; requestAnimationFrame = setTimeout;" +
+    "addEventListener('error', event => faults.push(event.message)); MORE<\/script>";
+const BEHIND = "<script>var viewer = () => octreel;<\/script>";
+
+async function open(text, more)
+{
+    const frame = document.createElement("iframe");
+    frame.srcdoc = BEFORE.replace("MORE", () => more) + text + BEHIND;
+    const loaded = new Promise(done => frame.addEventListener("load", done));
+    document.body.append(frame);
+    await loaded;
+    await new Promise(done => setTimeout(done, 10));
+    return frame.contentWindow;
+}
+
+const isShown = element => element !== null && !element.closest("[hidden]");
+
+async function sayPage({name, text, more = ""})
+{
+    const page = await open(text, more), byId = id => page.document.getElementById(id);
+    const message = byId("message");
+    say(`${name}: message`, isShown(message) ? message.textContent.replace(/\s+/g, " ").trim() : "");
+    say(`${name}: faults`, page.faults.join(" "));
+    if (!page.viewer || isShown(message))
+        return;
+    say(`${name}: bar`, isShown(byId("live-bar")));
+    page.document.body.dispatchEvent(new page.KeyboardEvent("keydown", {key: "ArrowRight", bubbles: true}));
+    page.document.body.dispatchEvent(new page.KeyboardEvent("keydown", {key: "w", bubbles: true}));
+    const {interaction} = page.viewer();
+    await interaction.pressed;
+    say(`${name}: after a key`, `tick ${page.document.body.dataset.tick} of ${page.viewer().last}` +
+                                `${interaction.isLive ? ", played" : ""}: ${byId("told").textContent}`);
+    say(`${name}: keys`, [...byId("help").querySelectorAll("kbd")].some(({textContent}) => textContent === "w"));
+}
+
+run(async () => {
+    for (const one of given)
+        await sayPage(one);
+});
