@@ -28,7 +28,7 @@ typedef struct web {
     unsigned counted; /* layers that show sums over all ticks, where those are made */
     char *room, *text;
     size_t room_size, text_size;
-    uint8_t *rgba;
+    uint32_t *rgba; /* bytes in this order */
     octreel_error error;
 } web;
 
@@ -189,24 +189,33 @@ static bool open_picture(void)
     return page.rgba || error_no_memory(&page.error);
 }
 
+static uint32_t rgba_word(image_color color)
+{
+    const uint8_t bytes[4] = {color.r, color.g, color.b, 255};
+    uint32_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+/* Whole words, from a table where the pixels are indices: this is a good part of a frame. */
 static void color_pixels(const image *frame)
 {
     const size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    uint8_t *to = page.rgba;
-    for (size_t i = 0; i < pixels; i++, to += 4) {
-        const uint8_t *from = frame->pixels + i * (size_t)frame->channels;
-        const image_color color =
-            frame->channels == 1 ? frame->palette.colors[*from] : (image_color){from[0], from[1], from[2]};
-        to[0] = color.r;
-        to[1] = color.g;
-        to[2] = color.b;
-        to[3] = 255;
-    }
+    const uint8_t *from = frame->pixels;
+    uint32_t words[256] = {0};
+    for (int i = 0; i < frame->palette.count; i++)
+        words[i] = rgba_word(frame->palette.colors[i]);
+    if (frame->channels == 1)
+        for (size_t i = 0; i < pixels; i++)
+            page.rgba[i] = words[from[i]];
+    else
+        for (size_t i = 0; i < pixels; i++, from += 3)
+            page.rgba[i] = rgba_word((image_color){from[0], from[1], from[2]});
 }
 
 /* Draw the tick as it is viewed: rows of 4 bytes a pixel, red first, from the top; null with the reason in web_text().
  */
-const uint8_t *web_draw(void)
+const uint32_t *web_draw(void)
 {
     playback *p = &page.playback;
     fails();

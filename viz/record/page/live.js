@@ -81,8 +81,8 @@ class Live {
     {
         try {
             const picture = this.engine.draw();
-            this.canvas.width = picture.width;
-            this.canvas.height = picture.height;
+            if (this.canvas.width !== picture.width || this.canvas.height !== picture.height)
+                Object.assign(this.canvas, {width: picture.width, height: picture.height}); /* which clears it */
             this.canvas.getContext("2d").putImageData(picture, 0, 0);
             this.canvas.dataset.tick = this.engine.tick;
             this.canvas.setAttribute("aria-label", `The picture of tick ${this.engine.tick}`);
