@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cli_play.c - octreel play: a session becomes a page that plays it, without a frame; and octreel record
  * --no-frames. */
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "commands.h"
 #include "fixture.h"
@@ -44,16 +46,27 @@ static char *assert_holds(const char *page, const char *part)
     return text;
 }
 
+/* A name in the folder of the test, which may lie below one with blanks and quotes. */
+static void assert_names_address(const char *said, const char *name)
+{
+    static const char begins[] = "octreel.html: 253 ticks; open it in a browser: file://";
+    char path[4096], encoded[3 * sizeof path], *to = encoded;
+    assert_non_null(getcwd(path, sizeof path));
+    for (const char *at = path; *at; at++)
+        to += sprintf(to, isalnum((unsigned char)*at) || strchr("/-._~", *at) ? "%c" : "%%%02X", (unsigned char)*at);
+    assert_memory_equal(said, begins, sizeof begins - 1);
+    said += sizeof begins - 1;
+    assert_memory_equal(said, encoded, strlen(encoded));
+    assert_true(said[strlen(encoded)] == '/' && strstr(said, name));
+}
+
 static void the_default_session_becomes_a_page(void **state)
 {
     need_pages_that_play();
     command_result result = play_in(*state, "");
     const place page = place_in(*state, "octreel.html");
     assert_done(&result);
-    command_result named =
-        run_script("echo \"octreel.html: 253 ticks; open it in a browser: file://$PWD/%s\"", page.path);
-    assert_string_equal(result.out, named.out);
-    command_release(&named);
+    assert_names_address(result.out, page.path);
     free(assert_holds(page.path, "{\"tick\":252,"));
     assert_int_equal(temp_folder_count(*state), 1);
     command_release(&result);
