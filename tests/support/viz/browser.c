@@ -96,6 +96,9 @@ static place write_driven_page(const char *page, const char *const scripts[])
     FILE *file = fopen(driven.path, "w");
     assert_non_null(file);
     fputs(text, file);
+    /* While a timer is due the browser's clock goes on by its steps. Without one it would run to its end at once where
+     * the page waits for what has no clock, as for a compiler or a file. */
+    fputs("<script>setInterval(() => {}, 1);</script>\n", file);
     for (size_t i = 0; scripts[i] != NULL; i++) {
         free(text);
         text = file_read(scripts[i], NULL);
