@@ -74,6 +74,7 @@ static uint64_t drive(const temp_folder *own, const place *page, uint64_t seed, 
     const uint64_t done = number_said(said, "inputs"), found = number_said(said, "findings");
     if (found > 0)
         printf("seed %" PRIu64 ", %" PRIu64 " inputs:%s", seed, done, strstr(said, "\nfinding "));
+    fflush(stdout);
     findings += found;
     free(said);
     return done;

@@ -88,6 +88,23 @@ async function sayRandom()
         await sayTick("again", random(octreel.last + 1));
 }
 
+/* What comes late finds that the page draws no longer, or other ticks. */
+async function leaveMeanwhile()
+{
+    await interaction.start();
+    const late = [interaction.zoom(2), interaction.turn(1, 1), interaction.pick()];
+    interaction.goBack();
+    await Promise.all(late);
+    await interaction.ask({nearest: [0, 0, 0]});
+    interaction.controls.change({labels: true});
+    await interaction.start();
+    octreel.goTo(octreel.last);
+    const opened = interaction.open(new File(['{"octreel": "session", "version": 1, "ticks": 3}'], "short.json"));
+    await until(() => octreel.recording !== interaction.recorded || octreel.last < 9, "the short session");
+    octreel.show();
+    await opened;
+}
+
 async function sayDropped(name, text, more = {})
 {
     const before = player(), file = new File([text], name);
@@ -122,6 +139,7 @@ async function drive()
     await sayAnswers();
     await sayTakenOver();
     await sayRandom();
+    await leaveMeanwhile();
     await sayDropped("frame.png", "\x89PNG\r\n");
     await sayDropped("newer.json", '{"octreel": "session", "version": 9}');
     await sayDropped("cut.json", '{"octreel": "session", "version": 1, "points": [[1, 2');

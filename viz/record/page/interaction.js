@@ -126,7 +126,7 @@ class Interaction {
     {
         if (this.controls)
             return;
-        this.controls = new ViewControls(byId("view-rows"), choices, changes => this.live.look(changes));
+        this.controls = new ViewControls(byId("view-rows"), choices, changes => this.live?.look(changes));
         this.form = new AskForm(byId("ask"), choices.queries, {ask: query => this.ask(query), forget: () => this.ask()});
     }
 
@@ -167,8 +167,8 @@ class Interaction {
         try {
             do {
                 await this.player.goTo(this.wanted);
-                await this.live.draw();
-            } while (this.player.engine.tick !== this.wanted);
+                await this.live?.draw();
+            } while (this.isLive && this.player.engine.tick !== this.wanted);
         } catch (error) {
             this.tell(error.message);
         }
@@ -196,19 +196,19 @@ class Interaction {
     async turn(dx, dy)
     {
         if (await this.start())
-            this.live.turnStep(dx, dy);
+            this.live?.turnStep(dx, dy);
     }
 
     async pick()
     {
         if (await this.start())
-            this.live.pickAt();
+            this.live?.pickAt();
     }
 
     async zoom(factor)
     {
         if (await this.start())
-            this.live.zoomStep(factor);
+            this.live?.zoomStep(factor);
     }
 
     /* ---- Taking over -------------------------------------------------------------------------------------------- */
@@ -281,6 +281,8 @@ class Interaction {
     /* Ask something else about this tick, or nothing. What is asked is answered in the picture and among the facts. */
     ask(query)
     {
+        if (!this.isLive)
+            return undefined;
         const {engine} = this.player;
         try {
             this.player.replay();
@@ -335,7 +337,7 @@ class Interaction {
         const held = new Set(); /* a click may end before the page has begun to draw */
         stage.addEventListener("pointerdown", event => {
             held.add(event.pointerId);
-            this.start().then(begun => begun && (held.has(event.pointerId) ? this.live.down(event) : this.live.pickAt(event)));
+            this.start().then(begun => begun && (held.has(event.pointerId) ? this.live?.down(event) : this.live?.pickAt(event)));
         });
         stage.addEventListener("pointermove", event => this.live?.drag(event));
         for (const end of ["pointerup", "pointercancel"])
@@ -347,7 +349,7 @@ class Interaction {
         stage.addEventListener("contextmenu", event => event.preventDefault());
         stage.addEventListener("wheel", event => {
             event.preventDefault();
-            this.start().then(begun => begun && this.live.wheel(event));
+            this.start().then(begun => begun && this.live?.wheel(event));
         }, {passive: false});
         document.addEventListener("dragover", event => event.preventDefault());
         document.addEventListener("drop", event => {

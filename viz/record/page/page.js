@@ -45,6 +45,7 @@ class Viewer {
     {
         const other = recording !== this.recording;
         this.recording = recording;
+        this.tick = Math.min(this.tick, this.last);
         byId("slider").max = byId("tick").max = byId("last").textContent = this.last;
         if (other)
             this.timeline.show(recording);
