@@ -148,7 +148,7 @@ async function drive()
     await sayDropped("huge.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 1e999]]}');
     await sayDropped("label.json", '{"octreel": "session", "version": 1, "shapes": [{"label": "\u202eabc", "at": [0, 0, 0]}]}');
     await sayDropped("a\u202egnp\n.json", "");
-    await sayDropped("binary", new Uint8Array(20 << 20));
+    await sayDropped("binary", new Uint8Array(4096), {size: {value: 200 << 20}});
     await sayDropped("large.json", "{", {size: {value: 300 << 20}});
     await sayDropped("folder", "{", {slice: {value: () => ({text: () => Promise.reject(new Error("no file"))})}});
     await sayDropped("ticks.json", '{"octreel": "session", "version": 1, "ticks": 1000000000, "keys": "ww"}');
