@@ -32,7 +32,8 @@ typedef struct camera {
     double near_depth, far_depth; /* the box's range of view depth, which is cut into bands */
 } camera;
 
-/* The camera of a tick, with the view's look, center and zoom in place of its own: it depends on nothing but the view, the world, the player and the number of the tick. */
+/* The camera of a tick, with the view's look, center and zoom in place of its own: it depends on nothing but the view,
+ * the world, the player and the number of the tick. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
 
 static inline double camera_dot(const double a[3], const double b[3])

@@ -339,9 +339,10 @@ octree_status octree_input_check(const octree_input *input);
 octree_status octree_game_advance(octree_game *game);
 
 /* Ask more about the tick that was played last, as though the session had asked it at the end of that tick: the answers
- * come after those that are there, and the visits and leaves take in theirs. What is played next is the same as without.
- * Errors: NULL_ARGUMENT, FLOAT_MODE, and those of octree_query_check, of which nothing is asked; NO_MEMORY, after which
- * the tick must not be read, nor the game stepped. Cost: that of the queries, and of the tick's visits and leaves. */
+ * come after those that are there, and the visits and leaves take in theirs. What is played next is the same as
+ * without. Errors: NULL_ARGUMENT, FLOAT_MODE, and those of octree_query_check, of which nothing is asked; NO_MEMORY,
+ * after which the tick must not be read, nor the game stepped. Cost: that of the queries, and of the tick's visits and
+ * leaves. */
 octree_status octree_game_ask(octree_game *game, const octree_query *queries, size_t count);
 
 /* True when the session has no further tick. */
