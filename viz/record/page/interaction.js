@@ -226,8 +226,9 @@ class Interaction {
             return;
         const {viewer, player} = this;
         viewer.pause();
-        while (!(await player.goTo(viewer.tick)) && player === this.player)
-            ; /* other calls want other ticks, or the same */
+        do /* while it goes there, another tick may be wanted */
+            await player.goTo(viewer.tick);
+        while (player === this.player && player.engine.tick !== Math.min(viewer.tick, player.length - 1));
         if (!this.isLive || player !== this.player)
             return;
         if (key === "q") {
