@@ -8,6 +8,7 @@ int cmd_record(int argc, char **argv);
 int cmd_play(int argc, char **argv);
 int cmd_join(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
+int cmd_audit(int argc, char **argv);
 int cmd_pick(int argc, char **argv);
 int cmd_inspect(int argc, char **argv);
 int cmd_diff(int argc, char **argv);

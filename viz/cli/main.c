@@ -20,6 +20,7 @@ static const command commands[] = {
     {"play", cmd_play, "make a page of a session that plays it in a browser, and films nothing"},
     {"join", cmd_join, "make a recording that was filmed in chunks whole"},
     {"verify", cmd_verify, "play a recording again: is it still what its session makes?"},
+    {"audit", cmd_audit, "judge what a program answered to queries: how much of it is wrong, and where"},
     {"pick", cmd_pick, "say what is drawn at a pixel of a frame"},
     {"inspect", cmd_inspect, "build a tree from a point cloud, draw its subdivision, print its statistics"},
     {"diff", cmd_diff, "compare two pictures, folders of them or recordings, exactly or within a tolerance"},

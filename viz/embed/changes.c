@@ -188,11 +188,16 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
     b->shapes = copy(b, about->shapes, about->shape_count, sizeof *about->shapes);
     if ((b->query_count && !b->queries) || (b->shape_count && !b->shapes))
         return false;
-    /* Files hold no more neighbours than a tree has points, at most. */
-    for (size_t i = 0; i < b->query_count; i++)
-        if (b->queries[i].k > UINT32_MAX)
-            b->queries[i].k = UINT32_MAX;
-    return true;
+    bool whole = true;
+    for (size_t i = 0; i < b->query_count; i++) {
+        octree_query *query = &b->queries[i];
+        query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
+        whole = whole && (query->answer || query->answer_count == 0);
+        /* Files hold no more neighbours than a tree has points, at most. */
+        if (query->k > UINT32_MAX)
+            query->k = UINT32_MAX;
+    }
+    return whole;
 }
 
 static bool find_changes(batch *b, const points *before, const points *after)
@@ -241,6 +246,8 @@ void batch_release(batch *b)
         return;
     free(b->gaps);
     free(b->changes);
+    for (size_t i = 0; b->queries && i < b->query_count; i++)
+        free((uint64_t *)b->queries[i].answer);
     free(b->queries);
     free(b->shapes);
     free(b);

@@ -271,6 +271,9 @@ static const char *fault_of(const octree_query *query)
             status = OCTREE_NOT_FINITE;
     if (status == OCTREE_OK && query->skip == OCTREE_SKIP_ID && query->skip_id >= SESSION_ID_LIMIT)
         return octreel_status_text(OCTREEL_BAD_ID);
+    for (size_t i = 0; status == OCTREE_OK && query->answered && i < query->answer_count; i++)
+        if (query->answer[i] >= SESSION_ID_LIMIT)
+            return octreel_status_text(OCTREEL_BAD_ID);
     if (status == OCTREE_BAD_OPTION)
         return "there is no such kind or no such skip; COINCIDENT needs a target, which a box has not";
     return status == OCTREE_OK ? NULL : octree_status_text(status);

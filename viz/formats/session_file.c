@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* session_file.c - session files: read, written, and sessions that own their arrays. */
 #include "session_file.h"
+#include "array.h"
 #include "file.h"
 #include "session_members.h"
 
@@ -26,6 +27,25 @@ static bool duplicate(const void **items, size_t count, size_t item_size)
     return copy || count == 0;
 }
 
+/* The ids that programs answered belong to their queries. */
+static void free_answers(const octree_query *queries, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        free((uint64_t *)queries[i].answer);
+}
+
+/* Of queries that were copied: copy their answers. */
+static bool duplicate_answers(octree_query *queries, size_t count)
+{
+    bool whole = true;
+    for (size_t i = 0; i < count; i++) {
+        const void *ids = queries[i].answer;
+        whole = duplicate(&ids, whole ? queries[i].answer_count : 0, sizeof *queries[i].answer) && whole;
+        queries[i].answer = ids;
+    }
+    return whole;
+}
+
 bool session_copy(const octree_session *from, session_file *out, octreel_error *error)
 {
     const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries, *shapes = from->shapes,
@@ -33,12 +53,14 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
     bool whole = duplicate(&bodies, from->body_count, sizeof *from->bodies);
     whole = duplicate(&edits, from->edit_count, sizeof *from->edits) && whole;
     whole = duplicate(&queries, from->query_count, sizeof *from->queries) && whole;
+    whole = (!queries || duplicate_answers((octree_query *)queries, from->query_count)) && whole;
     whole = duplicate(&shapes, from->shape_count, sizeof *from->shapes) && whole;
     whole = duplicate(&gaps, from->gap_count, sizeof *from->gaps) && whole;
     out->session = *from;
     out->session.bodies = bodies;
     out->session.edits = edits;
     out->session.queries = queries;
+    out->session.query_count = queries ? from->query_count : 0;
     out->session.shapes = shapes;
     out->session.gaps = gaps;
     out->session.keys = NULL;
@@ -65,6 +87,7 @@ void session_release(session_file *file)
     free((octree_body *)file->session.bodies);
     free((char *)file->session.keys);
     free((octree_edit *)file->session.edits);
+    free_answers(file->session.queries, file->session.query_count);
     free((octree_query *)file->session.queries);
     free((octree_shape *)file->session.shapes);
     free((octree_gap *)file->session.gaps);
@@ -125,12 +148,16 @@ static bool read_stream(json_reader *r)
 static bool append_standing(json_reader *r, int list, size_t item_size)
 {
     session_loader *s = r->context;
-    for (size_t i = 0; i < s->standing[list].count; i++) {
-        void *item = session_append(r, NULL, &s->lists[list], item_size);
-        if (!item)
-            return false;
-        memcpy(item, (const char *)s->standing[list].items + i * item_size, item_size);
-    }
+    session_list *to = &s->lists[list], *from = &s->standing[list];
+    if (from->count == 0)
+        return true;
+    char *items = array_reserve(to->items, to->count + from->count, &to->room, item_size);
+    if (!items)
+        return json_fail(r, NULL, "out of memory after %zu of them", to->count);
+    memcpy(items + to->count * item_size, from->items, from->count * item_size);
+    to->items = items;
+    to->count += from->count;
+    from->count = 0;
     return true;
 }
 
@@ -160,6 +187,7 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
                       append_standing(&r, SESSION_SHAPES, sizeof(octree_shape));
     *out = (session_file){.session = assemble(&loader)};
     memcpy(out->note, loader.note, sizeof out->note);
+    free_answers(loader.standing[SESSION_QUERIES].items, loader.standing[SESSION_QUERIES].count);
     for (int i = 0; i < SESSION_LISTS; i++)
         free(loader.standing[i].items);
     cloud_release(&loader.points);

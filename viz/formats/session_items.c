@@ -4,9 +4,10 @@
 #include "array.h"
 #include "session_members.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-#define MOST_OF_A_KIND 6
+#define MOST_OF_A_KIND 8
 
 /* What a list is of. */
 struct session_items {
@@ -112,6 +113,64 @@ static bool has_skip(const void *from)
     return ((const octree_query *)from)->skip != OCTREE_SKIP_NONE;
 }
 
+/* The ids that a program answered. The session owns them. */
+static bool read_answer(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_query *query = into;
+    if (!json_is_array(value))
+        return json_expected(r, value, at, "a list of ids");
+    const size_t count = json_array_size(value);
+    uint64_t *ids = malloc((count > 0 ? count : 1) * sizeof *ids);
+    if (!ids)
+        return json_fail(r, at, "out of memory for %zu ids", count);
+    query->answered = true;
+    query->answer = ids;
+    query->answer_count = count;
+    for (size_t i = 0; i < count; i++)
+        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, &ids[i]))
+            return false;
+    return true;
+}
+
+static void write_answer(json_writer *w, const void *from)
+{
+    const octree_query *query = from;
+    json_write_begin_array(w);
+    for (size_t i = 0; i < query->answer_count; i++)
+        json_write_integer(w, query->answer[i]);
+    json_write_end_array(w);
+}
+
+static bool is_answered(const void *from)
+{
+    return ((const octree_query *)from)->answered;
+}
+
+static const char *precision_name(int n)
+{
+    return octree_precision_name((octree_precision)n);
+}
+
+/* Read after the answer, of which it speaks. */
+static bool read_mode(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_query *query = into;
+    if (!query->answered)
+        return json_fail(r, at, "\"mode\" is what an \"answer\" promises, and there is none");
+    return json_choice.read(r, value, at, &query->precision);
+}
+
+static void write_mode(json_writer *w, const void *from)
+{
+    json_write_string(w, octree_precision_name(((const octree_query *)from)->precision));
+}
+
+static bool has_mode(const void *from)
+{
+    const octree_query *query = from;
+    return query->answered && query->precision != OCTREE_DOUBLES;
+}
+
 static bool is_above_zero(const void *from)
 {
     return *(const double *)from > 0;
@@ -139,6 +198,9 @@ static const json_member skip_member = {"skip", JSON_CODEC(read_skip, write_skip
 static const json_member epsilon_member = {"epsilon", JSON_CODEC(json_read_positive, json_write_double, is_above_zero),
                                            .offset = offsetof(octree_query, epsilon)};
 
+static const json_member answer_member = {"answer", JSON_CODEC(read_answer, write_answer, is_answered), .offset = 0};
+static const json_member mode_member = {"mode", JSON_CODEC(read_mode, write_mode, has_mode), .names = precision_name};
+
 /* The members that the kind reads, by its traits. A box without a target can be relative to the player. */
 static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
 {
@@ -155,7 +217,9 @@ static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
     if (about->members & OCTREE_QUERY_HAS_BOX && !(about->members & OCTREE_QUERY_HAS_TARGET))
         table[count++] = box_at_player;
     table[count++] = skip_member;
-    table[count] = epsilon_member;
+    table[count++] = epsilon_member;
+    table[count++] = answer_member;
+    table[count] = mode_member;
 }
 
 /* ---- Texts -------------------------------------------------------------------------------------------------- */

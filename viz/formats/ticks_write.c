@@ -149,6 +149,40 @@ static void write_neighbors(json_writer *w, const octree_answer *answer, bool se
     json_write_end_array(w);
 }
 
+static void write_all_points(json_writer *w, const char *key, const octree_point *points, size_t count)
+{
+    if (count == 0)
+        return;
+    json_write_key(w, key);
+    write_point_ids(w, points, count);
+}
+
+/* What a program answered, and how that is judged; nothing where none did. */
+static void write_judgement(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
+{
+    const octree_judgement *made = &answer->judgement;
+    if (!made->judged)
+        return;
+    json_member_begin_object(w, "judged");
+    json_member_begin_array(w, "answer");
+    for (size_t i = 0; i < made->given_count; i++)
+        json_write_integer(w, made->given[i]);
+    json_write_end_array(w);
+    if (answer->precision != OCTREE_DOUBLES)
+        json_member_text(w, "mode", octree_precision_name(answer->precision));
+    json_member_text(w, "wrong", octree_fault_name(made->fault));
+    if (made->fault && made->fault <= OCTREE_FAULT_SKIPPED)
+        json_member_integer(w, "id", made->fault_id);
+    json_member_integer(w, "expected", made->expected);
+    write_all_points(w, "missed", made->missed, made->missed_count);
+    write_all_points(w, "extra", made->extra, made->extra_count);
+    if (made->rank)
+        json_member_integer(w, "rank", made->rank);
+    if (about->neighbors)
+        json_member_number(w, "ratio", made->ratio);
+    json_write_end_object(w);
+}
+
 /* What was asked, by the members that the kind reads; and what was found. */
 static void write_answer(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
@@ -178,20 +212,25 @@ static void write_answer(json_writer *w, const octree_answer *answer, const octr
     }
     json_write_key(w, "cost");
     json_write_object(w, cost_members, &answer->cost);
+    write_judgement(w, answer, about);
+}
+
+void tick_write_answer(json_writer *w, const octree_answer *answer)
+{
+    const octree_query_traits *about = octree_query_about(answer->kind);
+    json_write_begin_object(w);
+    json_member_begin_object(w, about->name);
+    write_answer(w, answer, about);
+    json_write_end_object(w);
+    json_write_end_object(w);
 }
 
 static void write_answers(json_writer *w, const void *from)
 {
     const octree_tick *tick = from;
     json_write_begin_array(w);
-    for (size_t i = 0; i < tick->answer_count; i++) {
-        const octree_query_traits *about = octree_query_about(tick->answers[i].kind);
-        json_write_begin_object(w);
-        json_member_begin_object(w, about->name);
-        write_answer(w, &tick->answers[i], about);
-        json_write_end_object(w);
-        json_write_end_object(w);
-    }
+    for (size_t i = 0; i < tick->answer_count; i++)
+        tick_write_answer(w, &tick->answers[i]);
     json_write_end_array(w);
 }
 

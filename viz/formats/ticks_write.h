@@ -4,6 +4,7 @@
 #ifndef FORMATS_TICKS_WRITE_H
 #define FORMATS_TICKS_WRITE_H
 
+#include "json_write.h"
 #include "octree/game.h"
 
 #include <stdio.h>
@@ -17,6 +18,9 @@ typedef struct tick_extras {
 /* One JSON object and a newline. Where the collision test is swept it begins at "from", else there is none. Of a gap it
  * says the tick and why, and nothing else. Errors stay with the stream. */
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
+
+/* An answer as a line has it: an object with one member, by the name of its kind. */
+void tick_write_answer(json_writer *w, const octree_answer *answer);
 
 /* A digest as files have it: sixteen hexadecimal digits. Returns `text`. */
 #define DIGEST_TEXT 17

@@ -79,8 +79,8 @@ static void write_events(pen *p, const layer_source *in)
             strncat(words, octree_event_name(1u << i), sizeof words - strlen(words) - 1);
         }
     }
-    const bool stopped = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL);
-    const theme_role role = tick->hit_count ? ROLE_COLLISION : stopped ? ROLE_WARNING : ROLE_TEXT;
+    const bool warns = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL | OCTREE_EVENT_WRONG);
+    const theme_role role = tick->hit_count ? ROLE_COLLISION : warns ? ROLE_WARNING : ROLE_TEXT;
     write_line(p, MARGIN, role, words[0] ? words : quiet_word(in));
 }
 

@@ -133,7 +133,8 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     report_left_out(out, summary);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
+        if (1u << i != OCTREE_EVENT_WRONG || summary->events[i]) /* of a session without answers it would only puzzle */
+            fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     putc('\n', out);
     if (summary->refusals)
         fprintf(out,

@@ -30,7 +30,7 @@
     X(RADIUS, "radius", 140, 250, 185)                                                                                 \
     X(KNEAREST, "knearest", 180, 152, 255)                                                                             \
     X(NEAREST, "nearest", 255, 172, 222)                                                                               \
-    X(WARNING, "warning", 240, 190, 90) /* refused, full: beside its word */                                           \
+    X(WARNING, "warning", 240, 190, 90) /* refused, full, wrong: beside its word */                                    \
     X(NODE, "node", 84, 98, 150)        /* the root; the rows below are the depths 1 to 9 */                           \
     X(NODE_1, "node-1", 74, 110, 168)                                                                                  \
     X(NODE_2, "node-2", 62, 122, 176)                                                                                  \

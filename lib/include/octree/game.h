@@ -103,6 +103,15 @@ const char *octree_query_name(octree_query_kind kind);
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
+/* Which positions a program's answer is right for: those of the points and of the query as they are, or all of them
+ * rounded to the nearest float first, each coordinate, bound and radius by itself (the last finite float beyond those).
+ * FLOATS is for an index that holds floats and is exact for them. One that computes in floats too errs by some 4e-7 of
+ * a distance beyond that: an epsilon says so. */
+typedef enum octree_precision { OCTREE_DOUBLES, OCTREE_FLOATS, OCTREE_PRECISIONS } octree_precision;
+
+/* "double", "float". Null from OCTREE_PRECISIONS on. */
+const char *octree_precision_name(octree_precision precision);
+
 /* A question asked at the end of a tick, of the tree as it then is. The player is no neighbour of itself; boxes and
  * balls have it as they have every other point. What is asked at the player is not asked in a tick without one. */
 typedef struct octree_query {
@@ -117,6 +126,10 @@ typedef struct octree_query {
                          target, which a box has not; NONE leaves it at that */
     uint64_t skip_id; /* read under OCTREE_SKIP_ID alone */
     double epsilon; /* as that of octree_search: finite, >= 0, a ratio for neighbours and a length for a box or ball */
+    bool answered;  /* a program answered it: a game judges that by the true answer, and its own then has no epsilon */
+    octree_precision precision; /* answered: what the program promises, and within epsilon */
+    const uint64_t *answer;     /* answered: the ids that it named, in any order; null for none */
+    size_t answer_count;
 } octree_query;
 
 typedef enum octree_shape_kind {
@@ -203,9 +216,10 @@ typedef enum octree_event {
     OCTREE_EVENT_FULL = 8,     /* a leaf was full: the player's step was taken back, or a body was refused */
     OCTREE_EVENT_SPLIT = 16,   /* nodes became inner nodes */
     OCTREE_EVENT_MERGED = 32,  /* nodes ceased to be inner nodes */
+    OCTREE_EVENT_WRONG = 64,   /* a program's answer to a query was wrong */
 } octree_event;
 
-#define OCTREE_EVENT_KINDS 6
+#define OCTREE_EVENT_KINDS 7
 
 /* The name of one event, such as "moved". Null for all else: for none, for several, for an unknown bit. */
 const char *octree_event_name(octree_event event);
@@ -217,6 +231,46 @@ typedef struct octree_refusal {
     octree_status why;
     double position[3]; /* where it was to go; 0 for an edit that removes */
 } octree_refusal;
+
+/* What is wrong with a program's answer: the first of these that is. */
+typedef enum octree_fault {
+    OCTREE_FAULT_NONE,
+    OCTREE_FAULT_UNKNOWN,   /* it names an id that no point has at that tick: of one that was removed, perhaps */
+    OCTREE_FAULT_DUPLICATE, /* it names a point twice */
+    OCTREE_FAULT_SKIPPED,   /* it names a point that the query leaves out */
+    OCTREE_FAULT_COUNT,     /* neighbours: they are more or fewer than k, or than there are */
+    OCTREE_FAULT_FARTHER,   /* neighbours: one is farther than the true one of its rank */
+    OCTREE_FAULT_MISSED,    /* box, ball: a point in it is not named */
+    OCTREE_FAULT_EXTRA,     /* box, ball: a point is named that is outside */
+    OCTREE_FAULTS
+} octree_fault;
+
+/* "none", "unknown", "duplicate", "skipped", "count", "farther", "missed", "extra". Null from OCTREE_FAULTS on. */
+const char *octree_fault_name(octree_fault fault);
+
+/* A program's answer, judged by the true one. Points in a box or ball are compared one by one. Neighbours are ranked by
+ * their distances, whatever their order in the answer, and compared rank by rank: at the same real distance any point
+ * is right. All of that is decided by the real numbers. With epsilon a box is moved out by it, a ball's radius is the
+ * sum rounded up, and a neighbour is wrong where it is surely more than 1 + epsilon times as far as the true one:
+ * within 2^-46 of that ratio none is accused. What no promise allows is then listed, and what is missing by the true
+ * answer. */
+typedef struct octree_judgement {
+    bool judged; /* false: no program answered, and all else is 0 */
+    octree_fault fault;
+    uint64_t fault_id;     /* UNKNOWN, DUPLICATE, SKIPPED: the lowest such id */
+    const uint64_t *given; /* the ids that the program named, as it did */
+    size_t given_count;
+    size_t expected;            /* points of the true answer */
+    const octree_point *missed; /* points of the true answer that no answer may lack; boxes, balls: by id, neighbours:
+                                   by distance */
+    size_t missed_count;        /* recall is 1 - missed_count / expected */
+    const octree_point *extra;  /* points that were named and no answer may have, by id or distance; not those of
+                                   UNKNOWN and SKIPPED */
+    size_t extra_count;
+    size_t rank;  /* neighbours: the first that is wrong, the nearest is 1; 0: none */
+    double ratio; /* neighbours: how many times as far as the true one of its rank one of them is, at worst; 1 where all
+                     are as near, infinite where the true one is at the target */
+} octree_judgement;
 
 typedef struct octree_answer {
     octree_query_kind kind;
@@ -232,19 +286,21 @@ typedef struct octree_answer {
     const octree_neighbor *neighbors; /* nearest, k nearest: the result, by distance and then by id */
     size_t count;                     /* of points or neighbours; nearest: 0 or 1 */
     octree_cost cost;
+    octree_precision precision;
+    octree_judgement judgement; /* in a game, of a query that was answered */
 } octree_answer;
 
-/* Whether a query can be asked. Errors: NULL_ARGUMENT; BAD_OPTION for its kind, and for its skip where there is none
- * such or no target to coincide with; NOT_FINITE (of a box: NaN), BAD_RANGE, BAD_SIZE and FLOAT_MODE for epsilon and
- * the members that its kind reads. Its tick is not read. */
+/* Whether a query can be asked. Errors: NULL_ARGUMENT, also for an answer without its ids; BAD_OPTION for its kind and
+ * precision, and for its skip where there is none such or no target to coincide with; NOT_FINITE (of a box: NaN),
+ * BAD_RANGE, BAD_SIZE and FLOAT_MODE for epsilon and the members that its kind reads. Its tick is not read. */
 octree_status octree_query_check(const octree_query *query);
 
 /* Answer a query outside of a game. `player` is the place that at_player refers to, and may be null where that is
  * false; `how` may be null; where the query has no skip or no epsilon, that of `how` decides which points are
- * neighbours, and how near to the truth the answer is. The cost is that of answer->cost, and how->cost is not read.
- * Release the answer with octree_answer_release. Errors: those of octree_query_check, and NULL_ARGUMENT, NO_MEMORY and
- * what octree_range_search says of `how`; the answer is then empty. The memory is the tree's allocator's, which must
- * then be safe to use from this thread. */
+ * neighbours, and how near to the truth the answer is. What a program answered is not judged. The cost is that of
+ * answer->cost, and how->cost is not read. Release the answer with octree_answer_release. Errors: those of
+ * octree_query_check, and NULL_ARGUMENT, NO_MEMORY and what octree_range_search says of `how`; the answer is then
+ * empty. The memory is the tree's allocator's, which must then be safe to use from this thread. */
 octree_status octree_query_answer(const octree *tree, const octree_query *query, const double player[3],
                                   const octree_search *how, octree_answer *answer);
 void octree_answer_release(const octree *tree, octree_answer *answer);

@@ -10,7 +10,8 @@
 
 const char *octree_event_name(octree_event event)
 {
-    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full", "split", "merged"};
+    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full",
+                                                          "split", "merged",  "wrong"};
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         if (event == 1u << i)
             return names[i];

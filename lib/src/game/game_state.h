@@ -4,6 +4,7 @@
 #define OCTREE_GAME_STATE_H
 
 #include "bodies.h"
+#include "judge.h"
 #include "tree_summary.h"
 
 /* The lists that a tick shows: as in octree_tick, their counts there, and their items. */
@@ -18,12 +19,17 @@
     X(shapes, shape_count, octree_shape)                                                                               \
     X(movers, mover_count, octree_body)
 
-/* And those after them: where each hit was, when swept; the points and the neighbours of all answers. */
+/* And those after them: where each hit was, when swept; the points and the neighbours of all answers; of those that are
+ * judged the ids given, and the points missed and extra, and room for judging one. */
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \
     X(found, none, octree_point)                                                                                       \
-    X(near, none, octree_neighbor)
+    X(near, none, octree_neighbor)                                                                                     \
+    X(given, none, uint64_t)                                                                                           \
+    X(accused, none, octree_point)                                                                                     \
+    X(named, none, judged_point)                                                                                       \
+    X(truth, none, judged_point)
 
 struct octree_game {
     const octree_session *session;

@@ -22,6 +22,13 @@ const char *octree_query_name(octree_query_kind kind)
     return about ? about->name : NULL;
 }
 
+static octree_status check_answer(const octree_query *query)
+{
+    if (!query->answer && query->answer_count)
+        return OCTREE_NULL_ARGUMENT;
+    return (unsigned)query->precision < OCTREE_PRECISIONS ? OCTREE_OK : OCTREE_BAD_OPTION;
+}
+
 octree_status octree_query_check(const octree_query *query)
 {
     if (!query)
@@ -39,6 +46,8 @@ octree_status octree_query_check(const octree_query *query)
         status = check_box(&query->box);
     if (status == OCTREE_OK && has_target && !query->at_player)
         status = check_finite(query->target);
+    if (status == OCTREE_OK && query->answered)
+        status = check_answer(query);
     return status;
 }
 
@@ -116,7 +125,8 @@ static octree_answer pose(const octree_query *query, const double player[3])
                             .radius = query->radius,
                             .skip = query->skip,
                             .skip_id = query->skip_id,
-                            .epsilon = query->epsilon};
+                            .epsilon = query->epsilon,
+                            .precision = query->answered ? query->precision : OCTREE_DOUBLES};
     memcpy(answer.target, query->at_player ? player : query->target, sizeof answer.target);
     for (int i = 0; query->at_player && i < 3; i++) {
         answer.box.min[i] += player[i];
@@ -141,7 +151,9 @@ static octree_status ask(asking *a, const octree_query *query, const double play
         a->how.skip = query->skip;
         a->how.skip_id = query->skip_id;
     }
-    if (query->epsilon > 0)
+    if (query->answered)
+        a->how.epsilon = 0; /* it is the program's, which is judged by the truth */
+    else if (query->epsilon > 0)
         a->how.epsilon = query->epsilon;
     octree_status status = functions[query->kind](a, answer);
     if (a->points.failed)
@@ -213,9 +225,23 @@ static octree_status ask_in_game(octree_game *game, const octree_query *query, b
     asking a = {game->tree, game_search(game, NULL), {&game->memory, &game->found, false}, &game->near, NULL};
     a.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     a.how.skip_id = game->session->player.id;
-    const octree_status status = ask(&a, query, game->tick.player, answer);
+    const size_t points = game->found.count, neighbors = game->near.count;
+    octree_status status = ask(&a, query, game->tick.player, answer);
     answer->by_key = by_key;
     game->tick.asked |= 1u << query->kind;
+    if (status != OCTREE_OK || !query->answered)
+        return status;
+    const bool near = octree_query_about(query->kind)->neighbors;
+    const judging j = {.game = game,
+                       .query = query,
+                       .answer = answer,
+                       .points = near ? NULL : (const octree_point *)game->found.items + points,
+                       .neighbors = near ? (const octree_neighbor *)game->near.items + neighbors : NULL,
+                       .skip = near ? a.how.skip : query->skip,
+                       .skip_id = near ? a.how.skip_id : query->skip_id};
+    status = judge(&j, &answer->judgement);
+    if (answer->judgement.fault)
+        game->tick.events |= OCTREE_EVENT_WRONG;
     return status;
 }
 
@@ -251,6 +277,7 @@ static void assign_results(octree_game *game)
             points += answer->count;
         }
     }
+    judge_assign(game);
 }
 
 /* ---- What a tick's searches met ----------------------------------------------------------------------------- */

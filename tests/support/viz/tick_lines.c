@@ -95,7 +95,8 @@ static void assert_addresses(const json_t *list, const octree_address *addresses
 /* The names are the header's, in the order of their bits. */
 static void assert_events(const json_t *list, unsigned events)
 {
-    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full", "split", "merged"};
+    static const char *const names[OCTREE_EVENT_KINDS] = {"moved", "refused", "collided", "full",
+                                                          "split", "merged",  "wrong"};
     size_t at = 0;
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         if ((events & 1u << i) != 0)

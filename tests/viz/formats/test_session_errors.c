@@ -66,6 +66,25 @@ static void text_that_is_no_stream_of_objects_is_refused(void **state)
     assert_refuses_each(rows, sizeof rows / sizeof *rows);
 }
 
+static void answers_that_are_no_ids_are_refused(void **state)
+{
+    static const refusal rows[] = {
+        {HEADER "\"queries\":[{\"nearest\":[0,0,0],\n\"answer\":17}]}", "3: queries[0].answer: expected a list of ids"},
+        {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"answer\":[]},{\"nearest\":[0,0,0],\n\"answer\":[1,\n-2]}]}",
+         "4: queries[1].answer[1]: expected a whole number from 0 to"},
+        {HEADER "\"ticks\":1}\n{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1,\"a\"]}]}",
+         "3: queries[0].answer[1]: expected a whole number"},
+        {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1],\"mode\":\"half\"}]}", "2: queries[0].mode: "},
+        {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"mode\":\"float\"}]}",
+         "2: queries[0].mode: \"mode\" is what an \"answer\" promises, and there is none"},
+        {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1]}]}\n{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0],"
+                "\"answer\":[1]}]}\n{\"tick\":1}",
+         "4: tick: tick 1 comes after tick 1"},
+    };
+    (void)state;
+    assert_refuses_each(rows, sizeof rows / sizeof *rows);
+}
+
 static void nul_bytes_are_refused(void **state)
 {
     static const char text[] = HEADER "\"ticks\":1}\n\0\n";
@@ -325,6 +344,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_that_is_no_stream_of_objects_is_refused),
+        cmocka_unit_test(answers_that_are_no_ids_are_refused),
         cmocka_unit_test(nul_bytes_are_refused),
         cmocka_unit_test(shapes_that_are_none_are_refused),
         cmocka_unit_test(every_beginning_of_a_session_is_refused),

@@ -82,6 +82,10 @@ static void it_tells_of_every_member_and_kind(void **state)
     assert_says(text, "skip");
     assert_says(text, "coincident");
     assert_says(text, "epsilon");
+    assert_says(text, "answer");
+    assert_says(text, "mode");
+    for (int precision = 0; precision < OCTREE_PRECISIONS; precision++)
+        assert_says(text, octree_precision_name((octree_precision)precision));
     for (int kind = 0; kind < OCTREE_SHAPE_KINDS; kind++)
         assert_says(text, octree_shape_name((octree_shape_kind)kind));
     for (int kind = 0; kind < OCTREE_SAMPLE_KINDS; kind++)

@@ -91,6 +91,11 @@ static void assert_same_query(const octree_query *a, const octree_query *b)
     if (a->skip == OCTREE_SKIP_ID)
         assert_int_equal(a->skip_id, b->skip_id);
     assert_memory_equal(&a->epsilon, &b->epsilon, sizeof a->epsilon);
+    assert_true(a->answered == b->answered && a->answer_count == b->answer_count);
+    if (a->answered)
+        assert_int_equal(a->precision, b->precision);
+    if (a->answer_count > 0)
+        assert_memory_equal(a->answer, b->answer, a->answer_count * sizeof *a->answer);
 }
 
 static void assert_same_session(const octree_session *a, const octree_session *b)
@@ -145,6 +150,39 @@ static void skips_and_epsilons_survive_the_round_trip(void **state)
     session.queries = queries;
     session.query_count = sizeof queries / sizeof queries[0];
     assert_round_trip(&session);
+}
+
+static void answers_survive_the_round_trip(void **state)
+{
+    static const uint64_t ids[] = {7, 0, (UINT64_C(1) << 53) - 1, 7};
+    static const octree_query queries[] = {
+        {.kind = OCTREE_QUERY_RANGE, .answered = true},
+        {.kind = OCTREE_QUERY_NEAREST, .answered = true, .answer = ids, .answer_count = 4, .epsilon = 0.5},
+        {.tick = 4,
+         .kind = OCTREE_QUERY_RADIUS,
+         .answered = true,
+         .precision = OCTREE_FLOATS,
+         .answer = ids,
+         .answer_count = 1},
+        {.tick = OCTREE_EVERY_TICK,
+         .kind = OCTREE_QUERY_KNEAREST,
+         .k = 2,
+         .at_player = true,
+         .answered = true,
+         .answer = ids,
+         .answer_count = 2},
+    };
+    octree_session session = octree_session_default();
+    octreel_error error;
+    session_file copy;
+    (void)state;
+    session.queries = queries;
+    session.query_count = sizeof queries / sizeof queries[0];
+    assert_round_trip(&session);
+    assert_true(session_copy(&session, &copy, &error));
+    assert_same_session(&session, &copy.session);
+    assert_true(copy.session.queries[1].answer != ids);
+    session_release(&copy);
 }
 
 static void shapes_survive_the_round_trip(void **state)
@@ -385,6 +423,7 @@ int main(void)
         cmocka_unit_test(neighbours_beyond_what_a_tree_holds_are_written_clamped),
         cmocka_unit_test(default_session_survives_the_round_trip),
         cmocka_unit_test(skips_and_epsilons_survive_the_round_trip),
+        cmocka_unit_test(answers_survive_the_round_trip),
         cmocka_unit_test(shapes_survive_the_round_trip),
         cmocka_unit_test(players_of_every_kind_survive_the_round_trip),
         cmocka_unit_test(random_sessions_survive_the_round_trip),

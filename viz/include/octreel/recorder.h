@@ -111,6 +111,7 @@ octreel_recorder_def octreel_recorder_def_default(void);
  * The recorder asks the queries itself: at the end of the tick, of the tree as it is handed over, with each query's
  * `skip` and `epsilon` and in the exact mode. So its answers are the program's own where that asked the same after its
  * last change of the tick; what was asked before shows in a tick of its own, handed over before the tree is changed.
+ * What a query says that the program answered is copied, and judged by the true answer.
  * A point in a frame is the tree's; a shape is what else there is: walls, goals, somebody else's tree. */
 typedef struct octreel_tick_info {
     const octree_query *queries; /* in any order; all numbers finite */

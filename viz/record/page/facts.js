@@ -11,7 +11,8 @@ const CURVES = [
     ["visits.visited", "visits"],
 ];
 
-/* The events and their signs, in the order of octree_event. */
+/* The events and their signs, in the order of octree_event. One that is rare comes last, has no key, and has a lane only
+ * where there is one. */
 const EVENTS = [
     ["moved", "→"],
     ["refused", "⊘"],
@@ -19,6 +20,7 @@ const EVENTS = [
     ["full", "■"],
     ["split", "⊞"],
     ["merged", "⊟"],
+    ["wrong", "≠", "rare"],
 ];
 
 const MOVED = 1;

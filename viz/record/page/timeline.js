@@ -115,7 +115,8 @@ class Timeline {
         for (const lane of this.lanes)
             for (const part of [lane.label, lane.canvas, lane.shown])
                 part.remove();
-        this.lanes = [...EVENTS.map((event, i) => this.eventLane(event, 1 << i)),
+        const shown = ([, , rare], i) => !rare || recording.count(1 << i);
+        this.lanes = [...EVENTS.flatMap((event, i) => shown(event, i) ? [this.eventLane(event, 1 << i)] : []),
                       ...recording.curves.map(curve => this.curveLane(curve))];
         this.lanes.forEach((lane, i) => this.place(lane, i + 2));
         this.scrub.style.gridRow = `2 / span ${this.lanes.length}`;

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT */
+/* What a program answered, judged in a game: each fault by itself. */
+#include "fixture.h"
+#include "octree/game.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PLAYER 5000
+
+static const octree_body few[] = {{.id = 1, .position = {1, 0, 0}},  {.id = 2, .position = {0, 2, 0}},
+                                  {.id = 3, .position = {-2, 0, 0}}, {.id = 4, .position = {3, 0, 0}},
+                                  {.id = 5, .position = {0, 0, 4}},  {.id = 6, .position = {0, 0, 0}}};
+
+/* The judgement of one answer, about the points above and a player far off; the arrays are good until the next. */
+static octree_game *last_game;
+
+static octree_judgement judge_one(octree_query q, const uint64_t *ids, size_t count)
+{
+    q.tick = 0;
+    q.answered = true;
+    q.answer = ids;
+    q.answer_count = count;
+    octree_session session = {.tree = define(cube(-10, 10), 2, 5, OCTREE_GROW),
+                              .player = {.id = PLAYER, .position = {9, 9, 9}},
+                              .bodies = few,
+                              .body_count = sizeof few / sizeof few[0],
+                              .queries = &q,
+                              .query_count = 1};
+    octree_game_destroy(last_game);
+    assert_int_equal(octree_game_create(&session, &last_game), OCTREE_OK);
+    const octree_tick *tick = octree_game_tick(last_game);
+    const octree_judgement made = tick->answers[0].judgement;
+    assert_int_equal((tick->events & OCTREE_EVENT_WRONG) != 0, made.fault != OCTREE_FAULT_NONE);
+    assert_memory_equal(made.given, ids, count * sizeof *ids);
+    return made;
+}
+
+#define IDS(...) (const uint64_t[]){__VA_ARGS__}, sizeof((const uint64_t[]){__VA_ARGS__}) / sizeof(uint64_t)
+
+static const octree_query three = {.kind = OCTREE_QUERY_KNEAREST, .target = {0, 0, 0}, .k = 3};
+static const octree_query ball = {.kind = OCTREE_QUERY_RADIUS, .target = {0, 0, 0}, .radius = 2};
+static const octree_query box = {.kind = OCTREE_QUERY_RANGE, .box = {{-2, -2, -2}, {2, 2, 2}}};
+
+static void ties_are_right_in_any_order(void **state)
+{
+    (void)state;
+    assert_int_equal(judge_one(three, IDS(6, 1, 2)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(three, IDS(3, 6, 1)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(ball, IDS(3, 6, 1, 2)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(box, IDS(1, 2, 6, 3)).fault, OCTREE_FAULT_NONE);
+}
+
+static void every_fault_has_its_reason(void **state)
+{
+    (void)state;
+    octree_judgement j = judge_one(three, IDS(6, 1, 99, 77));
+    assert_true(j.fault == OCTREE_FAULT_UNKNOWN && j.fault_id == 77);
+    j = judge_one(three, IDS(6, 1, 1));
+    assert_true(j.fault == OCTREE_FAULT_DUPLICATE && j.fault_id == 1 && j.missed_count == 1 && j.missed[0].id == 2);
+    j = judge_one(three, IDS(6, 1));
+    assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 3 && j.missed_count == 1 && j.missed[0].id == 2);
+    j = judge_one(three, IDS(6, 1, 2, 3));
+    assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 4 && j.missed_count == 0 && j.ratio == 1);
+    j = judge_one(three, IDS(6, 2, 3));
+    assert_true(j.fault == OCTREE_FAULT_FARTHER && j.rank == 2 && j.ratio == 2 && j.missed_count == 1);
+    assert_true(j.missed[0].id == 1 && j.extra_count == 0 && j.expected == 3);
+    j = judge_one(three, IDS(6, 1, 4));
+    assert_true(j.rank == 3 && j.ratio == 1.5 && j.extra_count == 1 && j.extra[0].id == 4 && j.missed[0].id == 2);
+    j = judge_one(three, IDS(1, 2, 3));
+    assert_true(j.rank == 1 && isinf(j.ratio) && j.missed_count == 1 && j.missed[0].id == 6);
+    j = judge_one(ball, IDS(6, 1, 2));
+    assert_true(j.fault == OCTREE_FAULT_MISSED && j.missed_count == 1 && j.missed[0].id == 3 && j.expected == 4);
+    j = judge_one(box, IDS(6, 1, 2, 3, 4));
+    assert_true(j.fault == OCTREE_FAULT_EXTRA && j.extra_count == 1 && j.extra[0].id == 4);
+    j = judge_one(box, NULL, 0);
+    assert_true(j.fault == OCTREE_FAULT_MISSED && j.missed_count == 4);
+    octree_query q = three;
+    q.skip = OCTREE_SKIP_COINCIDENT;
+    j = judge_one(q, IDS(6, 1, 2));
+    assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == 6);
+    assert_int_equal(judge_one(q, IDS(1, 2, 3)).fault, OCTREE_FAULT_NONE);
+    q.at_player = true;
+    q.skip = OCTREE_SKIP_NONE;
+    j = judge_one(q, IDS(PLAYER, 4, 2));
+    assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == PLAYER);
+}
+
+/* Judged by the truth, whose own answer has no epsilon then. */
+static void a_promise_with_epsilon_is_held_to_it(void **state)
+{
+    (void)state;
+    octree_query q = three;
+    q.epsilon = 0.5;
+    octree_judgement j = judge_one(q, IDS(6, 1, 4));
+    assert_true(j.fault == OCTREE_FAULT_NONE && j.ratio == 1.5 && j.rank == 0 && j.missed_count == 0);
+    assert_int_equal(octree_game_tick(last_game)->answers[0].neighbors[2].point.id, 2);
+    assert_int_equal(judge_one(q, IDS(6, 4, 2)).fault, OCTREE_FAULT_FARTHER);
+    assert_int_equal(judge_one(q, IDS(1, 2, 3)).fault, OCTREE_FAULT_FARTHER);
+    q = ball;
+    q.epsilon = 1;
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 5)).fault, OCTREE_FAULT_EXTRA);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 4)).fault, OCTREE_FAULT_MISSED);
+    q = box;
+    q.epsilon = 1;
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_NONE);
+    q.epsilon = next_down(1);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_EXTRA);
+}
+
+/* Else a promise would be judged by what is no truth. */
+static void what_judges_has_no_epsilon(void **state)
+{
+    (void)state;
+    for (int x = -9; x <= 9; x++)
+        for (int y = -9; y <= 9; y += 3) {
+            const octree_query q = {.kind = OCTREE_QUERY_NEAREST, .target = {x, y, 0.25}, .epsilon = 9};
+            octree_query exact = q;
+            exact.epsilon = 0;
+            judge_one(exact, IDS(1));
+            const double distance = octree_game_tick(last_game)->answers[0].neighbors[0].distance;
+            judge_one(q, IDS(1));
+            assert_true(octree_game_tick(last_game)->answers[0].neighbors[0].distance == distance);
+        }
+}
+
+static void answers_that_cannot_be_judged_are_refused(void **state)
+{
+    (void)state;
+    octree_query q = three;
+    q.answered = true;
+    q.answer_count = 1;
+    assert_int_equal(octree_query_check(&q), OCTREE_NULL_ARGUMENT);
+    q.answer_count = 0;
+    q.precision = OCTREE_PRECISIONS;
+    assert_int_equal(octree_query_check(&q), OCTREE_BAD_OPTION);
+    q.precision = OCTREE_FLOATS;
+    assert_int_equal(octree_query_check(&q), OCTREE_OK);
+}
+
+/* Floats end long before doubles do. */
+static void floats_are_judged_in_worlds_beyond_them(void **state)
+{
+    (void)state;
+    const octree_body far[] = {{.id = 1, .position = {1e300, 0, 0}},
+                               {.id = 2, .position = {1e100, 0, 0}},
+                               {.id = 3, .position = {-1e308, 1e308, 1e308}},
+                               {.id = 4, .position = {1e-320, 0, 0}}};
+    const uint64_t tied[] = {1, 4}, not [] = {3, 1};
+    const octree_query queries[] = {{.kind = OCTREE_QUERY_KNEAREST,
+                                     .target = {1e200, 0, 0},
+                                     .k = 1,
+                                     .answered = true,
+                                     .precision = OCTREE_FLOATS,
+                                     .answer = tied,
+                                     .answer_count = 1},
+                                    {.kind = OCTREE_QUERY_KNEAREST,
+                                     .target = {0, 0, 0},
+                                     .k = 2,
+                                     .answered = true,
+                                     .precision = OCTREE_FLOATS,
+                                     .answer = tied,
+                                     .answer_count = 2},
+                                    {.kind = OCTREE_QUERY_KNEAREST,
+                                     .target = {0, 0, 0},
+                                     .k = 2,
+                                     .answered = true,
+                                     .precision = OCTREE_FLOATS,
+                                     .answer = not,
+                                     .answer_count = 2}};
+    const octree_session session = {.tree = define(cube(-1.5e308, 1.5e308), 2, 21, OCTREE_GROW),
+                                    .player.kind = OCTREE_PLAYER_NONE,
+                                    .bodies = far,
+                                    .body_count = 4,
+                                    .queries = queries,
+                                    .query_count = 3};
+    octree_game *game;
+    assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
+    const octree_tick *tick = octree_game_tick(game);
+    assert_int_equal(tick->answers[0].judgement.fault, OCTREE_FAULT_NONE);
+    assert_int_equal(tick->answers[1].judgement.fault, OCTREE_FAULT_NONE);
+    assert_int_equal(tick->answers[2].judgement.fault, OCTREE_FAULT_FARTHER);
+    octree_game_destroy(game);
+}
+
+static void names_are_those_of_files(void **state)
+{
+    (void)state;
+    assert_string_equal(octree_fault_name(OCTREE_FAULT_NONE), "none");
+    assert_string_equal(octree_fault_name(OCTREE_FAULT_EXTRA), "extra");
+    assert_null(octree_fault_name(OCTREE_FAULTS));
+    assert_string_equal(octree_precision_name(OCTREE_FLOATS), "float");
+    assert_null(octree_precision_name(OCTREE_PRECISIONS));
+    assert_string_equal(octree_event_name(OCTREE_EVENT_WRONG), "wrong");
+}
+
+static int forget_game(void **state)
+{
+    (void)state;
+    octree_game_destroy(last_game);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ties_are_right_in_any_order),
+        cmocka_unit_test(every_fault_has_its_reason),
+        cmocka_unit_test(a_promise_with_epsilon_is_held_to_it),
+        cmocka_unit_test(what_judges_has_no_epsilon),
+        cmocka_unit_test(answers_that_cannot_be_judged_are_refused),
+        cmocka_unit_test(floats_are_judged_in_worlds_beyond_them),
+        cmocka_unit_test(names_are_those_of_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, forget_game);
+}
