@@ -172,7 +172,7 @@ static void write_judgement(json_writer *w, const octree_answer *answer, const o
         json_member_text(w, "mode", octree_precision_name(answer->precision));
     json_member_text(w, "wrong", octree_fault_name(made->fault));
     if (made->fault && made->fault <= OCTREE_FAULT_SKIPPED)
-        json_member_integer(w, "id", made->fault_id);
+        json_member_integer(w, "wrong_id", made->fault_id);
     json_member_integer(w, "expected", made->expected);
     write_all_points(w, "missed", made->missed, made->missed_count);
     write_all_points(w, "extra", made->extra, made->extra_count);

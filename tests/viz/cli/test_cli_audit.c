@@ -101,7 +101,7 @@ static void recordings_keep_answers_and_judgements(void **state)
                            "\"judged\": {\"answer\": [3], \"wrong\": \"farther\", \"expected\": 1, \"missed\": [1], "
                            "\"extra\": [3], \"rank\": 1, \"ratio\": 3.605551275463989}"));
     assert_non_null(strstr(ticks,
-                           "\"judged\": {\"answer\": [1, 2], \"wrong\": \"unknown\", \"id\": 2, \"expected\": 2, "
+                           "\"judged\": {\"answer\": [1, 2], \"wrong\": \"unknown\", \"wrong_id\": 2, \"expected\": 2, "
                            "\"missed\": [3]}"));
     assert_non_null(strstr(ticks, "\"judged\": {\"answer\": [3, 2, 1], \"wrong\": \"none\", \"expected\": 3}"));
     free(ticks);
@@ -111,6 +111,25 @@ static void recordings_keep_answers_and_judgements(void **state)
     result = run_octreel(NULL, "audit %s", folder.path);
     assert_int_equal(result.status, 1);
     assert_non_null(strstr(result.out, "2 wrong"));
+    command_release(&result);
+}
+
+/* A program that is mended: only its answers change, and with them the judgements. */
+static void diff_names_the_answers_that_became_wrong(void **state)
+{
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    const char *const texts[] = {START FIRST SECOND("[1]", "[1,3]"), START FIRST SECOND("[3]", "[1,3]")};
+    for (int i = 0; i < 2; i++) {
+        const place session = write_session_text(state, texts[i]);
+        command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, i ? b.path : a.path);
+        assert_done(&result);
+        command_release(&result);
+    }
+    command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "another answer of the program in the nearest query ((3), was (1))"));
+    assert_non_null(
+        strstr(result.out, "another judgement of the program's answer in the nearest query (farther, was none)"));
     command_release(&result);
 }
 
@@ -124,6 +143,7 @@ int main(void)
         IN_FOLDER(json_is_one_object),
         IN_FOLDER(sessions_without_answers_are_trouble),
         IN_FOLDER(recordings_keep_answers_and_judgements),
+        IN_FOLDER(diff_names_the_answers_that_became_wrong),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
