@@ -273,7 +273,8 @@ static json_t *read_array(parser *p)
     a->items = take(p, a->count * sizeof *a->items);
     if (!a->items)
         return NULL;
-    memcpy(a->items, p->items + first, a->count * sizeof *a->items);
+    if (a->count)
+        memcpy(a->items, p->items + first, a->count * sizeof *a->items);
     p->count = first;
     return &a->json;
 }
