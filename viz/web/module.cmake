@@ -25,10 +25,14 @@ endfunction()
 # compile_wasm(SOURCE OBJECTS): adds the object of a source to a list.
 function(compile_wasm source objects)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
+  set(optimized -Os) # a page is to be small, and what takes its time is elsewhere
+  if(name MATCHES "^(lib|viz/scene|viz/layers|viz/draw|viz/image)/")
+    set(optimized -O2)
+  endif()
   string(REPLACE "/" "_" name ${name})
   set(object ${wasm_folder}/${name}.o)
   add_custom_command(OUTPUT ${object} DEPENDS ${source} DEPFILE ${object}.d VERBATIM
-                     COMMAND ${WASM_CLANG} ${wasm_target} -O2 -std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off
+                     COMMAND ${WASM_CLANG} ${wasm_target} ${optimized} -std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off
                              -Wall -Wextra -Wpedantic ${wasm_includes} -MD -MF ${object}.d -c ${source} -o ${object})
   set(${objects} ${${objects}} ${object} PARENT_SCOPE)
 endfunction()
