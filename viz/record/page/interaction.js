@@ -259,6 +259,8 @@ class Interaction {
 
     save()
     {
+        if (!this.isLive)
+            return;
         const blob = new Blob([this.player.save()], {type: "application/json"});
         const link = element("a", "", {href: URL.createObjectURL(blob), download: "session.json"});
         link.click();
