@@ -51,9 +51,9 @@ class AskForm {
     /* The place that is asked about, and a box of a tenth of the world around it. */
     setPlace(place, extent)
     {
-        this.inputs.at.input.value = place.map(rounded).join(",");
+        this.inputs.at.input.value = place.map(roundedPlace).join(",");
         this.inputs.box.input.value =
-            [-1, 1].flatMap(side => place.map(at => rounded(at + side * extent / 20))).join(",");
+            [-1, 1].flatMap(side => place.map(at => roundedPlace(at + side * extent / 20))).join(",");
         this.inputs.radius.input.value = rounded(extent / 20);
     }
 

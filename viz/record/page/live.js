@@ -15,7 +15,9 @@ const MARK_COLOR = "#ffffff";
 const BOX_EDGES = [0, 1, 2, 3].flatMap(i => [[i, i + 4], [2 * i, 2 * i + 1], [i + (i & 2), i + (i & 2) + 2]]);
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-const rounded = number => Number(number.toPrecision(8)); /* enough, and short on a command line */
+/* Short on a command line: enough for angles and sizes; a place keeps the small steps that it has far from the origin. */
+const rounded = number => Number(number.toPrecision(8));
+const roundedPlace = number => Number(number.toPrecision(15));
 
 class Live {
     /* `player` plays; `told(text)` shows a sentence, `picked(pick)` what was clicked. */
@@ -138,7 +140,7 @@ class Live {
     moved(dx, dy)
     {
         const {right, up, center, pixel} = this.camera;
-        return center.map((at, i) => rounded(at - (right[i] * dx - up[i] * dy) * pixel));
+        return center.map((at, i) => roundedPlace(at - (right[i] * dx - up[i] * dy) * pixel));
     }
 
     move(dx, dy)
