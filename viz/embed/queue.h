@@ -4,7 +4,7 @@
 #ifndef EMBED_QUEUE_H
 #define EMBED_QUEUE_H
 
-#include "changes.h"
+#include "batch.h"
 
 #include <pthread.h>
 

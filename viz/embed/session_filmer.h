@@ -7,6 +7,7 @@
 #ifndef EMBED_SESSION_FILMER_H
 #define EMBED_SESSION_FILMER_H
 
+#include "edit_order.h"
 #include "film_options.h"
 #include "live.h"
 #include "queue.h"
