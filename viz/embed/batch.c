@@ -30,47 +30,6 @@ uint64_t gap_list_ticks(const gap_run *runs, size_t count)
 
 /* ---- Batches ------------------------------------------------------------------------------------------------ */
 
-/* By value: whether a zero has a sign is no change. */
-static bool same_place(const octree_point *a, const octree_point *b)
-{
-    return a->position[0] == b->position[0] && a->position[1] == b->position[1] && a->position[2] == b->position[2];
-}
-
-static change make_change(const octree_point *before, const octree_point *after)
-{
-    change c = {.kind = !after    ? OCTREE_EDIT_REMOVE
-                        : !before ? OCTREE_EDIT_INSERT
-                                  : OCTREE_EDIT_MOVE,
-                .id = before ? before->id : after->id};
-    if (before)
-        memcpy(c.from, before->position, sizeof c.from);
-    if (after)
-        memcpy(c.to, after->position, sizeof c.to);
-    return c;
-}
-
-/* Write the changes; null: count them. */
-static size_t compare(const points *before, const points *after, change *changes)
-{
-    size_t i = 0, j = 0, count = 0;
-    while (i < before->count || j < after->count) {
-        const octree_point *old = i < before->count ? &before->items[i] : NULL;
-        const octree_point *new = j < after->count ? &after->items[j] : NULL;
-        if (old && new && old->id != new->id) {
-            old = old->id < new->id ? old : NULL;
-            new = old ? NULL : new;
-        }
-        i += old != NULL;
-        j += new != NULL;
-        if (old && new &&same_place(old, new))
-            continue;
-        if (changes)
-            changes[count] = make_change(old, new);
-        count++;
-    }
-    return count;
-}
-
 /* Copy items, counting their bytes. Null when there is no memory, or nothing to copy. */
 static void *copy(batch *b, const void *from, size_t count, size_t item_size)
 {
@@ -102,19 +61,6 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
     return whole;
 }
 
-static bool find_changes(batch *b, const points *before, const points *after)
-{
-    b->change_count = compare(before, after, NULL);
-    if (b->change_count == 0)
-        return true;
-    b->changes = malloc(b->change_count * sizeof *b->changes);
-    if (!b->changes)
-        return false;
-    b->bytes += b->change_count * sizeof *b->changes;
-    compare(before, after, b->changes);
-    return true;
-}
-
 batch *batch_make_gaps(const gap_list *gaps)
 {
     batch *b = calloc(1, sizeof *b);
@@ -130,13 +76,13 @@ batch *batch_make_gaps(const gap_list *gaps)
     return NULL;
 }
 
-batch *batch_make(const points *before, const points *after, const gap_list *gaps, const octreel_tick_info *about)
+batch *batch_make(const gap_list *gaps, const octreel_tick_info *about)
 {
     batch *b = batch_make_gaps(gaps);
     if (!b)
         return NULL;
     b->is_gap = false;
-    if (find_changes(b, before, after) && (!about || copy_about(b, about)))
+    if (!about || copy_about(b, about))
         return b;
     batch_release(b);
     return NULL;
@@ -153,29 +99,6 @@ void batch_release(batch *b)
     free(b->queries);
     free(b->shapes);
     free(b);
-}
-
-bool batch_apply(const batch *b, points *p, points *spare)
-{
-    size_t next = 0;
-    if (!points_reserve(spare, p->count + b->change_count))
-        return false;
-    spare->count = 0;
-    for (size_t i = 0; i < b->change_count; i++) {
-        const change *c = &b->changes[i];
-        for (; next < p->count && p->items[next].id < c->id; next++)
-            spare->items[spare->count++] = p->items[next];
-        next += c->kind != OCTREE_EDIT_INSERT;
-        if (c->kind == OCTREE_EDIT_REMOVE)
-            continue;
-        octree_point *point = &spare->items[spare->count++];
-        point->id = c->id;
-        memcpy(point->position, c->to, sizeof point->position);
-    }
-    for (; next < p->count; next++)
-        spare->items[spare->count++] = p->items[next];
-    points_swap(p, spare);
-    return true;
 }
 
 void batch_list_add(batch_list *list, batch *b)

@@ -4,13 +4,7 @@
 #ifndef EMBED_BATCH_H
 #define EMBED_BATCH_H
 
-#include "points.h"
-
-typedef struct change {
-    octree_edit_kind kind;
-    uint64_t id;
-    double from[3], to[3]; /* where it was and is; what does not apply is not read */
-} change;
+#include "changes.h"
 
 /* Ticks in a row that were refused, for one reason. */
 typedef struct gap_run {
@@ -44,16 +38,13 @@ typedef struct batch {
     size_t bytes; /* of all of it */
 } batch;
 
-/* How the points of one tick became those of the next, with copies of the gaps between, the queries and the shapes;
- * `about` may be null. Null when there is no memory. Cost: O(both, gaps, queries, shapes). */
-batch *batch_make(const points *before, const points *after, const gap_list *gaps, const octreel_tick_info *about);
+/* A tick with copies of the gaps before it, of the queries and the shapes, and as yet without changes; `about` may be
+ * null. Null when there is no memory. Cost: O(gaps, queries, shapes). */
+batch *batch_make(const gap_list *gaps, const octreel_tick_info *about);
 
 /* The gaps alone. */
 batch *batch_make_gaps(const gap_list *gaps);
 void batch_release(batch *b);
-
-/* Make the changes of a batch; `spare` is used meanwhile. False when there is no memory: nothing has changed then. */
-bool batch_apply(const batch *b, points *p, points *spare);
 
 /* Batches in a row. */
 typedef struct batch_list {

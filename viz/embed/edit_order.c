@@ -7,7 +7,7 @@
 
 bool edit_order_init(edit_order *o, const octree_def *def, const points *now)
 {
-    *o = (edit_order){0};
+    *o = (edit_order){.world = def->world};
     if (def->full_leaf == OCTREE_GROW)
         return true;
     return octree_create(def, &o->tree) == OCTREE_OK &&
@@ -37,6 +37,24 @@ static bool reserve_edits(edit_order *o, size_t changes)
     return true;
 }
 
+static bool is_inside(const edit_order *o, const double at[3])
+{
+    bool inside = true;
+    for (int i = 0; i < 3; i++)
+        inside &= at[i] >= o->world.min[i] && at[i] <= o->world.max[i];
+    return inside;
+}
+
+/* Whether an edit of this kind is among those that a change becomes. */
+static bool needs(const edit_order *o, const change *c, octree_edit_kind kind)
+{
+    const bool from = c->kind != OCTREE_EDIT_INSERT && is_inside(o, c->from);
+    const bool to = c->kind != OCTREE_EDIT_REMOVE && is_inside(o, c->to);
+    if (kind == OCTREE_EDIT_INSERT)
+        return c->kind != OCTREE_EDIT_REMOVE && !(from && to);
+    return from && to == (kind == OCTREE_EDIT_MOVE);
+}
+
 /* Make a change as an edit of this kind, where there is room for it. False when there is no memory; *made is whether
  * it was made. */
 static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, const change *c, bool *made)
@@ -58,12 +76,12 @@ static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, cons
     return status != OCTREE_NO_MEMORY;
 }
 
-/* Make the changes of a kind; those that find no room wait. */
+/* Make the edits of a kind; those that find no room wait. */
 static bool make_all(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, size_t *waiting)
 {
     for (size_t i = 0; i < b->change_count; i++) {
         bool made;
-        if (b->changes[i].kind != kind)
+        if (!needs(o, &b->changes[i], kind))
             continue;
         if (!try_change(o, tick, kind, &b->changes[i], &made))
             return false;

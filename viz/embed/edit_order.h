@@ -9,8 +9,12 @@
  *
  * Where leaves grow any order will do. Where a full leaf refuses points, one that comes must not come before one that
  * goes: moves that find no room are tried again after the others, and what is left then (points that change places) is
- * taken out and put back in; a player that is such a point is swept from where it is put. */
+ * taken out and put back in; a player that is such a point is swept from where it is put.
+ *
+ * A point outside the world is in no tree: what comes or goes there is taken out and inserted, which the game refuses.
+ */
 typedef struct edit_order {
+    octree_box world;
     octree *tree; /* under OCTREE_REFUSE the tree as it is so far; else null */
     octree_edit *edits;
     size_t count;

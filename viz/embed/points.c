@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* points.c - the points of a tree, by id. */
+/* points.c - the points of a program, by id. */
 #include "points.h"
 #include "array.h"
+#include "octree/digest.h"
 #include "session_file.h"
 
 #include <stdlib.h>
@@ -77,16 +78,8 @@ static void sort_by_id(points *p, points *spare)
     }
 }
 
-octreel_status points_read(points *p, points *spare, const octree *tree, uint64_t *clash)
+static octreel_status check_and_sort(points *p, points *spare, uint64_t *clash)
 {
-    const size_t count = octree_count(tree);
-    p->count = 0;
-    if (count == 0)
-        return OCTREEL_OK;
-    if (!points_reserve(p, count) || !points_reserve(spare, count))
-        return OCTREEL_NO_MEMORY;
-    if (octree_walk(tree, add_leaf, p) != OCTREE_OK)
-        return OCTREEL_FLOAT_MODE;
     for (size_t i = 0; i < p->count; i++) {
         *clash = p->items[i].id;
         if (*clash >= SESSION_ID_LIMIT)
@@ -99,4 +92,119 @@ octreel_status points_read(points *p, points *spare, const octree *tree, uint64_
             return OCTREEL_DUPLICATE_ID;
     }
     return OCTREEL_OK;
+}
+
+octreel_status points_read(points *p, points *spare, const octree *tree, uint64_t *clash)
+{
+    const size_t count = octree_count(tree);
+    p->count = 0;
+    if (count == 0)
+        return OCTREEL_OK;
+    if (!points_reserve(p, count) || !points_reserve(spare, count))
+        return OCTREEL_NO_MEMORY;
+    if (octree_walk(tree, add_leaf, p) != OCTREE_OK)
+        return OCTREEL_FLOAT_MODE;
+    return check_and_sort(p, spare, clash);
+}
+
+octreel_status points_read_list(points *p, points *spare, const octree_point *list, size_t count, uint64_t *clash)
+{
+    p->count = 0;
+    if (count == 0)
+        return OCTREEL_OK;
+    if (!points_reserve(p, count) || !points_reserve(spare, count))
+        return OCTREEL_NO_MEMORY;
+    memcpy(p->items, list, count * sizeof *list);
+    p->count = count;
+    return check_and_sort(p, spare, clash);
+}
+
+/* ---- The table ---------------------------------------------------------------------------------------------- *
+ *
+ * Open addressing with linear probing, at most three quarters full; what is taken out leaves no marks behind.
+ */
+
+static const uint64_t NO_ID = UINT64_MAX;
+enum { SMALLEST_TABLE = 16 };
+
+void point_table_release(point_table *t)
+{
+    free(t->slots);
+    *t = (point_table){0};
+}
+
+static size_t home_of(const point_table *t, uint64_t id)
+{
+    return (size_t)octree_digest_word(0, id) & (t->size - 1);
+}
+
+/* The slot of an id, or the one where it would be put. */
+static size_t slot_of(const point_table *t, uint64_t id)
+{
+    size_t slot = home_of(t, id);
+    while (t->slots[slot].id != id && t->slots[slot].id != NO_ID)
+        slot = (slot + 1) & (t->size - 1);
+    return slot;
+}
+
+bool point_table_reserve(point_table *t, size_t count)
+{
+    point_table grown = {.size = t->size ? t->size : SMALLEST_TABLE};
+    while (grown.size / 4 * 3 < count && grown.size <= SIZE_MAX / sizeof *grown.slots / 2)
+        grown.size *= 2;
+    if (grown.size == t->size)
+        return true;
+    if (grown.size / 4 * 3 < count || !(grown.slots = malloc(grown.size * sizeof *grown.slots)))
+        return false;
+    for (size_t i = 0; i < grown.size; i++)
+        grown.slots[i].id = NO_ID;
+    for (size_t i = 0; i < t->size; i++)
+        if (t->slots[i].id != NO_ID)
+            point_table_put(&grown, &t->slots[i]);
+    point_table_release(t);
+    *t = grown;
+    return true;
+}
+
+const octree_point *point_table_find(const point_table *t, uint64_t id)
+{
+    const octree_point *at = t->size ? &t->slots[slot_of(t, id)] : NULL;
+    return at && at->id == id ? at : NULL;
+}
+
+void point_table_put(point_table *t, const octree_point *point)
+{
+    octree_point *at = &t->slots[slot_of(t, point->id)];
+    t->count += at->id == NO_ID;
+    *at = *point;
+}
+
+/* Those after it move up, where that is on the way from their home. */
+void point_table_remove(point_table *t, uint64_t id)
+{
+    const size_t mask = t->size - 1;
+    size_t hole = slot_of(t, id);
+    for (size_t next = (hole + 1) & mask; t->slots[next].id != NO_ID; next = (next + 1) & mask) {
+        const size_t home = home_of(t, t->slots[next].id);
+        if (((next - home) & mask) < ((next - hole) & mask))
+            continue;
+        t->slots[hole] = t->slots[next];
+        hole = next;
+    }
+    t->slots[hole].id = NO_ID;
+    t->count--;
+}
+
+bool point_table_list(const point_table *t, points *p, points *spare)
+{
+    p->count = 0;
+    if (t->count == 0)
+        return true;
+    if (!points_reserve(p, t->count) || !points_reserve(spare, t->count))
+        return false;
+    for (size_t i = 0; i < t->size; i++)
+        if (t->slots[i].id != NO_ID)
+            p->items[p->count++] = t->slots[i];
+    sort_by_id(p, spare);
+    return true;
 }

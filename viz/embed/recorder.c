@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* recorder.c - ticks are checked, compared with those before them, and handed on to the ring or to what films them. */
 #include "octreel/recorder.h"
+#include "contents.h"
 #include "error.h"
 #include "folder.h"
 #include "number.h"
 #include "replacement.h"
 #include "ring.h"
 #include "session_file.h"
+#include "status.h"
 #include "view_options.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct octreel_recorder {
     filmer_settings settings;
     bool never_wait, closed;
-    bool broken;             /* the recording broke off */
-    points now, next, spare; /* at the last tick that was taken, and while one is being read */
-    bool had_tree;
+    bool broken; /* the recording broke off */
+    contents contents;
     ring ring; /* most is 0 where ticks are filmed as they come: */
     char *folder;
     queue queue;
@@ -34,33 +34,9 @@ struct octreel_recorder {
 
 /* ---- Sentences ---------------------------------------------------------------------------------------------- */
 
-const char *octreel_status_text(octreel_status status)
-{
-#define OCTREEL_STATUS_TEXT(name, text) text,
-    static const char *const texts[OCTREEL_STATUS_COUNT] = {OCTREEL_STATUS_MAP(OCTREEL_STATUS_TEXT)};
-#undef OCTREEL_STATUS_TEXT
-    return (unsigned)status < OCTREEL_STATUS_COUNT ? texts[status] : "there is no such status";
-}
-
 const char *octreel_recorder_error(const octreel_recorder *recorder)
 {
     return recorder ? recorder->error.text : "";
-}
-
-/* Write a sentence for a status, and return it. */
-static octreel_status refuse(octreel_recorder *r, octreel_status status, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(r->error.text, sizeof r->error.text, format, arguments);
-    va_end(arguments);
-    return status;
-}
-
-/* The same with the status's own. */
-static octreel_status fail(octreel_recorder *r, octreel_status status)
-{
-    return refuse(r, status, "%s", octreel_status_text(status));
 }
 
 /* What close and write say of a recording that has gaps. */
@@ -68,11 +44,11 @@ static octreel_status tell_losses(octreel_recorder *r, const losses *lost, uint6
 {
     if (lost->ticks == 0)
         return OCTREEL_OK;
-    return refuse(r, OCTREEL_GAPS,
-                  "%" PRIu64 " of %" PRIu64 " ticks %s refused and %s in the recording; the first is "
-                  "tick %" PRIu64 ": %s",
-                  lost->ticks, ticks, lost->ticks == 1 ? "was" : "were", lost->ticks == 1 ? "is a gap" : "are gaps",
-                  lost->first, lost->why);
+    return status_refuse(&r->error, OCTREEL_GAPS,
+                         "%" PRIu64 " of %" PRIu64 " ticks %s refused and %s in the recording; the first is "
+                         "tick %" PRIu64 ": %s",
+                         lost->ticks, ticks, lost->ticks == 1 ? "was" : "were",
+                         lost->ticks == 1 ? "is a gap" : "are gaps", lost->first, lost->why);
 }
 
 /* ---- The definition ----------------------------------------------------------------------------------------- */
@@ -103,12 +79,12 @@ static octreel_status set_tree(octreel_recorder *r, const octree_def *def)
     r->settings.tree = *def;
     r->settings.tree.allocator = (octree_allocator){0}; /* the program's may not be used from another thread */
     if (def->leaf_capacity == OCTREE_AUTO)
-        return refuse(r, OCTREEL_BAD_OPTION,
-                      "tree: give the capacity in force, which is that of octree_definition(tree)");
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION,
+                             "tree: give the capacity in force, which is that of octree_definition(tree)");
     const octree_status status = octree_create(&r->settings.tree, &tree);
     if (status != OCTREE_OK)
-        return refuse(r, status == OCTREE_NO_MEMORY ? OCTREEL_NO_MEMORY : OCTREEL_BAD_OPTION, "tree: %s",
-                      octree_status_text(status));
+        return status_refuse(&r->error, status == OCTREE_NO_MEMORY ? OCTREEL_NO_MEMORY : OCTREEL_BAD_OPTION, "tree: %s",
+                             octree_status_text(status));
     r->settings.tree = octree_definition(tree);
     octree_destroy(tree);
     return OCTREEL_OK;
@@ -120,12 +96,14 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     if (player->kind == OCTREE_PLAYER_NONE)
         return OCTREEL_OK;
     if (player->kind != OCTREE_PLAYER_BODY)
-        return refuse(r, OCTREEL_BAD_OPTION,
-                      "player: it is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; keys are the program's own matter");
+        return status_refuse(
+            &r->error, OCTREEL_BAD_OPTION,
+            "player: it is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; keys are the program's own matter");
     if (!(player->box_size >= 0) || isinf(player->box_size))
-        return refuse(r, OCTREEL_BAD_OPTION, "player: box_size must be finite and not negative");
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "player: box_size must be finite and not negative");
     if (player->id >= SESSION_ID_LIMIT)
-        return refuse(r, OCTREEL_BAD_ID, "player: %s: %" PRIu64, octreel_status_text(OCTREEL_BAD_ID), player->id);
+        return status_refuse(&r->error, OCTREEL_BAD_ID, "player: %s: %" PRIu64, octreel_status_text(OCTREEL_BAD_ID),
+                             player->id);
     r->settings.player.id = player->id;
     r->settings.player.box_size = player->box_size;
     r->settings.player.sweep = player->sweep;
@@ -158,8 +136,9 @@ static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *
     v->height = def->height;
     v->labels = def->labels;
     if (v->width < 1 || v->height < 1 || v->width > longest || v->height > longest)
-        return refuse(r, OCTREEL_BAD_OPTION, "a frame of %d x %d pixels cannot be drawn: a side must be 1 to %d",
-                      v->width, v->height, longest);
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION,
+                             "a frame of %d x %d pixels cannot be drawn: a side must be 1 to %d", v->width, v->height,
+                             longest);
     return OCTREEL_OK;
 }
 
@@ -169,15 +148,16 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
     film->every = def->every;
     film->replace = def->replace;
     if (!draw_context_parse(def->context, &film->renderer.context))
-        return refuse(r, OCTREEL_BAD_OPTION, "context: there is no \"%s\"; octreel record --help lists what there is",
-                      def->context);
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION,
+                             "context: there is no \"%s\"; octreel record --help lists what there is", def->context);
     film->renderer.any_renderer = def->any_renderer;
     if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
-        return refuse(r, OCTREEL_BAD_OPTION, "any_renderer: it goes with the context \"egl\" alone");
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "any_renderer: it goes with the context \"egl\" alone");
     if (def->every > SESSION_LAST_TICK)
-        return refuse(r, OCTREEL_BAD_OPTION, "every: it must be 0, for no frames, to %d", SESSION_LAST_TICK);
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "every: it must be 0, for no frames, to %d",
+                             SESSION_LAST_TICK);
     if (def->queue_ticks < 1)
-        return refuse(r, OCTREEL_BAD_OPTION, "queue_ticks: the queue must hold at least one tick");
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "queue_ticks: the queue must hold at least one tick");
     return OCTREEL_OK;
 }
 
@@ -187,8 +167,8 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
     r->never_wait = def->never_wait;
     r->ring.most = def->ring;
     if (!def->camera || !def->layers || !def->color_by || !def->diagram || !def->context)
-        return refuse(r, OCTREEL_NULL_ARGUMENT,
-                      "a name in the definition is null; start from octreel_recorder_def_default()");
+        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT,
+                             "a name in the definition is null; start from octreel_recorder_def_default()");
     octreel_status status = set_tree(r, &def->tree);
     if (status == OCTREEL_OK)
         status = set_player(r, &def->player);
@@ -209,26 +189,24 @@ static bool check_folder(octreel_recorder *r, const char *folder)
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
 {
     if (!def->folder)
-        return refuse(r, OCTREEL_NULL_ARGUMENT, "folder: there is none, and no ring");
+        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT, "folder: there is none, and no ring");
     r->folder = strdup(def->folder);
     if (!r->folder)
-        return fail(r, OCTREEL_NO_MEMORY);
+        return status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (!check_folder(r, r->folder))
         return OCTREEL_BAD_FOLDER;
     if (!queue_init(&r->queue, def->queue_ticks, def->queue_bytes))
-        return fail(r, OCTREEL_NO_MEMORY);
+        return status_fail(&r->error, OCTREEL_NO_MEMORY);
     r->filmer = (session_filmer){.settings = &r->settings, .folder = r->folder, .queue = &r->queue};
     if (session_filmer_start(&r->filmer) == OCTREEL_OK)
         return OCTREEL_OK;
     queue_release(&r->queue);
-    return fail(r, OCTREEL_NO_MEMORY);
+    return status_fail(&r->error, OCTREEL_NO_MEMORY);
 }
 
 static void release(octreel_recorder *r)
 {
-    points_release(&r->now);
-    points_release(&r->next);
-    points_release(&r->spare);
+    contents_release(&r->contents);
     ring_release(&r->ring);
     free(r->folder);
     free(r);
@@ -241,9 +219,9 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
     if (recorder)
         *recorder = NULL;
     if (!def || !recorder)
-        status = fail(&none, OCTREEL_NULL_ARGUMENT);
+        status = status_fail(&none.error, OCTREEL_NULL_ARGUMENT);
     else if (!(r = calloc(1, sizeof *r)))
-        status = fail(&none, OCTREEL_NO_MEMORY);
+        status = status_fail(&none.error, OCTREEL_NO_MEMORY);
     else
         status = set_all(r, def);
     if (status == OCTREEL_OK && r->ring.most == 0)
@@ -285,57 +263,46 @@ static octreel_status check_about(octreel_recorder *r, const octreel_tick_info *
     if (!about)
         return OCTREEL_OK;
     if ((!about->queries && about->query_count) || (!about->shapes && about->shape_count))
-        return fail(r, OCTREEL_NULL_ARGUMENT);
+        return status_fail(&r->error, OCTREEL_NULL_ARGUMENT);
     for (size_t i = 0; i < about->query_count; i++) {
         const char *fault = fault_of(&about->queries[i]);
         if (fault)
-            return refuse(r, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, fault);
+            return status_refuse(&r->error, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, fault);
     }
     for (size_t i = 0; i < about->shape_count; i++) {
         const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};
         const octree_status status = octree_input_check(&one);
         if (status != OCTREE_OK)
-            return refuse(r, OCTREEL_BAD_SHAPE, "shapes[%zu]: %s", i, octree_status_text(status));
+            return status_refuse(&r->error, OCTREEL_BAD_SHAPE, "shapes[%zu]: %s", i, octree_status_text(status));
     }
     return OCTREEL_OK;
 }
 
-/* Whether a tree has the world and the options of the definition, which null has always; else names one that it has
- * not. */
-static octreel_status check_tree(octreel_recorder *r, const octree *tree)
+/* Lists hold whatever the program's points are: a full leaf must not refuse one of them. */
+static octreel_status let_leaves_grow(octreel_recorder *r)
 {
-    const octree_def *own = &r->settings.tree, def = tree ? octree_definition(tree) : *own;
-    for (int i = 0; i < 3; i++)
-        if (def.world.min[i] != own->world.min[i] || def.world.max[i] != own->world.max[i])
-            return refuse(r, OCTREEL_OTHER_TREE,
-                          "the tree's world on %c is [%.17g, %.17g], and the recorder was opened for [%.17g, %.17g]",
-                          "xyz"[i], def.world.min[i], def.world.max[i], own->world.min[i], own->world.max[i]);
-    if (def.leaf_capacity != own->leaf_capacity)
-        return refuse(r, OCTREEL_OTHER_TREE,
-                      "the tree's leaf_capacity is %zu, and the recorder was opened for %zu; a tree under OCTREE_AUTO "
-                      "changes it: give it a fixed one",
-                      def.leaf_capacity, own->leaf_capacity);
-    if (def.max_depth != own->max_depth)
-        return refuse(r, OCTREEL_OTHER_TREE, "the tree's max_depth is %zu, and the recorder was opened for %zu",
-                      def.max_depth, own->max_depth);
-    if (def.full_leaf != own->full_leaf)
-        return refuse(r, OCTREEL_OTHER_TREE,
-                      "the tree's full_leaf is not that of the definition that the recorder was opened for");
+    const bool listed = r->contents.read_source == FROM_LIST || r->contents.read_source == FROM_CHANGES;
+    if (!listed || r->settings.tree.full_leaf == OCTREE_GROW)
+        return OCTREEL_OK;
+    if (r->put > 0)
+        return status_refuse(
+            &r->error, OCTREEL_OTHER_TREE,
+            "after ticks without points those of a list need OCTREE_GROW as the definition's full_leaf");
+    r->settings.tree.full_leaf = OCTREE_GROW;
     return OCTREEL_OK;
 }
 
-static octreel_status read_tree(octreel_recorder *r, const octree *tree)
+/* What changed is read even where the tick is refused for something else. */
+static octreel_status read_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
-    uint64_t clash = 0;
-    if (!tree && r->had_tree)
-        return fail(r, OCTREEL_NULL_ARGUMENT);
-    octreel_status status = check_tree(r, tree);
+    octreel_error why;
+    const octreel_status read = contents_read(&r->contents, &r->settings.tree, tree, about, &why);
+    const octreel_status status = check_about(r, about);
     if (status != OCTREEL_OK)
         return status;
-    status = points_read(&r->next, &r->spare, tree, &clash);
-    if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
-        return refuse(r, status, "%s: %" PRIu64, octreel_status_text(status), clash);
-    return status == OCTREEL_OK ? status : fail(r, status);
+    if (read != OCTREEL_OK)
+        r->error = why;
+    return read == OCTREEL_OK ? let_leaves_grow(r) : read;
 }
 
 /* Hand a batch to the thread that films, and wait for the first to be filmed. On failure the batch stays the
@@ -345,7 +312,7 @@ static octreel_status film_batch(octreel_recorder *r, batch *b, bool *taken)
     const octreel_status status = queue_put(&r->queue, b, !r->never_wait);
     *taken = status == OCTREEL_OK;
     if (status == OCTREEL_BUSY)
-        return fail(r, status);
+        return status_fail(&r->error, status);
     if (*taken && (r->put++ > 0 || queue_wait_done(&r->queue)))
         return OCTREEL_OK;
     r->broken = true;
@@ -360,27 +327,31 @@ static octreel_status hand_on(octreel_recorder *r, batch *b)
     if (r->ring.most == 0)
         status = film_batch(r, b, &taken);
     else if (!(taken = ring_put(&r->ring, b)))
-        status = fail(r, OCTREEL_NO_MEMORY);
+        status = status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (!taken)
         batch_release(b);
     return status;
 }
 
+static octreel_status put_tick(octreel_recorder *r, const octreel_tick_info *about)
+{
+    batch *b = batch_make(&r->gaps, about);
+    if (b && contents_add_changes(&r->contents, b))
+        return hand_on(r, b);
+    batch_release(b);
+    return status_fail(&r->error, OCTREEL_NO_MEMORY);
+}
+
 static octreel_status take_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
-    octreel_status status = check_about(r, about);
+    octreel_status status = read_tick(r, tree, about);
     if (status == OCTREEL_OK)
-        status = read_tree(r, tree);
+        status = put_tick(r, about);
+    if (status == OCTREEL_NO_MEMORY)
+        contents_undo(&r->contents);
     if (status != OCTREEL_OK)
         return status;
-    batch *b = batch_make(&r->now, &r->next, &r->gaps, about);
-    status = b ? hand_on(r, b) : fail(r, OCTREEL_NO_MEMORY);
-    if (status != OCTREEL_OK)
-        return status;
-    const points old = r->now; /* the next tick is compared with the last one that was taken */
-    r->now = r->next;
-    r->next = old;
-    r->had_tree |= tree != NULL;
+    contents_take(&r->contents);
     r->gaps.count = 0;
     return OCTREEL_OK;
 }
@@ -401,7 +372,7 @@ octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *t
     if (!r)
         return OCTREEL_OK;
     if (r->closed)
-        return fail(r, OCTREEL_CLOSED);
+        return status_fail(&r->error, OCTREEL_CLOSED);
     const octreel_status status = take_tick(r, tree, about);
     if (status != OCTREEL_OK && !r->broken)
         note_gap(r);
@@ -418,7 +389,7 @@ static octreel_status ring_write(octreel_recorder *r, const char *folder)
     const batch_list before = all->list;
     batch *tail = batch_make_gaps(&r->gaps);
     if (!tail)
-        return fail(r, OCTREEL_NO_MEMORY);
+        return status_fail(&r->error, OCTREEL_NO_MEMORY);
     batch_list_add(&all->list, tail);
     uint64_t ticks;
     const losses lost = ring_losses(all, &ticks);
@@ -435,13 +406,13 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
     if (!r)
         return OCTREEL_OK;
     if (!folder)
-        return fail(r, OCTREEL_NULL_ARGUMENT);
+        return status_fail(&r->error, OCTREEL_NULL_ARGUMENT);
     if (r->closed)
-        return fail(r, OCTREEL_CLOSED);
+        return status_fail(&r->error, OCTREEL_CLOSED);
     if (r->ring.most == 0)
-        return fail(r, OCTREEL_NO_RING);
+        return status_fail(&r->error, OCTREEL_NO_RING);
     if (r->ring.list.count == 0)
-        return fail(r, OCTREEL_NOTHING);
+        return status_fail(&r->error, OCTREEL_NOTHING);
     if (!check_folder(r, folder))
         return OCTREEL_BAD_FOLDER;
     if (first)
@@ -463,7 +434,7 @@ octreel_status octreel_recorder_close(octreel_recorder *recorder)
     if (!r)
         return OCTREEL_OK;
     if (r->closed)
-        return fail(r, OCTREEL_CLOSED);
+        return status_fail(&r->error, OCTREEL_CLOSED);
     r->closed = true;
     if (r->ring.most > 0)
         return tell_losses(r, &r->lost, r->ticks);
@@ -476,9 +447,10 @@ octreel_status octreel_recorder_close(octreel_recorder *recorder)
         r->error = r->filmer.error;
     if (status != OCTREEL_OK || r->put > 0)
         return status == OCTREEL_OK ? tell_losses(r, &r->lost, r->ticks) : status;
-    return r->lost.ticks == 0 ? fail(r, OCTREEL_NOTHING)
-                              : refuse(r, OCTREEL_NOTHING, "%s: all of them were refused, the first since %s",
-                                       octreel_status_text(OCTREEL_NOTHING), r->lost.why);
+    return r->lost.ticks == 0
+               ? status_fail(&r->error, OCTREEL_NOTHING)
+               : status_refuse(&r->error, OCTREEL_NOTHING, "%s: all of them were refused, the first since %s",
+                               octreel_status_text(OCTREEL_NOTHING), r->lost.why);
 }
 
 void octreel_recorder_destroy(octreel_recorder *recorder)

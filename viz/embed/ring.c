@@ -9,16 +9,17 @@
 void ring_release(ring *r)
 {
     batch_list_clear(&r->list);
-    points_release(&r->start);
-    points_release(&r->spare);
+    point_table_release(&r->start);
     *r = (ring){0};
 }
 
 /* Let the points of the first tick be those of this one, and no gap come before it. */
 static bool start_at(ring *r, batch *b)
 {
-    if (!batch_apply(b, &r->start, &r->spare))
+    if (!point_table_reserve(&r->start, r->start.count + b->change_count))
         return false;
+    for (size_t i = 0; i < b->change_count; i++)
+        change_make(&b->changes[i], &r->start);
     free(b->changes);
     b->changes = NULL;
     b->change_count = 0;
@@ -57,10 +58,12 @@ losses ring_losses(const ring *r, uint64_t *ticks)
     return lost;
 }
 
-octreel_status ring_film(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
+/* As ring_film(), with its first points listed. */
+static octreel_status film(const ring *r, const points *start, const filmer_settings *s, const char *folder,
+                           octreel_error *error)
 {
     queue ticks;
-    session_filmer f = {.settings = s, .folder = folder, .start = &r->start, .queue = &ticks};
+    session_filmer f = {.settings = s, .folder = folder, .start = start, .queue = &ticks};
     if (!queue_init(&ticks, 0, 0)) {
         error_no_memory(error);
         return OCTREEL_NO_MEMORY;
@@ -75,5 +78,18 @@ octreel_status ring_film(const ring *r, const filmer_settings *s, const char *fo
     queue_release(&ticks);
     if (status != OCTREEL_OK)
         *error = f.error;
+    return status;
+}
+
+octreel_status ring_film(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
+{
+    points start = {0}, spare = {0};
+    octreel_status status = OCTREEL_NO_MEMORY;
+    if (point_table_list(&r->start, &start, &spare))
+        status = film(r, &start, s, folder, error);
+    else
+        error_no_memory(error);
+    points_release(&start);
+    points_release(&spare);
     return status;
 }

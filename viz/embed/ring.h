@@ -9,8 +9,8 @@
 typedef struct ring {
     size_t most;
     batch_list list;
-    points start, spare; /* at the first tick; its batch has no changes */
-    uint64_t dropped;    /* ticks that are no longer in it */
+    point_table start; /* the points at the first tick; its batch has no changes */
+    uint64_t dropped;  /* ticks that are no longer in it */
 } ring;
 
 /* Ticks that were refused. */
@@ -22,7 +22,7 @@ typedef struct losses {
 void ring_release(ring *r);
 
 /* Take a tick over; where there are enough the first goes. False when there is no memory: then nothing has changed, and
- * the batch stays the caller's. Cost: O(points), once a tick is dropped. */
+ * the batch stays the caller's. Cost: O(changes). */
 bool ring_put(ring *r, batch *b);
 
 /* The gaps of its ticks, numbered from the first of them on; and how many ticks there are with them. */

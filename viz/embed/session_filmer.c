@@ -64,15 +64,21 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
     return live_begin(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BAD_FOLDER;
 }
 
+/* The first points of all come by the changes of the first tick. */
 static octreel_status begin(session_filmer *f, const batch *first, const octree_gap *gap)
 {
-    points start = {0}, spare = {0};
+    points start = {0};
     if (f->start)
         return film_first(f, f->start, first, gap);
-    const octreel_status status =
-        batch_apply(first, &start, &spare) ? film_first(f, &start, first, gap) : fail_memory(f, OCTREEL_NO_MEMORY);
+    if (!points_reserve(&start, first->change_count))
+        return fail_memory(f, OCTREEL_NO_MEMORY);
+    for (; start.count < first->change_count; start.count++) {
+        const change *c = &first->changes[start.count];
+        start.items[start.count].id = c->id;
+        memcpy(start.items[start.count].position, c->to, sizeof c->to);
+    }
+    const octreel_status status = film_first(f, &start, first, gap);
     points_release(&start);
-    points_release(&spare);
     return status;
 }
 

@@ -162,3 +162,55 @@ void close_recorder(octreel_recorder *recorder)
         fail_msg("%s", octreel_recorder_error(recorder));
     octreel_recorder_destroy(recorder);
 }
+
+octreel_status hand_over(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source, moving_edits *e)
+{
+    octreel_tick_info about = m->about;
+    if (source == MOVING_TREE)
+        return octreel_recorder_tick(recorder, m->tree, &about);
+    if (source == MOVING_LIST) {
+        about.points = m->points;
+        about.point_count = m->count;
+    } else {
+        about.changes = e->edits;
+        about.change_count = e->count;
+    }
+    return octreel_recorder_tick(recorder, NULL, &about);
+}
+
+static void add_edit(moving_edits *e, octree_edit_kind kind, const octree_point *point)
+{
+    octree_edit *edit = &e->edits[e->count++];
+    *edit = (octree_edit){.tick = 99, .kind = kind, .body = {.id = point->id, .velocity = {1, 2, 3}}};
+    memcpy(edit->body.position, point->position, sizeof edit->body.position);
+}
+
+static const octree_point *point_of(const octree_point *points, size_t count, uint64_t id)
+{
+    for (size_t i = 0; i < count; i++)
+        if (points[i].id == id)
+            return &points[i];
+    return NULL;
+}
+
+void moving_edits_make(moving_edits *e, const moving_tree *m)
+{
+    static const octree_point passing = {{1, 2, 3}, 424242};
+    e->count = 0;
+    for (size_t i = 0; i < e->before_count; i++)
+        if (!point_of(m->points, m->count, e->before[i].id))
+            add_edit(e, OCTREE_EDIT_REMOVE, &e->before[i]);
+    add_edit(e, OCTREE_EDIT_INSERT, &passing); /* nothing comes of this one */
+    for (size_t i = m->count; i-- > 0;) {
+        const octree_point *old = point_of(e->before, e->before_count, m->points[i].id);
+        if (!old)
+            add_edit(e, OCTREE_EDIT_INSERT, &m->points[i]);
+        if (i % 3 == 0) /* on the way */
+            add_edit(e, OCTREE_EDIT_MOVE, &passing), e->edits[e->count - 1].body.id = m->points[i].id;
+        if (i % 3 == 0 || old)
+            add_edit(e, OCTREE_EDIT_MOVE, &m->points[i]);
+    }
+    add_edit(e, OCTREE_EDIT_REMOVE, &passing);
+    memcpy(e->before, m->points, sizeof e->before);
+    e->before_count = m->count;
+}

@@ -33,6 +33,23 @@ octreel_recorder_def small_recorder(const moving_tree *m, const char *folder);
 /* Hand it over; the test fails, with the sentence, when that is refused. */
 void assert_recorded(octreel_recorder *recorder, const moving_tree *m);
 
+/* What changed since moving_edits_make() was called last, with more steps than it takes. A zeroed one begins with no
+ * points. */
+typedef struct moving_edits {
+    octree_point before[MOVING_TREE_MOST];
+    size_t before_count;
+    octree_edit edits[4 * MOVING_TREE_MOST];
+    size_t count;
+} moving_edits;
+
+void moving_edits_make(moving_edits *e, const moving_tree *m);
+
+/* How a program without an octree says what points it has. */
+typedef enum moving_tree_source { MOVING_TREE, MOVING_LIST, MOVING_CHANGES } moving_tree_source;
+
+/* Hand it over by its tree, by a list of its points, or by the edits. */
+octreel_status hand_over(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source, moving_edits *e);
+
 /* Step and record so many times. */
 void record_steps(octreel_recorder *recorder, moving_tree *m, int ticks);
 

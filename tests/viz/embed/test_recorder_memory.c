@@ -59,26 +59,35 @@ static void refuse_after(long count)
 
 enum { BEFORE = 4, TICKS = 8 };
 
+static octree_full_leaf full_leaf_of(moving_tree_source source)
+{
+    return source == MOVING_TREE ? OCTREE_REFUSE : OCTREE_GROW;
+}
+
 /* Record, with one call that gets no more than `count` allocations: it is made again, and is two ticks then. False when
  * it needs no more. */
-static bool record_with_failure(octreel_recorder *recorder, long count, uint64_t digests[TICKS + 1])
+static bool record_with_failure(octreel_recorder *recorder, moving_tree_source source, long count,
+                                uint64_t digests[TICKS + 1])
 {
     moving_tree m;
+    moving_edits edits = {.count = 0};
     bool refused = false;
-    moving_tree_make(&m, OCTREE_REFUSE, 11);
+    moving_tree_make(&m, full_leaf_of(source), 11);
     for (int tick = 0; tick < TICKS; tick++) {
         if (tick == BEFORE) {
             for (int i = 0; i < 20; i++)
                 moving_tree_step(&m); /* so that there are more points than at any time before, perhaps */
+            moving_edits_make(&edits, &m);
             refuse_after(count);
-            const octreel_status status = octreel_recorder_tick(recorder, m.tree, &m.about);
+            const octreel_status status = hand_over(recorder, &m, source, &edits);
             left = -1;
             refused = failed;
             assert_int_equal(status, refused ? OCTREEL_NO_MEMORY : OCTREEL_OK);
             digests[tick] = 0;
-        }
+        } else
+            moving_edits_make(&edits, &m);
         if (tick != BEFORE || refused)
-            assert_recorded(recorder, &m);
+            assert_int_equal(hand_over(recorder, &m, source, &edits), OCTREEL_OK);
         digests[tick + refused] = octree_digest(m.tree);
         moving_tree_step(&m);
     }
@@ -87,28 +96,28 @@ static bool record_with_failure(octreel_recorder *recorder, long count, uint64_t
 }
 
 /* How a recorder is opened in this test: its tree is that of a moving_tree. */
-static octreel_recorder_def definition(const char *folder, size_t ring)
+static octreel_recorder_def definition(const char *folder, moving_tree_source source, size_t ring)
 {
     moving_tree m;
-    moving_tree_make(&m, OCTREE_REFUSE, 11);
+    moving_tree_make(&m, full_leaf_of(source), 11);
     octreel_recorder_def def = small_recorder(&m, folder);
     def.ring = ring;
     moving_tree_release(&m);
     return def;
 }
 
-static void check_ticks(void **state, size_t ring)
+static void check_ticks(void **state, moving_tree_source source, size_t ring)
 {
     bool refused = true;
     long count = 0;
     for (; refused; count++) {
         char name[32];
         uint64_t digests[TICKS + 1], told[TICKS + 1];
-        snprintf(name, sizeof name, "film%ld", count);
+        snprintf(name, sizeof name, "film%d-%ld", (int)source, count);
         const place folder = place_in(*state, name);
-        const octreel_recorder_def def = definition(folder.path, ring);
+        const octreel_recorder_def def = definition(folder.path, source, ring);
         octreel_recorder *recorder = open_recorder(&def);
-        refused = record_with_failure(recorder, count, digests);
+        refused = record_with_failure(recorder, source, count, digests);
         if (ring)
             assert_int_equal(octreel_recorder_write(recorder, folder.path, NULL), OCTREEL_OK);
         assert_int_equal(octreel_recorder_close(recorder), refused ? OCTREEL_GAPS : OCTREEL_OK);
@@ -122,18 +131,21 @@ static void check_ticks(void **state, size_t ring)
 
 static void a_tick_without_memory_is_a_gap_and_can_be_handed_over_again(void **state)
 {
-    check_ticks(state, 0);
+    check_ticks(state, MOVING_TREE, 0);
+    check_ticks(state, MOVING_LIST, 0);
+    check_ticks(state, MOVING_CHANGES, 0);
 }
 
 static void a_ring_without_memory_stays_as_it_was(void **state)
 {
-    check_ticks(state, 3);
+    check_ticks(state, MOVING_TREE, 3);
+    check_ticks(state, MOVING_CHANGES, 3);
 }
 
 static void opening_without_memory_leaves_no_recorder(void **state)
 {
     const place folder = place_in(*state, "film");
-    const octreel_recorder_def def = definition(folder.path, 0);
+    const octreel_recorder_def def = definition(folder.path, MOVING_TREE, 0);
     octreel_recorder *recorder;
     long count = 0;
     for (;; count++) {

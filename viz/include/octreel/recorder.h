@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder.h - record a program from inside: hand over its tree, and what it asked of it, once a tick of its own loop.
+/* recorder.h - record a program from inside: hand over its points, and what it asked of them, once a tick of its own
+ * loop. The points are those of an octree, or, for a program with an index of its own, a list of them or of what
+ * changed; its answers may come with its queries, and are then judged by the true ones ("octreel audit" sums up).
  *
  * A recorder keeps a session in the making: what changed in the tree since the last tick becomes the session's edits,
  * and beside them stand the program's queries and shapes. So the recording that comes out is like any other: octreel
@@ -17,6 +19,15 @@
  *     if (octreel_recorder_close(recorder))
  *         puts(octreel_recorder_error(recorder));
  *     octreel_recorder_destroy(recorder);
+ *
+ * and without an octree, say with a k-d tree that found point 17:
+ *
+ *     octree_query asked = {.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}, .answered = true,
+ *                           .answer = (uint64_t[]){17}, .answer_count = 1};
+ *     octreel_recorder_tick(recorder, NULL, &(octreel_tick_info){.points = all, .point_count = n,
+ *                                                                .queries = &asked, .query_count = 1});
+ *     octree_edit moved = {.kind = OCTREE_EDIT_MOVE, .body = {.id = 17, .position = {4, 5, 6}}};
+ *     octreel_recorder_tick(recorder, NULL, &(octreel_tick_info){.changes = &moved, .change_count = 1});
  *
  * Conventions
  *   - Nothing here ends the process, handles signals or keeps globals. A recorder may be used from any thread, from one
@@ -50,7 +61,10 @@ extern "C" {
     X(BAD_FOLDER, "the folder cannot be recorded into")                                                                \
     X(CANNOT_DRAW, "there is nothing that draws this")                                                                 \
     X(OTHER_TREE, "the tree is not of the world and the options that the recorder was opened for")                     \
+    X(TWO_SOURCES, "points come from a tree, or from lists and changes: from one of these in a tick")                  \
     X(DUPLICATE_ID, "two points of the tree have one id")                                                              \
+    X(BAD_POINT, "a point or a change has a NaN or an infinity, or is of no such kind")                                \
+    X(NO_POINT, "a change is of a point that is not there")                                                            \
     X(BAD_ID, "an id is not below 2^53, as files need it")                                                             \
     X(BAD_QUERY, "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or no such skip") \
     X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or a text that is none")           \
@@ -82,7 +96,9 @@ typedef struct octreel_recorder_def {
     bool replace;       /* or one with a recording, which goes once tick 0 of this one is filmed; until then, and where
                           that fails, it stays. Other files of the folder stay. What is no recording, and one that is
                           being filmed, are BAD_FOLDER */
-    octree_def tree;    /* octree_definition() of the trees to come; their allocator is not used */
+    octree_def tree;    /* octree_definition() of the trees to come; their allocator is not used. For lists of points:
+                           the world, which is to hold all of them, and the capacity and depth of the tree that shows
+                           them; its full leaves grow */
     octree_player player; /* OCTREE_PLAYER_NONE, or _BODY: the point that collides, by id, box_size and sweep */
     int width, height;    /* pixels; 1 to 16384 */
     const char *camera;   /* "iso", "orbit", "follow" ... */
@@ -107,17 +123,29 @@ typedef struct octreel_recorder_def {
 /* No player, 1280 x 720, "iso", the default layers, 16 ticks or 64 MiB in the queue, no ring. */
 octreel_recorder_def octreel_recorder_def_default(void);
 
-/* What a program asked of its tree in a tick, and what else it shows. The arrays are copied; their `tick` is not read.
- * The recorder asks the queries itself: at the end of the tick, of the tree as it is handed over, with each query's
- * `skip` and `epsilon` and in the exact mode. So its answers are the program's own where that asked the same after its
- * last change of the tick; what was asked before shows in a tick of its own, handed over before the tree is changed.
- * What a query says that the program answered is copied, and judged by the true answer.
+/* What a program asked of its points in a tick, what else it shows, and, where it has no octree, which points it has.
+ * The arrays are copied; their `tick` is not read. The recorder asks the queries itself: at the end of the tick, of the
+ * points as they are handed over, with each query's `skip` and `epsilon` and in the exact mode. So its answers are the
+ * program's own where that asked the same after its last change of the tick; what was asked before shows in a tick of
+ * its own, handed over before the points are changed. What a query says that the program answered is copied, and judged
+ * by the true answer.
+ *
+ * In a tick points come from one of three: the tree, `points` or `changes`. A program may hand over a list and then
+ * changes, tick by tick as it likes, but not a tree before or after them. With none of the three it is as at the tick
+ * before: of a program that hands over lists an empty one, since that of a C++ vector is null; else nothing has
+ * changed. A point outside the world is in no answer: the tick in which it comes or goes there has the event "refused".
+ *
  * A point in a frame is the tree's; a shape is what else there is: walls, goals, somebody else's tree. */
 typedef struct octreel_tick_info {
     const octree_query *queries; /* in any order; all numbers finite */
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
+    const octree_point *points; /* all that there are, in any order, each id once */
+    size_t point_count;
+    const octree_edit *changes; /* since the call before, in the order in which they were made, several of one point
+                                   too; velocities are not read */
+    size_t change_count;
 } octreel_tick_info;
 
 /* Start a recorder into *recorder, which is null on an error, with the sentence in *error (may be null). The definition
@@ -126,13 +154,21 @@ typedef struct octreel_tick_info {
 octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder,
                                      octreel_error *error);
 
-/* Hand over a tick: the tree as it is now, with ids that are unique, and what was asked and is shown; `about` may be
- * null. The first is tick 0. A null tree has no points, for programs that record shapes alone; it is NULL_ARGUMENT
- * after a tick that had one. A tree under OCTREE_AUTO is OTHER_TREE once it has chosen another capacity. Nothing is
- * kept of the tree when this returns. Waits for the worker where the queue is full, and at tick 0 until the first
- * frame is drawn. Errors: NULL_ARGUMENT, OTHER_TREE, DUPLICATE_ID, BAD_ID, BAD_QUERY, BAD_SHAPE, FLOAT_MODE, BUSY,
- * CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: O(nodes + n + queries + shapes) in time; 96
- * bytes a point, and what changed until it is filmed. */
+/* Hand over a tick: the points as they are now, with ids that are unique, and what was asked and is shown; `about` may
+ * be null. The first is tick 0. The points are those of the tree, or where that is null those of `about`: none, for
+ * programs that record shapes alone. After a tick that had a tree, null is NULL_ARGUMENT. A tree under OCTREE_AUTO is
+ * OTHER_TREE once it has chosen another capacity. Nothing is kept of the arguments when this returns. Waits for the
+ * worker where the queue is full, and at tick 0 until the first frame is drawn.
+ *
+ * Of a tick that is refused, a list counts for nothing, and changes are made all the same, since the program goes on
+ * from there: the next tick that is taken has them. Those that cannot be made alone are left out: BAD_POINT (a NaN, an
+ * infinity, no such kind), BAD_ID, DUPLICATE_ID (an insertion of an id that is there) and NO_POINT (a move or removal
+ * of one that is not); the sentence names the first. After NO_MEMORY none is made: hand the tick over again.
+ *
+ * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
+ * FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: of a tree or a list O(nodes +
+ * n + queries + shapes) in time, and 96 bytes a point; of changes O(changes log changes + queries + shapes), after the
+ * first that follow a list, and up to 128 bytes a point; and what changed until it is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
 
 /* Film what the ring holds, and the gaps between and after its ticks, into a folder as a recording of its own, whose

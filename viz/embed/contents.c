@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+/* contents.c - what points a program has, by a tree, a list, or what changed. */
+#include "contents.h"
+#include "array.h"
+#include "session_file.h"
+#include "status.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void contents_release(contents *c)
+{
+    points_release(&c->now);
+    points_release(&c->next);
+    points_release(&c->spare);
+    point_table_release(&c->table);
+    free(c->changes);
+    *c = (contents){0};
+}
+
+static bool is_finite_place(const double at[3])
+{
+    return isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
+}
+
+/* ---- By a tree ---------------------------------------------------------------------------------------------- */
+
+/* Whether a tree has the world and the options of the definition; else names one that it has not. */
+static octreel_status check_tree(const octree_def *own, const octree *tree, octreel_error *error)
+{
+    const octree_def def = octree_definition(tree);
+    for (int i = 0; i < 3; i++)
+        if (def.world.min[i] != own->world.min[i] || def.world.max[i] != own->world.max[i])
+            return status_refuse(
+                error, OCTREEL_OTHER_TREE,
+                "the tree's world on %c is [%.17g, %.17g], and the recorder was opened for [%.17g, %.17g]", "xyz"[i],
+                def.world.min[i], def.world.max[i], own->world.min[i], own->world.max[i]);
+    if (def.leaf_capacity != own->leaf_capacity)
+        return status_refuse(
+            error, OCTREEL_OTHER_TREE,
+            "the tree's leaf_capacity is %zu, and the recorder was opened for %zu; a tree under OCTREE_AUTO "
+            "changes it: give it a fixed one",
+            def.leaf_capacity, own->leaf_capacity);
+    if (def.max_depth != own->max_depth)
+        return status_refuse(error, OCTREEL_OTHER_TREE,
+                             "the tree's max_depth is %zu, and the recorder was opened for %zu", def.max_depth,
+                             own->max_depth);
+    if (def.full_leaf != own->full_leaf)
+        return status_refuse(error, OCTREEL_OTHER_TREE,
+                             "the tree's full_leaf is not that of the definition that the recorder was opened for");
+    return OCTREEL_OK;
+}
+
+static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
+{
+    uint64_t clash = 0;
+    octreel_status status = check_tree(def, tree, error);
+    if (status != OCTREEL_OK)
+        return status;
+    status = points_read(&c->next, &c->spare, tree, &clash);
+    if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
+        return status_refuse(error, status, "%s: %" PRIu64, octreel_status_text(status), clash);
+    return status == OCTREEL_OK ? status : status_fail(error, status);
+}
+
+/* ---- By what changed ---------------------------------------------------------------------------------------- */
+
+static bool start_table(contents *c)
+{
+    if (!point_table_reserve(&c->table, c->now.count))
+        return false;
+    for (size_t i = 0; i < c->now.count; i++)
+        point_table_put(&c->table, &c->now.items[i]);
+    points_release(&c->now);
+    points_release(&c->next);
+    points_release(&c->spare);
+    c->tabled = true;
+    return true;
+}
+
+static bool make_room(contents *c, size_t more)
+{
+    change *changes = more <= UINT32_MAX - c->change_count
+                          ? array_reserve(c->changes, c->change_count + more, &c->change_room, sizeof *changes)
+                          : NULL;
+    c->changes = changes ? changes : c->changes;
+    return more == 0 || (changes && point_table_reserve(&c->table, c->table.count + more));
+}
+
+/* While no tick is taken, what changes there and back again takes no more memory than what there is. */
+static void settle(contents *c)
+{
+    enum { FEW = 1024 };
+    if (c->change_count > FEW && c->change_count / 2 > c->settled)
+        c->change_count = c->settled = changes_settle(c->changes, c->change_count);
+}
+
+static octreel_status add_change(contents *c, const octree_edit *edit, size_t number, octreel_error *error)
+{
+    const octree_body *body = &edit->body;
+    const octree_point *there = point_table_find(&c->table, body->id);
+    change made = {.kind = edit->kind, .id = body->id};
+    if ((unsigned)edit->kind > OCTREE_EDIT_MOVE)
+        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: there is no such kind", number);
+    if (body->id >= SESSION_ID_LIMIT)
+        return status_refuse(error, OCTREEL_BAD_ID, "changes[%zu]: %s: %" PRIu64, number,
+                             octreel_status_text(OCTREEL_BAD_ID), body->id);
+    if (edit->kind != OCTREE_EDIT_REMOVE && !is_finite_place(body->position))
+        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: a coordinate is NaN or infinite", number);
+    if (edit->kind == OCTREE_EDIT_INSERT && there)
+        return status_refuse(error, OCTREEL_DUPLICATE_ID, "changes[%zu]: there is a point %" PRIu64 " already", number,
+                             body->id);
+    if (edit->kind != OCTREE_EDIT_INSERT && !there)
+        return status_refuse(error, OCTREEL_NO_POINT, "changes[%zu]: there is no point %" PRIu64, number, body->id);
+    if (there)
+        memcpy(made.from, there->position, sizeof made.from);
+    if (edit->kind != OCTREE_EDIT_REMOVE)
+        memcpy(made.to, body->position, sizeof made.to);
+    change_make(&made, &c->table);
+    c->changes[c->change_count++] = made;
+    return OCTREEL_OK;
+}
+
+static octreel_status read_changes(contents *c, const octreel_tick_info *about, octreel_error *error)
+{
+    octreel_status first = OCTREEL_OK;
+    octreel_error later;
+    if ((!c->tabled && !start_table(c)) || !make_room(c, about->change_count))
+        return status_fail(error, OCTREEL_NO_MEMORY);
+    c->source = FROM_CHANGES;
+    for (size_t i = 0; i < about->change_count; i++) {
+        const octreel_status status = add_change(c, &about->changes[i], i, first == OCTREEL_OK ? error : &later);
+        first = first == OCTREEL_OK ? status : first;
+    }
+    return first;
+}
+
+/* ---- By a list ---------------------------------------------------------------------------------------------- */
+
+/* Let the table be what was read. */
+static bool table_list(contents *c)
+{
+    if (!point_table_list(&c->table, &c->now, &c->spare))
+        return false;
+    const size_t count = changes_between(&c->now, &c->next, NULL);
+    if (!make_room(c, count))
+        return false;
+    changes_between(&c->now, &c->next, c->changes + c->change_count);
+    for (const size_t end = c->change_count + count; c->change_count < end; c->change_count++)
+        change_make(&c->changes[c->change_count], &c->table);
+    return true;
+}
+
+static octreel_status read_list(contents *c, const octree_point *list, size_t count, octreel_error *error)
+{
+    uint64_t clash = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!is_finite_place(list[i].position))
+            return status_refuse(error, OCTREEL_BAD_POINT, "points[%zu]: a coordinate is NaN or infinite", i);
+    const octreel_status status = points_read_list(&c->next, &c->spare, list, count, &clash);
+    if (status == OCTREEL_BAD_ID)
+        return status_refuse(error, status, "points: %s: %" PRIu64, octreel_status_text(status), clash);
+    if (status == OCTREEL_DUPLICATE_ID)
+        return status_refuse(error, status, "points: two of them have one id: %" PRIu64, clash);
+    return status == OCTREEL_OK && (!c->tabled || table_list(c)) ? OCTREEL_OK : status_fail(error, OCTREEL_NO_MEMORY);
+}
+
+/* ---- A tick ------------------------------------------------------------------------------------------------- */
+
+/* Where a program says nothing of its points it is as it was: a list has none then, and changes are none. */
+static octreel_status find_source(contents *c, const octree *tree, const octreel_tick_info *about, octreel_error *error)
+{
+    const bool list = about && (about->points || about->point_count);
+    const bool changes = about && (about->changes || about->change_count);
+    c->read_source = tree ? FROM_TREE : list ? FROM_LIST : changes ? FROM_CHANGES : c->source;
+    if ((list && !about->points) || (changes && !about->changes))
+        return status_fail(error, OCTREEL_NULL_ARGUMENT);
+    if ((tree != NULL) + list + changes > 1 ||
+        (c->source != FROM_NOTHING && (c->source == FROM_TREE) != (c->read_source == FROM_TREE)))
+        return status_fail(error, OCTREEL_TWO_SOURCES);
+    return c->read_source == FROM_TREE && !tree ? status_fail(error, OCTREEL_NULL_ARGUMENT) : OCTREEL_OK;
+}
+
+octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
+                             octreel_error *error)
+{
+    settle(c);
+    c->kept = c->change_count;
+    const octreel_status status = find_source(c, tree, about, error);
+    if (status != OCTREEL_OK)
+        return status;
+    if (c->read_source == FROM_TREE)
+        return read_tree(c, def, tree, error);
+    if (c->read_source == FROM_CHANGES)
+        return about ? read_changes(c, about, error) : OCTREEL_OK;
+    return read_list(c, about ? about->points : NULL, about ? about->point_count : 0, error);
+}
+
+bool contents_add_changes(const contents *c, batch *b)
+{
+    const size_t most = c->tabled ? c->change_count : changes_between(&c->now, &c->next, NULL);
+    if (most == 0)
+        return true;
+    b->changes = most <= SIZE_MAX / sizeof *b->changes ? malloc(most * sizeof *b->changes) : NULL;
+    if (!b->changes)
+        return false;
+    b->bytes += most * sizeof *b->changes;
+    if (c->tabled)
+        memcpy(b->changes, c->changes, most * sizeof *b->changes);
+    b->change_count = c->tabled ? changes_settle(b->changes, most) : changes_between(&c->now, &c->next, b->changes);
+    return true;
+}
+
+void contents_take(contents *c)
+{
+    c->source = c->read_source;
+    c->change_count = c->settled = 0;
+    if (!c->tabled)
+        points_swap(&c->now, &c->next); /* the next tick is compared with the last one that was taken */
+}
+
+void contents_undo(contents *c)
+{
+    while (c->change_count > c->kept)
+        change_undo(&c->changes[--c->change_count], &c->table);
+}

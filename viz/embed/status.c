@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* status.c - statuses with their sentences. */
+#include "status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+const char *octreel_status_text(octreel_status status)
+{
+#define OCTREEL_STATUS_TEXT(name, text) text,
+    static const char *const texts[OCTREEL_STATUS_COUNT] = {OCTREEL_STATUS_MAP(OCTREEL_STATUS_TEXT)};
+#undef OCTREEL_STATUS_TEXT
+    return (unsigned)status < OCTREEL_STATUS_COUNT ? texts[status] : "there is no such status";
+}
+
+octreel_status status_refuse(octreel_error *error, octreel_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->text, sizeof error->text, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+octreel_status status_fail(octreel_error *error, octreel_status status)
+{
+    return status_refuse(error, status, "%s", octreel_status_text(status));
+}
