@@ -27,6 +27,16 @@ bool folder_has(const char *folder, const char *name)
     return there;
 }
 
+bool file_is_standard(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+const char *file_title(const char *path)
+{
+    return file_is_standard(path) ? FILE_STANDARD_INPUT : path;
+}
+
 /* ---- Read whole --------------------------------------------------------------------------------------------- */
 
 static bool refuse(char reason[FILE_REASON], const char *what)

@@ -15,6 +15,14 @@ char *path_join(const char *folder, const char *name);
 /* Whether the folder has anything of this name. */
 bool folder_has(const char *folder, const char *name);
 
+/* "-" stands for standard input where a file is read, and for standard output where one is written: here, and so
+ * for every command. ./- is a file of that name. */
+bool file_is_standard(const char *path);
+
+/* What a path that is read is called in a sentence: itself, or "standard input". */
+#define FILE_STANDARD_INPUT "standard input"
+const char *file_title(const char *path);
+
 #define FILE_REASON 160
 
 /* Read a regular file into *bytes, which the caller frees. False with the reason, such as "cannot be opened: No such

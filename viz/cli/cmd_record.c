@@ -9,14 +9,18 @@
 #include "progress.h"
 #include "recording_file.h"
 #include "folder_files.h"
+#include "text.h"
 
+#include <inttypes.h>
 #include <stdio.h>
+#include <unistd.h>
 
 static const char help[] =
     "usage: octreel record [SESSION] -o DIR [OPTION ...]\n\n"
     "Play a session and film it: DIR/frame_000000.png ..., with ticks.jsonl, session.json, recording.json and\n"
     "renderer.json beside them, and index.html, a page that shows all of it. Without SESSION, the paper's own is\n"
-    "played; octreel help session tells what one holds.\n\n"
+    "played; octreel help session tells what one holds. Where SESSION is -, it is read from standard input and filmed\n"
+    "while it is written, tick by tick: mygame | octreel record - -o DIR\n\n"
     "  -o, --output DIR      where the recording goes; a new folder, or one without a recording\n"
     "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait, q "
     "end\n"
@@ -36,11 +40,13 @@ static const char help[] =
 static const char more_help[] =
     "      --json            print a summary as JSON on stdout\n"
     "  -h, --help\n\n"
-    "Ctrl-C finishes the frame in hand, and says how to go on.\n\n"
+    "Ctrl-C finishes the frame in hand, and says how to go on. Of a session from standard input that breaks off, is\n"
+    "malformed from some line on, or is stopped, what came before is a whole recording.\n\n"
     "Examples: octreel record -o frames\n"
     "          octreel record session.json --keys wwdn --camera orbit --size 640x360 -o frames\n"
     "          octreel record --resume -o frames\n"
-    "          octreel record session.json --ticks 1000:2000 -o frames\n";
+    "          octreel record session.json --ticks 1000:2000 -o frames\n"
+    "          mygame | octreel record - -o frames\n";
 
 typedef struct arguments {
     const char *session, *keys;
@@ -100,6 +106,64 @@ static int film_it(arguments *a, const octree_session *session)
     watch_end(&w);
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
+
+/* ---- A session that is still being written ------------------------------------------------------------------ */
+
+/* Why a stream cannot be filmed as asked for; null where it can. */
+static const char *refuse_stream(const arguments *a)
+{
+    if (a->film.resume)
+        return "--resume completes what is in DIR without the stream: leave out the -";
+    if (a->film.last != 0)
+        return "--ticks films a part of a session that is there, and not one that is still being written: save it "
+               "first";
+    if (a->film.jobs > 1)
+        return "--jobs divides a session that is there, and one that is still being written is filmed as it comes: by "
+               "one";
+    return NULL;
+}
+
+static int end_stream(const arguments *a, film_stream_end how, const film_summary *summary, const watch *w,
+                      const octreel_error *error)
+{
+    const uint64_t ticks = summary->ticks;
+    if (how == FILM_STREAM_WHOLE)
+        film_report(stdout, summary, &a->film, progress_seconds(&w->progress), a->json);
+    else if (how == FILM_STREAM_STOPPED && ticks == 0)
+        trouble("stopped before a tick was filmed");
+    else if (how == FILM_STREAM_STOPPED)
+        trouble("stopped after %" PRIu64 " tick%s, of which %s is a recording", ticks, plural(ticks), a->film.folder);
+    else if (ticks == 0)
+        trouble("%s", error->text);
+    else
+        trouble("%s; %s has what came before: %" PRIu64 " tick%s", error->text, a->film.folder, ticks, plural(ticks));
+    return how == FILM_STREAM_WHOLE ? EXIT_DONE : EXIT_TROUBLE;
+}
+
+static int film_standard_input(arguments *a)
+{
+    watch w = watch_begin("ticks");
+    film_summary summary;
+    octreel_error error;
+    a->film.progress = watch_progress;
+    a->film.keep_going = watch_keep_going;
+    a->film.context = &w;
+    session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, watch_keep_going, &w);
+    if (!stream)
+        return trouble("there is no memory to read standard input");
+    const film_stream_end how = film_stream(stream, a->keys, &a->film, &summary, &error);
+    progress_end(&w.progress);
+    if (*session_stream_note(stream))
+        fprintf(stderr, "octreel: %s\n", session_stream_note(stream));
+    if (how == FILM_STREAM_WHOLE)
+        film_report_start(stderr, &summary.start, session_stream_start(stream));
+    const int status = end_stream(a, how, &summary, &w, &error);
+    session_stream_close(stream);
+    watch_end(&w);
+    return status;
+}
+
+/* ---- The command line --------------------------------------------------------------------------------------- */
 
 /* The file of the folder without which nothing says what a recording is that is resumed without a word about that on
  * the command line; null where nothing is missing. */
@@ -188,5 +252,10 @@ int cmd_record(int argc, char **argv)
     if (a.no_frames && a.every)
         return trouble("--no-frames films no tick, and --every some: give one of them");
     a.session = argv[optind];
-    return read_film(&a) ? play(&a) : EXIT_TROUBLE;
+    const bool stream = a.session && file_is_standard(a.session);
+    if (stream && refuse_stream(&a))
+        return trouble("%s", refuse_stream(&a));
+    if (!read_film(&a))
+        return EXIT_TROUBLE;
+    return stream ? film_standard_input(&a) : play(&a);
 }

@@ -56,7 +56,7 @@ static void print_line(const progress *p, const char *text)
     const int columns = count_columns() - 1, room = columns - (int)strlen(text) - (int)strlen("[] ");
     const int length = room < BAR ? room : BAR;
     fputc('\r', stderr);
-    if (length >= LEAST_BAR) {
+    if (length >= LEAST_BAR && p->fraction >= 0) {
         memset(bar, '.', (size_t)length);
         memset(bar, '#', (size_t)(p->fraction * length));
         fprintf(stderr, "[%.*s] ", length, bar);
@@ -68,14 +68,18 @@ static void print_line(const progress *p, const char *text)
 void progress_show(progress *p, uint64_t done, uint64_t total)
 {
     const double time = now();
-    if (!p->visible || total == 0 || (done < total && time - p->shown < SECONDS_BETWEEN))
+    if (!p->visible || (done != total && time - p->shown < SECONDS_BETWEEN))
         return;
     p->shown = time;
-    p->fraction = (double)done / (double)total;
+    p->fraction = total > 0 ? (double)done / (double)total : -1;
     const double elapsed = time - p->started, rate = elapsed > 0 ? (double)done / elapsed : 0;
-    const double left = rate > 0 ? (double)(total - done) / rate : 0;
+    const double left = total > 0 && rate > 0 ? (double)(total - done) / rate : 0;
     char text[LINE];
-    snprintf(text, sizeof text, "%" PRIu64 "/%" PRIu64 " %s  %.0f/s  %.0f s left", done, total, p->unit, rate, left);
+    if (total > 0)
+        snprintf(text, sizeof text, "%" PRIu64 "/%" PRIu64 " %s  %.0f/s  %.0f s left", done, total, p->unit, rate,
+                 left);
+    else
+        snprintf(text, sizeof text, "%" PRIu64 " %s  %.0f/s", done, p->unit, rate);
     print_line(p, text);
 }
 

@@ -11,12 +11,14 @@
 typedef struct progress {
     const char *unit;
     double started, shown; /* seconds of the monotonic clock; 0: not yet */
-    double fraction;       /* that was shown last, 0 to 1 */
+    double fraction;       /* that was shown last, 0 to 1; below 0: there is no bar */
     bool visible;
 } progress;
 
 /* `unit` says what is counted: "ticks". */
 progress progress_start(const char *unit);
+
+/* `total` 0: nobody knows how many come. */
 void progress_show(progress *p, uint64_t done, uint64_t total);
 
 /* Show a sentence beside the bar, which stays where it is: for a step that cannot be counted. */

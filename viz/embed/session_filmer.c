@@ -2,6 +2,7 @@
 /* session_filmer.c - a thread that films ticks as a program handed them over. */
 #include "session_filmer.h"
 #include "error.h"
+#include "session_file.h"
 
 #include <fenv.h>
 #include <signal.h>
@@ -48,6 +49,7 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
     }
     const octree_session session = {.tree = s->tree,
                                     .player = s->player,
+                                    .ticks = SESSION_ENDLESS,
                                     .bodies = bodies,
                                     .body_count = start->count,
                                     .queries = first->queries,
@@ -150,7 +152,7 @@ static void *run(void *context)
     film_queue(f);
     edit_order_release(&f->order);
     const bool whole = f->status == OCTREEL_OK;
-    if (f->live && !live_close(f->live, whole ? &f->error : &late) && whole)
+    if (f->live && !live_close(f->live, SESSION_ENDLESS, whole ? &f->error : &late) && whole)
         f->status = OCTREEL_BROKEN;
     return NULL;
 }

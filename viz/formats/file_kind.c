@@ -91,6 +91,8 @@ static file_kind find_folder_kind(const char *path)
 file_kind file_kind_of(const char *path)
 {
     struct stat status;
+    if (file_is_standard(path))
+        return KIND_UNKNOWN;
     if (stat(path, &status) != 0)
         return errno == ENOENT || errno == ENOTDIR ? KIND_MISSING : KIND_UNKNOWN;
     if (S_ISDIR(status.st_mode))

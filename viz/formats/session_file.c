@@ -96,7 +96,7 @@ void session_release(session_file *file)
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
-static bool read_header(json_reader *r, json_t *object)
+bool session_read_header(json_reader *r, json_t *object)
 {
     session_loader *s = r->context;
     if (!json_object_get(object, "octreel"))
@@ -104,7 +104,7 @@ static bool read_header(json_reader *r, json_t *object)
     return session_take_world(r, object) && json_read_members(r, object, NULL, session_header_members, &s->header);
 }
 
-static bool read_tick(json_reader *r, json_t *object)
+bool session_read_tick(json_reader *r, json_t *object)
 {
     session_tick ignored;
     if (json_object_get(object, "octreel"))
@@ -114,7 +114,7 @@ static bool read_tick(json_reader *r, json_t *object)
     return json_read_members(r, object, NULL, session_tick_members, &ignored);
 }
 
-static bool check_text(json_reader *r)
+bool session_check_text(json_reader *r)
 {
     const size_t size = (size_t)(r->limit - r->at);
     if (size > INT_MAX)
@@ -132,20 +132,19 @@ static bool read_stream(json_reader *r)
     static const char byte_order_mark[] = "\xef\xbb\xbf"; /* some editors put it before UTF-8 */
     if (r->limit - r->at >= 3 && memcmp(r->at, byte_order_mark, 3) == 0)
         r->at += 3;
-    if (!check_text(r))
+    if (!session_check_text(r))
         return false;
     if (!json_next_object(r))
         return json_fail_line(r, r->line, NULL, "holds no session");
-    if (!json_read_object(r, false, read_header))
+    if (!json_read_object(r, false, session_read_header))
         return false;
     while (json_next_object(r))
-        if (!json_read_object(r, false, read_tick))
+        if (!json_read_object(r, false, session_read_tick))
             return false;
     return true;
 }
 
-/* What is of every tick comes last in a session, though it is the first in its file. */
-static bool append_standing(json_reader *r, int list, size_t item_size)
+static bool append_one(json_reader *r, int list, size_t item_size)
 {
     session_loader *s = r->context;
     session_list *to = &s->lists[list], *from = &s->standing[list];
@@ -161,20 +160,38 @@ static bool append_standing(json_reader *r, int list, size_t item_size)
     return true;
 }
 
-/* Hand the loader's arrays over to the session. */
-static octree_session assemble(const session_loader *s)
+bool session_append_standing(json_reader *r)
+{
+    return append_one(r, SESSION_QUERIES, sizeof(octree_query)) && append_one(r, SESSION_SHAPES, sizeof(octree_shape));
+}
+
+octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS])
 {
     octree_session session = s->header.session;
     session.bodies = s->bodies;
-    session.edits = s->lists[SESSION_EDITS].items;
-    session.edit_count = s->lists[SESSION_EDITS].count;
-    session.queries = s->lists[SESSION_QUERIES].items;
-    session.query_count = s->lists[SESSION_QUERIES].count;
-    session.shapes = s->lists[SESSION_SHAPES].items;
-    session.shape_count = s->lists[SESSION_SHAPES].count;
-    session.gaps = s->lists[SESSION_GAPS].items;
-    session.gap_count = s->lists[SESSION_GAPS].count;
+    session.edits = lists[SESSION_EDITS].items;
+    session.edit_count = lists[SESSION_EDITS].count;
+    session.queries = lists[SESSION_QUERIES].items;
+    session.query_count = lists[SESSION_QUERIES].count;
+    session.shapes = lists[SESSION_SHAPES].items;
+    session.shape_count = lists[SESSION_SHAPES].count;
+    session.gaps = lists[SESSION_GAPS].items;
+    session.gap_count = lists[SESSION_GAPS].count;
     return session;
+}
+
+void session_clear_lists(session_list lists[SESSION_LISTS])
+{
+    free_answers(lists[SESSION_QUERIES].items, lists[SESSION_QUERIES].count);
+    for (int i = 0; i < SESSION_LISTS; i++)
+        lists[i].count = 0;
+}
+
+void session_release_lists(session_list lists[SESSION_LISTS])
+{
+    session_clear_lists(lists);
+    for (int i = 0; i < SESSION_LISTS; i++)
+        free(lists[i].items);
 }
 
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
@@ -183,13 +200,10 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
     session_loader loader = {.folder = folder, .header = {.session = session_default_header()}};
     loader.tick = OCTREE_EVERY_TICK;
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &loader, .error = error};
-    const bool done = read_stream(&r) && append_standing(&r, SESSION_QUERIES, sizeof(octree_query)) &&
-                      append_standing(&r, SESSION_SHAPES, sizeof(octree_shape));
-    *out = (session_file){.session = assemble(&loader)};
+    const bool done = read_stream(&r) && session_append_standing(&r);
+    *out = (session_file){.session = session_assemble(&loader, loader.lists)};
     memcpy(out->note, loader.note, sizeof out->note);
-    free_answers(loader.standing[SESSION_QUERIES].items, loader.standing[SESSION_QUERIES].count);
-    for (int i = 0; i < SESSION_LISTS; i++)
-        free(loader.standing[i].items);
+    session_release_lists(loader.standing);
     cloud_release(&loader.points);
     if (!done)
         session_release(out);

@@ -43,6 +43,23 @@ typedef struct session_loader {
     session_list lists[SESSION_LISTS], standing[SESSION_LISTS]; /* of single ticks; of every tick */
 } session_loader;
 
+/* The objects of a file: its header, and one of a tick. What they hold goes to the loader. */
+json_object_reader session_read_header, session_read_tick;
+
+/* False, with an error, where what is left to read is no text, or too long a one. */
+bool session_check_text(json_reader *r);
+
+/* Append the standing queries and shapes to the lists: what is of every tick comes last in a session, though it is the
+ * first in its file. */
+bool session_append_standing(json_reader *r);
+
+/* The session of the header, with these lists; all of it is still the loader's. */
+octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS]);
+
+/* Empty lists, and free what they hold; the other frees them, too. */
+void session_clear_lists(session_list lists[SESSION_LISTS]);
+void session_release_lists(session_list lists[SESSION_LISTS]);
+
 /* The tables of both. */
 extern const json_member session_header_members[], session_tick_members[];
 

@@ -2,6 +2,7 @@
 /* live.c - a session in the making becomes a recording. */
 #include "live.h"
 #include "array.h"
+#include "film.h"
 #include "frame_file.h"
 #include "octree/digest.h"
 #include "recording.h"
@@ -19,7 +20,8 @@ struct live_recording {
     playback playback;
     film_summary summary;
     recording recording;
-    uint64_t ticks;    /* of the session, after tick 0 */
+    size_t key_count;  /* of that session */
+    uint64_t ticks;    /* that were taken, after tick 0 */
     FILE *stream;      /* session.json.live, open for the whole time; null: it is not there */
     char *path;        /* of that */
     off_t head, whole; /* where its ticks begin, and where its last whole one ends */
@@ -59,8 +61,7 @@ static octree_input first_tick(const octree_session *session)
 
 static bool begin_session(live_recording *live, octreel_error *error)
 {
-    octree_session header = live->start.session;
-    header.ticks = SESSION_ENDLESS;
+    const octree_session header = live->start.session;
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
@@ -76,15 +77,12 @@ static bool begin_session(live_recording *live, octreel_error *error)
     return flush(live, error);
 }
 
-static bool add_to_session(live_recording *live, const octree_input *input, octreel_error *error)
+static bool add_to_session(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
 {
-    if (live->ticks == SESSION_LAST_TICK)
+    if (tick > SESSION_LAST_TICK)
         return error_set(error, "a recording has at most %d ticks", SESSION_LAST_TICK);
-    session_write_tick(live->ticks + 1, input, live->stream);
-    if (!flush(live, error))
-        return false;
-    live->ticks++;
-    return true;
+    session_write_tick(tick, input, live->stream);
+    return flush(live, error);
 }
 
 static void remove_live_file(live_recording *live)
@@ -116,11 +114,23 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
     return true;
 }
 
-static bool write_session(live_recording *live, const char *path, octreel_error *error)
+/* The session as it came out: one that was to be longer ends with the last tick, and so do its keys. */
+static octree_session end_header(live_recording *live, uint64_t ticks)
+{
+    octree_session header = live->start.session;
+    header.ticks = ticks;
+    if (octree_session_length(&header) <= live->ticks)
+        return header;
+    header.ticks = live->ticks;
+    if (header.keys && strlen(header.keys) > live->ticks)
+        ((char *)header.keys)[live->ticks] = 0;
+    return header;
+}
+
+static bool write_session(live_recording *live, uint64_t ticks, const char *path, octreel_error *error)
 {
     file_writer file;
-    octree_session header = live->start.session;
-    header.ticks = live->ticks;
+    const octree_session header = end_header(live, ticks);
     if (!file_writer_open(&file, path, error))
         return false;
     session_write_header(&header, file.stream);
@@ -156,11 +166,11 @@ static bool sign_frames(const live_recording *live, uint64_t digest, octreel_err
     return true;
 }
 
-static bool end_session(live_recording *live, octreel_error *error)
+static bool end_session(live_recording *live, uint64_t ticks, octreel_error *error)
 {
     uint64_t digest;
     char *path = path_join(live->folder, "session.json");
-    bool ok = path ? write_session(live, path, error) : error_no_memory(error);
+    bool ok = path ? write_session(live, ticks, path, error) : error_no_memory(error);
     ok = ok && digest_file(path, &digest, error);
     if (ok)
         remove_live_file(live);
@@ -197,9 +207,12 @@ live_recording *live_open(const octree_session *start, const film_options *optio
     live->options.folder = live->folder;
     live->options.first = live->options.last = 0;
     live->options.resume = false;
+    live->key_count = start->keys ? strlen(start->keys) : 0;
     live->recording = (recording){.options = &live->options, .summary = &live->summary};
-    if (playback_open(&live->playback, &live->start.session, &live->options.view, error) &&
-        recording_film(&live->recording, &live->playback, error))
+    bool ok = playback_open(&live->playback, &live->start.session, &live->options.view, error);
+    if (ok)
+        live->summary.start = film_count_start(&live->start.session, octree_game_tick(live->playback.game));
+    if (ok && recording_film(&live->recording, &live->playback, error))
         return live;
     release(live);
     return NULL;
@@ -237,19 +250,40 @@ bool live_begin(live_recording *live, octreel_error *error)
     return false;
 }
 
+static char next_key(const live_recording *live)
+{
+    const char *keys = live->start.session.keys;
+    return live->ticks < live->key_count ? keys[live->ticks] : '.';
+}
+
 bool live_tick(live_recording *live, const octree_input *input, octreel_error *error)
 {
-    live->broken = live->broken || !add_to_session(live, input, error) ||
-                   !playback_play(&live->playback, input, error) || !film_tick(live, error);
+    octree_input played = *input;
+    if (!played.key)
+        played.key = next_key(live);
+    live->broken = live->broken || !add_to_session(live, live->ticks + 1, input, error);
+    live->ticks += !live->broken;
+    live->broken = live->broken || !playback_play(&live->playback, &played, error) || !film_tick(live, error);
     return !live->broken;
 }
 
-bool live_close(live_recording *live, octreel_error *error)
+bool live_note(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
+{
+    live->broken = live->broken || !add_to_session(live, tick, input, error);
+    return !live->broken;
+}
+
+const film_summary *live_summary(const live_recording *live)
+{
+    return &live->summary;
+}
+
+bool live_close(live_recording *live, uint64_t ticks, octreel_error *error)
 {
     octreel_error late;
     bool ok = true;
     if (live->begun) {
-        const bool whole = end_session(live, error);
+        const bool whole = end_session(live, ticks, error);
         live->summary.total = live->summary.ticks;
         ok = (recording_end(&live->recording, whole && !live->broken, whole ? error : &late) || live->broken) && whole;
     }

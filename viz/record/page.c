@@ -108,7 +108,7 @@ static bool write_facts(const char *text, size_t size, FILE *page, const char *p
 }
 
 /* Written to a page that may hold '<' in its strings alone. */
-static void put_session(FILE *page, const char *text, size_t size)
+static void put_escaped(FILE *page, const char *text, size_t size)
 {
     for (size_t i = 0; i < size; i++)
         if (text[i] == '<')
@@ -135,12 +135,22 @@ bool page_add(FILE *page, const char *path, uintmax_t number, const char *line, 
     return write_facts(line, size, page, path, number, error);
 }
 
-void page_end(FILE *page, const char *session, size_t size)
+static void begin_session(FILE *page)
 {
     fputs("</script>\n<script type=\"application/json\" id=\"session\">", page);
-    if (size <= PAGE_MOST_SESSION)
-        put_session(page, session, size);
+}
+
+static void end_session(FILE *page)
+{
     fwrite(page_html_tail, 1, page_html_tail_size, page);
+}
+
+void page_end(FILE *page, const char *session, size_t size)
+{
+    begin_session(page);
+    if (size <= PAGE_MOST_SESSION)
+        put_escaped(page, session, size);
+    end_session(page);
 }
 
 /* ---- That of a folder --------------------------------------------------------------------------------------- */
@@ -180,14 +190,27 @@ static bool add_ticks(FILE *page, const char *path, octreel_error *error)
     return ok;
 }
 
+/* In pieces: the session of a long recording is large. */
+static bool copy_session(FILE *page, const char *path, octreel_error *error)
+{
+    char piece[1 << 14];
+    FILE *in = fopen(path, "rb");
+    if (!in)
+        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+    for (size_t size; (size = fread(piece, 1, sizeof piece, in)) > 0;)
+        put_escaped(page, piece, size);
+    const bool ok = !ferror(in) || error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+    fclose(in);
+    return ok;
+}
+
 static bool end(FILE *page, const char *path, octreel_error *error)
 {
-    char *text = NULL;
-    size_t size = 0;
     struct stat status;
-    const bool ok = stat(path, &status) != 0 || read_file(path, &text, &size, error);
-    page_end(page, text, size);
-    free(text);
+    begin_session(page);
+    const bool has = stat(path, &status) == 0 && (uintmax_t)status.st_size <= PAGE_MOST_SESSION;
+    const bool ok = !has || copy_session(page, path, error);
+    end_session(page);
     return ok;
 }
 

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+#include "session_stream.h"
+#include "json_stream.h"
+#include "session_members.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct session_stream {
+    json_stream objects;
+    json_reader reader;
+    session_loader loader;
+    octree_session start;
+    session_stream_state first; /* what came after the header */
+    bool is_ahead;              /* that, and an object with it, is still to be given */
+    octreel_error why;          /* where it is broken */
+};
+
+session_stream *session_stream_open(int file, const char *name, bool (*keep_going)(void *context), void *context)
+{
+    session_stream *s = calloc(1, sizeof *s);
+    if (!s)
+        return NULL;
+    s->objects = (json_stream){.file = file, .keep_going = keep_going, .context = context};
+    s->loader = (session_loader){.folder = "", .tick = OCTREE_EVERY_TICK};
+    s->loader.header.session = session_default_header();
+    s->reader = (json_reader){.name = name, .line = 1, .context = &s->loader};
+    return s;
+}
+
+void session_stream_close(session_stream *s)
+{
+    if (!s)
+        return;
+    json_stream_release(&s->objects);
+    session_release_lists(s->loader.lists);
+    session_release_lists(s->loader.standing);
+    cloud_release(&s->loader.points);
+    free(s->loader.bodies);
+    free((char *)s->loader.header.session.keys);
+    free(s);
+}
+
+/* ---- Objects ------------------------------------------------------------------------------------------------ */
+
+static session_stream_state read_object(session_stream *s, json_object_reader *read, octreel_error *error)
+{
+    s->reader.error = error;
+    switch (json_stream_next(&s->objects, &s->reader)) {
+    case JSON_STREAM_OBJECT:
+        return session_check_text(&s->reader) && json_read_object(&s->reader, false, read) ? SESSION_STREAM_TICK
+                                                                                           : SESSION_STREAM_BROKEN;
+    case JSON_STREAM_END:
+        return SESSION_STREAM_END;
+    case JSON_STREAM_STOPPED:
+        return SESSION_STREAM_STOPPED;
+    default:
+        return SESSION_STREAM_BROKEN;
+    }
+}
+
+static octree_input input_of(const session_loader *s)
+{
+    const octree_session all = session_assemble(s, s->lists);
+    return (octree_input){.edits = all.edits,
+                          .edit_count = all.edit_count,
+                          .queries = all.queries,
+                          .query_count = all.query_count,
+                          .shapes = all.shapes,
+                          .shape_count = all.shape_count,
+                          .gap = all.gap_count ? all.gaps : NULL};
+}
+
+/* What no game takes is refused before it is played, and so with its line. */
+static session_stream_state read_tick(session_stream *s, octreel_error *error)
+{
+    const size_t line = s->reader.line;
+    session_clear_lists(s->loader.lists);
+    const session_stream_state state = read_object(s, session_read_tick, error);
+    if (state != SESSION_STREAM_TICK)
+        return state;
+    const octree_input input = input_of(&s->loader);
+    const octree_status status = octree_input_check(&input);
+    if (status == OCTREE_OK)
+        return state;
+    json_fail_line(&s->reader, line, NULL, "tick %" PRIu64 " cannot be played: %s", s->loader.tick,
+                   octree_status_text(status));
+    return SESSION_STREAM_BROKEN;
+}
+
+/* ---- Tick 0 ------------------------------------------------------------------------------------------------- */
+
+static bool set_keys(session_stream *s, const char *keys, octreel_error *error)
+{
+    session_file file = {.session = {.keys = s->loader.header.session.keys}};
+    const bool done = !keys || session_set_keys(&file, keys, error);
+    s->loader.header.session.keys = file.session.keys;
+    return done;
+}
+
+static bool make_start(session_stream *s)
+{
+    session_loader *l = &s->loader;
+    const bool has_own = s->first == SESSION_STREAM_TICK && l->tick == 0;
+    if (has_own && !session_append_standing(&s->reader))
+        return false;
+    s->start = session_assemble(l, has_own ? l->lists : l->standing);
+    s->is_ahead = !has_own;
+    if (!l->ends)
+        s->start.ticks = SESSION_ENDLESS;
+    return true;
+}
+
+session_stream_state session_stream_begin(session_stream *s, const char *keys, octreel_error *error)
+{
+    const session_stream_state state = read_object(s, session_read_header, error);
+    if (state == SESSION_STREAM_END)
+        json_fail_line(&s->reader, s->reader.line, NULL, "holds no session");
+    if (state != SESSION_STREAM_TICK)
+        return state == SESSION_STREAM_STOPPED ? state : SESSION_STREAM_BROKEN;
+    if (!set_keys(s, keys, error))
+        return SESSION_STREAM_BROKEN;
+    s->first = read_tick(s, &s->why);
+    s->reader.error = error;
+    return make_start(s) ? SESSION_STREAM_TICK : SESSION_STREAM_BROKEN;
+}
+
+const octree_session *session_stream_start(const session_stream *s)
+{
+    return &s->start;
+}
+
+const char *session_stream_note(const session_stream *s)
+{
+    return s->loader.note;
+}
+
+/* ---- The others --------------------------------------------------------------------------------------------- */
+
+session_stream_state session_stream_next(session_stream *s, session_stream_tick *tick, octreel_error *error)
+{
+    session_stream_state state = s->first;
+    if (!s->is_ahead)
+        state = read_tick(s, error);
+    else if (state == SESSION_STREAM_BROKEN)
+        *error = s->why;
+    s->is_ahead = false;
+    if (state == SESSION_STREAM_TICK)
+        *tick = (session_stream_tick){s->loader.tick, input_of(&s->loader)};
+    return state;
+}
+
+uint64_t session_stream_ticks(const session_stream *s)
+{
+    return s->loader.header.session.ticks;
+}

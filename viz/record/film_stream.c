@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT */
+/* film_stream.c - a session is filmed while it is written. */
+#include "film.h"
+#include "live.h"
+
+typedef struct streaming {
+    session_stream *from;
+    live_recording *live;
+    const film_options *options;
+    octreel_error *error;
+    uint64_t end;  /* the session's last tick, as far as that is known */
+    uint64_t last; /* that was filmed */
+} streaming;
+
+static bool keeps_going(const streaming *s)
+{
+    return !s->options->keep_going || s->options->keep_going(s->options->context);
+}
+
+/* Film the next tick: with this input, or with nothing but its key. */
+static film_stream_end film_next(streaming *s, const octree_input *input)
+{
+    static const octree_input nothing = {0};
+    if (!keeps_going(s))
+        return FILM_STREAM_STOPPED;
+    if (!live_tick(s->live, input ? input : &nothing, s->error))
+        return FILM_STREAM_BROKEN;
+    s->last++;
+    return FILM_STREAM_WHOLE;
+}
+
+/* Those up to a tick that have no object. */
+static film_stream_end film_up_to(streaming *s, uint64_t tick)
+{
+    film_stream_end how = FILM_STREAM_WHOLE;
+    while (how == FILM_STREAM_WHOLE && s->last < tick && s->last < s->end)
+        how = film_next(s, NULL);
+    return how;
+}
+
+static film_stream_end film_object(streaming *s, const session_stream_tick *tick)
+{
+    const film_stream_end how = film_up_to(s, tick->number - 1);
+    if (how != FILM_STREAM_WHOLE)
+        return how;
+    if (tick->number <= s->end)
+        return film_next(s, &tick->input);
+    return live_note(s->live, tick->number, &tick->input, s->error) ? how : FILM_STREAM_BROKEN;
+}
+
+/* What the header leaves open is known when all has come: ticks, and keys after the last object. */
+static film_stream_end film_rest(streaming *s)
+{
+    octree_session session = *session_stream_start(s->from);
+    session.ticks = session_stream_ticks(s->from);
+    s->end = octree_session_length(&session);
+    return film_up_to(s, s->end);
+}
+
+static film_stream_end film_ticks(streaming *s)
+{
+    for (session_stream_tick tick;;) {
+        film_stream_end how = FILM_STREAM_WHOLE;
+        switch (session_stream_next(s->from, &tick, s->error)) {
+        case SESSION_STREAM_TICK:
+            how = film_object(s, &tick);
+            break;
+        case SESSION_STREAM_END:
+            return film_rest(s);
+        case SESSION_STREAM_STOPPED:
+            return FILM_STREAM_STOPPED;
+        case SESSION_STREAM_BROKEN:
+            return FILM_STREAM_BROKEN;
+        }
+        if (how != FILM_STREAM_WHOLE)
+            return how;
+    }
+}
+
+film_stream_end film_stream(session_stream *from, const char *keys, const film_options *options, film_summary *summary,
+                            octreel_error *error)
+{
+    octreel_error late;
+    streaming s = {.from = from, .options = options, .error = error};
+    *summary = (film_summary){0};
+    const session_stream_state header = session_stream_begin(from, keys, error);
+    if (header != SESSION_STREAM_TICK)
+        return header == SESSION_STREAM_STOPPED ? FILM_STREAM_STOPPED : FILM_STREAM_BROKEN;
+    const octree_session *start = session_stream_start(from);
+    s.end = octree_session_length(start);
+    s.live = live_open(start, options, error);
+    if (!s.live)
+        return FILM_STREAM_BROKEN;
+    film_stream_end how = live_begin(s.live, error) ? film_ticks(&s) : FILM_STREAM_BROKEN;
+    *summary = *live_summary(s.live);
+    if (!live_close(s.live, session_stream_ticks(from), how == FILM_STREAM_BROKEN ? &late : error))
+        how = FILM_STREAM_BROKEN;
+    return how;
+}
