@@ -305,10 +305,16 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
         fprintf(out, " and %" PRIu64 " more", group->found - told);
 }
 
-/* "nodes 0/3/7, 0/3/6 and 9 more split"; "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
+/* "nodes 0/3/7 and 0/3/6 split"; "49 nodes split (such as 0/3/7)"; "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
 static void print_verb(FILE *out, const phrase *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
+    if (group->found > count_told(group, brief)) {
+        fprintf(out, "%" PRIu64 " %ss %s (such as ", group->found, p->noun, verb_of(p, group->change));
+        print_subject(out, fact);
+        fputc(')', out);
+        return;
+    }
     fprintf(out, "%s%s ", p->noun, plural(group->found));
     print_subjects(out, group, brief);
     fprintf(out, " %s", verb_of(p, group->change));

@@ -119,6 +119,28 @@ static bool write_line(json_writer *w, const char *key, printer *print, const di
     return write_words(w, key, &s);
 }
 
+/* How many pixels count in each pair; null where they were not counted, as in pictures of unlike sizes. */
+static void write_curve(json_writer *w, const diff_result *result)
+{
+    json_member_begin_array(w, "pixels");
+    for (size_t i = 0; i < result->count; i++) {
+        const diff_pair *pair = &result->pairs[i];
+        if (diff_finding_verdict(pair->finding) == DIFF_SAME)
+            json_write_integer(w, 0);
+        else if (pair->finding == FOUND_PIXELS)
+            json_write_integer(w, pair->difference.counted.pixels);
+        else
+            json_write_null(w);
+    }
+    json_write_end_array(w);
+    json_member_begin_array(w, "ends");
+    if (result->count > 0) {
+        json_write_string(w, diff_pair_name(&result->pairs[0]));
+        json_write_string(w, diff_pair_name(&result->pairs[result->count - 1]));
+    }
+    json_write_end_array(w);
+}
+
 static bool write_whole(const page *p)
 {
     fact_line line;
@@ -129,6 +151,7 @@ static bool write_whole(const page *p)
                     write_line(&line.writer, "tolerance_words", diff_print_tolerance, p->report);
     json_member_integer(&line.writer, "different", p->count + p->left_out);
     json_member_integer(&line.writer, "left_out", p->left_out);
+    write_curve(&line.writer, p->report->result);
     return line_end(&line, p->out) && ok;
 }
 
@@ -160,6 +183,7 @@ static bool write_pair(const page *p, size_t n)
         diff_print_difference(words.stream, pair);
     const bool ok = write_words(&line.writer, "words", &words);
     write_files(&line.writer, p->report, i);
+    json_member_integer(&line.writer, "place", i); /* in the whole's "pixels" */
     json_member_bool(&line.writer, "embedded", p->embedded[n]);
     return line_end(&line, p->out) && ok;
 }

@@ -196,6 +196,21 @@ function sayHelp()
     at("help").close();
 }
 
+/* Over how many frames there are bars, and where a click at the end of them leads. */
+async function sayCurve()
+{
+    const canvas = document.querySelector("#curve canvas"), context = canvas.getContext("2d"), {left, top, width} =
+        canvas.getBoundingClientRect();
+    const bars = JSON.parse(at("facts").textContent.split("\n")[0]).pixels.filter((_, i, all) =>
+        context.getImageData((i + 0.4) / all.length * canvas.width, canvas.height - 3, 1, 1).data[3] > 0);
+    say("bars", `${bars.length} ${[...document.querySelectorAll("#curve span")].map(span => span.textContent).join("; ")}`);
+    canvas.dispatchEvent(new MouseEvent("click", {clientX: left + width - 1, clientY: top + 1}));
+    await settled();
+    say("end of the bars", shownFrame());
+    press("Home");
+    await settled();
+}
+
 async function drive()
 {
     await settled();
@@ -206,6 +221,7 @@ async function drive()
     say("left out", at("left-out").hidden ? "none" : textOf("left-out"));
     say("glows", colorAt("difference", 0, 3));
     say("dim", colorAt("difference", 23, 15));
+    await sayCurve();
     await sayKeys();
     await sayFrames();
     sayModes();

@@ -42,7 +42,9 @@ function reading(fact)
     const badges = [...fact.querySelectorAll(".badge")];
     if (badges.length > 0)
         return badges.map(badge => badge.dataset.event).join(", ");
-    return (fact.querySelector("kbd") ?? fact).textContent;
+    /* What is shown with fewer digits has all of them in its tooltip. */
+    const exact = fact.querySelector(":scope > span[title]");
+    return exact ? exact.title : (fact.querySelector("kbd") ?? fact).textContent;
 }
 
 function sayFacts()

@@ -147,6 +147,15 @@ static void assert_headline(const place *a, const place *b, const char *expected
     comparison_release(&made);
 }
 
+/* A long list is counted, with one of its ids to look for. */
+static void many_are_counted_and_few_are_named(void **state)
+{
+    const place a = film_sample(*state, "a", 1, 1), b = film_sample(*state, "b", 2, 1);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_holds(cause_of(&made, "frame_000000.png"), "40 points moved (such as 1)");
+    comparison_release(&made);
+}
+
 static void another_seed_is_the_cause_and_not_its_points(void **state)
 {
     const place a = film_sample(*state, "a", 1, 1), b = film_sample(*state, "b", 2, 1);
@@ -301,6 +310,7 @@ int main(void)
         TEST(another_view_is_no_difference_of_ticks),
         TEST(a_switch_that_is_off_is_told_as_off),
         TEST(frames_that_differ_before_ticks_do_are_told),
+        TEST(many_are_counted_and_few_are_named),
         TEST(another_seed_is_the_cause_and_not_its_points),
         TEST(heat_of_earlier_ticks_is_a_cause),
         TEST(recordings_of_unlike_length_say_where_each_ends),

@@ -316,13 +316,15 @@ static void page_takes_what_it_does_not_expect(void **state)
     char ticks[1024] = "{\"tick\": 0, \"key\": \"</script><script>document.title = 'mine'</script>\", \"hits\": [0";
     for (int i = 1; i < PAGE_LIST + 8; i++)
         snprintf(ticks + strlen(ticks), sizeof ticks - strlen(ticks), ", %d", i);
-    strcat(ticks, "], \"unheard_of\": {\"weight\": -0.5, \"of\": [true, \"x\"]}, \"frame\": \"frame_000000.png\"}\n");
+    strcat(ticks, "], \"unheard_of\": {\"weight\": -0.5, \"long\": [17.299999999999997], \"of\": [true, \"x\"]}, \"frame\": \"frame_000000.png\"}\n");
     char *page = browser_open(d->folder, recording_by_hand(d, "a #%41?b", ticks).path, "t=0");
     assert_has(page, "<title>a #%41?b \xe2\x80\x93 Octreel</title>");
     assert_has(page, "&lt;/script&gt;&lt;script&gt;document.title");
-    assert_has(page, "30, 31<p class=\"more\">\xe2\x80\xa6 and 8 more, in ticks.jsonl</p></dd>");
+    assert_has(page, "30, 31<p class=\"more\">\xe2\x80\xa6 and 8 more, in ticks.jsonl</p></details></dd>");
+    assert_has(page, "8, 9<details><summary>30 more</summary>10, 11, ");
     assert_has(page, "<span class=\"count\">40</span>");
     assert_has(page, "<dd data-fact=\"unheard_of.weight\">-0.5</dd>");
+    assert_has(page, "long\"><span title=\"17.299999999999997\">17.3</span></dd>");
     assert_has(page, "<dd data-fact=\"unheard_of.of\">true, x</dd>");
     assert_has(page, "frame_000000.png is not beside this page");
     free(page);

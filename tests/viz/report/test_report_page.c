@@ -128,7 +128,7 @@ static void page_comes_up_with_the_verdict_and_without_errors(void **state)
     assert_said_part(state, "about",
                      "55 of 57 frames, 1 cannot be read, 1 the same by its bytes \xc2\xb7 compared exactly");
     assert_said_part(state, "about", "new & <b> against ");
-    assert_said(state, "headline", HEADLINE);
+    assert_said(state, "headline", "Tick 0 is the first that differs: " HEADLINE);
     assert_said_part(state, "title", "trouble: ");
 }
 
@@ -233,6 +233,13 @@ static void address_names_the_frame_and_leads_to_it(void **state)
     assert_said(state, "from nonsense", "frame_000000.png");
 }
 
+static void bars_show_how_much_differs_over_the_frames(void **state)
+{
+    assert_said(state, "bars",
+                "56 tick 0; pixels that differ, frame by frame; click for the nearest that does; tick 56");
+    assert_said(state, "end of the bars", "frame_000056.png");
+}
+
 static void question_mark_lists_the_keys(void **state)
 {
     assert_said(state, "help before", "false");
@@ -318,6 +325,7 @@ int main(void)
         cmocka_unit_test(line_is_swiped_by_pointer_and_keys),
         cmocka_unit_test(pictures_blink_by_themselves_and_by_hand),
         cmocka_unit_test(zoom_leads_to_the_worst_place_and_back),
+        cmocka_unit_test(bars_show_how_much_differs_over_the_frames),
         cmocka_unit_test(address_names_the_frame_and_leads_to_it),
         cmocka_unit_test(question_mark_lists_the_keys),
         cmocka_unit_test(page_loads_nothing),

@@ -38,6 +38,31 @@ function textOf(value)
     return value === null ? ABSENT : Object.is(value, -0) ? "-0" : String(value);
 }
 
+/* Seven digits are enough to read: all of them are in the tooltip. */
+const READ_DIGITS = 7;
+
+function readable(value)
+{
+    return typeof value === "number" && !Number.isInteger(value) ? Number(value.toPrecision(READ_DIGITS)) : value;
+}
+
+function showPlain(values)
+{
+    const exact = values.map(textOf).join(", "), read = values.map(readable).map(textOf).join(", ");
+    return read === exact ? exact : element("span", read, {title: exact});
+}
+
+/* As many of a list as stand open. */
+const OPEN_ENTRIES = 10;
+
+/* A longer list opens when it is wanted. */
+function folded(list)
+{
+    const rest = element("details", element("summary", `${grouped(listLength(list) - OPEN_ENTRIES)} more`));
+    rest.append(showPlain(keptEntries(list).slice(OPEN_ENTRIES)), ...showMore(list));
+    return rest;
+}
+
 function isPlain(value)
 {
     return value === null || typeof value !== "object";
@@ -59,8 +84,10 @@ function showList(list, path)
     if (list.length === 0)
         return [absent()];
     const kept = keptEntries(list);
+    if (kept.every(isPlain) && kept.length > OPEN_ENTRIES + 1)
+        return [showPlain(kept.slice(0, OPEN_ENTRIES)), folded(list)];
     if (kept.every(isPlain))
-        return [kept.map(textOf).join(", "), ...showMore(list)];
+        return [showPlain(kept), ...showMore(list)];
     return [...kept.map((entry, i) => showObject(entry, `${path}.${i}`)), ...showMore(list)];
 }
 
@@ -102,7 +129,7 @@ function showValue(value, path)
         return SHOWN_AS[path](value);
     if (Array.isArray(value))
         return showList(value, path);
-    return isPlain(value) ? [textOf(value)] : [showObject(value, path)];
+    return isPlain(value) ? [showPlain([value])] : [showObject(value, path)];
 }
 
 /* A name, and of a list how many entries it has. */

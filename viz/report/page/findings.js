@@ -65,6 +65,13 @@ function headlineOf(finding)
     return capital((finding.cause ?? finding.words).split("; ")[0]);
 }
 
+/* The first frame that differs, and why. */
+function headlineOfAll(whole, [first])
+{
+    const words = [`${capital(shortName(first))} is the first that differs`, ...whole.headline ? [whole.headline] : []];
+    return words.join(": ");
+}
+
 /* What else the cause says, and what differs where it is not counted. */
 function detailsOf(finding)
 {

@@ -36,6 +36,7 @@ class Report {
         this.frame = -1;
         this.stage = new Stage(byId("stage"));
         this.stage.onchange = () => this.showStage();
+        this.curve = new Curve(byId("curve"), findings, frame => this.goTo(frame));
     }
 
     /* ---- Where to ------------------------------------------------------------------------------------------- */
@@ -74,6 +75,7 @@ class Report {
         byId("place").textContent = `${this.frame + 1} of ${this.last + 1}`;
         document.querySelector('[data-key="p"]').disabled = this.frame === 0;
         document.querySelector('[data-key="n"]').disabled = this.frame === this.last;
+        this.curve.show(this.frame);
         this.showPanel(finding);
         this.showPictures(finding);
         byId("spoken").textContent = `${shortName(finding)}: ${headlineOf(finding)}`;
@@ -229,15 +231,15 @@ function listen(report)
 
 /* ---- The page ----------------------------------------------------------------------------------------------- */
 
-function describe(whole)
+function describe({whole, frames})
 {
     const words = whole.verdict_words, colon = words.indexOf(": ");
     byId("verdict").textContent = capital(words.slice(0, colon));
     byId("verdict").dataset.verdict = whole.verdict;
     byId("about").append(element("strong", whole.compared.path), " against ", element("strong", whole.reference.path),
                          ` · ${words.slice(colon + 2)} · ${whole.tolerance_words}`);
-    byId("headline").textContent = capital(whole.headline ?? "");
-    byId("headline").hidden = !whole.headline;
+    byId("headline").textContent = frames.length > 0 ? headlineOfAll(whole, frames) : "";
+    byId("headline").hidden = frames.length === 0;
     byId("trouble").textContent = `Nobody can say why: ${whole.trouble}`;
     byId("trouble").hidden = !whole.trouble;
     document.title = `${whole.verdict}: ${whole.compared.path} – octreel diff`;
@@ -284,7 +286,7 @@ function showCalm(whole)
 function openReport()
 {
     const findings = new Findings(byId("facts").textContent);
-    describe(findings.whole);
+    describe(findings);
     fillControls(mode => report.look(mode));
     if (findings.frames.length === 0) {
         showCalm(findings.whole);

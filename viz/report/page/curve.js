@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/* curve.js - how many pixels differ over all frames that were compared, as bars; a click goes to the frame. */
+"use strict";
+
+const BAR_GAP = 3; /* CSS pixels: bars narrower than this touch */
+
+/* The share of the height that a number of pixels takes: a hundredth of the most is still seen. */
+function barHeight(pixels, most)
+{
+    return most > 0 ? Math.sqrt(pixels / most) : 0;
+}
+
+class Curve {
+    constructor(figure, findings, goTo)
+    {
+        this.canvas = figure.querySelector("canvas");
+        this.pixels = findings.whole.pixels;
+        this.places = findings.frames.map(frame => frame.place);
+        this.most = this.pixels.reduce((most, pixels) => Math.max(most, pixels ?? 0), 0);
+        this.place = -1;
+        this.canvas.addEventListener("click", event => goTo(this.nearest(event.offsetX)));
+        addEventListener("resize", () => this.draw());
+        figure.hidden = this.pixels.length < 2;
+        this.label(figure, findings);
+    }
+
+    label(figure, {whole, frames})
+    {
+        const captions = figure.querySelectorAll("figcaption span");
+        captions[0].textContent = shortName({frame: whole.ends[0]});
+        captions[2].textContent = shortName({frame: whole.ends[1]});
+        this.canvas.setAttribute("aria-label", `Pixels that differ in ${this.pixels.length} frames, at most ` +
+            `${grouped(this.most)}; the first that differs is ${shortName(frames[0])}`);
+    }
+
+    /* The frame of the page that is nearest to a place across the canvas. */
+    nearest(x)
+    {
+        const place = Math.floor(x / this.canvas.clientWidth * this.pixels.length);
+        const far = i => Math.abs(this.places[i] - place);
+        return this.places.reduce((best, _, i) => far(i) < far(best) ? i : best, 0);
+    }
+
+    show(frame)
+    {
+        this.place = this.places[frame];
+        this.draw();
+    }
+
+    draw()
+    {
+        const ratio = devicePixelRatio, {clientWidth: width, clientHeight: height} = this.canvas;
+        const context = this.canvas.getContext("2d"), style = getComputedStyle(this.canvas);
+        const [line, warm, text] = ["--line", "--warm", "--text"].map(name => style.getPropertyValue(name));
+        this.canvas.width = Math.round(width * ratio);
+        this.canvas.height = Math.round(height * ratio);
+        context.scale(ratio, ratio);
+        context.fillStyle = line;
+        context.fillRect(0, height - 1, width, 1);
+        const step = width / this.pixels.length, wide = Math.max(step > BAR_GAP ? step - 1 : step, 1);
+        this.pixels.forEach((pixels, i) => {
+            /* What has no number stands out as much as the most. */
+            const tall = pixels === null ? height : Math.ceil(barHeight(pixels, this.most) * height);
+            context.fillStyle = i === this.place ? text : warm;
+            context.fillRect(i * step, height - tall, wide, tall);
+        });
+    }
+}
