@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* batch.c - what was handed over in a tick, as the change since the tick before. */
 #include "batch.h"
+#include "session_file.h"
 #include "text.h"
 
 #include <stdlib.h>
@@ -54,6 +55,11 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
         octree_query *query = &b->queries[i];
         query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
         whole = whole && (query->answer || query->answer_count == 0);
+        for (int met = 0; met < OCTREE_MET_KINDS; met++) {
+            octree_ids *ids = &query->met[met];
+            ids->ids = whole ? copy(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
+            whole = whole && (ids->ids || ids->count == 0);
+        }
         /* Files hold no more neighbours than a tree has points, at most. */
         if (query->k > UINT32_MAX)
             query->k = UINT32_MAX;
@@ -95,7 +101,7 @@ void batch_release(batch *b)
     free(b->gaps);
     free(b->changes);
     for (size_t i = 0; b->queries && i < b->query_count; i++)
-        free((uint64_t *)b->queries[i].answer);
+        query_release_ids(&b->queries[i]);
     free(b->queries);
     free(b->shapes);
     free(b);

@@ -27,35 +27,64 @@ static bool duplicate(const void **items, size_t count, size_t item_size)
     return copy || count == 0;
 }
 
-/* The ids that programs answered belong to their queries. */
-static void free_answers(const octree_query *queries, size_t count)
+static bool duplicate_ids(const uint64_t **ids, size_t *count)
 {
-    for (size_t i = 0; i < count; i++)
-        free((uint64_t *)queries[i].answer);
+    const void *copy = *ids;
+    const bool whole = duplicate(&copy, *count, sizeof **ids);
+    *ids = copy;
+    *count = whole ? *count : 0;
+    return whole;
 }
 
-/* Of queries that were copied: copy their answers. */
-static bool duplicate_answers(octree_query *queries, size_t count)
+bool query_copy_ids(octree_query *query)
+{
+    bool whole = duplicate_ids(&query->answer, &query->answer_count);
+    for (int met = 0; met < OCTREE_MET_KINDS; met++)
+        whole = duplicate_ids(&query->met[met].ids, &query->met[met].count) && whole;
+    return whole;
+}
+
+void query_release_ids(octree_query *query)
+{
+    free((uint64_t *)query->answer);
+    for (int met = 0; met < OCTREE_MET_KINDS; met++)
+        free((uint64_t *)query->met[met].ids);
+}
+
+/* Free what the items of two arrays own. */
+static void release_owned(const octree_query *queries, size_t query_count, const octree_foreign_tree *trees,
+                          size_t tree_count)
+{
+    for (size_t i = 0; i < query_count; i++)
+        query_release_ids((octree_query *)&queries[i]);
+    for (size_t i = 0; i < tree_count; i++)
+        foreign_tree_release((octree_foreign_tree *)&trees[i]);
+}
+
+/* Of queries and trees that were copied: copy what they own. */
+static bool duplicate_owned(octree_query *queries, size_t query_count, octree_foreign_tree *trees, size_t tree_count)
 {
     bool whole = true;
-    for (size_t i = 0; i < count; i++) {
-        const void *ids = queries[i].answer;
-        whole = duplicate(&ids, whole ? queries[i].answer_count : 0, sizeof *queries[i].answer) && whole;
-        queries[i].answer = ids;
-    }
+    for (size_t i = 0; queries && i < query_count; i++)
+        whole = query_copy_ids(&queries[i]) && whole;
+    for (size_t i = 0; trees && i < tree_count; i++)
+        whole = foreign_tree_copy(&trees[i], &trees[i]) && whole;
     return whole;
 }
 
 bool session_copy(const octree_session *from, session_file *out, octreel_error *error)
 {
     const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries, *shapes = from->shapes,
-               *gaps = from->gaps;
+               *gaps = from->gaps, *foreign = from->foreign;
     bool whole = duplicate(&bodies, from->body_count, sizeof *from->bodies);
     whole = duplicate(&edits, from->edit_count, sizeof *from->edits) && whole;
     whole = duplicate(&queries, from->query_count, sizeof *from->queries) && whole;
-    whole = (!queries || duplicate_answers((octree_query *)queries, from->query_count)) && whole;
     whole = duplicate(&shapes, from->shape_count, sizeof *from->shapes) && whole;
     whole = duplicate(&gaps, from->gap_count, sizeof *from->gaps) && whole;
+    whole = duplicate(&foreign, from->foreign_count, sizeof *from->foreign) && whole;
+    whole = duplicate_owned((octree_query *)queries, from->query_count, (octree_foreign_tree *)foreign,
+                            from->foreign_count) &&
+            whole;
     out->session = *from;
     out->session.bodies = bodies;
     out->session.edits = edits;
@@ -63,6 +92,8 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
     out->session.query_count = queries ? from->query_count : 0;
     out->session.shapes = shapes;
     out->session.gaps = gaps;
+    out->session.foreign = foreign;
+    out->session.foreign_count = foreign ? from->foreign_count : 0;
     out->session.keys = NULL;
     const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_memory(error);
     if (!done)
@@ -87,10 +118,11 @@ void session_release(session_file *file)
     free((octree_body *)file->session.bodies);
     free((char *)file->session.keys);
     free((octree_edit *)file->session.edits);
-    free_answers(file->session.queries, file->session.query_count);
+    release_owned(file->session.queries, file->session.query_count, file->session.foreign, file->session.foreign_count);
     free((octree_query *)file->session.queries);
     free((octree_shape *)file->session.shapes);
     free((octree_gap *)file->session.gaps);
+    free((octree_foreign_tree *)file->session.foreign);
     *file = (session_file){0};
 }
 
@@ -144,7 +176,8 @@ static bool read_stream(json_reader *r)
     return true;
 }
 
-static bool append_one(json_reader *r, int list, size_t item_size)
+/* Add what the header has to a list: before the others, or after them. */
+static bool join(json_reader *r, int list, size_t item_size, bool before)
 {
     session_loader *s = r->context;
     session_list *to = &s->lists[list], *from = &s->standing[list];
@@ -153,16 +186,21 @@ static bool append_one(json_reader *r, int list, size_t item_size)
     char *items = array_reserve(to->items, to->count + from->count, &to->room, item_size);
     if (!items)
         return json_fail(r, NULL, "out of memory after %zu of them", to->count);
-    memcpy(items + to->count * item_size, from->items, from->count * item_size);
+    if (before)
+        memmove(items + from->count * item_size, items, to->count * item_size);
+    memcpy(items + (before ? 0 : to->count) * item_size, from->items, from->count * item_size);
     to->items = items;
     to->count += from->count;
     from->count = 0;
     return true;
 }
 
+/* Nodes of the header are those of tick 0. */
 bool session_append_standing(json_reader *r)
 {
-    return append_one(r, SESSION_QUERIES, sizeof(octree_query)) && append_one(r, SESSION_SHAPES, sizeof(octree_shape));
+    return join(r, SESSION_QUERIES, sizeof(octree_query), false) &&
+           join(r, SESSION_SHAPES, sizeof(octree_shape), false) &&
+           join(r, SESSION_FOREIGN, sizeof(octree_foreign_tree), true);
 }
 
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS])
@@ -177,12 +215,15 @@ octree_session session_assemble(const session_loader *s, const session_list list
     session.shape_count = lists[SESSION_SHAPES].count;
     session.gaps = lists[SESSION_GAPS].items;
     session.gap_count = lists[SESSION_GAPS].count;
+    session.foreign = lists[SESSION_FOREIGN].items;
+    session.foreign_count = lists[SESSION_FOREIGN].count;
     return session;
 }
 
 void session_clear_lists(session_list lists[SESSION_LISTS])
 {
-    free_answers(lists[SESSION_QUERIES].items, lists[SESSION_QUERIES].count);
+    release_owned(lists[SESSION_QUERIES].items, lists[SESSION_QUERIES].count, lists[SESSION_FOREIGN].items,
+                  lists[SESSION_FOREIGN].count);
     for (int i = 0; i < SESSION_LISTS; i++)
         lists[i].count = 0;
 }
@@ -249,7 +290,7 @@ void session_write_header(const octree_session *session, FILE *out)
 void session_write_tick(uint64_t tick, const octree_input *input, FILE *out)
 {
     json_writer writer = {.out = out};
-    if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0 && !input->gap)
+    if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0 && !input->gap && !input->foreign)
         return;
     json_write_object(&writer, session_tick_members, &(session_tick){tick, *input});
     json_write_end_line(&writer);
@@ -260,6 +301,8 @@ typedef struct rest {
     octree_input input;
     const octree_gap *gaps;
     size_t gap_count;
+    const octree_foreign_tree *foreign;
+    size_t foreign_count;
     uint64_t tick; /* the next; OCTREE_EVERY_TICK: none is left */
 } rest;
 
@@ -273,6 +316,8 @@ static void find_next_tick(rest *left)
         left->tick = i->shapes->tick;
     if (left->gap_count && left->gaps->tick < left->tick)
         left->tick = left->gaps->tick;
+    if (left->foreign_count && left->foreign->tick < left->tick)
+        left->tick = left->foreign->tick;
 }
 
 /* Split what belongs to the next tick off the front of the rest; to a gap nothing but it belongs. */
@@ -286,6 +331,10 @@ static octree_input take_tick(rest *left)
         taken.query_count++;
     for (; i->shape_count && i->shapes->tick == left->tick; i->shapes++, i->shape_count--)
         taken.shape_count++;
+    if (left->foreign_count && left->foreign->tick == left->tick) {
+        taken.foreign = left->foreign++;
+        left->foreign_count--;
+    }
     if (left->gap_count == 0 || left->gaps->tick > left->tick)
         return taken;
     left->gap_count--;
@@ -301,7 +350,9 @@ bool session_write(const octree_session *session, FILE *out)
                            .shapes = session->shapes,
                            .shape_count = session->shape_count},
                  .gaps = session->gaps,
-                 .gap_count = session->gap_count};
+                 .gap_count = session->gap_count,
+                 .foreign = session->foreign,
+                 .foreign_count = session->foreign_count};
     session_write_header(session, out);
     for (find_next_tick(&left); left.tick != OCTREE_EVERY_TICK; find_next_tick(&left)) {
         const uint64_t tick = left.tick;

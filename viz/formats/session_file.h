@@ -53,6 +53,13 @@ void session_release(session_file *file);
  * numbers and no tick beyond SESSION_LAST_TICK. The stream is flushed; false on an I/O error. Cost: O(size). */
 bool session_write(const octree_session *session, FILE *out);
 
+/* Copies that own their memory, to be released: the lists of ids of a query, and a program's tree. False where there is
+ * no memory: what is there is then still to be released. */
+bool query_copy_ids(octree_query *query);
+void query_release_ids(octree_query *query);
+bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to);
+void foreign_tree_release(octree_foreign_tree *tree);
+
 /* The ticks of a session whose end is not known yet: its header says nothing of them. */
 #define SESSION_ENDLESS UINT64_MAX
 

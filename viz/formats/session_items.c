@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_OF_A_KIND 8
+#define MOST_OF_A_KIND 12
 
 /* What a list is of. */
 struct session_items {
@@ -113,23 +113,49 @@ static bool has_skip(const void *from)
     return ((const octree_query *)from)->skip != OCTREE_SKIP_NONE;
 }
 
+bool session_read_ids(json_reader *r, json_t *value, const json_place *at, const uint64_t **ids, size_t *count)
+{
+    if (!json_is_array(value))
+        return json_expected(r, value, at, "a list of ids");
+    const size_t size = json_array_size(value);
+    uint64_t *made = malloc((size > 0 ? size : 1) * sizeof *made);
+    if (!made)
+        return json_fail(r, at, "out of memory for %zu ids", size);
+    *ids = made;
+    *count = size;
+    for (size_t i = 0; i < size; i++)
+        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, &made[i]))
+            return false;
+    return true;
+}
+
 /* The ids that a program answered. The session owns them. */
 static bool read_answer(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
-    if (!json_is_array(value))
-        return json_expected(r, value, at, "a list of ids");
-    const size_t count = json_array_size(value);
-    uint64_t *ids = malloc((count > 0 ? count : 1) * sizeof *ids);
-    if (!ids)
-        return json_fail(r, at, "out of memory for %zu ids", count);
     query->answered = true;
-    query->answer = ids;
-    query->answer_count = count;
-    for (size_t i = 0; i < count; i++)
-        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, &ids[i]))
-            return false;
-    return true;
+    return session_read_ids(r, value, at, &query->answer, &query->answer_count);
+}
+
+/* The ids of the nodes that the program met. */
+static bool read_met(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_ids *met = into;
+    return session_read_ids(r, value, at, &met->ids, &met->count);
+}
+
+static void write_met(json_writer *w, const void *from)
+{
+    const octree_ids *met = from;
+    json_write_begin_array(w);
+    for (size_t i = 0; i < met->count; i++)
+        json_write_integer(w, met->ids[i]);
+    json_write_end_array(w);
+}
+
+static bool has_met(const void *from)
+{
+    return ((const octree_ids *)from)->count > 0;
 }
 
 static void write_answer(json_writer *w, const void *from)
@@ -151,11 +177,16 @@ static const char *precision_name(int n)
     return octree_precision_name((octree_precision)n);
 }
 
-/* Read after the answer, of which it speaks. */
+static bool is_promised(const octree_query *query)
+{
+    return query->answered || query->met[OCTREE_MET_PRUNED].count > 0;
+}
+
+/* Read after the answer and the nodes that were pruned, of which it speaks. */
 static bool read_mode(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
-    if (!query->answered)
+    if (!is_promised(query))
         return json_fail(r, at, "\"mode\" is what an \"answer\" promises, and there is none");
     return json_choice.read(r, value, at, &query->precision);
 }
@@ -168,7 +199,7 @@ static void write_mode(json_writer *w, const void *from)
 static bool has_mode(const void *from)
 {
     const octree_query *query = from;
-    return query->answered && query->precision != OCTREE_DOUBLES;
+    return is_promised(query) && query->precision != OCTREE_DOUBLES;
 }
 
 static bool is_above_zero(const void *from)
@@ -199,6 +230,12 @@ static const json_member epsilon_member = {"epsilon", JSON_CODEC(json_read_posit
                                            .offset = offsetof(octree_query, epsilon)};
 
 static const json_member answer_member = {"answer", JSON_CODEC(read_answer, write_answer, is_answered), .offset = 0};
+#define MET(name, how)                                                                                                 \
+    {                                                                                                                  \
+        name, JSON_CODEC(read_met, write_met, has_met), .offset = offsetof(octree_query, met[how])                     \
+    }
+static const json_member met_members[OCTREE_MET_KINDS] = {MET("visited", OCTREE_MET_VISITED),
+                                                          MET("pruned", OCTREE_MET_PRUNED), MET("hit", OCTREE_MET_HIT)};
 static const json_member mode_member = {"mode", JSON_CODEC(read_mode, write_mode, has_mode), .names = precision_name};
 
 /* The members that the kind reads, by its traits. A box without a target can be relative to the player. */
@@ -219,6 +256,8 @@ static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
     table[count++] = skip_member;
     table[count++] = epsilon_member;
     table[count++] = answer_member;
+    for (int met = 0; met < OCTREE_MET_KINDS; met++)
+        table[count++] = met_members[met];
     table[count] = mode_member;
 }
 

@@ -256,6 +256,7 @@ const json_member session_header_members[] = {
     {"ticks", JSON_CODEC(read_ticks, json_write_uint64, has_end), HEADER(session.ticks), .max = SESSION_LAST_TICK},
     {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries},
     {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes},
+    {"nodes", &session_nodes_codec, HEADER(standing.foreign)},
     {"sampled", &json_structure, HEADER(session.sampled), .given = offsetof(session_header, session.sampled.known),
      .members = session_sampled_members},
     {"points", &session_points_codec, HEADER(session)},
@@ -270,6 +271,7 @@ const json_member session_tick_members[] = {
     {"edits", &session_items_codec, TICK(input.edits), .about = &session_edits},
     {"queries", &session_items_codec, TICK(input.queries), .about = &session_queries},
     {"shapes", &session_items_codec, TICK(input.shapes), .about = &session_shapes},
+    {"nodes", &session_nodes_codec, TICK(input.foreign)},
     {"gap", JSON_CODEC(read_gap, write_gap, is_gap), TICK(input.gap)},
     {0},
 };

@@ -28,8 +28,8 @@ typedef struct session_tick {
     octree_input input;
 } session_tick;
 
-/* The lists of a session: those whose objects are of one kind among several, and the gaps. */
-enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_GAPS, SESSION_LISTS };
+/* The lists of a session: those whose objects are of one kind among several, the gaps, and the nodes of programs. */
+enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_GAPS, SESSION_FOREIGN, SESSION_LISTS };
 
 /* A session that is being read: the context of its json_reader. */
 typedef struct session_loader {
@@ -77,6 +77,9 @@ void session_set_world(session_loader *s, const octree_box *world);
 /* Where a header names no world but a file of points, read that and take the world of its points. */
 bool session_take_world(json_reader *r, json_t *header);
 
+/* The nodes of the program's own tree from a tick on; it stands in an octree_input. */
+extern const json_codec session_nodes_codec;
+
 /* Points, in a list, a file or a sample; and velocities by id, which are never written: bodies have theirs. */
 extern const json_codec session_points_codec, session_velocities_codec;
 
@@ -91,6 +94,9 @@ bool session_check_keys(const char *keys, octreel_error *error);
 
 /* Read printable ASCII into so many bytes, its final zero included; `what` is for errors, such as "a label". */
 bool session_read_text(json_reader *r, json_t *value, const json_place *at, const char *what, size_t room, char *into);
+
+/* Read a list of ids into a new array, to be freed with free(). */
+bool session_read_ids(json_reader *r, json_t *value, const json_place *at, const uint64_t **ids, size_t *count);
 
 /* Room for one more item; null with an error when there is no memory. */
 void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size);

@@ -69,7 +69,8 @@ static octree_input input_of(const session_loader *s)
                           .query_count = all.query_count,
                           .shapes = all.shapes,
                           .shape_count = all.shape_count,
-                          .gap = all.gap_count ? all.gaps : NULL};
+                          .gap = all.gap_count ? all.gaps : NULL,
+                          .foreign = all.foreign_count ? all.foreign : NULL};
 }
 
 /* What no game takes is refused before it is played, and so with its line. */

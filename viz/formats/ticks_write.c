@@ -234,6 +234,57 @@ static void write_answers(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
+/* ---- The program's own tree --------------------------------------------------------------------------------- */
+
+static bool has_foreign(const void *from)
+{
+    return ((const octree_tick *)from)->foreign.given;
+}
+
+static void write_node_fault(json_writer *w, const octree_node_fault *fault)
+{
+    json_write_begin_object(w);
+    json_member_text(w, "fault", octree_node_fault_name(fault->kind));
+    if (fault->kind != OCTREE_NODE_LOST_POINT)
+        json_member_integer(w, "node", fault->node);
+    if (fault->kind != OCTREE_NODE_OUTSIDE_PARENT && fault->kind != OCTREE_NODE_UNKNOWN_NODE)
+        json_member_integer(w, "point", fault->point);
+    if (fault->kind == OCTREE_NODE_PRUNED_POINT || fault->kind == OCTREE_NODE_UNKNOWN_NODE)
+        json_member_integer(w, "answer", fault->answer);
+    json_write_end_object(w);
+}
+
+/* How many there are of each kind, and the first of them. */
+static void write_node_faults(json_writer *w, const octree_foreign_state *foreign)
+{
+    if (foreign->fault_count == 0)
+        return;
+    json_member_begin_object(w, "wrong");
+    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
+        if (foreign->faults[kind])
+            json_member_integer(w, octree_node_fault_name((octree_node_fault_kind)kind), foreign->faults[kind]);
+    json_member_begin_array(w, "first");
+    for (size_t i = 0; i < foreign->listed_count; i++)
+        write_node_fault(w, &foreign->listed[i]);
+    json_write_end_array(w);
+    json_write_end_object(w);
+}
+
+static void write_foreign(json_writer *w, const void *from)
+{
+    const octree_foreign_state *foreign = &((const octree_tick *)from)->foreign;
+    json_write_begin_object(w);
+    json_member_integer(w, "count", foreign->node_count);
+    json_member_integer(w, "leaves", foreign->leaf_count);
+    json_member_integer(w, "depth", foreign->depth);
+    json_write_key(w, "digest");
+    write_digest(w, &foreign->digest);
+    for (int met = 0; met < OCTREE_MET_KINDS; met++)
+        json_member_integer(w, octree_met_name((octree_met)met), foreign->met[met]);
+    write_node_faults(w, foreign);
+    json_write_end_object(w);
+}
+
 /* ---- The line ----------------------------------------------------------------------------------------------- */
 
 /* How many nodes all questions of the tick met in each way, and how many leaves hold what was found. */
@@ -265,6 +316,7 @@ static const json_member line_members[] = {
     {"hit_cost", &json_structure, .offset = offsetof(octree_tick, hit_cost), .members = cost_members},
     {"answers", JSON_CODEC(NULL, write_answers, NULL), .offset = 0},
     {"visits", &json_structure, .offset = 0, .members = visit_members},
+    {"nodes", JSON_CODEC(NULL, write_foreign, has_foreign), .offset = 0},
     {"refusals", JSON_CODEC(NULL, write_refusals, NULL), .offset = 0},
     {"splits", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, splits)},
     {"merges", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, merges)},

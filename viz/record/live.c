@@ -52,6 +52,8 @@ static octree_input first_tick(const octree_session *session)
 {
     octree_input input = {
         .queries = session->queries, .shapes = session->shapes, .gap = octree_session_gap(session, 0)};
+    if (session->foreign_count && session->foreign->tick == 0)
+        input.foreign = session->foreign;
     while (input.query_count < session->query_count && session->queries[input.query_count].tick == 0)
         input.query_count++;
     while (input.shape_count < session->shape_count && session->shapes[input.shape_count].tick == 0)

@@ -390,10 +390,14 @@ bool web_keys(double last, size_t count)
     CUT_AFTER((octree_edit *)s->edits, s->edit_count, before);
     for (size_t i = 0; i < s->query_count; i++)
         if (s->queries[i].tick > before && s->queries[i].tick != OCTREE_EVERY_TICK)
-            free((uint64_t *)s->queries[i].answer);
+            query_release_ids((octree_query *)&s->queries[i]);
     CUT_AFTER((octree_query *)s->queries, s->query_count, before);
     CUT_AFTER((octree_shape *)s->shapes, s->shape_count, before);
     CUT_AFTER((octree_gap *)s->gaps, s->gap_count, before);
+    for (size_t i = 0; i < s->foreign_count; i++)
+        if (s->foreign[i].tick > before)
+            foreign_tree_release((octree_foreign_tree *)&s->foreign[i]);
+    CUT_AFTER((octree_foreign_tree *)s->foreign, s->foreign_count, before);
     page.drawn = false;
     return true;
 }

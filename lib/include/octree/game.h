@@ -17,6 +17,7 @@
 #ifndef OCTREE_GAME_H
 #define OCTREE_GAME_H
 
+#include "octree/foreign.h"
 #include "octree/octree.h"
 #include "octree/sample.h"
 
@@ -103,15 +104,6 @@ const char *octree_query_name(octree_query_kind kind);
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
-/* Which positions a program's answer is right for: those of the points and of the query as they are, or all of them
- * rounded to the nearest float first, each coordinate, bound and radius by itself (the last finite float beyond those).
- * FLOATS is for an index that holds floats and is exact for them. One that computes in floats too errs by some 4e-7 of
- * a distance beyond that: an epsilon says so. */
-typedef enum octree_precision { OCTREE_DOUBLES, OCTREE_FLOATS, OCTREE_PRECISIONS } octree_precision;
-
-/* "double", "float". Null from OCTREE_PRECISIONS on. */
-const char *octree_precision_name(octree_precision precision);
-
 /* A question asked at the end of a tick, of the tree as it then is. The player is no neighbour of itself; boxes and
  * balls have it as they have every other point. What is asked at the player is not asked in a tick without one. */
 typedef struct octree_query {
@@ -130,6 +122,8 @@ typedef struct octree_query {
     octree_precision precision; /* answered: what the program promises, and within epsilon */
     const uint64_t *answer;     /* answered: the ids that it named, in any order; null for none */
     size_t answer_count;
+    octree_ids met[OCTREE_MET_KINDS]; /* the program's own nodes that it met, by their ids, and how. Pruned ones are
+                                         judged by the true answer, precision and epsilon as an answer is */
 } octree_query;
 
 typedef enum octree_shape_kind {
@@ -146,7 +140,7 @@ const char *octree_shape_name(octree_shape_kind kind);
 #define OCTREE_SHAPE_TEXT 47
 
 /* Something that is shown at a tick beside the points. It is in no tree, no question meets it, and it may lie outside
- * the world: what is not the game's own, such as walls, goals, or somebody else's tree. */
+ * the world: what is not the game's own, such as walls and goals. */
 typedef struct octree_shape {
     uint64_t tick; /* or OCTREE_EVERY_TICK */
     octree_shape_kind kind;
@@ -195,6 +189,8 @@ typedef struct octree_session {
     size_t shape_count;
     const octree_gap *gaps; /* ascending by tick, one a tick at most */
     size_t gap_count;
+    const octree_foreign_tree *foreign; /* the program's own tree; ascending by tick, one a tick at most */
+    size_t foreign_count;
     octree_sampled sampled; /* what session files say of the bodies beside listing them; the game does not read it */
 } octree_session;
 
@@ -216,7 +212,7 @@ typedef enum octree_event {
     OCTREE_EVENT_FULL = 8,     /* a leaf was full: the player's step was taken back, or a body was refused */
     OCTREE_EVENT_SPLIT = 16,   /* nodes became inner nodes */
     OCTREE_EVENT_MERGED = 32,  /* nodes ceased to be inner nodes */
-    OCTREE_EVENT_WRONG = 64,   /* a program's answer to a query was wrong */
+    OCTREE_EVENT_WRONG = 64,   /* a program's answer to a query was wrong, or the nodes of its tree are */
 } octree_event;
 
 #define OCTREE_EVENT_KINDS 7
@@ -290,9 +286,10 @@ typedef struct octree_answer {
     octree_judgement judgement; /* in a game, of a query that was answered */
 } octree_answer;
 
-/* Whether a query can be asked. Errors: NULL_ARGUMENT, also for an answer without its ids; BAD_OPTION for its kind and
+/* Whether a query can be asked. Errors: NULL_ARGUMENT, also for ids that are not there; BAD_OPTION for its kind and
  * precision, and for its skip where there is none such or no target to coincide with; NOT_FINITE (of a box: NaN),
- * BAD_RANGE, BAD_SIZE and FLOAT_MODE for epsilon and the members that its kind reads. Its tick is not read. */
+ * BAD_RANGE, BAD_SIZE and FLOAT_MODE for epsilon and the members that its kind reads; BAD_SIZE for a node that it met
+ * with an id from OCTREE_NODE_ID_LIMIT on. Its tick is not read. */
 octree_status octree_query_check(const octree_query *query);
 
 /* Answer a query outside of a game. `player` is the place that at_player refers to, and may be null where that is
@@ -348,6 +345,7 @@ typedef struct octree_tick {
     const octree_body *movers; /* bodies with a velocity: where they are, and how they go on, turned where they bounced;
                                   in an order that is the same whenever the session is played */
     size_t mover_count;
+    octree_foreign_state foreign; /* the program's own tree */
     const char *gap; /* why nothing is known of the tick: all else is then as it was, and nothing happened; else null */
 } octree_tick;
 
@@ -357,9 +355,9 @@ typedef struct octree_game octree_game;
  * are not in the game, and are refusals of tick 0.
  * Errors: NULL_ARGUMENT; those of octree_create; for the player NOT_FINITE, OUTSIDE, BAD_SIZE; DUPLICATE (two bodies
  * with one id, or a body with the player's); BAD_KEY; BAD_OPTION; BAD_ORDER; for a query NOT_FINITE (of a box: NaN),
- * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; for a gap BAD_TEXT; TOO_MANY (bodies for one tree);
- * NO_MEMORY. *game is then null. Cost: one restructuring, as octree_insert_many, with some ninety bytes a body while it
- * runs. */
+ * BAD_RANGE, BAD_SIZE; for a shape NOT_FINITE, BAD_RANGE, BAD_TEXT; for a gap BAD_TEXT; for foreign nodes those of
+ * octree_foreign_check; TOO_MANY (bodies for one tree); NO_MEMORY. *game is then null. Cost: one restructuring, as
+ * octree_insert_many, with some ninety bytes a body while it runs. */
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
@@ -369,8 +367,8 @@ void octree_game_destroy(octree_game *game);
  * nodes, at 8 bytes each, and some hundred points about each change, or, of very many changes, all points). */
 octree_status octree_game_step(octree_game *game, char key);
 
-/* What happens in a tick: for games whose session is being made. The ticks that edits, queries, shapes and a gap
- * name are not read. */
+/* What happens in a tick: for games whose session is being made. The ticks that edits, queries, shapes, a gap
+ * and foreign nodes name are not read. */
 typedef struct octree_input {
     char key;                 /* '.' and 0 wait */
     const octree_edit *edits; /* in the order in which they are made */
@@ -379,16 +377,19 @@ typedef struct octree_input {
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
-    const octree_gap *gap; /* nothing is known of the tick; null: it is a tick like others */
+    const octree_gap *gap;              /* nothing is known of the tick; null: it is a tick like others */
+    const octree_foreign_tree *foreign; /* the program's own tree from this tick on; null: as before */
 } octree_input;
 
 /* Play one tick with this, whatever the session says of it; what the session asks and shows at every tick comes after
  * it. The arrays are not needed afterwards. It is the same tick as in a session that has all this. Errors: those of
- * octree_game_step; BAD_OPTION, and for a query or a shape those of octree_game_create, of which nothing is played. A
- * body that cannot be inserted or moved, for its place or its velocity, is no error: it is a refusal of the tick. */
+ * octree_game_step; BAD_OPTION, and for a query, a shape or foreign nodes those of octree_game_create, of which nothing
+ * is played. A body that cannot be inserted or moved, for its place or its velocity, is no error: it is a refusal of
+ * the tick. */
 octree_status octree_game_play(octree_game *game, const octree_input *input);
 
-/* What octree_game_play would say of this input, its key apart. Cost: O(edits + queries + shapes). */
+/* What octree_game_play would say of this input, its key apart. Cost: O(edits + queries + shapes), and that of
+ * octree_foreign_check. */
 octree_status octree_input_check(const octree_input *input);
 
 /* Play the session's next tick. Errors: as octree_game_step, and NOT_FOUND when the session is over. */

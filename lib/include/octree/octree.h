@@ -49,6 +49,7 @@ extern "C" {
     X(BAD_OPTION, "bad_option", "an enumeration has an unlisted value, or one allocator function lacks the other")     \
     X(BAD_TEXT, "bad_text", "a text must be printable ASCII that ends within its room")                                \
     X(BAD_ORDER, "bad_order", "edits, queries and shapes must be in ascending order of their ticks")                   \
+    X(BAD_PARENT, "bad_parent", "a node of the program's tree is its own ancestor")                                    \
     X(FLOAT_MODE, "float_mode", "the thread's floating-point mode is not the default: nearest rounding, subnormals")   \
     X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
     X(TOO_MANY, "too_many", "the tree holds 4294967295 points, which is its limit")

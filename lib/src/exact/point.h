@@ -42,4 +42,12 @@ static inline bool box_contains(const octree_box *box, const double p[3])
 #endif
 }
 
+/* The nearest float, the last finite one beyond those; infinities stay. volatile: GCC 12 at -O3 leaves out one of three
+ * such roundings side by side. */
+static inline double round_to_float(double x)
+{
+    const volatile float rounded = (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
+    return isinf(x) ? x : (double)rounded;
+}
+
 #endif

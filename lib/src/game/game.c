@@ -199,11 +199,15 @@ static octree_status list_shapes(octree_game *game, const octree_shape *shapes, 
     return OCTREE_OK;
 }
 
-/* Ask the queries and show the shapes of a tick, and then those of every tick. */
+/* Look at the program's tree; ask the queries and show the shapes of a tick, and then those of every tick. */
 static octree_status ask_and_show(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
-    octree_status status = game_ask_by_key(game);
+    octree_status status = input->foreign ? foreign_install(game, input->foreign) : OCTREE_OK;
+    if (status == OCTREE_OK)
+        status = foreign_check(game);
+    if (status == OCTREE_OK)
+        status = game_ask_by_key(game);
     if (status == OCTREE_OK)
         status = game_ask(game, input->queries, input->query_count);
     if (status == OCTREE_OK)
@@ -243,6 +247,7 @@ static void publish(octree_game *game)
     GAME_SHOWN_LISTS(PUBLISH)
 #undef PUBLISH
     game->tick.hit_from = game->tick.swept ? game->hit_from.items : NULL;
+    foreign_publish(game);
 }
 
 /* Of a gap nothing is tested, asked or shown. */
@@ -327,6 +332,7 @@ void octree_game_destroy(octree_game *game)
     arena memory = game->memory;
     bodies_release(&game->bodies, &memory);
     tree_summary_release(&game->summary, &memory);
+    foreign_release(&game->foreign, &memory);
 #define RELEASE(name, shown_count, type) list_release(&memory, &game->name, sizeof(type));
     GAME_LISTS(RELEASE)
 #undef RELEASE
@@ -343,6 +349,7 @@ static void begin_tick(octree_game *game, char key)
     game->tick.number++;
     game->tick.key = key;
     game->tick.events = 0;
+    foreign_begin_tick(game);
 }
 
 static octree_status play_changes(octree_game *game, const octree_input *input)

@@ -4,6 +4,7 @@
 #define OCTREE_GAME_STATE_H
 
 #include "bodies.h"
+#include "foreign.h"
 #include "judge.h"
 #include "tree_summary.h"
 
@@ -41,6 +42,7 @@ struct octree_game {
     bool quit;
     bool lost_visits; /* there was no memory for one of them */
     tree_summary summary;
+    foreign foreign;
     octree_tick tick;
     char gap[OCTREE_GAP_TEXT]; /* of the tick, where it is one */
 #define LIST(name, shown_count, type) list name;

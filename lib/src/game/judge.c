@@ -11,12 +11,6 @@
 
 #include <stdlib.h>
 
-const char *octree_precision_name(octree_precision precision)
-{
-    static const char *const names[OCTREE_PRECISIONS] = {"double", "float"};
-    return (unsigned)precision < OCTREE_PRECISIONS ? names[precision] : NULL;
-}
-
 const char *octree_fault_name(octree_fault fault)
 {
     static const char *const names[OCTREE_FAULTS] = {"none",  "unknown", "duplicate", "skipped",
@@ -42,17 +36,10 @@ static const octree_query_traits *traits_of(const judge_state *s)
 
 /* ---- Positions ---------------------------------------------------------------------------------------------- */
 
-/* volatile: GCC 12 at -O3 leaves out one of three such roundings side by side. */
-static double to_float(double x)
-{
-    const volatile float rounded = (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
-    return isinf(x) ? x : (double)rounded;
-}
-
 static void place(const judge_state *s, const double from[3], double to[3])
 {
     for (int i = 0; i < 3; i++)
-        to[i] = s->rounds ? to_float(from[i]) : from[i];
+        to[i] = s->rounds ? round_to_float(from[i]) : from[i];
 }
 
 static judge_state begin(const judging *about, octree_judgement *made)
@@ -64,7 +51,7 @@ static judge_state begin(const judging *about, octree_judgement *made)
     place(&s, answer->target, s.target);
     place(&s, answer->box.min, s.box.min);
     place(&s, answer->box.max, s.box.max);
-    s.radius = s.rounds ? to_float(answer->radius) : answer->radius;
+    s.radius = s.rounds ? round_to_float(answer->radius) : answer->radius;
     s.metric = metric_make(tree->scale, is_subnormal_world(tree), s.target);
     return s;
 }
@@ -130,8 +117,7 @@ static void accuse(judge_state *s, octree_fault fault, uint64_t id)
     made->fault_id = by_id ? id : 0;
 }
 
-/* The point that has an id at this tick. */
-static bool point_named(const octree_game *game, uint64_t id, octree_point *point)
+bool judge_find_point(const octree_game *game, uint64_t id, octree_point *point)
 {
     const octree_player *player = &game->session->player;
     const bool is_player = player->kind == OCTREE_PLAYER_KEYS && id == player->id;
@@ -150,7 +136,7 @@ static void list_named(judge_state *s)
     for (size_t i = 0; !s->failed && i < query->answer_count; i++) {
         octree_point point;
         s->failed |= !list_push(&game->memory, &game->given, &query->answer[i], sizeof *query->answer);
-        if (!point_named(game, query->answer[i], &point)) {
+        if (!judge_find_point(game, query->answer[i], &point)) {
             accuse(s, OCTREE_FAULT_UNKNOWN, query->answer[i]);
             continue;
         }
@@ -385,13 +371,14 @@ static void list_wrong_neighbors(judge_state *s)
             list_accused(s, &named[i], &made->extra_count);
 }
 
-static void judge_neighbors(judge_state *s)
+/* Of an answer that has so many ids. */
+static void judge_neighbors(judge_state *s, size_t given)
 {
     octree_game *game = s->about->game;
     const size_t named = game->named.count, truth = game->truth.count, ranks = named < truth ? named : truth;
     sort(&game->named, compare_ranks);
     judge_ranks(s, game->named.items, game->truth.items, ranks);
-    if (s->about->query->answer_count != truth)
+    if (given != truth)
         accuse(s, OCTREE_FAULT_COUNT, 0);
     if (named != truth && s->made->rank == 0)
         s->made->rank = ranks + 1;
@@ -401,26 +388,94 @@ static void judge_neighbors(judge_state *s)
 
 /* ---- An answer ---------------------------------------------------------------------------------------------- */
 
+static octree_status find_truth(judge_state *s)
+{
+    octree_status status = OCTREE_OK;
+    if (s->rounds)
+        status = list_rounded_truth(s);
+    else
+        list_truth(s);
+    s->made->expected = s->about->game->truth.count;
+    return s->failed ? OCTREE_NO_MEMORY : status;
+}
+
+static octree_status compare(judge_state *s, size_t given)
+{
+    if (traits_of(s)->neighbors)
+        judge_neighbors(s, given);
+    else
+        judge_set(s);
+    return s->failed ? OCTREE_NO_MEMORY : OCTREE_OK;
+}
+
 octree_status judge(const judging *about, octree_judgement *made)
 {
     octree_game *game = about->game;
     *made = (octree_judgement){.judged = true, .given_count = about->query->answer_count};
     judge_state s = begin(about, made);
-    octree_status status = OCTREE_OK;
     game->named.count = game->truth.count = 0;
     list_named(&s);
-    if (s.rounds)
-        status = list_rounded_truth(&s);
-    else
-        list_truth(&s);
-    if (s.failed || status != OCTREE_OK)
+    const octree_status status = s.failed ? OCTREE_NO_MEMORY : find_truth(&s);
+    return status == OCTREE_OK ? compare(&s, about->query->answer_count) : status;
+}
+
+/* ---- An answer without some points -------------------------------------------------------------------------- */
+
+static void drop_lost(list *l, point_test *is_lost, void *context)
+{
+    judged_point *items = l->items;
+    size_t kept = 0;
+    for (size_t i = 0; i < l->count; i++)
+        if (!is_lost(&items[i].point, context))
+            items[kept++] = items[i];
+    l->count = kept;
+}
+
+/* Into `named`, which is empty: the points that other neighbours can be, those within the promise of the last. */
+static octree_status list_other_neighbors(judge_state *s)
+{
+    octree_game *game = s->about->game;
+    const judged_point *last = (const judged_point *)game->truth.items + game->truth.count - 1;
+    const double distance = metric_distance(s->target, last->at), factor = (1 + s->epsilon) * (1 + 0x1p-40);
+    const list truth = game->truth;
+    game->truth = game->named;
+    const octree_status status = collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
+                                              s->rounds ? 2 * rounding_of(s->about->game->tree) : 0x1p-1000);
+    game->named = game->truth;
+    game->truth = truth;
+    return s->failed ? OCTREE_NO_MEMORY : status;
+}
+
+octree_status judge_without(const judging *about, point_test *is_lost, point_visit *blame, void *context)
+{
+    octree_game *game = about->game;
+    octree_judgement made = {.judged = true};
+    judge_state s = begin(about, &made);
+    const size_t accused = game->accused.count;
+    game->named.count = game->truth.count = 0;
+    octree_status status = find_truth(&s);
+    for (size_t i = 0; i < game->truth.count; i++)
+        keep(&s, &game->named, (const judged_point *)game->truth.items + i);
+    drop_lost(&game->named, is_lost, context);
+    if (status != OCTREE_OK || s.failed || game->named.count == game->truth.count)
         return s.failed ? OCTREE_NO_MEMORY : status;
-    made->expected = game->truth.count;
-    if (traits_of(&s)->neighbors)
-        judge_neighbors(&s);
-    else
-        judge_set(&s);
-    return s.failed ? OCTREE_NO_MEMORY : OCTREE_OK;
+    if (traits_of(&s)->neighbors) {
+        game->named.count = 0;
+        status = list_other_neighbors(&s);
+        drop_lost(&game->named, is_lost, context);
+        sort(&game->named, compare_ranks);
+        game->named.count = game->named.count < game->truth.count ? game->named.count : game->truth.count;
+    } else {
+        sort(&game->named, compare_ids);
+    }
+    if (status == OCTREE_OK)
+        status = compare(&s, game->named.count);
+    const octree_point *missed = (const octree_point *)game->accused.items + accused;
+    for (size_t i = 0; status == OCTREE_OK && made.fault && i < made.missed_count; i++)
+        if (is_lost(&missed[i], context))
+            status = blame(&missed[i], context);
+    game->accused.count = accused;
+    return status;
 }
 
 void judge_assign(octree_game *game)

@@ -28,6 +28,17 @@ typedef struct judging {
  * a few queries that have all points besides that rounding may bring in. */
 octree_status judge(const judging *about, octree_judgement *made);
 
+typedef bool point_test(const octree_point *point, void *context);
+typedef octree_status point_visit(const octree_point *point, void *context);
+
+/* Were an answer as good as it can be without the points for which `is_lost` is true: would it be wrong? Then `blame`
+ * those of them that it misses. NO_MEMORY, what `blame` returned, or OK. Cost: as judge(), and where one of the true
+ * neighbours is lost that of a ball that has them. */
+octree_status judge_without(const judging *about, point_test *is_lost, point_visit *blame, void *context);
+
+/* The point that has an id at this tick. */
+bool judge_find_point(const octree_game *game, uint64_t id, octree_point *point);
+
 /* After all answers: point each judgement to its part of the lists, which do not grow any more. */
 void judge_assign(octree_game *game);
 

@@ -24,9 +24,19 @@ const char *octree_query_name(octree_query_kind kind)
 
 static octree_status check_answer(const octree_query *query)
 {
-    if (!query->answer && query->answer_count)
+    if (query->answered && !query->answer && query->answer_count)
         return OCTREE_NULL_ARGUMENT;
     return (unsigned)query->precision < OCTREE_PRECISIONS ? OCTREE_OK : OCTREE_BAD_OPTION;
+}
+
+static octree_status check_met(const octree_ids *met)
+{
+    if (met->count && !met->ids)
+        return OCTREE_NULL_ARGUMENT;
+    for (size_t i = 0; i < met->count; i++)
+        if (met->ids[i] >= OCTREE_NODE_ID_LIMIT)
+            return OCTREE_BAD_SIZE;
+    return OCTREE_OK;
 }
 
 octree_status octree_query_check(const octree_query *query)
@@ -46,8 +56,10 @@ octree_status octree_query_check(const octree_query *query)
         status = check_box(&query->box);
     if (status == OCTREE_OK && has_target && !query->at_player)
         status = check_finite(query->target);
-    if (status == OCTREE_OK && query->answered)
+    if (status == OCTREE_OK && query_is_judged(query))
         status = check_answer(query);
+    for (int met = 0; status == OCTREE_OK && met < OCTREE_MET_KINDS; met++)
+        status = check_met(&query->met[met]);
     return status;
 }
 
@@ -126,7 +138,7 @@ static octree_answer pose(const octree_query *query, const double player[3])
                             .skip = query->skip,
                             .skip_id = query->skip_id,
                             .epsilon = query->epsilon,
-                            .precision = query->answered ? query->precision : OCTREE_DOUBLES};
+                            .precision = query_is_judged(query) ? query->precision : OCTREE_DOUBLES};
     memcpy(answer.target, query->at_player ? player : query->target, sizeof answer.target);
     for (int i = 0; query->at_player && i < 3; i++) {
         answer.box.min[i] += player[i];
@@ -151,7 +163,7 @@ static octree_status ask(asking *a, const octree_query *query, const double play
         a->how.skip = query->skip;
         a->how.skip_id = query->skip_id;
     }
-    if (query->answered)
+    if (query_is_judged(query))
         a->how.epsilon = 0; /* it is the program's, which is judged by the truth */
     else if (query->epsilon > 0)
         a->how.epsilon = query->epsilon;
@@ -215,6 +227,25 @@ void octree_answer_release(const octree *tree, octree_answer *answer)
 
 /* ---- The queries of a tick ---------------------------------------------------------------------------------- */
 
+/* What a program says of an answer of its own, of which our own is the last. */
+static octree_status judge_program(octree_game *game, const octree_query *query, const octree_search *how,
+                                   size_t points, size_t neighbors)
+{
+    octree_answer *answer = (octree_answer *)game->answers.items + game->answers.count - 1;
+    const bool near = octree_query_about(query->kind)->neighbors;
+    const judging j = {.game = game,
+                       .query = query,
+                       .answer = answer,
+                       .points = near ? NULL : (const octree_point *)game->found.items + points,
+                       .neighbors = near ? (const octree_neighbor *)game->near.items + neighbors : NULL,
+                       .skip = near ? how->skip : query->skip,
+                       .skip_id = near ? how->skip_id : query->skip_id};
+    octree_status status = query->answered ? judge(&j, &answer->judgement) : OCTREE_OK;
+    if (answer->judgement.fault)
+        game->tick.events |= OCTREE_EVENT_WRONG;
+    return status == OCTREE_OK ? foreign_meet(&j) : status;
+}
+
 static octree_status ask_in_game(octree_game *game, const octree_query *query, bool by_key)
 {
     if (query->at_player && !game->tick.has_player)
@@ -226,23 +257,10 @@ static octree_status ask_in_game(octree_game *game, const octree_query *query, b
     a.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     a.how.skip_id = game->session->player.id;
     const size_t points = game->found.count, neighbors = game->near.count;
-    octree_status status = ask(&a, query, game->tick.player, answer);
+    const octree_status status = ask(&a, query, game->tick.player, answer);
     answer->by_key = by_key;
     game->tick.asked |= 1u << query->kind;
-    if (status != OCTREE_OK || !query->answered)
-        return status;
-    const bool near = octree_query_about(query->kind)->neighbors;
-    const judging j = {.game = game,
-                       .query = query,
-                       .answer = answer,
-                       .points = near ? NULL : (const octree_point *)game->found.items + points,
-                       .neighbors = near ? (const octree_neighbor *)game->near.items + neighbors : NULL,
-                       .skip = near ? a.how.skip : query->skip,
-                       .skip_id = near ? a.how.skip_id : query->skip_id};
-    status = judge(&j, &answer->judgement);
-    if (answer->judgement.fault)
-        game->tick.events |= OCTREE_EVENT_WRONG;
-    return status;
+    return status == OCTREE_OK ? judge_program(game, query, &a.how, points, neighbors) : status;
 }
 
 octree_status game_ask(octree_game *game, const octree_query *queries, size_t count)

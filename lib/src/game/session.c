@@ -45,8 +45,7 @@ static octree_status check_keys(const char *keys)
     return OCTREE_OK;
 }
 
-/* Whether so many bytes hold printable ASCII and its final zero. */
-static bool is_text(const char *text, size_t size)
+bool game_is_text(const char *text, size_t size)
 {
     size_t length = 0;
     while (length < size && text[length] >= ' ' && text[length] <= '~')
@@ -65,14 +64,14 @@ static octree_status check_shape(const octree_shape *shape)
     for (int i = 0; status == OCTREE_OK && shape->kind == OCTREE_SHAPE_BOX && i < 3; i++)
         if (shape->at[i] > shape->to[i])
             status = OCTREE_BAD_RANGE;
-    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !is_text(shape->text, sizeof shape->text))
+    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !game_is_text(shape->text, sizeof shape->text))
         status = OCTREE_BAD_TEXT;
     return status;
 }
 
 static octree_status check_gap(const octree_gap *gap)
 {
-    return *gap->why && is_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
+    return *gap->why && game_is_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
 }
 
 octree_status octree_input_check(const octree_input *input)
@@ -88,10 +87,12 @@ octree_status octree_input_check(const octree_input *input)
         status = octree_query_check(&input->queries[i]);
     for (size_t i = 0; status == OCTREE_OK && i < input->shape_count; i++)
         status = check_shape(&input->shapes[i]);
+    if (status == OCTREE_OK && input->foreign)
+        status = octree_foreign_check(input->foreign, NULL);
     return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
-/* Edits, queries, shapes and gaps begin with their tick. */
+/* Edits, queries, shapes, gaps and foreign trees begin with their tick. */
 static uint64_t tick_of(const void *items, size_t size, size_t i)
 {
     uint64_t tick;
@@ -115,6 +116,15 @@ static octree_status check_gaps(const octree_session *s)
     return status;
 }
 
+static octree_status check_foreign(const octree_session *s)
+{
+    octree_status status = s->foreign || s->foreign_count == 0 ? OCTREE_OK : OCTREE_NULL_ARGUMENT;
+    for (size_t i = 0; status == OCTREE_OK && i < s->foreign_count; i++)
+        status = i > 0 && s->foreign[i].tick <= s->foreign[i - 1].tick ? OCTREE_BAD_ORDER
+                                                                       : octree_foreign_check(&s->foreign[i], NULL);
+    return status;
+}
+
 octree_status game_check_session(const octree_session *s, const octree *tree)
 {
     octree_status status = check_player(&s->player, tree);
@@ -134,7 +144,9 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
         status = check_order(s->queries, sizeof *s->queries, s->query_count);
     if (status == OCTREE_OK)
         status = check_order(s->shapes, sizeof *s->shapes, s->shape_count);
-    return status == OCTREE_OK ? check_gaps(s) : status;
+    if (status == OCTREE_OK)
+        status = check_gaps(s);
+    return status == OCTREE_OK ? check_foreign(s) : status;
 }
 
 /* ---- The input of a tick ------------------------------------------------------------------------------------ */
@@ -167,6 +179,12 @@ const octree_gap *octree_session_gap(const octree_session *session, uint64_t tic
     return session ? items_of(session->gaps, sizeof *session->gaps, session->gap_count, tick, &found) : NULL;
 }
 
+static const octree_foreign_tree *foreign_of(const octree_session *s, uint64_t tick)
+{
+    size_t found;
+    return items_of(s->foreign, sizeof *s->foreign, s->foreign_count, tick, &found);
+}
+
 octree_input session_input(const octree_session *s, uint64_t tick)
 {
     octree_input input = {0};
@@ -174,6 +192,7 @@ octree_input session_input(const octree_session *s, uint64_t tick)
     input.queries = items_of(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
     input.shapes = items_of(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
     input.gap = octree_session_gap(s, tick);
+    input.foreign = foreign_of(s, tick);
     return input;
 }
 

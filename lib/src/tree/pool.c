@@ -2,6 +2,7 @@
 #include "pool.h"
 #include "bits.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define SLAB_MIN_BYTES 4096
@@ -19,6 +20,24 @@ struct slab {
 struct free_block {
     struct free_block *next;
 };
+
+static void *default_allocate(size_t size, void *context)
+{
+    (void)context;
+    return malloc(size);
+}
+
+static void default_release(void *memory, size_t size, void *context)
+{
+    (void)size;
+    (void)context;
+    free(memory);
+}
+
+octree_allocator default_allocator(void)
+{
+    return (octree_allocator){.allocate = default_allocate, .release = default_release};
+}
 
 void *arena_take(arena *a, size_t size)
 {

@@ -21,6 +21,9 @@ typedef struct arena {
     size_t bytes;
 } arena;
 
+/* malloc's. */
+octree_allocator default_allocator(void);
+
 void *arena_take(arena *a, size_t size);
 void arena_give(arena *a, void *memory, size_t size);
 

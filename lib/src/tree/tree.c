@@ -11,19 +11,6 @@
 
 /* ---- Making and freeing ------------------------------------------------------------------------------------- */
 
-static void *default_allocate(size_t size, void *context)
-{
-    (void)context;
-    return malloc(size);
-}
-
-static void default_release(void *memory, size_t size, void *context)
-{
-    (void)size;
-    (void)context;
-    free(memory);
-}
-
 octree_def octree_def_default(void)
 {
     return (octree_def){
@@ -58,10 +45,8 @@ static octree_def clamp_def(octree_def def)
         def.leaf_capacity = UINT32_MAX;
     if (def.max_depth > OCTREE_MAX_DEPTH)
         def.max_depth = OCTREE_MAX_DEPTH;
-    if (!def.allocator.allocate) {
-        def.allocator.allocate = default_allocate;
-        def.allocator.release = default_release;
-    }
+    if (!def.allocator.allocate)
+        def.allocator = default_allocator();
     return def;
 }
 

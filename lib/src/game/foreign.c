@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: MIT */
+/* foreign.c - the nodes of a program's own tree: whether they are a tree, and which are in force. */
+#include "foreign.h"
+#include "game_state.h"
+#include "octree/digest.h"
+#include "point.h"
+#include "search.h"
+#include "session.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *octree_met_name(octree_met met)
+{
+    static const char *const names[OCTREE_MET_KINDS] = {"visited", "pruned", "hit"};
+    return (unsigned)met < OCTREE_MET_KINDS ? names[met] : NULL;
+}
+
+#define NO_DEPTH UINT_MAX
+#define DEPTH_ON_THE_WAY (UINT_MAX - 1)
+
+/* ---- Whether they are a tree -------------------------------------------------------------------------------- */
+
+static octree_status check_node(const octree_foreign_node *node)
+{
+    octree_status status = check_finite(node->box.min);
+    if (status == OCTREE_OK)
+        status = check_finite(node->box.max);
+    if (status == OCTREE_OK)
+        status = check_box(&node->box);
+    if (status != OCTREE_OK)
+        return status;
+    if (node->id >= OCTREE_NODE_ID_LIMIT || (node->has_depth && node->depth < 0))
+        return OCTREE_BAD_SIZE;
+    if (node->has_points && node->points.count && !node->points.ids)
+        return OCTREE_NULL_ARGUMENT;
+    if (!game_is_text(node->kind, sizeof node->kind))
+        return OCTREE_BAD_TEXT;
+    return (unsigned)node->precision < OCTREE_PRECISIONS ? OCTREE_OK : OCTREE_BAD_OPTION;
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+    const foreign_key *p = a, *q = b;
+    return p->id != q->id ? (p->id > q->id) - (p->id < q->id) : (p->place > q->place) - (p->place < q->place);
+}
+
+static size_t find_key(const list *keys, uint64_t id)
+{
+    const foreign_key *items = keys->items;
+    size_t first = 0, end = keys->count;
+    while (first < end) {
+        const size_t middle = first + (end - first) / 2;
+        if (items[middle].id < id)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first < keys->count && items[first].id == id ? items[first].place : SIZE_MAX;
+}
+
+static octree_status list_keys(arena *memory, const octree_foreign_tree *tree, list *keys, size_t *fault)
+{
+    bool sorted = true;
+    for (size_t i = 0; i < tree->node_count; i++) {
+        const octree_status status = check_node(&tree->nodes[i]);
+        const foreign_key key = {tree->nodes[i].id, i};
+        *fault = i;
+        if (status != OCTREE_OK)
+            return status;
+        sorted = sorted && (i == 0 || tree->nodes[i - 1].id < key.id);
+        if (!list_push(memory, keys, &key, sizeof key))
+            return OCTREE_NO_MEMORY;
+    }
+    foreign_key *items = keys->items;
+    if (!sorted)
+        qsort(items, keys->count, sizeof *items, compare_keys);
+    for (size_t i = 1; i < keys->count; i++)
+        if (items[i].id == items[i - 1].id)
+            return *fault = items[i].place, OCTREE_DUPLICATE;
+    return OCTREE_OK;
+}
+
+static octree_status list_places(arena *memory, const octree_foreign_tree *tree, list *places, const list *keys,
+                                 size_t *fault)
+{
+    for (size_t i = 0; i < tree->node_count; i++) {
+        const octree_foreign_node *node = &tree->nodes[i];
+        octree_foreign_place place = {.node = node, .parent = SIZE_MAX, .depth = NO_DEPTH, .leaf = true};
+        *fault = i;
+        if (node->has_parent) {
+            place.parent = find_key(keys, node->parent);
+            if (place.parent == SIZE_MAX)
+                return OCTREE_NOT_FOUND;
+        }
+        if (!list_push(memory, places, &place, sizeof place))
+            return OCTREE_NO_MEMORY;
+    }
+    return OCTREE_OK;
+}
+
+/* The depths of a node and of its ancestors that have none yet: up, marking the way, and down again. Who comes to a
+ * mark is its own ancestor. */
+static octree_status find_depths(arena *memory, octree_foreign_place *places, size_t of, list *way)
+{
+    size_t at = of;
+    way->count = 0;
+    for (; at != SIZE_MAX && places[at].depth == NO_DEPTH; at = places[at].parent) {
+        places[at].depth = DEPTH_ON_THE_WAY;
+        if (!list_push(memory, way, &at, sizeof at))
+            return OCTREE_NO_MEMORY;
+    }
+    if (at != SIZE_MAX && places[at].depth == DEPTH_ON_THE_WAY)
+        return OCTREE_BAD_PARENT;
+    unsigned depth = at == SIZE_MAX ? 0 : places[at].depth + 1;
+    while (way->count > 0) {
+        octree_foreign_place *place = &places[((const size_t *)way->items)[--way->count]];
+        place->depth = place->node->has_depth ? (unsigned)place->node->depth : depth;
+        depth = place->depth + 1;
+    }
+    return OCTREE_OK;
+}
+
+octree_status foreign_index(arena *memory, const octree_foreign_tree *tree, list *places, list *keys, size_t *fault)
+{
+    *fault = 0;
+    if (!tree->nodes && tree->node_count)
+        return OCTREE_NULL_ARGUMENT;
+    octree_status status = list_keys(memory, tree, keys, fault);
+    if (status == OCTREE_OK)
+        status = list_places(memory, tree, places, keys, fault);
+    octree_foreign_place *items = places->items;
+    list way = {0};
+    for (size_t i = 0; status == OCTREE_OK && i < places->count; i++) {
+        *fault = i;
+        status = find_depths(memory, items, i, &way);
+        if (items[i].parent != SIZE_MAX)
+            items[items[i].parent].leaf = false;
+    }
+    list_release(memory, &way, sizeof(size_t));
+    return status;
+}
+
+octree_status octree_foreign_check(const octree_foreign_tree *tree, size_t *place)
+{
+    size_t fault;
+    if (!tree)
+        return OCTREE_NULL_ARGUMENT;
+    arena memory = {.allocator = default_allocator()};
+    list places = {0}, keys = {0};
+    const octree_status status = foreign_index(&memory, tree, &places, &keys, place ? place : &fault);
+    list_release(&memory, &places, sizeof(octree_foreign_place));
+    list_release(&memory, &keys, sizeof(foreign_key));
+    return status;
+}
+
+/* ---- In force ----------------------------------------------------------------------------------------------- */
+
+static bool copy_nodes(foreign *f, arena *memory, const octree_foreign_tree *tree)
+{
+    size_t ids = 0;
+    for (size_t i = 0; i < tree->node_count; i++)
+        ids += tree->nodes[i].has_points ? tree->nodes[i].points.count : 0;
+    f->size = tree->node_count * sizeof *tree->nodes + ids * sizeof(uint64_t);
+    f->nodes = f->size ? arena_take(memory, f->size) : NULL;
+    if (!f->nodes)
+        return f->size == 0 || (f->size = 0, false);
+    uint64_t *room = (uint64_t *)(f->nodes + tree->node_count);
+    for (size_t i = 0; i < tree->node_count; i++) {
+        octree_foreign_node *node = &f->nodes[i];
+        *node = tree->nodes[i];
+        node->points.count = node->has_points ? node->points.count : 0;
+        if (node->points.count)
+            memcpy(room, node->points.ids, node->points.count * sizeof *room);
+        node->points.ids = room;
+        room += node->points.count;
+    }
+    return true;
+}
+
+static uint64_t digest_node(uint64_t digest, const octree_foreign_node *node)
+{
+    digest = octree_digest_word(digest, node->id);
+    digest = octree_digest_word(digest, node->has_parent ? node->parent : UINT64_MAX);
+    for (int i = 0; i < 3; i++) {
+        digest = octree_digest_double(digest, node->box.min[i]);
+        digest = octree_digest_double(digest, node->box.max[i]);
+    }
+    digest = octree_digest_word(digest, node->has_depth ? (uint64_t)node->depth : UINT64_MAX);
+    digest = octree_digest_word(digest, node->has_points ? node->points.count : UINT64_MAX);
+    for (size_t i = 0; i < node->points.count; i++)
+        digest = octree_digest_word(digest, node->points.ids[i]);
+    digest = octree_digest_bytes(digest, node->kind, strlen(node->kind));
+    return octree_digest_word(digest, (uint64_t)node->precision);
+}
+
+/* The place of a kind among those that there were, which it joins while there is room. */
+static bool find_kind(foreign *f, arena *memory, octree_foreign_place *place)
+{
+    const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
+    const size_t last = place->kind; /* that of the node before: mostly the same */
+    place->kind = 0;
+    if (last < f->kinds.count && strcmp(kinds[last], place->node->kind) == 0)
+        place->kind = (unsigned)last;
+    else
+        while (place->kind < f->kinds.count && strcmp(kinds[place->kind], place->node->kind) != 0)
+            place->kind++;
+    if (place->kind < f->kinds.count)
+        return true;
+    if (place->kind < OCTREE_NODE_KINDS)
+        return list_push(memory, &f->kinds, place->node->kind, OCTREE_NODE_KIND);
+    place->kind = OCTREE_NODE_KINDS - 1;
+    return true;
+}
+
+/* Give each node the points of those below it: leaves first, and then whoever has no child left that is to come. */
+static bool sum_points(foreign *f, arena *memory)
+{
+    octree_foreign_place *places = f->places.items;
+    list pending = {0}; /* size_t, by place: children to come */
+    bool whole = true;
+    for (size_t i = 0; whole && i < f->places.count; i++)
+        whole = list_push(memory, &pending, &(size_t){0}, sizeof(size_t));
+    size_t *children = pending.items;
+    for (size_t i = 0; whole && i < f->places.count; i++)
+        if (places[i].parent != SIZE_MAX)
+            children[places[i].parent]++;
+    for (size_t i = 0; whole && i < f->places.count; i++)
+        for (size_t at = places[i].leaf ? i : SIZE_MAX; at != SIZE_MAX;) {
+            const size_t parent = places[at].parent;
+            places[at].points += places[at].node->points.count;
+            if (parent != SIZE_MAX)
+                places[parent].points += places[at].points;
+            at = parent != SIZE_MAX && --children[parent] == 0 ? parent : SIZE_MAX;
+        }
+    list_release(memory, &pending, sizeof(size_t));
+    return whole;
+}
+
+octree_status foreign_install(octree_game *game, const octree_foreign_tree *tree)
+{
+    foreign *f = &game->foreign;
+    arena *memory = &game->memory;
+    octree_foreign_state *state = &game->tick.foreign;
+    size_t fault;
+    arena_give(memory, f->nodes, f->size);
+    f->places.count = f->keys.count = f->marks.count = f->met.count = 0;
+    if (!copy_nodes(f, memory, tree))
+        return OCTREE_NO_MEMORY;
+    const octree_foreign_tree own = {.nodes = f->nodes, .node_count = tree->node_count};
+    const octree_status status = foreign_index(memory, &own, &f->places, &f->keys, &fault);
+    if (status != OCTREE_OK)
+        return status;
+    state->given = state->fresh = true;
+    state->digest = OCTREE_DIGEST_START;
+    state->leaf_count = state->depth = 0;
+    f->checked = false;
+    octree_foreign_place *places = f->places.items;
+    for (size_t i = 0; i < f->places.count; i++) {
+        places[i].kind = i ? places[i - 1].kind : 0;
+        if (!find_kind(f, memory, &places[i]) ||
+            !list_push(memory, &f->marks, &(foreign_mark){.query = 0}, sizeof(foreign_mark)))
+            return OCTREE_NO_MEMORY;
+        state->digest = digest_node(state->digest, places[i].node);
+        state->leaf_count += places[i].leaf;
+        state->depth = places[i].depth > state->depth ? places[i].depth : state->depth;
+    }
+    return sum_points(f, memory) ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+void foreign_release(foreign *f, arena *memory)
+{
+    arena_give(memory, f->nodes, f->size);
+    list_release(memory, &f->places, sizeof(octree_foreign_place));
+    list_release(memory, &f->keys, sizeof(foreign_key));
+    list_release(memory, &f->marks, sizeof(foreign_mark));
+    list_release(memory, &f->holdings, sizeof(foreign_holding));
+    list_release(memory, &f->kinds, OCTREE_NODE_KIND);
+    list_release(memory, &f->faults, sizeof(octree_node_fault));
+    list_release(memory, &f->met, sizeof(size_t));
+    list_release(memory, &f->lost, sizeof(uint64_t));
+    list_release(memory, &f->held, sizeof(bool));
+}
+
+size_t foreign_find(const foreign *f, uint64_t id)
+{
+    return find_key(&f->keys, id);
+}
+
+void foreign_publish(octree_game *game)
+{
+    const foreign *f = &game->foreign;
+    octree_foreign_state *state = &game->tick.foreign;
+    if (!state->given)
+        return;
+    state->nodes = f->places.items;
+    state->node_count = f->places.count;
+    state->listed = f->faults.items;
+    state->listed_count = f->faults.count;
+    state->kinds = f->kinds.items;
+    state->kind_count = f->kinds.count;
+    state->fault_count = 0;
+    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
+        state->fault_count += state->faults[kind];
+    if (state->fault_count)
+        game->tick.events |= OCTREE_EVENT_WRONG;
+}

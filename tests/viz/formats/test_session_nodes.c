@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+/* test_session_nodes.c - the nodes of a program's own tree in session files, there and back, and what is wrong with
+ * them in ticks.jsonl. */
+#include "fixture.h"
+#include "session_file.h"
+#include "ticks_write.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define HEADER "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[-5,0,0],[5,0,0]],\n\"ticks\":3"
+#define ROOT "{\"id\":9,\"box\":{\"min\":[-10,-10,-10],\"max\":[10,10,10]}}"
+#define LEAF(rest) "{\"id\":4,\"parent\":9,\"box\":{\"min\":[0,-1,-1],\"max\":[10,1,1]}" rest "}"
+
+static session_file parse(const char *text)
+{
+    session_file file;
+    octreel_error error = {""};
+    if (!session_parse("s.json", "", text, strlen(text), &file, &error))
+        fail_msg("%s", error.text);
+    return file;
+}
+
+static char *write_session(const octree_session *session)
+{
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    assert_true(session_write(session, out));
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void assert_refuses(const char *text, const char *sentence)
+{
+    session_file file;
+    octreel_error error = {""};
+    if (session_parse("s.json", "", text, strlen(text), &file, &error))
+        fail_msg("accepted instead of: %s", sentence);
+    assert_string_equal(error.text, sentence);
+    assert_int_equal(file.session.foreign_count, 0);
+}
+
+static void nodes_are_read_with_all_that_is_said_of_them(void **state)
+{
+    (void)state;
+    session_file file =
+        parse(HEADER ",\"nodes\":[" ROOT "," LEAF(",\"points\":[2,7],\"kind\":\"leaf\",\"depth\":3,"
+                                                  "\"mode\":\"float\"") "]}\n{\"tick\":2,\"nodes\":[]}");
+    const octree_session *s = &file.session;
+    assert_int_equal(s->foreign_count, 2);
+    assert_true(s->foreign[0].tick == 0 && s->foreign[0].node_count == 2);
+    assert_true(s->foreign[1].tick == 2 && s->foreign[1].node_count == 0);
+    const octree_foreign_node *root = s->foreign[0].nodes, *leaf = root + 1;
+    assert_true(root->id == 9 && !root->has_parent && !root->has_depth && !root->has_points && !*root->kind);
+    assert_true(leaf->id == 4 && leaf->has_parent && leaf->parent == 9 && leaf->has_depth && leaf->depth == 3);
+    assert_true(leaf->has_points && leaf->points.count == 2 && leaf->points.ids[1] == 7);
+    assert_string_equal(leaf->kind, "leaf");
+    assert_true(leaf->precision == OCTREE_FLOATS && leaf->box.max[0] == 10);
+    session_release(&file);
+}
+
+static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
+{
+    (void)state;
+    session_file file = parse(
+        HEADER
+        ",\"queries\":[{\"radius\":1,\"at\":[0,0,0],\"hit\":[4]}]}\n"
+        "{\"tick\":0,\"nodes\":[" LEAF(
+            ",\"points\":[]") "," ROOT "]}\n"
+                              "{\"tick\":1,\"queries\":[{\"nearest\":[1,2,3],\"visited\":[9,4],\"pruned\":[8],\"mode\":"
+                              "\"float\"}],"
+                              "\"nodes\":[" ROOT
+                              "," LEAF(",\"points\":[1],\"depth\":1,\"kind\":\"a b\"") "]}\n"
+                                                                                       "{\"tick\":3,\"nodes\":[]}");
+    session_file copy, again;
+    octreel_error error;
+    assert_true(session_copy(&file.session, &copy, &error));
+    char *text = write_session(&copy.session);
+    session_release(&file);
+    again = parse(text);
+    char *second = write_session(&again.session);
+    assert_string_equal(text, second);
+    assert_non_null(strstr(text, "\n{\"tick\": 0, \"nodes\": [{\"id\": 4, \"parent\": 9, \"box\": "));
+    assert_non_null(strstr(text, "\"points\": []"));
+    assert_non_null(strstr(text, "\"visited\": [9, 4], \"pruned\": [8], \"mode\": \"float\""));
+    assert_non_null(strstr(text, "\"points\": [1], \"kind\": \"a b\""));
+    assert_non_null(strstr(text, "\n{\"tick\": 3, \"nodes\": []}\n"));
+    assert_int_equal(again.session.foreign_count, 3);
+    free(text);
+    free(second);
+    session_release(&copy);
+    session_release(&again);
+}
+
+static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
+{
+    (void)state;
+    assert_refuses(HEADER ",\n\"nodes\":{}}", "s.json:3: nodes: expected a list of nodes, found an object");
+    assert_refuses(HEADER ",\n\"nodes\":[" ROOT ",\n5]}", "s.json:4: nodes[1]: expected an object, found 5");
+    assert_refuses(HEADER ",\"nodes\":[{\"id\":5}]}", "s.json:2: nodes[0]: the member \"box\" is missing");
+    assert_refuses(HEADER ",\"nodes\":[" ROOT ",\n" ROOT "]}", "s.json:3: nodes[1]: the id 9 is taken by another node");
+    assert_refuses(HEADER "}\n{\"tick\":1,\"nodes\":[" LEAF("") "]}",
+                   "s.json:3: nodes[0]: node 4 has the parent 9, which is no node here");
+    assert_refuses(HEADER ",\"nodes\":[{\"id\":1,\"parent\":2,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}},\n"
+                          "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}}]}",
+                   "s.json:2: nodes[0]: node 1 is its own ancestor");
+    assert_refuses(HEADER ",\"nodes\":[]}\n{\"tick\":0,\"nodes\":[]}",
+                   "s.json:3: nodes: the header has the nodes of tick 0 already");
+    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"points\":[1,-1]") "]}",
+                   "s.json:2: nodes[0].points[1]: expected a whole number from 0 to 9007199254740991, found -1");
+    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"points\":7") "]}",
+                   "s.json:2: nodes[0].points: expected a list of ids, found 7");
+    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"kind\":\"1234567890123456\"") "]}",
+                   "s.json:2: nodes[0].kind: a node's kind has at most 15 characters, not 16");
+    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"colour\":7") "]}",
+                   "s.json:2: nodes[0]: unknown member \"colour\"; known: id, parent, box, depth, points, kind, mode");
+    assert_refuses(HEADER ",\"queries\":[{\"nearest\":[0,0,0],\"pruned\":[1,\n\"a\"]}]}",
+                   "s.json:3: queries[0].pruned[1]: expected a whole number from 0 to 9007199254740991, found \"a\"");
+}
+
+static char *write_tick(const octree_session *session)
+{
+    octree_game *game;
+    char *text;
+    size_t size;
+    assert_int_equal(octree_game_create(session, &game), OCTREE_OK);
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    tick_write(out, octree_game_tick(game), &(tick_extras){.frame = NULL});
+    assert_int_equal(fclose(out), 0);
+    octree_game_destroy(game);
+    return text;
+}
+
+static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
+{
+    (void)state;
+    session_file file = parse(HEADER ",\"nodes\":[" ROOT "," LEAF(
+        ",\"points\":[1,2,3]") "],"
+                               "\"queries\":[{\"nearest\":[4,0,0],\"visited\":[9],\"pruned\":[4,5]}]}");
+    char *text = write_tick(&file.session);
+    const char *at = strstr(text, "\"nodes\": {\"count\": 2, \"leaves\": 1, \"depth\": 1, \"digest\": \"");
+    assert_non_null(at);
+    assert_non_null(strstr(text, "\"events\": [\"wrong\"]"));
+    at = strstr(at, "\", \"visited\": 1");
+    assert_non_null(at);
+    static const char rest[] =
+        "\", \"visited\": 1, \"pruned\": 1, \"hit\": 0, \"wrong\": {\"unknown_point\": 1, \"outside_point\": 1, "
+        "\"unknown_node\": 1, \"pruned_point\": 1, \"first\": ["
+        "{\"fault\": \"outside_point\", \"node\": 4, \"point\": 1}, "
+        "{\"fault\": \"unknown_point\", \"node\": 4, \"point\": 3}, "
+        "{\"fault\": \"unknown_node\", \"node\": 5, \"answer\": 0}, "
+        "{\"fault\": \"pruned_point\", \"node\": 4, \"point\": 2, \"answer\": 0}]}}, \"refusals\"";
+    if (strncmp(at, rest, strlen(rest)) != 0)
+        fail_msg("%s", at);
+    free(text);
+    file.session.foreign_count = 0;
+    text = write_tick(&file.session);
+    assert_null(strstr(text, "\"nodes\": {\"count\""));
+    file.session.foreign_count = 1;
+    free(text);
+    session_release(&file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nodes_are_read_with_all_that_is_said_of_them),
+        cmocka_unit_test(nodes_and_how_they_were_met_survive_the_round_trip),
+        cmocka_unit_test(nodes_that_are_no_tree_are_refused_by_line_and_place),
+        cmocka_unit_test(ticks_say_the_nodes_and_what_is_wrong_with_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

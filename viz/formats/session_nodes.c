@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/* session_nodes.c - the nodes of a program's own tree, from a tick on. */
+#include "session_members.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Sets that own their memory: one block with the ids of their points --------------------------------------- */
+
+/* Room for so many nodes with so many ids of points after them; null also for none. */
+static octree_foreign_node *make_room(size_t nodes, size_t ids)
+{
+    const size_t most = SIZE_MAX / 2 / sizeof(octree_foreign_node);
+    return nodes && nodes < most && ids < most ? calloc(1, nodes * sizeof(octree_foreign_node) + ids * sizeof(uint64_t))
+                                               : NULL;
+}
+
+bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to)
+{
+    const octree_foreign_node *source = from->nodes; /* from and to may be the same */
+    const size_t count = from->node_count;
+    size_t ids = 0;
+    for (size_t i = 0; i < count; i++)
+        ids += source[i].points.count;
+    octree_foreign_node *nodes = make_room(count, ids);
+    uint64_t *room = (uint64_t *)(nodes + (nodes ? count : 0));
+    *to = (octree_foreign_tree){.tick = from->tick, .nodes = nodes, .node_count = nodes ? count : 0};
+    for (size_t i = 0; nodes && i < count; i++) {
+        nodes[i] = source[i];
+        if (nodes[i].points.count)
+            memcpy(room, nodes[i].points.ids, nodes[i].points.count * sizeof *room);
+        nodes[i].points.ids = room;
+        room += nodes[i].points.count;
+    }
+    return nodes || count == 0;
+}
+
+void foreign_tree_release(octree_foreign_tree *tree)
+{
+    free((octree_foreign_node *)tree->nodes);
+    *tree = (octree_foreign_tree){0};
+}
+
+/* ---- One node ----------------------------------------------------------------------------------------------- */
+
+/* The room is where the set has it. */
+static bool read_points(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    octree_ids *points = into;
+    uint64_t *room = (uint64_t *)points->ids;
+    if (!json_is_array(value))
+        return json_expected(r, value, at, "a list of ids");
+    points->count = json_array_size(value);
+    for (size_t i = 0; i < points->count; i++)
+        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, &room[i]))
+            return false;
+    return true;
+}
+
+static void write_points(json_writer *w, const void *from)
+{
+    const octree_ids *points = from;
+    json_write_begin_array(w);
+    for (size_t i = 0; i < points->count; i++)
+        json_write_integer(w, points->ids[i]);
+    json_write_end_array(w);
+}
+
+static bool read_kind(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return session_read_text(r, value, at, "a node's kind", OCTREE_NODE_KIND, into);
+}
+
+static void write_kind(json_writer *w, const void *from)
+{
+    json_write_string(w, from);
+}
+
+static bool has_kind(const void *from)
+{
+    return *(const char *)from;
+}
+
+static const char *precision_name(int n)
+{
+    return octree_precision_name((octree_precision)n);
+}
+
+#define IN_NODE(member) .offset = offsetof(octree_foreign_node, member)
+#define WHERE(flag) .given = offsetof(octree_foreign_node, flag)
+
+static const json_member node_members[] = {
+    {"id", &json_uint64, IN_NODE(id), .required = true, .max = JSON_LARGEST_WHOLE},
+    {"parent", &json_uint64, IN_NODE(parent), WHERE(has_parent), .max = JSON_LARGEST_WHOLE},
+    {"box", &json_box, IN_NODE(box), .required = true},
+    {"depth", &json_int, IN_NODE(depth), WHERE(has_depth), .max = INT32_MAX},
+    {"points", JSON_CODEC(read_points, write_points, NULL), IN_NODE(points), WHERE(has_points)},
+    {"kind", JSON_CODEC(read_kind, write_kind, has_kind), IN_NODE(kind)},
+    {"mode", &json_later_choice, IN_NODE(precision), .names = precision_name},
+    {0},
+};
+
+/* ---- The set of a tick -------------------------------------------------------------------------------------- */
+
+static size_t count_ids(const json_t *nodes)
+{
+    size_t ids = 0;
+    for (size_t i = 0; i < json_array_size(nodes); i++)
+        ids += json_array_size(json_object_get(json_array_get(nodes, i), "points"));
+    return ids;
+}
+
+/* Say which node makes it no tree, and why. */
+static bool check_tree(json_reader *r, const octree_foreign_tree *tree, const json_place *at)
+{
+    size_t fault;
+    const octree_status status = octree_foreign_check(tree, &fault);
+    if (status == OCTREE_OK)
+        return true;
+    const octree_foreign_node *node = &tree->nodes[fault];
+    const json_place place = {at, NULL, fault};
+    if (status == OCTREE_DUPLICATE)
+        return json_fail(r, &place, "the id %" PRIu64 " is taken by another node", node->id);
+    if (status == OCTREE_NOT_FOUND)
+        return json_fail(r, &place, "node %" PRIu64 " has the parent %" PRIu64 ", which is no node here", node->id,
+                         node->parent);
+    if (status == OCTREE_BAD_PARENT)
+        return json_fail(r, &place, "node %" PRIu64 " is its own ancestor", node->id);
+    return json_fail(r, &place, "%s", octree_status_text(status));
+}
+
+static bool read_into(json_reader *r, json_t *value, const json_place *at, octree_foreign_tree *tree)
+{
+    const size_t count = json_array_size(value);
+    octree_foreign_node *nodes = make_room(count, count_ids(value));
+    uint64_t *room = (uint64_t *)(nodes + (nodes ? count : 0));
+    if (count && !nodes)
+        return json_fail(r, at, "out of memory for %zu nodes", count);
+    tree->nodes = nodes;
+    tree->node_count = count;
+    for (size_t i = 0; i < count; i++) {
+        nodes[i].points.ids = room;
+        if (!json_read_members(r, json_array_get(value, i), &(json_place){at, NULL, i}, node_members, &nodes[i]))
+            return false;
+        room += nodes[i].points.count;
+    }
+    return check_tree(r, tree, at);
+}
+
+/* Those of the header are in force from tick 0 on. */
+static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    session_loader *s = r->context;
+    const bool header = s->tick == OCTREE_EVERY_TICK;
+    session_list *list = header ? &s->standing[SESSION_FOREIGN] : &s->lists[SESSION_FOREIGN];
+    (void)into;
+    if (!json_is_array(value))
+        return json_expected(r, value, at, "a list of nodes");
+    if (s->tick == 0 && s->standing[SESSION_FOREIGN].count > 0)
+        return json_fail(r, at, "the header has the nodes of tick 0 already");
+    octree_foreign_tree *tree = session_append(r, at, list, sizeof *tree);
+    if (!tree)
+        return false;
+    *tree = (octree_foreign_tree){.tick = header ? 0 : s->tick};
+    return read_into(r, value, at, tree);
+}
+
+static void write_nodes(json_writer *w, const void *from)
+{
+    const octree_foreign_tree *tree = *(const octree_foreign_tree *const *)from;
+    json_write_begin_array(w);
+    for (size_t i = 0; i < tree->node_count; i++)
+        json_write_object(w, node_members, &tree->nodes[i]);
+    json_write_end_array(w);
+}
+
+/* What is in force from tick 0 on is written in that tick. */
+static bool has_nodes(const void *from)
+{
+    return *(const octree_foreign_tree *const *)from;
+}
+
+const json_codec session_nodes_codec = {read_nodes, write_nodes, has_nodes};
