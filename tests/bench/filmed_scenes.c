@@ -7,14 +7,14 @@
 #include <string.h>
 
 const filmed_scene filmed_scenes[FILMED_SCENES] = {
-    {"S", "the default session, still camera", 0, CAMERA_ISO, 2, 250000, 10, 0, true, 1, 10, 60, 253, 400, 0},
+    {"S", "the default session, still camera", 0, CAMERA_ISO, 2, 250000, 10, 0, true, 1, 10, 60, 253, 400, 0, 0},
     {"M", "2,000 clustered points, orbiting camera", 2000, CAMERA_ORBIT, 2, 250000, 10, 0, true, 1, 10, 60, 10000, 0,
-     100},
+     100, 100},
     {"L", "100,000 points, orbiting camera, nothing left out", 100000, CAMERA_ORBIT, 0, 0, 8, 0, true, 2, 15, 15, 0, 0,
-     0},
-    {"L-lod2", "the same with --lod 2", 100000, CAMERA_ORBIT, 2, 250000, 16, 0, true, 2, 15, 0, 0, 0, 0},
+     0, 0},
+    {"L-lod2", "the same with --lod 2", 100000, CAMERA_ORBIT, 2, 250000, 16, 0, true, 2, 15, 0, 0, 0, 0, 0},
     {"1M-lod2", "1,000,000 points, orbiting camera, --lod 2", 1000000, CAMERA_ORBIT, 2, 250000, 0, 5, false, 10, 20, 0,
-     0, 0, 0},
+     0, 0, 0, 0},
 };
 
 view filmed_view(const filmed_scene *scene)
@@ -60,7 +60,88 @@ static bool scatter(filmed_session *made, size_t count)
     return ok;
 }
 
-bool filmed_session_make(filmed_session *made, const filmed_scene *scene, uint64_t ticks)
+/* ---- Answered queries --------------------------------------------------------------------------------------- */
+
+static void ask(octree_query *queries, size_t count, size_t asked, const octree_body *bodies, size_t body_count)
+{
+    enum { NEIGHBORS = 8, REACH = 20 };
+    uint64_t random = 1;
+    for (size_t i = 0; i < count; i++) {
+        octree_query *q = &queries[i];
+        const octree_body *body = &bodies[octree_random(&random) % body_count];
+        *q = (octree_query){.tick = i / asked, .kind = i % OCTREE_QUERY_KINDS, .k = NEIGHBORS, .radius = REACH};
+        for (int axis = 0; axis < 3; axis++) {
+            q->target[axis] = body->position[axis] + (double)(octree_random(&random) % REACH) - REACH / 2;
+            q->box.min[axis] = q->target[axis] - REACH;
+            q->box.max[axis] = q->target[axis] + REACH;
+        }
+    }
+}
+
+/* The ids of an answer into `ids`, where that is not null; their number. */
+static size_t ids_of(const octree_answer *answer, uint64_t *ids)
+{
+    for (size_t i = 0; ids && i < answer->count; i++)
+        ids[i] = octree_query_about(answer->kind)->neighbors ? answer->neighbors[i].point.id : answer->points[i].id;
+    return answer->count;
+}
+
+/* Play the session without answers. What the game says is what the program answers: its ids go to `ids`; null: they are
+ * counted. */
+static bool play_answers(filmed_session *made, uint64_t *ids, size_t *count)
+{
+    octree_game *game;
+    octree_query *query = made->queries;
+    bool ok = octree_game_create(&made->session, &game) == OCTREE_OK;
+    *count = 0;
+    while (ok) {
+        const octree_tick *tick = octree_game_tick(game);
+        for (size_t i = 0; i < tick->answer_count; i++) {
+            uint64_t *to = ids ? ids + *count : NULL;
+            const size_t found = ids_of(&tick->answers[i], to);
+            if (tick->answers[i].by_key)
+                continue;
+            query->answer = to;
+            query++->answer_count = found;
+            *count += found;
+        }
+        if (octree_game_over(game))
+            break;
+        ok = octree_game_advance(game) == OCTREE_OK;
+    }
+    octree_game_destroy(game);
+    return ok;
+}
+
+static bool add_queries(filmed_session *made, size_t asked, uint64_t ticks)
+{
+    octree_session *session = &made->session;
+    const size_t count = ticks * asked;
+    made->queries = malloc(count * sizeof *made->queries);
+    if (!made->queries)
+        return false;
+    ask(made->queries, count, asked, made->bodies, session->body_count);
+    session->queries = made->queries;
+    session->query_count = count;
+    return true;
+}
+
+static bool add_answers(filmed_session *made)
+{
+    size_t ids;
+    if (!play_answers(made, NULL, &ids))
+        return false;
+    made->answers = malloc((ids + 1) * sizeof *made->answers);
+    if (!made->answers || !play_answers(made, made->answers, &ids))
+        return false;
+    for (size_t i = 0; i < made->session.query_count; i++)
+        made->queries[i].answered = true;
+    return true;
+}
+
+/* ---- Sessions ----------------------------------------------------------------------------------------------- */
+
+bool filmed_session_make(filmed_session *made, const filmed_scene *scene, uint64_t ticks, size_t asked, bool answered)
 {
     const octree_session paper = octree_session_default();
     *made = (filmed_session){.session = paper};
@@ -75,6 +156,7 @@ bool filmed_session_make(filmed_session *made, const filmed_scene *scene, uint64
         made->session.body_count = scene->points;
     }
     made->session.keys = made->keys;
+    ok = ok && (asked == 0 || add_queries(made, asked, ticks)) && (!answered || add_answers(made));
     if (!ok)
         filmed_session_release(made);
     return ok;
@@ -84,5 +166,7 @@ void filmed_session_release(filmed_session *made)
 {
     free(made->bodies);
     free(made->keys);
+    free(made->queries);
+    free(made->answers);
     *made = (filmed_session){0};
 }

@@ -21,6 +21,7 @@ typedef struct filmed_scene {
     uint64_t page_ticks; /* of the page's session; 0 is as many as frames are drawn */
     double page_kb;      /* the goal for the page's size; 0 is none */
     double scrub_ms;     /* the goal for going to any tick; 0 is none */
+    size_t asked;        /* it is filmed with so many queries a tick, too, answered and not; 0: it is not */
 } filmed_scene;
 
 #define FILMED_SCENES 5
@@ -31,6 +32,9 @@ extern const filmed_scene filmed_scenes[FILMED_SCENES];
 #define GOAL_FIRST_MS 300.0
 #define GOAL_PAGE_MIB 300.0
 
+/* The goal for what judging the answers adds to a frame, as a share of a frame without queries. */
+#define GOAL_JUDGING 0.3
+
 /* The view of a scene: 1280 x 720, text on. The naive way leaves nothing out. */
 view filmed_view(const filmed_scene *scene);
 view filmed_whole_view(const filmed_scene *scene);
@@ -39,10 +43,14 @@ typedef struct filmed_session {
     octree_session session;
     octree_body *bodies;
     char *keys;
+    octree_query *queries;
+    uint64_t *answers;
 } filmed_session;
 
-/* A session of so many ticks, tick 0 included, in which the player flies. False when there is no memory. */
-bool filmed_session_make(filmed_session *made, const filmed_scene *scene, uint64_t ticks);
+/* A session of so many ticks, tick 0 included, in which the player flies, and a program asks so many queries of all
+ * kinds a tick, at places near its points, and, where that is wanted, answers them rightly. False when there is no
+ * memory. */
+bool filmed_session_make(filmed_session *made, const filmed_scene *scene, uint64_t ticks, size_t asked, bool answered);
 void filmed_session_release(filmed_session *made);
 
 #endif

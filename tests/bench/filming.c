@@ -238,12 +238,15 @@ static uint64_t count_ticks(const filming_order *order)
 static void do_work(const filming_order *order, double started, int result_end)
 {
     static bool (*const films[FILM_KINDS])(work *) = {
-        [FILM_NAIVE] = film_naive, [FILM_OCTREEL] = film_octreel, [FILM_PARTS] = film_parts, [FILM_PAGE] = film_page};
+        [FILM_NAIVE] = film_naive,      [FILM_OCTREEL] = film_octreel, [FILM_ASKED] = film_octreel,
+        [FILM_ANSWERED] = film_octreel, [FILM_PARTS] = film_parts,     [FILM_PAGE] = film_page};
     filming result = {0};
     filmed_session made;
     work w = {.order = order, .result = &result, .started = started, .apart = 1};
-    bool ok =
-        filmed_session_make(&made, order->scene, count_ticks(order)) || fail(&w, "there is no memory for the session");
+    const bool answered = order->who == FILM_ANSWERED;
+    const size_t asked = answered || order->who == FILM_ASKED ? order->scene->asked : 0;
+    bool ok = filmed_session_make(&made, order->scene, count_ticks(order), asked, answered) ||
+              fail(&w, "there is no memory for the session");
     w.session = &made.session;
     ok = ok && films[order->who](&w);
     if (order->who != FILM_PAGE)

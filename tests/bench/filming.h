@@ -6,10 +6,12 @@
 #include "filmed_scenes.h"
 
 typedef enum filming_who {
-    FILM_NAIVE,   /* see naive.h: one process, one thread */
-    FILM_OCTREEL, /* film_session(), by as many processes as asked for */
-    FILM_PARTS,   /* what Octreel does for a frame, part by part: one process */
-    FILM_PAGE,    /* the page of a recording, see page_timing.h: frames are drawn, and none is written */
+    FILM_NAIVE,    /* see naive.h: one process, one thread */
+    FILM_OCTREEL,  /* film_session(), by as many processes as asked for */
+    FILM_ASKED,    /* the same, with the scene's queries */
+    FILM_ANSWERED, /* which a program has answered */
+    FILM_PARTS,    /* what Octreel does for a frame, part by part: one process */
+    FILM_PAGE,     /* the page of a recording, see page_timing.h: frames are drawn, and none is written */
     FILM_KINDS
 } filming_who;
 

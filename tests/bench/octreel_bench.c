@@ -46,7 +46,9 @@ static void print_help(void)
         "      --browser NAME plays the pages of S, M and L (default chromium; another of its kind will do)\n"
         "      --json         a line for each scene and who films it, for programs\n"
         "  -h, --help\n\n"
-        "naive, octreel: what films. page: index.html draws by itself, on ticks of its own, one after the other\n"
+        "naive, octreel: what films. answered: octreel, with 100 queries a tick that a program answered, which are "
+        "judged\n"
+        "and drawn. page: index.html draws by itself, on ticks of its own, one after the other\n"
         "frames/s   by the clock on the wall, without the first frame of each process\n"
         "times      so many times the naive way's; and, where others use the machine too, what their processor times "
         "say\n"
@@ -165,6 +167,12 @@ static bool has_page(const options *o, const filmed_scene *scene)
     return o->browser && scene->page_fps > 0;
 }
 
+static bool is_filmed(const options *o, const filmed_scene *scene, filming_who who)
+{
+    const bool asks = who == FILM_ASKED || who == FILM_ANSWERED;
+    return (who != FILM_PAGE || has_page(o, scene)) && (!asks || scene->asked > 0);
+}
+
 static void leave_pages_out(options *o, const char *why)
 {
     fprintf(stderr, "octreel-bench: pages are left out: %s\n", why);
@@ -182,7 +190,7 @@ static void measure(options *o, const filmed_scene *scene, filming result[FILM_K
             snprintf(folder, sizeof folder, "%s/octreel-bench-%ld", o->folder, (long)getpid());
             const filming_order order = {scene, (filming_who)who, count_frames(o, scene, (filming_who)who),
                                          JOBS,  folder,           o->browser};
-            if (who == FILM_PAGE && !has_page(o, scene))
+            if (!is_filmed(o, scene, (filming_who)who))
                 continue;
             if (!film_scene(&order, f) && who != FILM_PAGE)
                 stop("%s", f->trouble);
@@ -250,6 +258,40 @@ static void print_octreel(const filmed_scene *scene, const filming result[FILM_K
            f->first_ms, first, f->mib, memory, parts->draw_ms, parts->encode_ms, 100 * floor_of(parts));
 }
 
+/* What judging adds to a frame, as a share of one without queries. */
+static double judging_of(const filming result[FILM_KINDS])
+{
+    return (result[FILM_ANSWERED].frame_ms - result[FILM_ASKED].frame_ms) / result[FILM_OCTREEL].frame_ms;
+}
+
+static void print_asked(const filmed_scene *scene, const filming result[FILM_KINDS])
+{
+    for (int who = FILM_ASKED; who <= FILM_ANSWERED; who++) {
+        const filming *f = &result[who];
+        print_row(scene, who == FILM_ASKED ? "asked" : "answered", f);
+        printf(" %7.1f %6s %-14s %6.0f ms %11s %6.0f MiB, %.2f times a frame without queries",
+               result[FILM_NAIVE].frame_ms / f->frame_ms, "", "", f->first_ms, "", f->mib,
+               f->frame_ms / result[FILM_OCTREEL].frame_ms);
+        if (who == FILM_ANSWERED)
+            printf("; judging is %.2f of one, <=%g %s", judging_of(result), GOAL_JUDGING,
+                   verdict(judging_of(result) <= GOAL_JUDGING));
+        putchar('\n');
+    }
+}
+
+static void print_asked_json(const filmed_scene *scene, const filming result[FILM_KINDS])
+{
+    for (int who = FILM_ASKED; who <= FILM_ANSWERED; who++) {
+        const filming *f = &result[who];
+        printf("{\"scene\":\"%s\",\"who\":\"%s\",\"fps\":%.2f,\"times_naive\":%.3f,\"times_plain\":%.3f", scene->name,
+               who == FILM_ASKED ? "asked" : "answered", 1e3 / f->frame_ms, result[FILM_NAIVE].frame_ms / f->frame_ms,
+               f->frame_ms / result[FILM_OCTREEL].frame_ms);
+        if (who == FILM_ANSWERED)
+            printf(",\"judging\":%.3f", judging_of(result));
+        printf(",\"first_frame_ms\":%.1f,\"mib\":%.1f}\n", f->first_ms, f->mib);
+    }
+}
+
 static void print_page(const filmed_scene *scene, const filming result[FILM_KINDS])
 {
     const filming *f = &result[FILM_PAGE];
@@ -306,11 +348,15 @@ int main(int argc, char **argv)
         measure(&o, &filmed_scenes[i], result);
         if (o.json) {
             print_json(&filmed_scenes[i], result);
+            if (filmed_scenes[i].asked > 0)
+                print_asked_json(&filmed_scenes[i], result);
             if (has_page(&o, &filmed_scenes[i]))
                 print_page_json(&filmed_scenes[i], result);
         } else {
             print_naive(&filmed_scenes[i], &result[FILM_NAIVE]);
             print_octreel(&filmed_scenes[i], result);
+            if (filmed_scenes[i].asked > 0)
+                print_asked(&filmed_scenes[i], result);
             if (has_page(&o, &filmed_scenes[i]))
                 print_page(&filmed_scenes[i], result);
         }

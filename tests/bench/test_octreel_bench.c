@@ -72,6 +72,26 @@ static void table_holds_every_figure_against_its_goal(void **state)
     command_release(&run);
 }
 
+/* Of M alone, with what that adds to a frame. */
+static void queries_are_filmed_with_answers_and_without(void **state)
+{
+    static const char *const who[] = {"asked", "answered"};
+    (void)state;
+    command_result run = run_bench("--browser no-such-browser --json --folder . --scene M --frames 6 --rounds 1");
+    assert_int_equal(run.status, 0);
+    strtok(run.out, "\n");
+    strtok(NULL, "\n");
+    for (int i = 0; i < 2; i++) {
+        json_t *told = json_read(strtok(NULL, "\n"));
+        assert_string_equal(json_string_value(json_member(told, "who")), who[i]);
+        assert_true(json_number_value(json_member(told, "times_plain")) > 0);
+        assert_int_equal(json_object_get(told, "judging") != NULL, i == 1);
+        json_decref(told);
+    }
+    assert_null(strtok(NULL, "\n"));
+    command_release(&run);
+}
+
 /* In a folder whose name an address would have to encode; the browser's files go with the frames. */
 static void page_is_timed_beside_what_films(void **state)
 {
@@ -125,6 +145,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(json_tells_who_filmed_what_how_fast),
         cmocka_unit_test(table_holds_every_figure_against_its_goal),
+        cmocka_unit_test(queries_are_filmed_with_answers_and_without),
         cmocka_unit_test_setup_teardown(page_is_timed_beside_what_films, temp_folder_make, nested_folder_remove),
         cmocka_unit_test_setup_teardown(nothing_is_left_of_its_frames, temp_folder_make, temp_folder_remove),
         cmocka_unit_test(unknown_words_are_refused_with_a_sentence),
