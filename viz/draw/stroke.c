@@ -13,6 +13,8 @@
 #define HEAD 8
 #define HEAD_SIDE 4
 
+#define RING_CORNERS 40
+
 /* In pixels. Bold lines are at least 2 pixels wide, so that they look bold in the smallest picture too. */
 static int line_width(const scene *s, unsigned wanted)
 {
@@ -191,6 +193,34 @@ static void add_cross(quad_list *list, const pencil *with, unsigned band, int x,
     add_line(list, with, band, (double[2]){left, bottom}, (double[2]){right, top});
 }
 
+/* A band between two circles, as polygons of so many corners: the first is `up` or down of the centre. */
+static void add_band(quad_list *list, quad q, const double center[2], int corners, bool up, const double radii[2])
+{
+    double from[2] = {0, up ? -1 : 1}, to[2];
+    for (int i = 1; i <= corners; i++) {
+        camera_turn((double)i / corners, &to[1], &to[0]);
+        to[1] = up ? -to[1] : to[1];
+        for (int corner = 0; corner < 4; corner++) {
+            const double *way = corner == 0 || corner == 3 ? from : to;
+            q.x[corner] = snap(center[0] + way[0] * radii[corner / 2]);
+            q.y[corner] = snap(center[1] + way[1] * radii[corner / 2]);
+        }
+        quads_add(list, &q);
+        from[0] = to[0];
+        from[1] = to[1];
+    }
+}
+
+/* A ring reaches as far as a square of its size; a triangle's corners reach as far beyond its sides as they are thick.
+ */
+static void add_round(quad_list *list, const pencil *with, quad q, scene_shape shape, const double corner[2], int side)
+{
+    const double center[2] = {corner[0] + side / 2.0, corner[1] + side / 2.0}, reach = side / 2.0;
+    const double line = (shape == SHAPE_RING ? 3 : 4) * with->unit / 2.0 * with->samples;
+    const double inner = shape == SHAPE_WEDGE || line > reach ? 0 : reach - line;
+    add_band(list, q, center, shape == SHAPE_RING ? RING_CORNERS : 3, shape != SHAPE_WEDGE, (double[2]){reach, inner});
+}
+
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
 {
     const int half = with->style.width * with->unit / 2, side = (2 * half + 1) * with->samples;
@@ -214,6 +244,13 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
         break;
     case SHAPE_CROSS:
         add_cross(list, &thick, band, left, top, side);
+        break;
+    case SHAPE_RING:
+    case SHAPE_TRIANGLE:
+    case SHAPE_WEDGE:
+        add_round(list, with, q, shape, (const double[2]){left, top}, side);
+        break;
+    case SHAPE_COUNT:
         break;
     }
 }

@@ -2,7 +2,7 @@
 /* cause.c - two sessions played tick by tick. */
 #include "cause.h"
 #include "array.h"
-#include "layer.h"
+#include "layer_type.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -129,6 +129,22 @@ static bool same_rules(const octree *a, const octree *b)
            x.max_depth == y.max_depth && x.full_leaf == y.full_leaf;
 }
 
+/* Layers of which neither session can have anything show nothing, whether or not a view has them: one recorded before
+ * there was such a layer is looked at in the same way. */
+static void compare_views(const octree_session *a, const octree_session *b, const cause_view views[2],
+                          cause_facts *facts)
+{
+    cause_view shown[2] = {views[0], views[1]};
+    for (int i = 0; i < LAYER_COUNT; i++) {
+        bool (*const in_session)(const octree_session *) = layer_types[i]->in_session;
+        if (in_session && !in_session(a) && !in_session(b)) {
+            shown[0].view.layers &= ~(1u << i);
+            shown[1].view.layers &= ~(1u << i);
+        }
+    }
+    cause_compare_views(&shown[0], &shown[1], facts);
+}
+
 bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2],
                 const cause_watcher *watcher, cause *c, octreel_error *error)
 {
@@ -137,7 +153,7 @@ bool cause_find(const octree_session *a, const octree_session *b, const cause_vi
     cause_compare_sessions(a, b, &c->session);
     p.same_session = c->session.count == 0;
     if (views)
-        cause_compare_views(&views[0], &views[1], &c->view);
+        compare_views(a, b, views, &c->view);
     p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
     bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) || error_no_memory(error);
     ok = ok && open_game(&p, 0, a, error) && open_game(&p, 1, b, error);

@@ -104,6 +104,7 @@ element_subject describe_element(const octree_game *game, const heat *h, const s
         what.box = s->boxes.items[element.index].box;
     } else if (element.kind == SCENE_MARKER) {
         memcpy(what.at, s->markers.items[element.index].at, sizeof what.at);
+        what.shape = (scene_shape)s->markers.items[element.index].shape;
     } else if (element.kind == SCENE_LABEL) {
         const char *text = s->labels.items[element.index].text;
         say(&d, "text \"%s\"", text + strspn(text, " "));

@@ -41,6 +41,7 @@ typedef struct described {
     uint64_t id;
     octree_box box; /* of a box */
     double at[3];   /* of a marker */
+    scene_shape shape;
 } described;
 
 /* Append words; cut at ELEMENT_WORDS. */

@@ -35,6 +35,10 @@ typedef struct layer_type {
      * always; for layers of answers, when such a query was or will be asked. */
     bool (*applies)(const layer_source *in);
 
+    /* Whether a session can have anything for the layer. Null: each can. Two recordings are not unlike by a layer that
+     * is empty in both. */
+    bool (*in_session)(const octree_session *session);
+
     /* Add the layer's elements, or those of one answer. Hidden layers need no test: scene_add_* drops their elements.
      */
     void (*add)(scene *s, const layer_source *in, view_layer own);

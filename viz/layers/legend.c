@@ -102,7 +102,7 @@ static size_t make_fit(legend *l, size_t room)
 /* ---- How they are written ----------------------------------------------------------------------------------- */
 
 /* Signs of rectangles: x, y, width and height in a line of SWATCH units. */
-enum { SIGN_PARTS = 6 };
+enum { SIGN_PARTS = 8 };
 static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_LINE] = {{0, 4, SWATCH, 1}},
     [SIGN_BOLD] = {{0, 3, SWATCH, 2}},
@@ -110,6 +110,14 @@ static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_PLUS] = {{5, 4, 11, 1}, {10, -1, 1, 11}},
     [SIGN_DASHED_PLUS] = {{5, 4, 3, 1}, {10, -1, 1, 3}, {9, 4, 3, 1}, {10, 3, 1, 3}, {13, 4, 3, 1}, {10, 7, 1, 3}},
     [SIGN_FRAME] = {{6, 1, 7, 1}, {6, 7, 7, 1}, {6, 2, 1, 5}, {12, 2, 1, 5}},
+    [SIGN_RING] = {{8, -1, 5, 2},
+                   {8, 7, 5, 2},
+                   {5, 2, 2, 4},
+                   {14, 2, 2, 4},
+                   {6, 0, 2, 2},
+                   {13, 0, 2, 2},
+                   {6, 6, 2, 2},
+                   {13, 6, 2, 2}},
     [SIGN_DOT] = {{9, 3, 2, 2}},
     [SIGN_SQUARE] = {{7, 2, 5, 5}},
     [SIGN_ARROW] = {{0, 4, SWATCH, 1}, {17, 3, 2, 3}, {15, 2, 2, 5}, {13, 1, 2, 7}},
@@ -118,9 +126,27 @@ static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_NODE] = {{7, 1, 6, 6}},
 };
 
+/* The rows of a triangle on its side or, filled, on its corner. */
+static void fill_triangle(pen *p, theme_role role, bool on_side)
+{
+    const int middle = MARGIN + SWATCH / 2;
+    for (int i = 0; i < 6; i++) {
+        const int y = p->y + 1 + (on_side ? i : 5 - i);
+        if (!on_side || i == 5) {
+            fill(p, middle - i, y, 2 * i + 1, 1, role);
+            continue;
+        }
+        fill(p, middle - i, y, 1, 1, role);
+        if (i > 0)
+            fill(p, middle + i, y, 1, 1, role);
+    }
+}
+
 static void fill_sign(pen *p, const legend_line *line)
 {
-    if (line->sign == SIGN_CROSS) {
+    if (line->sign == SIGN_TRIANGLE || line->sign == SIGN_WEDGE) {
+        fill_triangle(p, line->role, line->sign == SIGN_TRIANGLE);
+    } else if (line->sign == SIGN_CROSS) {
         for (int i = -4; i <= 4; i++)
             for (int side = -1; side <= (i ? 1 : -1); side += 2)
                 fill(p, MARGIN + SWATCH / 2 + i, p->y + 4 + side * i, 1, 1, line->role);

@@ -21,6 +21,9 @@ typedef enum legend_sign {
     SIGN_SQUARE,
     SIGN_ARROW,
     SIGN_CROSS,
+    SIGN_RING,
+    SIGN_TRIANGLE,
+    SIGN_WEDGE,
     SIGN_RAMP, /* the colours of nodes, from the first: as many as there are in `steps` */
     SIGN_GROWING_RAMP,
     SIGN_NODES, /* of the diagram */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* panel.c - the text layer: the column at the left, which describes the tick. */
+#include "judgement_words.h"
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
@@ -92,6 +93,26 @@ static void write_answers(pen *p, const layer_source *in)
         p->name = view_shows(&p->scene->view, layer) ? (theme_role)layer_rows[layer].role : ROLE_FAINT;
         layer_types[layer]->write_answer(p, &in->answers[i]);
     }
+    p->name = ROLE_FAINT;
+}
+
+/* "1 of 3: nearest", with the kind where it fits, and what is wrong with the worst of the program's answers. */
+static void write_wrong(pen *p, const layer_source *in)
+{
+    char count[2 * SCENE_TEXT], kind[SCENE_TEXT], words[JUDGEMENT_WORDS];
+    size_t judged = 0, worst;
+    const size_t wrong = judgement_count(in->answers, in->answer_count, &worst);
+    if (wrong == 0)
+        return;
+    for (size_t i = 0; i < in->answer_count; i++)
+        judged += in->answers[i].judgement.judged;
+    snprintf(count, sizeof count, "%zu of %zu", wrong, judged);
+    snprintf(kind, sizeof kind, ": %s", octree_query_name(in->answers[worst].kind));
+    if (strlen(count) + strlen(kind) <= text_room(VALUE, 1))
+        strcat(count, kind);
+    p->name = ROLE_WRONG;
+    write_row(p, "wrong", "%s", count);
+    write_row(p, "", "%s", judgement_words(&in->answers[worst].judgement, words));
     p->name = ROLE_FAINT;
 }
 
@@ -308,6 +329,7 @@ static void write_tick_rows(pen *p, const layer_source *in)
     p->y += LINE / 2;
     if (tick->hit_count)
         write_ids(p, "hits", tick->hits, tick->hit_count);
+    write_wrong(p, in);
     write_answers(p, in);
     write_refusals(p, tick);
 }
@@ -333,6 +355,7 @@ static void add_lines(scene *s, const layer_source *in, const char *title)
         write_text(&p, 4, ROLE_TEXT, 1, title);
         p.y += LINE;
         write_events(&p, in);
+        write_wrong(&p, in);
     }
     write_left_out(&p);
     write_broken(&p, in);

@@ -54,6 +54,10 @@ typedef enum scene_shape {
     SHAPE_FRAME,   /* the outline of a square */
     SHAPE_LOZENGE, /* the outline of a diamond */
     SHAPE_CROSS,
+    SHAPE_RING,
+    SHAPE_TRIANGLE, /* the outline of a triangle on its side */
+    SHAPE_WEDGE,    /* a filled triangle on its corner */
+    SHAPE_COUNT
 } scene_shape;
 
 typedef struct scene_marker {

@@ -41,7 +41,9 @@
     X(NODE_7, "node-7", 142, 186, 112)                                                                                 \
     X(NODE_8, "node-8", 178, 196, 104)                                                                                 \
     X(NODE_9, "node-9", 212, 206, 116)                                                                                 \
-    X(SHAPE, "shape", 90, 200, 255)
+    X(SHAPE, "shape", 90, 200, 255)                                                                                    \
+    X(WRONG, "wrong", 228, 40, 255) /* a program's answer, and what it named wrongly */                                \
+    X(MISSED, "missed", 0, 216, 174)
 
 #define THEME_NODE_DEPTHS 10 /* deeper nodes share the last */
 

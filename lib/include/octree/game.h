@@ -335,6 +335,7 @@ typedef struct octree_tick {
     const octree_answer *answers; /* n first, then the session's queries in their order */
     size_t answer_count;
     unsigned asked;             /* bits 1 << octree_query_kind: what was asked up to this tick */
+    bool judged;                /* a program's answer was judged in this tick or before */
     const octree_visit *visits; /* each node once, in pre-order */
     size_t visit_count;
     size_t touched[OCTREE_TOUCH_KINDS]; /* how many of them were met in each way */

@@ -240,6 +240,7 @@ static octree_status judge_program(octree_game *game, const octree_query *query,
                        .neighbors = near ? (const octree_neighbor *)game->near.items + neighbors : NULL,
                        .skip = near ? how->skip : query->skip,
                        .skip_id = near ? how->skip_id : query->skip_id};
+    game->tick.judged |= query->answered;
     octree_status status = query->answered ? judge(&j, &answer->judgement) : OCTREE_OK;
     if (answer->judgement.fault)
         game->tick.events |= OCTREE_EVENT_WRONG;

@@ -54,6 +54,7 @@ const golden_frame golden_frames[] = {
     {"velocities", "iso", "nodes,points,velocities,player", 3, "moving", 400, 225},
     {"diagram_met", "iso", "default", 216, NULL, 640, 360},
     {"asked", "top", "nodes,asked,points", 0, "clustered", 0, 0},
+    {"wrong", "iso", "world,nodes,points,nearest,radius,wrong,text", 0, "answered", 640, 360},
     {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
 };
 
@@ -96,6 +97,23 @@ static const octree_query around[] = {
 
 static const octree_query neighbors[] = {{.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 6}};
 static const octree_query ball[] = {{.kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 500}};
+
+/* What a program answered, of points with ids from 100 on: one farther than another, and a ball without one of its
+ * points and with one outside. */
+static const uint64_t too_far[] = {114}, other[] = {118, 120, 133, 159};
+static const octree_query answered[] = {{.tick = OCTREE_EVERY_TICK,
+                                         .kind = OCTREE_QUERY_NEAREST,
+                                         .target = {-300, -600, 500},
+                                         .answered = true,
+                                         .answer = too_far,
+                                         .answer_count = 1},
+                                        {.tick = OCTREE_EVERY_TICK,
+                                         .kind = OCTREE_QUERY_RADIUS,
+                                         .target = {600, 0, -200},
+                                         .radius = 400,
+                                         .answered = true,
+                                         .answer = other,
+                                         .answer_count = 4}};
 
 static const octree_body crossing[] = {
     {.id = 1, .position = {50, -50, -250}},
@@ -154,6 +172,10 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[G
     if (!frame->points)
         return session;
     switch (frame->points[0]) {
+    case 'a':
+        session = sampled_session(OCTREE_SAMPLE_UNIFORM, answered, bodies, 60);
+        session.query_count = 2;
+        return session;
     case 'c': /* 400 clustered points, and a region that some of them are in */
         return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, GOLDEN_MOST_BODIES);
     case 'k':

@@ -29,6 +29,9 @@ static const octree_shape all_shapes[] = {
 
 /* The default session's queries, which are ranges at ticks 212 to 223, and two at every tick; and one more body, which
  * crosses the world where the player does not come. */
+/* The moving body, which is never the nearest to where it is asked. */
+static const uint64_t far_answer[] = {700};
+
 octree_session asking_session(void)
 {
     static octree_query queries[32];
@@ -39,12 +42,18 @@ octree_session asking_session(void)
     memcpy(bodies, session.bodies, session.body_count * sizeof *bodies);
     bodies[session.body_count++] = (octree_body){.id = 700, .position = {-900, 700, -600}, .velocity = {3, -2.5, 0.25}};
     session.bodies = bodies;
-    assert_true(count + 2 <= sizeof queries / sizeof queries[0]);
+    assert_true(count + 3 <= sizeof queries / sizeof queries[0]);
     memcpy(queries, session.queries, count * sizeof *queries);
     queries[count++] =
         (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = 4};
     queries[count++] =
         (octree_query){.tick = OCTREE_EVERY_TICK, .kind = OCTREE_QUERY_RADIUS, .at_player = true, .radius = 450};
+    queries[count++] = (octree_query){.tick = OCTREE_EVERY_TICK,
+                                      .kind = OCTREE_QUERY_NEAREST,
+                                      .target = {-400, 800, 200},
+                                      .answered = true,
+                                      .answer = far_answer,
+                                      .answer_count = 1};
     session.queries = queries;
     session.query_count = count;
     session.shapes = all_shapes;

@@ -16,7 +16,7 @@ view view_of(int width, int height, view_camera camera, unsigned layers);
 scene empty_scene(const view *v, const octree_box *world);
 
 /* The default session, which asks for k nearest and for a ball at every tick too, in which a body moves, and which has
- * a shape of each kind: it shows every layer. */
+ * a shape of each kind, and a wrong answer of a program: it shows every layer. */
 octree_session asking_session(void);
 
 /* The default session with every coordinate and length times `scale`, then moved by `offset`. It must stay where it

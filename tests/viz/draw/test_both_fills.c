@@ -72,7 +72,7 @@ static void add_in_world(scene *s, uint64_t *random)
 {
     scene_box box = {.style = some_style(random), .depth = (uint8_t)random_below(random, 20)};
     scene_segment line = {.style = some_style(random)};
-    scene_marker mark = {.style = some_style(random), .shape = (uint8_t)random_below(random, SHAPE_CROSS + 1)};
+    scene_marker mark = {.style = some_style(random), .shape = (uint8_t)random_below(random, SHAPE_COUNT)};
     scene_label label = {.style = some_style(random), .in_world = true, .text = "Octant 0/3/7"};
     some_place(random, 1.5, line.ends[0]);
     some_place(random, 1.5, line.ends[1]);

@@ -106,11 +106,41 @@ static void an_arrow_has_its_head_at_its_second_end(void **state)
     }
 }
 
+/* Whether the pixel at this distance from a mark's middle is lit. */
+static bool is_lit(const uint8_t *frame, const double middle[2], double right, double down)
+{
+    return frame[(int)(middle[1] + down) * WIDTH + (int)(middle[0] + right)] != 0;
+}
+
+/* A ring and a triangle on its side are hollow, a wedge on its corner is not; each is as large as its style says. */
+static void marks_of_wrong_answers_have_their_forms(void **state)
+{
+    (void)state;
+    for (unsigned shape = SHAPE_RING; shape <= SHAPE_WEDGE; shape++) {
+        scene s = blank_scene(CAMERA_TOP);
+        double middle[2];
+        const double at[3] = {0, 0, 0};
+        scene_add_mark(&s, 1, at, (scene_shape)shape, (scene_style){.role = ROLE_WRONG, .width = 60});
+        pixel_of(&s, at, middle);
+        uint8_t *frame = draw_once(&s);
+        assert_int_equal(is_lit(frame, middle, 0, 0), shape == SHAPE_WEDGE);
+        assert_int_equal(is_lit(frame, middle, 0, -29), shape != SHAPE_WEDGE);
+        assert_int_equal(is_lit(frame, middle, 0, 28), shape != SHAPE_TRIANGLE);
+        assert_int_equal(is_lit(frame, middle, 29, 0) && is_lit(frame, middle, -29, 0), shape == SHAPE_RING);
+        assert_int_equal(is_lit(frame, middle, 20, 14), shape == SHAPE_TRIANGLE);
+        assert_int_equal(is_lit(frame, middle, 20, -14), shape == SHAPE_WEDGE);
+        assert_false(is_lit(frame, middle, 0, 34) || is_lit(frame, middle, 34, 0) || is_lit(frame, middle, 24, 24));
+        free(frame);
+        scene_release(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cut_line_leaves_nothing_of_the_one_beneath),
         cmocka_unit_test(an_arrow_has_its_head_at_its_second_end),
+        cmocka_unit_test(marks_of_wrong_answers_have_their_forms),
         cmocka_unit_test(a_bold_line_is_two_pixels_wide_in_a_small_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,6 +16,9 @@ static const struct legend_row {
     bool shared; /* other layers have this colour too */
     const char *text;
 } legend_rows[] = {
+    {LAYER_WRONG, ROLE_WRONG, false, "wrong answer"},
+    {LAYER_WRONG, ROLE_MISSED, false, "missed by it"},
+    {LAYER_WRONG, ROLE_WRONG, false, "wrongly in it"},
     {LAYER_NODES, ROLE_NODE, true, "shallow to deep"},
     {LAYER_VISITED, ROLE_NODE + 2, true, " visited"},
     {LAYER_PRUNED, ROLE_NODE + 2, true, " pruned"},
@@ -64,12 +67,14 @@ static void the_legend_has_the_layers_that_are_shown(void **state)
             view v = view_of(1280, 1440, CAMERA_ISO, own | words);
             build_tick(&s, &v, game);
             for (size_t j = 0; j < LEGEND_ROWS; j++)
-                assert_int_equal(is_explained(&s, &legend_rows[j]), text && i == j);
+                assert_int_equal(is_explained(&s, &legend_rows[j]),
+                                 text && legend_rows[i].layer == legend_rows[j].layer);
             assert_int_equal(has_swatch(&s, legend_rows[i].role), text);
             v.layers = VIEW_ALL_LAYERS & ~own & ~(text ? 0 : 1u << LAYER_TEXT);
             build_tick(&s, &v, game);
             for (size_t j = 0; j < LEGEND_ROWS; j++)
-                assert_int_equal(is_explained(&s, &legend_rows[j]), text && i != j);
+                assert_int_equal(is_explained(&s, &legend_rows[j]),
+                                 text && legend_rows[i].layer != legend_rows[j].layer);
             assert_true(legend_rows[i].shared || !has_swatch(&s, legend_rows[i].role));
         }
     }

@@ -392,7 +392,7 @@ static void panels_and_marks_are_cut_off_at_the_edge_of_the_picture(void **state
         free(frame);
         scene_release(&s);
     }
-    for (unsigned shape = SHAPE_SQUARE; shape <= SHAPE_CROSS; shape++) {
+    for (unsigned shape = SHAPE_SQUARE; shape < SHAPE_COUNT; shape++) {
         scene s = blank_scene(CAMERA_FRONT);
         const camera *c = &s.camera;
         const double left = world_at(c, 0, -c->middle[0] / c->zoom); /* the picture's left edge */

@@ -154,8 +154,8 @@ static double apart(theme_role a, theme_role b, const double eye[3][3])
 /* Where a difference of 2 or 3 is just seen side by side. */
 #define CLEARLY_APART 12
 
-static const theme_role meanings[] = {ROLE_POINT,  ROLE_PLAYER,   ROLE_COLLISION, ROLE_RANGE,
-                                      ROLE_RADIUS, ROLE_KNEAREST, ROLE_NEAREST};
+static const theme_role meanings[] = {ROLE_POINT,    ROLE_PLAYER,  ROLE_COLLISION, ROLE_RANGE, ROLE_RADIUS,
+                                      ROLE_KNEAREST, ROLE_NEAREST, ROLE_WRONG,     ROLE_MISSED};
 #define MEANINGS (sizeof meanings / sizeof meanings[0])
 #define EYES (sizeof eyes / sizeof eyes[0])
 

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT */
+/* test_wrong_layer.c - a program's answers that are wrong, in the draw list: what was missed, what is wrongly there,
+ * and the ring about each. */
+#include "column.h"
+#include "layout.h"
+#include "draw_list.h"
+#include "layer_type.h"
+#include "scenes.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const octree_body bodies[] = {{.id = 1, .position = {1, 0, 1}},
+                                     {.id = 2, .position = {2, 0, 1}},
+                                     {.id = 3, .position = {5, 3, 1}},
+                                     {.id = 4, .position = {-7, 4, 1}}};
+
+/* Nobody but the bodies, with these queries in tick 0. */
+static octree_session session_of(const octree_query *queries, size_t count)
+{
+    octree_session session = small_session(bodies, 4);
+    session.player.kind = OCTREE_PLAYER_NONE;
+    session.queries = queries;
+    session.query_count = count;
+    return session;
+}
+
+static octree_query nearest_of(const uint64_t *answer, size_t count)
+{
+    return (octree_query){
+        .kind = OCTREE_QUERY_NEAREST, .target = {0, 0, 1}, .answered = true, .answer = answer, .answer_count = count};
+}
+
+static scene scene_of(const octree_query *queries, size_t count, view_camera camera)
+{
+    const view v = view_of(1280, 720, camera, VIEW_DEFAULT_LAYERS);
+    const octree_session session = session_of(queries, count);
+    octree_game *game = start_game(&session);
+    scene s = {0};
+    build_tick(&s, &v, game);
+    octree_game_destroy(game);
+    return s;
+}
+
+/* The markers of a shape; *found is the last of them. */
+static size_t count_shape(const scene *s, scene_shape shape, const scene_marker **found)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->markers.count; i++)
+        if (s->markers.items[i].style.layer == LAYER_WRONG && s->markers.items[i].shape == (uint8_t)shape) {
+            *found = &s->markers.items[i];
+            count++;
+        }
+    return count;
+}
+
+static bool has_words(const scene *s, view_layer layer, const char *text)
+{
+    for (size_t i = 0; i < s->labels.count; i++)
+        if (s->labels.items[i].style.layer == layer && strcmp(s->labels.items[i].text, text) == 0)
+            return true;
+    return false;
+}
+
+static bool is_empty(const scene *s)
+{
+    const layer_counts found = count_layer(s, LAYER_WRONG);
+    return found.boxes + found.segments + found.markers + found.labels + found.panels == 0;
+}
+
+static void a_farther_neighbour_is_marked_and_the_true_one_ringed(void **state)
+{
+    (void)state;
+    static const uint64_t farther[] = {3};
+    const octree_query query = nearest_of(farther, 1);
+    for (int camera = 0; camera < CAMERA_COUNT; camera++) {
+        scene s = scene_of(&query, 1, (view_camera)camera);
+        const scene_marker *ring = NULL, *missed = NULL, *extra = NULL;
+        assert_int_equal(count_shape(&s, SHAPE_RING, &ring), 1);
+        assert_int_equal(count_shape(&s, SHAPE_TRIANGLE, &missed), 1);
+        assert_int_equal(count_shape(&s, SHAPE_WEDGE, &extra), 1);
+        assert_true(same_position(ring->at, bodies[0].position) && same_position(missed->at, ring->at));
+        assert_true(missed->id == 1 && missed->style.role == ROLE_MISSED);
+        assert_true(extra->id == 3 && extra->style.role == ROLE_WRONG && same_position(extra->at, bodies[2].position));
+        assert_int_equal(lines_between(&s, LAYER_WRONG, 0, query.target, bodies[2].position), 1);
+        assert_true(has_words(&s, LAYER_TEXT, "1 of 1: nearest") && has_words(&s, LAYER_TEXT, "5.83 times as far"));
+        assert_true(has_words(&s, LAYER_WRONG, "5.83 times as far"));
+        scene_release(&s);
+    }
+}
+
+/* Its size is of the picture, not of the world. */
+static void a_ring_is_as_large_wherever_the_camera_is(void **state)
+{
+    (void)state;
+    static const uint64_t farther[] = {3};
+    const octree_query query = nearest_of(farther, 1);
+    const octree_session session = session_of(&query, 1);
+    octree_game *game = start_game(&session);
+    for (double zoom = 0.01; zoom <= 100; zoom *= 100) {
+        view v = view_of(1280, 720, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+        const scene_marker *ring = NULL;
+        scene s = {0};
+        v.zoom.given = true;
+        v.zoom.times = zoom;
+        build_tick(&s, &v, game);
+        assert_int_equal(count_shape(&s, SHAPE_RING, &ring), 1);
+        assert_int_equal(ring->style.width, 28);
+        scene_release(&s);
+    }
+    octree_game_destroy(game);
+}
+
+static void a_ball_has_marks_on_what_was_missed_and_what_is_outside(void **state)
+{
+    (void)state;
+    static const uint64_t named[] = {4, 2};
+    const octree_query query = {.kind = OCTREE_QUERY_RADIUS,
+                                .target = {0, 0, 1},
+                                .radius = 3,
+                                .answered = true,
+                                .answer = named,
+                                .answer_count = 2};
+    scene s = scene_of(&query, 1, CAMERA_TOP);
+    assert_int_equal(count_layer(&s, LAYER_WRONG).segments, 0);
+    assert_int_equal(markers_at(&s, LAYER_WRONG, 1, bodies[0].position), 1);
+    assert_int_equal(markers_at(&s, LAYER_WRONG, 4, bodies[3].position), 1);
+    assert_true(has_words(&s, LAYER_TEXT, "1 missed, 1 extra"));
+    scene_release(&s);
+}
+
+/* An id that no point has: what was asked is ringed. */
+static void an_answer_without_a_point_is_ringed_at_its_target(void **state)
+{
+    (void)state;
+    static const uint64_t both[] = {1, 1}, box_ids[] = {9};
+    const octree_query queries[] = {nearest_of(both, 2),
+                                    {.kind = OCTREE_QUERY_RANGE,
+                                     .box = {{-9, -9, -9}, {-8, -8, -8}},
+                                     .answered = true,
+                                     .answer = box_ids,
+                                     .answer_count = 1}};
+    scene s = scene_of(queries, 2, CAMERA_TOP);
+    assert_int_equal(markers_at(&s, LAYER_WRONG, UINT64_MAX, queries[0].target), 1);
+    assert_int_equal(markers_at(&s, LAYER_WRONG, UINT64_MAX - 1, (double[]){-8.5, -8.5, -8.5}), 1);
+    assert_true(has_words(&s, LAYER_WRONG, "1 is named twice") && has_words(&s, LAYER_WRONG, "no point is 9"));
+    scene_release(&s);
+}
+
+/* Of many the worst has the large ring, and the words. */
+static void of_many_wrong_answers_the_worst_is_seen_first(void **state)
+{
+    (void)state;
+    static const uint64_t ids[] = {2, 2, 4, 2, 2, 3};
+    octree_query queries[6];
+    for (size_t i = 0; i < 6; i++)
+        queries[i] = nearest_of(&ids[i], 1);
+    scene s = scene_of(queries, 6, CAMERA_TOP);
+    size_t large = 0;
+    for (size_t i = 0; i < s.markers.count; i++) {
+        const scene_marker *mark = &s.markers.items[i];
+        if (mark->style.layer != LAYER_WRONG || mark->shape != SHAPE_RING || mark->style.width < 28)
+            continue;
+        assert_true(mark->id == UINT64_MAX - 2);
+        large++;
+    }
+    assert_int_equal(large, 1);
+    assert_int_equal(count_layer(&s, LAYER_WRONG).labels, 1);
+    assert_true(has_words(&s, LAYER_WRONG, "8.06 times as far") && has_words(&s, LAYER_TEXT, "6 of 6: nearest"));
+    scene_release(&s);
+}
+
+/* The words stay clear of the panel, of each other and of the picture's edges. */
+static void words_that_have_no_room_are_left_out(void **state)
+{
+    (void)state;
+    static const uint64_t far[] = {4};
+    octree_query queries[3];
+    for (size_t i = 0; i < 3; i++) {
+        queries[i] = nearest_of(far, 1);
+        queries[i].target[0] = (double)i * 1e-3;
+    }
+    const octree_session session = session_of(queries, 3);
+    octree_game *game = start_game(&session);
+    for (int width = 40; width < 700; width += 60) {
+        const view v = view_of(width, width / 2, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+        scene s = {0};
+        build_tick(&s, &v, game);
+        for (size_t i = 0; i < s.labels.count; i++) {
+            const scene_label *label = &s.labels.items[i];
+            if (label->style.layer != LAYER_WRONG)
+                continue;
+            assert_true(label->at[0] >= panel_width(&v) && label->at[1] >= 0 && label->at[1] < v.height);
+            assert_true(label->at[0] + (double)strlen(label->text) * TEXT_LETTER * s.unit <= v.width);
+        }
+        scene_release(&s);
+    }
+    octree_game_destroy(game);
+}
+
+/* Nothing is added for right answers but lines of the legend, and nothing at all where no program answered. */
+static void what_is_right_or_unanswered_stays_as_it_was(void **state)
+{
+    (void)state;
+    static const uint64_t right[] = {1};
+    octree_query query = nearest_of(right, 1);
+    scene s = scene_of(&query, 1, CAMERA_ISO);
+    assert_true(is_empty(&s) && has_swatch(&s, ROLE_WRONG));
+    scene_release(&s);
+    query.answered = false;
+    s = scene_of(&query, 1, CAMERA_ISO);
+    assert_true(is_empty(&s) && !has_swatch(&s, ROLE_WRONG));
+    const octree_session session = session_of(&query, 1);
+    const view v = view_of(1280, 720, CAMERA_ISO, VIEW_DEFAULT_LAYERS & ~(1u << LAYER_WRONG));
+    octree_game *game = start_game(&session);
+    scene without = {0};
+    build_tick(&without, &v, game);
+    assert_true(scene_digest(&s) == scene_digest(&without));
+    octree_game_destroy(game);
+    scene_release(&without);
+    scene_release(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_farther_neighbour_is_marked_and_the_true_one_ringed),
+        cmocka_unit_test(a_ring_is_as_large_wherever_the_camera_is),
+        cmocka_unit_test(a_ball_has_marks_on_what_was_missed_and_what_is_outside),
+        cmocka_unit_test(an_answer_without_a_point_is_ringed_at_its_target),
+        cmocka_unit_test(of_many_wrong_answers_the_worst_is_seen_first),
+        cmocka_unit_test(words_that_have_no_room_are_left_out),
+        cmocka_unit_test(what_is_right_or_unanswered_stays_as_it_was),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

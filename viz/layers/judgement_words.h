@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* judgement_words.h - what is wrong with a program's answer, in few words. */
+#ifndef LAYERS_JUDGEMENT_WORDS_H
+#define LAYERS_JUDGEMENT_WORDS_H
+
+#include "octree/game.h"
+
+#include <stddef.h>
+
+#define JUDGEMENT_WORDS 64
+
+/* "2.26 times as far", "1 missed, 2 extra", "no point is 17": what is wrong first. */
+const char *judgement_words(const octree_judgement *made, char text[JUDGEMENT_WORDS]);
+
+/* The first point that the program missed, or else the first that it named wrongly; null where there is none. */
+const octree_point *judgement_point(const octree_judgement *made);
+
+/* Whether one answer is worse than another: by its ratio of distances, then by the points missed and extra. */
+bool judgement_is_worse(const octree_judgement *made, const octree_judgement *than);
+
+/* How many of the answers are wrong, and which is the worst of them: the first of several. */
+size_t judgement_count(const octree_answer *answers, size_t count, size_t *worst);
+
+#endif

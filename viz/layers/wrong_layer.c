@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT */
+/* wrong_layer.c - the layer of a program's answers that are wrong: what it missed, what it named wrongly, and a ring of
+ * a fixed size about the place, so that it is found in the picture, however small it is in the world. */
+#include "judgement_words.h"
+#include "layer_type.h"
+#include "layout.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* In half units. */
+#define MARK 9
+#define RING 28
+#define LINE_WIDTH 3
+
+/* Marks shrink beyond so many, so that they hide less; and so do rings, all but that of the worst answer. */
+#define FEW_MARKS 50
+#define FEW_RINGS 3
+
+/* Markers have their point's id; a ring one that no point of a session file has. */
+static uint64_t ring_id(size_t place)
+{
+    return UINT64_MAX - place;
+}
+
+/* Lines: the answer and which of its extra points. */
+static uint64_t line_id(size_t place, size_t extra)
+{
+    return (uint64_t)place << 32 | (uint64_t)extra;
+}
+
+static bool applies(const layer_source *in)
+{
+    return in->tick && in->tick->judged;
+}
+
+static bool in_session(const octree_session *session)
+{
+    for (size_t i = 0; i < session->query_count; i++)
+        if (session->queries[i].answered)
+            return true;
+    return false;
+}
+
+/* Where nothing is missed or extra: the middle of what was asked. */
+static void place_of(const octree_answer *answer, double place[3])
+{
+    const octree_point *point = judgement_point(&answer->judgement);
+    if (point)
+        memcpy(place, point->position, sizeof point->position);
+    else if (octree_query_about(answer->kind)->members & OCTREE_QUERY_HAS_TARGET)
+        memcpy(place, answer->target, sizeof answer->target);
+    else
+        scene_box_middle(&answer->box, place);
+}
+
+/* Words are written beside a mark, and not on it. `half` is half its size. */
+static void keep_clear(scene *s, text_space *taken, const double at[3], unsigned half)
+{
+    double pixel[2];
+    if (taken->count == TEXT_SPACE_MOST || !camera_pixel(&s->camera, at, pixel))
+        return;
+    const double reach = half * s->unit / 2.0;
+    const double box[4] = {pixel[0] - reach, pixel[1] - reach, pixel[0] + reach, pixel[1] + reach};
+    memcpy(taken->taken[taken->count++], box, sizeof box);
+}
+
+static void mark_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style,
+                        text_space *taken)
+{
+    scene_add_points(s, points, count, shape, style);
+    for (size_t i = 0; i < count && i < FEW_MARKS; i++)
+        keep_clear(s, taken, points[i].position, style.width);
+}
+
+static void mark_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *taken)
+{
+    const octree_judgement *made = &answer->judgement;
+    const unsigned size = made->missed_count + made->extra_count <= FEW_MARKS ? MARK : MARK / 2;
+    const scene_style extra = layer_style(LAYER_WRONG, STROKE_SOLID, size);
+    scene_style missed = extra;
+    double at[3];
+    missed.role = ROLE_MISSED;
+    for (size_t i = 0; octree_query_about(answer->kind)->neighbors && i < made->extra_count; i++)
+        scene_add_line(s, line_id(place, i), answer->target, made->extra[i].position,
+                       layer_style(LAYER_WRONG, STROKE_SOLID, ring == RING ? LINE_WIDTH : 1));
+    mark_points(s, made->missed, made->missed_count, SHAPE_TRIANGLE, missed, taken);
+    mark_points(s, made->extra, made->extra_count, SHAPE_WEDGE, extra, taken);
+    place_of(answer, at);
+    scene_add_mark(s, ring_id(place), at, SHAPE_RING, layer_style(LAYER_WRONG, STROKE_SOLID, ring));
+    keep_clear(s, taken, at, ring);
+}
+
+/* Beside the ring, on the side where there is room; nothing where there is none. */
+static void add_words(scene *s, const octree_answer *answer, size_t place, text_space *taken)
+{
+    char words[JUDGEMENT_WORDS];
+    double at[3], pixel[2], corner[2];
+    scene_label label = {.id = place, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
+    snprintf(label.text, sizeof label.text, "%s", judgement_words(&answer->judgement, words));
+    place_of(answer, at);
+    if (!camera_pixel(&s->camera, at, pixel))
+        return;
+    const double aside = (RING / 2.0 + (double)strlen(label.text) * TEXT_LETTER / 2 + 3) * s->unit;
+    const double above = (RING / 2.0 + TEXT_HEIGHT) * s->unit;
+    const double ways[][2] = {{aside, 0}, {-aside, 0}, {0, -above}, {0, above}};
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+        const double middle[2] = {pixel[0] + ways[i][0], pixel[1] + ways[i][1]};
+        if (!text_space_take(taken, s, label.text, middle, corner))
+            continue;
+        memcpy(label.at, corner, sizeof corner);
+        text_add_on_ground(s, &label, ROLE_BACKGROUND);
+        return;
+    }
+}
+
+static void add(scene *s, const layer_source *in, view_layer own)
+{
+    size_t worst;
+    const bool few = judgement_count(in->answers, in->answer_count, &worst) <= FEW_RINGS;
+    text_space taken = {.count = 0};
+    (void)own;
+    for (size_t i = 0; i < in->answer_count; i++)
+        if (in->answers[i].judgement.fault)
+            mark_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &taken);
+    for (size_t i = 0; i < in->answer_count; i++)
+        if (in->answers[i].judgement.fault && (few || i == worst))
+            add_words(s, &in->answers[i], i, &taken);
+}
+
+static void add_legend(legend *l, const layer_source *in)
+{
+    (void)in;
+    legend_add(l, SIGN_RING, "wrong answer");
+    legend_add(l, SIGN_TRIANGLE, "missed by it")->role = ROLE_MISSED;
+    legend_add(l, SIGN_WEDGE, "wrongly in it");
+}
+
+static bool has_point(const octree_point *points, size_t count, uint64_t id)
+{
+    for (size_t i = 0; i < count; i++)
+        if (points[i].id == id)
+            return true;
+    return false;
+}
+
+/* The first answer that misses a point, or has it wrongly. */
+static size_t find_answer(const octree_tick *tick, uint64_t id, bool missed)
+{
+    size_t i = 0;
+    for (; i < tick->answer_count; i++) {
+        const octree_judgement *made = &tick->answers[i].judgement;
+        if (missed ? has_point(made->missed, made->missed_count, id) : has_point(made->extra, made->extra_count, id))
+            break;
+    }
+    return i;
+}
+
+static void say_answer(description *d, size_t place)
+{
+    const octree_tick *tick = d->tick;
+    char words[JUDGEMENT_WORDS];
+    if (place >= tick->answer_count)
+        return;
+    say(d, "the program's answer to the %s query", octree_query_name(tick->answers[place].kind));
+    if (tick->answer_count > 1)
+        say(d, " (answer %zu of %zu)", place + 1, tick->answer_count);
+    say(d, ", which is wrong: %s", judgement_words(&tick->answers[place].judgement, words));
+}
+
+static void describe(description *d, const described *element)
+{
+    if (element->kind == SCENE_MARKER && element->shape == SHAPE_RING) {
+        say(d, "the ring about ");
+        say_answer(d, UINT64_MAX - element->id);
+    } else if (element->kind == SCENE_MARKER) {
+        const bool missed = element->shape == SHAPE_TRIANGLE;
+        say_point(d, element->id, element->at);
+        say(d, missed ? ", missed by " : ", wrongly in ");
+        say_answer(d, find_answer(d->tick, element->id, missed));
+    } else if (element->kind == SCENE_SEGMENT) {
+        say(d, "the line to a point that is wrongly in ");
+        say_answer(d, element->id >> 32);
+    } else {
+        say(d, element->kind == SCENE_PANEL ? "the ground of words about " : ", about ");
+        say_answer(d, element->id);
+    }
+}
+
+const layer_type layer_WRONG = {.applies = applies,
+                                .in_session = in_session,
+                                .add = add,
+                                .legend_place = 5,
+                                .legend = add_legend,
+                                .describe = describe};
