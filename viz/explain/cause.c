@@ -2,6 +2,7 @@
 /* cause.c - two sessions played tick by tick. */
 #include "cause.h"
 #include "array.h"
+#include "judgement_words.h"
 #include "layer_type.h"
 
 #include <inttypes.h>
@@ -77,6 +78,36 @@ static void note(cause *c, uint64_t tick)
     c->last = tick;
 }
 
+static void extend(cause_span *span, uint64_t count, uint64_t tick)
+{
+    if (span->count == 0)
+        span->first = tick;
+    span->count += count;
+    span->last = tick;
+}
+
+static bool same_faults(const octree_tick *a, const octree_tick *b)
+{
+    const size_t both = a->answer_count < b->answer_count ? a->answer_count : b->answer_count;
+    for (size_t i = 0; i < both; i++) {
+        const octree_judgement *x = &a->answers[i].judgement, *y = &b->answers[i].judgement;
+        if (x->fault != y->fault || x->fault_id != y->fault_id)
+            return false;
+    }
+    return true;
+}
+
+static void note_answers(cause_answers *wrong, const octree_tick *a, const octree_tick *b)
+{
+    size_t worst;
+    const size_t before = judgement_count(a->answers, a->answer_count, &worst);
+    const size_t now = judgement_count(b->answers, b->answer_count, &worst);
+    if (now != before)
+        extend(now > before ? &wrong->more : &wrong->fewer, now > before ? now - before : before - now, a->number);
+    else if (!same_faults(a, b))
+        extend(&wrong->other, 1, a->number);
+}
+
 /* The trees are compared node by node only for ticks that are reported in detail. */
 static bool look_at(playing *p, octreel_error *error)
 {
@@ -86,6 +117,8 @@ static bool look_at(playing *p, octreel_error *error)
     const bool trees = !p->same_session && trees_differ(p);
     if (!p->same_session)
         cause_compare_ticks(p->games[0], p->games[1], &facts);
+    if (!p->same_session)
+        note_answers(&p->found->wrong, octree_game_tick(games[0]), octree_game_tick(games[1]));
     const bool differs = trees || facts.count > 0;
     if (differs)
         note(p->found, tick);

@@ -13,12 +13,24 @@ typedef struct cause_tick {
     trace trace;       /* of its frames */
 } cause_tick;
 
+/* Ticks of one kind: how much there is in them, and the first and last of them. */
+typedef struct cause_span {
+    uint64_t count, first, last;
+} cause_span;
+
+/* How a program's wrong answers differ, of the ticks that both have. */
+typedef struct cause_answers {
+    cause_span more, fewer; /* wrong answers that the frames have in a tick beyond those of the reference; or lack */
+    cause_span other;       /* ticks with as many, of other queries or by other faults */
+} cause_answers;
+
 /* A zeroed one is empty. */
 typedef struct cause {
     cause_facts session; /* in what the sessions differ */
     cause_facts view;    /* in what their views differ; none when only sessions are compared */
     cause_tick *ticks;   /* reported in detail, in ascending order */
     size_t count, room;
+    cause_answers wrong;
     uint64_t compared;    /* ticks that both have */
     uint64_t differing;   /* of them, in what happened */
     uint64_t first, last; /* of those that differ */

@@ -104,6 +104,29 @@ static void write_trace(json_writer *w, const trace *t)
     json_write_end_array(w);
 }
 
+static void write_span(json_writer *w, const char *key, const cause_span *span)
+{
+    if (span->count == 0)
+        return;
+    json_member_begin_object(w, key);
+    json_member_integer(w, "count", span->count);
+    json_member_integer(w, "first", span->first);
+    json_member_integer(w, "last", span->last);
+    json_write_end_object(w);
+}
+
+/* Left out where no answer differs. */
+static void write_wrong(json_writer *w, const cause_answers *wrong)
+{
+    if (wrong->more.count + wrong->fewer.count + wrong->other.count == 0)
+        return;
+    json_member_begin_object(w, "wrong_answers");
+    write_span(w, "more", &wrong->more);
+    write_span(w, "fewer", &wrong->fewer);
+    write_span(w, "other", &wrong->other);
+    json_write_end_object(w);
+}
+
 static void write_ticks(json_writer *w, const explanation *e)
 {
     const cause *c = &e->cause;
@@ -138,6 +161,7 @@ void cause_write_json(json_writer *w, const explanation *e)
     json_write_begin_object(w);
     write_facts(w, "session", &c->session);
     write_facts(w, "view", &c->view);
+    write_wrong(w, &c->wrong);
     json_member_integer(w, "compared", c->compared);
     json_member_integer(w, "differing", c->differing);
     if (c->differing) {

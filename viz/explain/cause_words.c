@@ -439,9 +439,32 @@ static bool any_option(const cause_facts *facts)
     return false;
 }
 
+/* "4 more wrong answers from tick 41 on". Whether there is anything to say. */
+static bool print_span(FILE *out, const cause_span *span, const char *what, bool first)
+{
+    if (span->count == 0)
+        return false;
+    fprintf(out, "%s%" PRIu64 " %s%s", first ? "" : ", ", span->count, what, plural(span->count));
+    fprintf(out, span->first == span->last ? " at tick %" PRIu64 : " from tick %" PRIu64 " on", span->first);
+    return true;
+}
+
+/* Before all else: it is what an index is compared for. */
+static void print_wrong(FILE *out, const cause_answers *wrong)
+{
+    const bool more = print_span(out, &wrong->more, "more wrong answer", true);
+    const bool fewer = print_span(out, &wrong->fewer, "fewer wrong answer", !more);
+    const bool other = print_span(out, &wrong->other, "tick", !more && !fewer);
+    if (other)
+        fputs(" with other wrong answers", out);
+    if (more || fewer || other)
+        fputs("; ", out);
+}
+
 void cause_print_headline(FILE *out, const cause *c)
 {
     const bool options = any_option(&c->session);
+    print_wrong(out, &c->wrong);
     if (c->session.count) {
         cause_print_facts(out, &c->session, true);
         fputs(options ? ": " : "; ", out);

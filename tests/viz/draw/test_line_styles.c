@@ -124,11 +124,11 @@ static void marks_of_wrong_answers_have_their_forms(void **state)
         pixel_of(&s, at, middle);
         uint8_t *frame = draw_once(&s);
         assert_int_equal(is_lit(frame, middle, 0, 0), shape == SHAPE_WEDGE);
-        assert_int_equal(is_lit(frame, middle, 0, -29), shape != SHAPE_WEDGE);
-        assert_int_equal(is_lit(frame, middle, 0, 28), shape != SHAPE_TRIANGLE);
-        assert_int_equal(is_lit(frame, middle, 29, 0) && is_lit(frame, middle, -29, 0), shape == SHAPE_RING);
-        assert_int_equal(is_lit(frame, middle, 20, 14), shape == SHAPE_TRIANGLE);
-        assert_int_equal(is_lit(frame, middle, 20, -14), shape == SHAPE_WEDGE);
+        assert_int_equal(is_lit(frame, middle, 0, -29.5), shape != SHAPE_WEDGE);
+        assert_int_equal(is_lit(frame, middle, 0, 29.5), shape != SHAPE_TRIANGLE);
+        assert_int_equal(is_lit(frame, middle, 29.5, 0) && is_lit(frame, middle, -29.5, 0), shape == SHAPE_RING);
+        assert_int_equal(is_lit(frame, middle, 20, 15), shape == SHAPE_TRIANGLE);
+        assert_int_equal(is_lit(frame, middle, 20, -15), shape == SHAPE_WEDGE);
         assert_false(is_lit(frame, middle, 0, 34) || is_lit(frame, middle, 34, 0) || is_lit(frame, middle, 24, 24));
         free(frame);
         scene_release(&s);

@@ -145,6 +145,8 @@ static uint64_t roles_of(unsigned layer)
         return one << ROLE_KNEAREST;
     case LAYER_NEAREST:
         return one << ROLE_NEAREST;
+    case LAYER_WRONG:
+        return one << ROLE_WRONG | one << ROLE_MISSED;
     case LAYER_SHAPES:
         return one << ROLE_SHAPE;
     case LAYER_PLAYER:
