@@ -137,7 +137,7 @@ static bool film_parts(work *w)
     const view v = filmed_view(w->order->scene);
     const playback_target target = {.frames = FRAMES_SHOW, .every = 1};
     setenv("LP_NUM_THREADS", "0", 0); /* as in the processes of FILM_OCTREEL */
-    const bool open = folder_make(w->order->folder, &error) && playback_open(&p, w->session, &v, &error) &&
+    const bool open = folder_make(w->order->folder, &error) && playback_open(&p, w->session, NULL, &v, &error) &&
                       playback_film(&p, &target, &error);
     const bool ok = open ? film_in_parts(w, &p) : fail(w, error.text);
     if (open)

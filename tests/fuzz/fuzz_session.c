@@ -12,23 +12,23 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-static char *write_session(const octree_session *session, size_t *size)
+static char *write_session(const session_file *file, size_t *size)
 {
     char *text = NULL;
     FILE *out = open_memstream(&text, size);
-    if (!out || !session_write(session, out) || fclose(out) != 0)
+    if (!out || !session_write(&file->session, &file->values, out) || fclose(out) != 0)
         abort();
     return text;
 }
 
-static void check_round_trip(const octree_session *session)
+static void check_round_trip(const session_file *file)
 {
     session_file again;
     octreel_error error;
     size_t size, size_again;
-    char *text = write_session(session, &size);
+    char *text = write_session(file, &size);
     if (session_parse("again", "", text, size, &again, &error)) {
-        char *text_again = write_session(&again.session, &size_again);
+        char *text_again = write_session(&again, &size_again);
         if (size != size_again || memcmp(text, text_again, size) != 0)
             abort();
         free(text_again);
@@ -47,7 +47,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!session_parse("fuzz", "", (const char *)data, size, &file, &error) && error.text[0] == '\0')
         abort();
     if (file.session.body_count <= MANY_POINTS && file.session.tree.leaf_capacity > 0)
-        check_round_trip(&file.session);
+        check_round_trip(&file);
     session_release(&file);
     return 0;
 }

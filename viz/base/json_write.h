@@ -21,6 +21,7 @@ typedef struct json_writer {
     bool comma;                    /* one is due before the next value or key */
     bool newline;                  /* one is due before the next value, key or end */
     const struct json_member *row; /* whose value is written by a table: json_table.h */
+    const void *context;           /* of whoever writes */
 } json_writer;
 
 void json_write_begin_object(json_writer *writer);

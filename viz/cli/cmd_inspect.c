@@ -121,7 +121,7 @@ static bool draw(const report *r, octreel_error *error)
                                 .node = a->node ? r->node.address : 0,
                                 .answers = r->answers.answers,
                                 .answer_count = r->answers.count};
-    const film_options options = {.view = a->view, .renderer = a->renderer};
+    const film_options options = {.view = a->view, .values = &r->made->values, .renderer = a->renderer};
     if (!film_tree(r->made->tree, &about, &options, a->picture, &drawn, error))
         return false;
     if (drawn.over_budget)

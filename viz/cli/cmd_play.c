@@ -160,6 +160,7 @@ static int play(arguments *a)
     octreel_error error;
     const bool ok = (a->session ? session_read(a->session, &file, &error) : session_copy(&paper, &file, &error)) &&
                     (!a->keys || session_set_keys(&file, a->keys, &error));
+    a->film.values = &file.values;
     if (ok && *file.note)
         fprintf(stderr, "octreel: %s\n", file.note);
     const int status = ok ? play_it(a, &file.session) : trouble("%s", error.text);

@@ -211,6 +211,7 @@ static int play(arguments *a)
     session_file file = {0};
     octreel_error error;
     const bool ok = read_session(a, &file, &error) && (!a->keys || session_set_keys(&file, a->keys, &error));
+    a->film.values = &file.values;
     if (ok && *file.note)
         fprintf(stderr, "octreel: %s\n", file.note);
     const int status = ok ? film_it(a, &file.session) : trouble("%s", error.text);

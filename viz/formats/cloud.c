@@ -62,6 +62,7 @@ static bool parse_filled(cloud_file *file)
 {
     if (file->size > 0 && !choose_format(file)->parse(file))
         return false;
+    cloud_end_values(file);
     if (file->out->count > 0)
         return true;
     if (file->out->skipped > 0)
@@ -92,6 +93,7 @@ void cloud_release(cloud *cloud)
 {
     free(cloud->positions);
     free(cloud->rows);
+    point_values_release(&cloud->values);
     memset(cloud, 0, sizeof *cloud);
 }
 

@@ -2,12 +2,20 @@
 /* cloud.h - the points of a file: `x y z` text, PLY, PCD and LAS, in double precision.
  *
  * Text: one point a line, its first three columns; columns are separated by blanks and tabs, by commas or by
- *   semicolons, the same throughout a line. Further columns, blank lines, comments (# and //) and a first line of
- *   column names are skipped.
+ *   semicolons, the same throughout a line. Blank lines and comments (# and //) are skipped. A first line of column
+ *   names, which may be a comment, says which further columns have values; where there is none, x y z r g b and
+ *   x y z intensity r g b are known by their numbers: whole ones to 255 in every line, the largest above 127.
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
  * PCD: 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
  * LAS: 1.0 to 1.5, all point formats; coordinates are record * scale + offset in doubles, the bits that laspy computes.
  *   Records that are withheld, which is deleted, are skipped. LAZ and COPC, which are compressed, are refused.
+ *
+ * Values beside the coordinates go by their names, in any case: red green blue or r g b, diffuse_red ..., of PCD rgb
+ * and rgba, which are packed; intensity; class, classification or label. CloudCompare's "scalar_" before a name is
+ * passed over. Colours are kept in 8 bits a channel; what a full one is in the file, 1, 255 or 65535, its numbers say:
+ * LAS and PLY have 16 bits, and many files have 8-bit colours in them. Alpha is passed over. An intensity that is no
+ * finite float, a class that is no whole number to 65535 and a colour beyond 0 to 65535 are none. In LAS a value that
+ * is zero in every point is one that the file has not.
  *
  * The contents decide which of them a file is, and the ending .ply, .pcd or .las where the contents do not. A file that
  * is cut off is an error: no point is lost in silence. What follows the last point and does not fit the header, such as
@@ -17,6 +25,7 @@
 #define FORMATS_CLOUD_H
 
 #include "error.h"
+#include "point_values.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,7 +37,10 @@ typedef struct cloud {
     const char *why_skipped; /* what they are: "without finite coordinates", the sign of PLY and PCD for "no return", or
                               * "marked as withheld", LAS's for deleted; null when none are; a constant */
     size_t *rows;            /* `count`: which point of the file, skipped ones counted, each is; null: all are; owned */
-    char note[512]; /* a sentence about what follows the last point and does not belong there; "" for nothing */
+    point_values values;     /* colours, intensities and classes by cloud_row(); of skipped points nothing; owned */
+    unsigned color_full; /* what a full channel of a colour is in the file: 1, 255 or 65535; where there are colours */
+    const char *decided; /* a sentence on values that nothing names in the file; null for nothing; a constant */
+    char note[512];      /* a sentence about what follows the last point and does not belong there; "" for nothing */
 } cloud;
 
 /* The place of a point among all of its file, those that were skipped included; from 0 on. */
@@ -57,7 +69,7 @@ bool cloud_begins(const unsigned char *bytes, size_t size);
 #define CLOUD_FORMAT_NAMES 128
 char *cloud_format_names(char text[CLOUD_FORMAT_NAMES]);
 
-/* Free the positions and empty the cloud; a zeroed cloud is allowed. */
+/* Free all arrays and empty the cloud; a zeroed cloud is allowed. */
 void cloud_release(cloud *cloud);
 
 #endif

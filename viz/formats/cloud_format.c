@@ -30,7 +30,18 @@ void cloud_skip(const cloud_file *file, const char *why)
     file->out->why_skipped = why;
 }
 
-bool cloud_add(cloud_file *file, const double position[3])
+/* Points without values have no rows, until one that has some follows. */
+static bool add_values(cloud_file *file, size_t row, const double *numbers)
+{
+    point_values *values = &file->out->values;
+    const point_value value = cloud_value_of(file, numbers);
+    while (values->count < row)
+        if (!point_values_append(values, &(point_value){0}))
+            return false;
+    return point_values_append(values, &value);
+}
+
+bool cloud_add(cloud_file *file, const double *position)
 {
     cloud *points = file->out;
     if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
@@ -40,7 +51,8 @@ bool cloud_add(cloud_file *file, const double position[3])
     void *grown = array_reserve(points->positions, points->count + 1, &file->room, sizeof *points->positions);
     if (grown)
         points->positions = grown;
-    if (!grown || (points->skipped > 0 && !add_row(file)))
+    if (!grown || (points->skipped > 0 && !add_row(file)) ||
+        (file->channels && !add_values(file, points->count + points->skipped, position)))
         return cloud_fail(file, "out of memory after %zu points", points->count);
     memcpy(points->positions[points->count++], position, sizeof *points->positions);
     return true;
@@ -160,12 +172,6 @@ bool cloud_word_is(cloud_span word, const char *text)
 {
     size_t length = (size_t)(word.limit - word.begin);
     return length == strlen(text) && memcmp(word.begin, text, length) == 0;
-}
-
-int cloud_word_axis(cloud_span word)
-{
-    bool single = word.limit - word.begin == 1;
-    return single && *word.begin >= 'x' && *word.begin <= 'z' ? *word.begin - 'x' : -1;
 }
 
 bool cloud_word_count(cloud_span word, uint64_t *count)

@@ -12,6 +12,20 @@
 
 #include <stdint.h>
 
+/* What a number of a point is: a column, field or property of a file. */
+typedef enum cloud_channel {
+    CLOUD_X,
+    CLOUD_Y,
+    CLOUD_Z,
+    CLOUD_RED,
+    CLOUD_GREEN,
+    CLOUD_BLUE,
+    CLOUD_PACKED, /* a colour in one whole number: 0xRRGGBB, above it what is passed over */
+    CLOUD_INTENSITY,
+    CLOUD_CLASS,
+    CLOUD_CHANNELS
+} cloud_channel;
+
 /* A file being read, where its points go and where its error goes. */
 typedef struct cloud_file {
     const char *name;
@@ -21,6 +35,8 @@ typedef struct cloud_file {
     octreel_error *error;
     const cloud_watch *watch; /* may be null */
     size_t room, row_room;    /* of out->positions and out->rows */
+    unsigned channels;        /* bits 1 << cloud_channel: what the points have beside x, y and z */
+    bool zero_is_none;        /* values that are zero in every point are none */
 } cloud_file;
 
 /* Each format, in the order in which they are tried; the last takes what no other recognises. */
@@ -45,8 +61,23 @@ bool cloud_text_begins(const cloud_file *file);
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Append a point; one that is not finite is skipped instead. False when there is no memory. */
-bool cloud_add(cloud_file *file, const double position[3]);
+/* Say which channels the points have, before the first: bits. Colours of three channels begin with a full channel of
+ * `full`, 1 or 255; it grows with what the file turns out to hold, and the colours before are then what they should be.
+ */
+void cloud_begin_values(cloud_file *file, unsigned channels, unsigned full);
+
+/* The values that numbers[CLOUD_CHANNELS] are. */
+point_value cloud_value_of(cloud_file *file, const double *numbers);
+
+/* Forget the values that were read; none follow. */
+void cloud_drop_values(cloud_file *file);
+
+/* After the last point. */
+void cloud_end_values(cloud_file *file);
+
+/* Append a point, numbers[CLOUD_CHANNELS], of which x, y, z and the file's channels are read; one whose position is not
+ * finite is skipped instead. False when there is no memory. */
+bool cloud_add(cloud_file *file, const double *numbers);
 
 /* Pass over a point of the file; `why` is a constant, the same for all of a file. */
 void cloud_skip(const cloud_file *file, const char *why);
@@ -92,14 +123,17 @@ bool cloud_next_word(cloud_span *line, cloud_span *word);
 
 bool cloud_word_is(cloud_span word, const char *text);
 
-/* 0, 1, 2 for the words x, y, z; -1 for any other. */
-int cloud_word_axis(cloud_span word);
+/* The channel that a word names, x y z as they are and others in any case; -1 for none. */
+int cloud_word_channel(cloud_span word);
 
 /* Read a whole word as a count, 0 to 2^64 - 1. */
 bool cloud_word_count(cloud_span word, uint64_t *count);
 
 /* Read a whole word as a coordinate; "nan" and "inf" give NaN. False with an error for the line. */
 bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word, double *coordinate);
+
+/* The same for any channel; a packed colour may be a whole number or the float of the same bits. */
+bool cloud_word_number(const cloud_file *file, size_t line, cloud_span word, int channel, double *number);
 
 /* Room for a quoted word. */
 #define CLOUD_QUOTE 48

@@ -38,8 +38,13 @@ static const unsigned record_sizes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 
 enum {
     FORMATS = sizeof record_sizes / sizeof record_sizes[0],
     COMPRESSED = 0xc0, /* what LAZ adds to the format */
-    AT_FLAGS = 15,     /* in a record, all formats */
+    AT_INTENSITY = 12, /* in a record, all formats */
+    AT_FLAGS = 15,     /* the same */
+    AT_CLASS = 16,     /* from format 6 on; before, the class is five bits of the flags */
 };
+
+/* Where a record has its colour, three times 16 bits; 0: nowhere. */
+static const unsigned colors_at[FORMATS] = {[2] = 20, [3] = 28, [5] = 28, [7] = 30, [8] = 30, [10] = 30};
 
 typedef struct las_reader {
     cloud_file *file;
@@ -196,22 +201,43 @@ static bool check_end(const las_reader *reader)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
+static void read_values(const las_reader *reader, const unsigned char *record, double numbers[CLOUD_CHANNELS])
+{
+    const unsigned color = colors_at[reader->format];
+    for (unsigned i = 0; color && i < 3; i++)
+        numbers[CLOUD_RED + i] = (double)cloud_bits_read(2, false, record + color + 2 * i);
+    numbers[CLOUD_INTENSITY] = (double)cloud_bits_read(2, false, record + AT_INTENSITY);
+    numbers[CLOUD_CLASS] = reader->format >= 6  ? record[AT_CLASS]
+                           : reader->minor == 0 ? record[AT_FLAGS]
+                                                : record[AT_FLAGS] & 0x1f;
+}
+
 static bool add_point(const las_reader *reader, size_t at)
 {
     static const cloud_scalar integer = {CLOUD_SIGNED, 4};
     const unsigned char *record = reader->file->bytes + at;
-    double position[3];
+    double numbers[CLOUD_CHANNELS];
     if (record[AT_FLAGS] & reader->withheld) {
         cloud_skip(reader->file, "marked as withheld");
         return true;
     }
     for (int axis = 0; axis < 3; axis++) {
-        position[axis] = cloud_scalar_read(integer, false, record + 4 * axis) * reader->scale[axis];
-        position[axis] += reader->offset[axis];
-        if (!isfinite(position[axis]))
+        numbers[axis] = cloud_scalar_read(integer, false, record + 4 * axis) * reader->scale[axis];
+        numbers[axis] += reader->offset[axis];
+        if (!isfinite(numbers[axis]))
             return cloud_fail_byte(reader->file, at, "%c is beyond the largest double", "xyz"[axis]);
     }
-    return cloud_add(reader->file, position);
+    read_values(reader, record, numbers);
+    return cloud_add(reader->file, numbers);
+}
+
+/* Values have their place in each record, whether the file has them or not. */
+static void begin_values(const las_reader *reader)
+{
+    const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
+    cloud_begin_values(reader->file,
+                       1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (colors_at[reader->format] ? color : 0), 255);
+    reader->file->zero_is_none = true;
 }
 
 static bool parse_las(cloud_file *file)
@@ -222,6 +248,7 @@ static bool parse_las(cloud_file *file)
     if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_factors(&reader) ||
         !find_points(&reader) || !check_end(&reader))
         return false;
+    begin_values(&reader);
     for (uint64_t i = 0; i < reader.count; i++) {
         cloud_tell(file, i, i, reader.count);
         if (!add_point(&reader, (size_t)(reader.first + i * reader.length)))

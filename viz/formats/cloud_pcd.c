@@ -17,15 +17,16 @@ typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding
 typedef struct pcd_field {
     cloud_scalar type;
     uint64_t count; /* values in each point */
-    int axis;       /* 0, 1, 2 for x, y, z; else -1 */
+    int channel;    /* a cloud_channel; -1: none */
 } pcd_field;
 
-/* Where a coordinate is in a point. */
-typedef struct pcd_axis {
+/* Where a number is in a point. */
+typedef struct pcd_place {
+    int channel;
     cloud_scalar type;
     uint64_t column; /* values before it */
     uint64_t offset; /* bytes before it */
-} pcd_axis;
+} pcd_place;
 
 typedef struct pcd_reader {
     cloud_file *file;
@@ -35,7 +36,8 @@ typedef struct pcd_reader {
     pcd_field fields[MAX_FIELDS];
     uint64_t width, height, points;
     pcd_encoding encoding;
-    pcd_axis axes[3];
+    pcd_place places[CLOUD_CHANNELS]; /* of what is read, in the order of the fields */
+    unsigned place_count;
     uint64_t columns, stride; /* values and bytes of a point */
 } pcd_reader;
 
@@ -60,19 +62,20 @@ static bool read_version(pcd_reader *reader, cloud_span rest)
 static bool read_fields(pcd_reader *reader, cloud_span rest)
 {
     cloud_span word;
-    unsigned axes = 0;
+    unsigned channels = 0;
     while (cloud_next_word(&rest, &word)) {
-        int axis = cloud_word_axis(word);
+        int channel = cloud_word_channel(word);
         if (reader->field_count == MAX_FIELDS)
             return cloud_fail_line(reader->file, reader->lines.number, "more than %d fields", MAX_FIELDS);
-        if (axis >= 0 && axes >> axis & 1)
+        const bool again = channel >= 0 && channels >> channel & 1;
+        if (again && channel <= CLOUD_Z)
             return fail_header(reader, "is a second field of this name", word);
-        if (axis >= 0)
-            axes |= 1U << axis;
-        reader->fields[reader->field_count++] = (pcd_field){.axis = axis, .count = 1};
+        if (channel >= 0)
+            channels |= 1U << channel;
+        reader->fields[reader->field_count++] = (pcd_field){.channel = again ? -1 : channel, .count = 1};
     }
     for (int axis = 0; axis < 3; axis++)
-        if (!(axes >> axis & 1))
+        if (!(channels >> axis & 1))
             return cloud_fail_line(reader->file, reader->lines.number, "there is no field %c", "xyz"[axis]);
     return true;
 }
@@ -236,6 +239,22 @@ static bool agree_on_points(pcd_reader *reader)
     return true;
 }
 
+/* A coordinate is one number. What is meant to be a value and is none is passed over; a packed colour is four bytes,
+ * which many files call a float. */
+static bool add_place(pcd_reader *reader, const pcd_field *field)
+{
+    pcd_place place = {field->channel, field->type, reader->columns, reader->stride};
+    if (field->channel <= CLOUD_Z && field->count != 1)
+        return cloud_fail_line(reader->file, reader->lines.number, "%c has a COUNT of %" PRIu64 ", which must be 1",
+                               "xyz"[field->channel], field -> count);
+    if (field->count != 1 || (field->channel == CLOUD_PACKED && field->type.size != 4))
+        return true;
+    if (field->channel == CLOUD_PACKED)
+        place.type.kind = CLOUD_UNSIGNED;
+    reader->places[reader->place_count++] = place;
+    return true;
+}
+
 static bool lay_out(pcd_reader *reader)
 {
     for (size_t i = 0; i < reader->field_count; i++) {
@@ -243,15 +262,24 @@ static bool lay_out(pcd_reader *reader)
         if (field->type.kind == CLOUD_FLOAT && field->type.size < 4)
             return cloud_fail_line(reader->file, reader->lines.number, "field %zu is a float of %u bytes, not 4 or 8",
                                    i + 1, field->type.size);
-        if (field->axis >= 0 && field->count != 1)
-            return cloud_fail_line(reader->file, reader->lines.number, "%c has a COUNT of %" PRIu64 ", which must be 1",
-                                   "xyz"[field->axis], field -> count);
-        if (field->axis >= 0)
-            reader->axes[field->axis] = (pcd_axis){field->type, reader->columns, reader->stride};
+        if (field->channel >= 0 && !add_place(reader, field))
+            return false;
         reader->columns += field->count;
         reader->stride += field->count * field->type.size;
     }
     return true;
+}
+
+/* Floats may go from 0 to 1. */
+static void begin_values(const pcd_reader *reader)
+{
+    unsigned channels = 0, full = 255;
+    for (unsigned i = 0; i < reader->place_count; i++) {
+        channels |= 1U << reader->places[i].channel;
+        if (reader->places[i].channel == CLOUD_RED && reader->places[i].type.kind == CLOUD_FLOAT)
+            full = 1;
+    }
+    cloud_begin_values(reader->file, channels, full);
 }
 
 static bool check_header(pcd_reader *reader)
@@ -276,15 +304,17 @@ static bool read_header(pcd_reader *reader)
 
 /* ---- Ascii data --------------------------------------------------------------------------------------------- */
 
-static bool read_line(const pcd_reader *reader, cloud_span line, double position[3])
+static bool read_line(const pcd_reader *reader, cloud_span line, double numbers[CLOUD_CHANNELS])
 {
     cloud_span word;
     uint64_t column = 0;
-    for (; cloud_next_word(&line, &word); column++)
-        for (int axis = 0; axis < 3; axis++)
-            if (reader->axes[axis].column == column &&
-                !cloud_word_coordinate(reader->file, reader->lines.number, word, &position[axis]))
-                return false;
+    for (const pcd_place *place = reader->places; cloud_next_word(&line, &word); column++) {
+        if (place == reader->places + reader->place_count || place->column != column)
+            continue;
+        if (!cloud_word_number(reader->file, reader->lines.number, word, place->channel, &numbers[place->channel]))
+            return false;
+        place++;
+    }
     return column == reader->columns ||
            cloud_fail_line(reader->file, reader->lines.number, "has %" PRIu64 " values instead of %" PRIu64, column,
                            reader->columns);
@@ -296,12 +326,12 @@ static bool read_ascii(pcd_reader *reader)
         return false;
     for (uint64_t i = 0; i < reader->points; i++) {
         cloud_span line;
-        double position[3];
+        double numbers[CLOUD_CHANNELS];
         cloud_tell(reader->file, i, i, reader->points);
         if (!cloud_next_filled_line(&reader->lines, &line))
             return cloud_fail_line(reader->file, reader->lines.number,
                                    "the file ends after %" PRIu64 " of %" PRIu64 " points", i, reader->points);
-        if (!read_line(reader, line, position) || !cloud_add(reader->file, position))
+        if (!read_line(reader, line, numbers) || !cloud_add(reader->file, numbers))
             return false;
     }
     cloud_note_lines(reader->file, &reader->lines);
@@ -310,16 +340,16 @@ static bool read_ascii(pcd_reader *reader)
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Read the points from packed bytes: coordinate k of point i at first[k] + i * step[k]. */
-static bool add_points(const pcd_reader *reader, const unsigned char *bytes, const size_t first[3],
-                       const size_t step[3])
+/* Read the points from packed bytes: the number at place k of point i is at first[k] + i * step[k]. */
+static bool add_points(const pcd_reader *reader, const unsigned char *bytes, const size_t *first, const size_t *step)
 {
     for (size_t i = 0; i < reader->points; i++) {
-        double position[3];
+        double numbers[CLOUD_CHANNELS];
         cloud_tell(reader->file, i, i, reader->points);
-        for (int axis = 0; axis < 3; axis++)
-            position[axis] = cloud_scalar_read(reader->axes[axis].type, false, bytes + first[axis] + i * step[axis]);
-        if (!cloud_add(reader->file, position))
+        for (unsigned k = 0; k < reader->place_count; k++)
+            numbers[reader->places[k].channel] =
+                cloud_scalar_read(reader->places[k].type, false, bytes + first[k] + i * step[k]);
+        if (!cloud_add(reader->file, numbers))
             return false;
     }
     return true;
@@ -329,14 +359,14 @@ static bool add_points(const pcd_reader *reader, const unsigned char *bytes, con
 static bool read_binary(pcd_reader *reader, size_t offset)
 {
     size_t left = reader->file->size - offset;
-    size_t first[3], step[3];
+    size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
     if (reader->points > left / reader->stride)
         return cloud_fail_byte(reader->file, offset,
                                "%" PRIu64 " points of %" PRIu64 " bytes are announced, and %zu bytes follow",
                                reader->points, reader->stride, left);
-    for (int axis = 0; axis < 3; axis++) {
-        first[axis] = (size_t)reader->axes[axis].offset;
-        step[axis] = (size_t)reader->stride;
+    for (unsigned k = 0; k < reader->place_count; k++) {
+        first[k] = (size_t)reader->places[k].offset;
+        step[k] = (size_t)reader->stride;
     }
     cloud_note_bytes(reader->file, offset + (size_t)(reader->points * reader->stride));
     return add_points(reader, reader->file->bytes + offset, first, step);
@@ -345,10 +375,10 @@ static bool read_binary(pcd_reader *reader, size_t offset)
 /* Field after field. */
 static bool add_unpacked(const pcd_reader *reader, const unsigned char *bytes)
 {
-    size_t first[3], step[3];
-    for (int axis = 0; axis < 3; axis++) {
-        first[axis] = (size_t)(reader->axes[axis].offset * reader->points);
-        step[axis] = reader->axes[axis].type.size;
+    size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
+    for (unsigned k = 0; k < reader->place_count; k++) {
+        first[k] = (size_t)(reader->places[k].offset * reader->points);
+        step[k] = reader->places[k].type.size;
     }
     return add_points(reader, bytes, first, step);
 }
@@ -395,6 +425,7 @@ static bool parse_pcd(cloud_file *file)
     if (!read_header(&reader))
         return false;
     size_t offset = (size_t)(reader.lines.at - (const char *)file->bytes);
+    begin_values(&reader);
     switch (reader.encoding) {
     case PCD_ASCII:
         return read_ascii(&reader);

@@ -14,14 +14,14 @@ typedef enum ply_encoding { PLY_NO_ENCODING, PLY_ASCII, PLY_LITTLE_ENDIAN, PLY_B
 typedef struct ply_property {
     cloud_scalar type;   /* of the value, or of each item of a list */
     cloud_scalar length; /* of a list's length; size 0 when the property is no list */
-    int axis;            /* 0, 1, 2 for a vertex' x, y, z; else -1 */
+    int channel;         /* of a vertex: a cloud_channel; -1: none */
 } ply_property;
 
 typedef struct ply_element {
     cloud_span name;
     uint64_t count;
     size_t first_property, property_count;
-    unsigned axes; /* bit i is set when it has coordinate i of the points */
+    unsigned channels; /* of the points: bits 1 << cloud_channel */
 } ply_element;
 
 typedef struct ply_reader {
@@ -33,8 +33,9 @@ typedef struct ply_reader {
     size_t element_count;
     ply_property properties[MAX_PROPERTIES];
     size_t property_count;
-    bool complete; /* all points were read: what follows is not needed */
-    bool ended;    /* the file ends too early */
+    unsigned full_color; /* 1 where colours are floats */
+    bool complete;       /* all points were read: what follows is not needed */
+    bool ended;          /* the file ends too early */
 } ply_reader;
 
 static bool is_ply(const cloud_file *file)
@@ -128,9 +129,28 @@ static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *proper
     return find_type(word, &property->type) || fail_header(reader, "is not a PLY type", word);
 }
 
+/* A coordinate is one number. What is meant to be a value and is none is passed over. */
+static bool add_channel(ply_reader *reader, ply_element *element, ply_property *property, cloud_span name)
+{
+    const unsigned bit = 1U << property->channel;
+    const bool again = element->channels & bit, list = property->length.size > 0;
+    if (property->channel <= CLOUD_Z && again)
+        return fail_header(reader, "is a second property of this name", name);
+    if (property->channel <= CLOUD_Z && list)
+        return fail_header(reader, "is a list, where a coordinate must be a number", name);
+    if (again || list) {
+        property->channel = -1;
+        return true;
+    }
+    if (property->channel == CLOUD_RED && property->type.kind == CLOUD_FLOAT)
+        reader->full_color = 1;
+    element->channels |= bit;
+    return true;
+}
+
 static bool read_property(ply_reader *reader, cloud_span rest)
 {
-    ply_property property = {.axis = -1};
+    ply_property property = {.channel = -1};
     cloud_span name;
     if (reader->element_count == 0)
         return cloud_fail_line(reader->file, reader->lines.number, "a property before any element");
@@ -142,15 +162,9 @@ static bool read_property(ply_reader *reader, cloud_span rest)
     if (!cloud_next_word(&rest, &name))
         return cloud_fail_line(reader->file, reader->lines.number, "a property without a name");
     if (cloud_word_is(element->name, "vertex"))
-        property.axis = cloud_word_axis(name);
-    if (property.axis >= 0) {
-        unsigned bit = 1U << property.axis;
-        if (element->axes & bit)
-            return fail_header(reader, "is a second property of this name", name);
-        if (property.length.size > 0)
-            return fail_header(reader, "is a list, where a coordinate must be a number", name);
-        element->axes |= bit;
-    }
+        property.channel = cloud_word_channel(name);
+    if (property.channel >= 0 && !add_channel(reader, element, &property, name))
+        return false;
     reader->properties[reader->property_count++] = property;
     element->property_count++;
     return true;
@@ -177,19 +191,20 @@ static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span 
 /* What the header as a whole must have. */
 static bool check_header(const ply_reader *reader)
 {
-    unsigned axes = 0;
+    unsigned channels = 0;
     bool has_vertex = false;
     if (reader->encoding == PLY_NO_ENCODING)
         return cloud_fail_line(reader->file, reader->lines.number, "the header has no format");
     for (size_t i = 0; i < reader->element_count; i++) {
-        axes |= reader->elements[i].axes;
+        channels |= reader->elements[i].channels;
         has_vertex = has_vertex || cloud_word_is(reader->elements[i].name, "vertex");
     }
     if (!has_vertex)
         return cloud_fail_line(reader->file, reader->lines.number, "the header has no element vertex");
     for (int axis = 0; axis < 3; axis++)
-        if (!(axes >> axis & 1))
+        if (!(channels >> axis & 1))
             return cloud_fail_line(reader->file, reader->lines.number, "vertex has no property %c", "xyz"[axis]);
+    cloud_begin_values(reader->file, channels, reader->full_color);
     return true;
 }
 
@@ -211,14 +226,15 @@ static bool read_header(ply_reader *reader)
 /* ---- Ascii data --------------------------------------------------------------------------------------------- */
 
 /* Take the words of one property off a line. */
-static bool read_words(ply_reader *reader, const ply_property *property, cloud_span *line, double position[3])
+static bool read_words(ply_reader *reader, const ply_property *property, cloud_span *line,
+                       double numbers[CLOUD_CHANNELS])
 {
     cloud_span word;
     size_t number = reader->lines.number;
     uint64_t count = 1;
     bool enough = cloud_next_word(line, &word);
-    if (enough && property->axis >= 0)
-        return cloud_word_coordinate(reader->file, number, word, &position[property->axis]);
+    if (enough && property->channel >= 0)
+        return cloud_word_number(reader->file, number, word, property->channel, &numbers[property->channel]);
     if (enough && property->length.size > 0) {
         if (!cloud_word_count(word, &count))
             return fail_header(reader, "is not the length of a list", word);
@@ -228,7 +244,7 @@ static bool read_words(ply_reader *reader, const ply_property *property, cloud_s
     return enough || cloud_fail_line(reader->file, number, "the line ends before the last of its properties");
 }
 
-static bool read_line(ply_reader *reader, const ply_element *element, uint64_t row, double position[3])
+static bool read_line(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
 {
     cloud_span line, word;
     if (!cloud_next_filled_line(&reader->lines, &line)) {
@@ -238,7 +254,7 @@ static bool read_line(ply_reader *reader, const ply_element *element, uint64_t r
                                row, element->count, cloud_quote(element->name, quote));
     }
     for (size_t i = 0; i < element->property_count; i++)
-        if (!read_words(reader, &reader->properties[element->first_property + i], &line, position))
+        if (!read_words(reader, &reader->properties[element->first_property + i], &line, numbers))
             return false;
     return !cloud_next_word(&line, &word) || fail_header(reader, "is more than the properties of the line", word);
 }
@@ -263,7 +279,7 @@ static bool fail_end(ply_reader *reader, const ply_element *element, uint64_t ro
                            row + 1, element->count, cloud_quote(element->name, quote));
 }
 
-static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t row, double position[3])
+static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
 {
     bool big_endian = reader->encoding == PLY_BIG_ENDIAN;
     for (size_t i = 0; i < element->property_count; i++) {
@@ -280,8 +296,8 @@ static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t 
         const unsigned char *value = take(reader, property->type, (uint64_t)count);
         if (!value)
             return fail_end(reader, element, row);
-        if (property->axis >= 0)
-            position[property->axis] = cloud_scalar_read(property->type, big_endian, value);
+        if (property->channel >= 0)
+            numbers[property->channel] = cloud_scalar_read(property->type, big_endian, value);
     }
     return true;
 }
@@ -297,17 +313,17 @@ static bool forgive(const ply_reader *reader)
 
 static bool read_rows(ply_reader *reader, const ply_element *element)
 {
-    bool (*read_row)(ply_reader *, const ply_element *, uint64_t, double[3]) =
+    bool (*read_row)(ply_reader *, const ply_element *, uint64_t, double *) =
         reader->encoding == PLY_ASCII ? read_line : read_bytes;
-    bool has_points = element->axes != 0;
-    double position[3];
+    bool has_points = element->channels >> CLOUD_X & 1;
+    double numbers[CLOUD_CHANNELS];
     if (element->property_count == 0)
         return true;
     for (uint64_t row = 0; row < element->count; row++) {
         cloud_tell(reader->file, row, row, element->count);
-        if (!read_row(reader, element, row, position) && !(reader->encoding == PLY_ASCII && forgive(reader)))
+        if (!read_row(reader, element, row, numbers) && !(reader->encoding == PLY_ASCII && forgive(reader)))
             return false;
-        if (has_points && !cloud_add(reader->file, position))
+        if (has_points && !cloud_add(reader->file, numbers))
             return false;
     }
     reader->complete = reader->complete || has_points;
@@ -316,7 +332,7 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
 
 static bool parse_ply(cloud_file *file)
 {
-    ply_reader reader = {.file = file, .lines = cloud_lines_of(file)};
+    ply_reader reader = {.file = file, .lines = cloud_lines_of(file), .full_color = 255};
     if (!is_ply(file))
         return cloud_fail_line(file, 1, "is not a PLY file: its first line is not \"ply\"");
     if (!read_header(&reader))

@@ -1,9 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud_text.c - points as text: a line each, its first three columns x y z. */
+#include "array.h"
 #include "cloud_format.h"
 #include "number.h"
 
+#include <math.h>
 #include <string.h>
+
+/* The columns of a file. */
+typedef struct text_columns {
+    signed char *channels; /* of each column from the fourth on a cloud_channel; -1: none */
+    size_t count, room;
+    bool guessed;     /* from the first line of numbers, for want of names */
+    bool shifted;     /* guessed: the colour may be one column before, too */
+    double brightest; /* guessed: of all channels */
+} text_columns;
 
 static const char *skip_blanks(cloud_span line)
 {
@@ -64,23 +75,45 @@ static bool is_header(cloud_span line)
     return count >= 3;
 }
 
+static int channel_of(cloud_span name)
+{
+    const char lower = (char)(name.limit - name.begin == 1 ? *name.begin | ('a' ^ 'A') : 0);
+    return cloud_word_channel(lower ? (cloud_span){&lower, &lower + 1} : name);
+}
+
+static bool add_column(text_columns *columns, int channel)
+{
+    signed char *channels = array_reserve(columns->channels, columns->count + 1, &columns->room, sizeof *channels);
+    if (!channels)
+        return false;
+    columns->channels = channels;
+    channels[columns->count++] = (signed char)channel;
+    return true;
+}
+
 /* Names are taken at their word: a file whose columns are "id,x,y,z" would make a wrong picture. A unit, as in
  * "x [m], y [m]", belongs to the name before it. */
-static bool check_header(const cloud_file *file, size_t number, cloud_span line)
+static bool read_header(cloud_file *file, size_t number, cloud_span line, text_columns *columns)
 {
     cloud_span column;
-    int index = 0;
-    while (next_column(&line, &column)) {
+    unsigned channels = 0;
+    for (int index = 0; next_column(&line, &column);) {
         if (*column.begin == '[' || *column.begin == '(')
             continue;
-        cloud_span name = strip_quotes(column);
-        char lower = (char)(name.limit - name.begin == 1 ? *name.begin | ('a' ^ 'A') : 0);
-        int axis = cloud_word_axis((cloud_span){&lower, &lower + 1});
-        if (axis >= 0 && axis != index)
+        int channel = channel_of(strip_quotes(column));
+        if (channel >= CLOUD_X && channel <= CLOUD_Z && channel != index)
             return cloud_fail_line(file, number, "names column %d %c: the first three must be x y z", index + 1,
-                                   "xyz"[axis]);
-        index++;
+                                   "xyz"[channel]);
+        if (channel >= 0 && channels >> channel & 1)
+            channel = -1;
+        if (channel >= 0)
+            channels |= 1U << channel;
+        if (index++ >= 3 && !add_column(columns, channel))
+            return cloud_fail_line(file, number, "out of memory for its names");
     }
+    while (columns->count > 0 && columns->channels[columns->count - 1] < 0)
+        columns->count--;
+    cloud_begin_values(file, channels, 1);
     return true;
 }
 
@@ -102,11 +135,12 @@ static bool fail_coordinate(const cloud_file *file, size_t number, cloud_span li
     return cloud_fail_word(file, number, column, "is not a number");
 }
 
-/* Read one point. The separator after each coordinate must be like the first: decimal commas, as in "1,5;2,5;3,5"
- * or "1,5 2,5 3,5", would pass for other points. */
-static bool parse_point(const cloud_file *file, size_t number, cloud_span line, double position[3])
+/* Read the coordinates of a point and cut them off the line. The separator after each must be like the first: decimal
+ * commas, as in "1,5;2,5;3,5" or "1,5 2,5 3,5", would pass for other points. */
+static bool parse_position(const cloud_file *file, size_t number, cloud_span *rest, char *mark, double position[3])
 {
     char separator = 0;
+    cloud_span line = *rest;
     for (int axis = 0; axis < 3; axis++) {
         cloud_span column = line;
         const char *end;
@@ -115,22 +149,125 @@ static bool parse_point(const cloud_file *file, size_t number, cloud_span line, 
         line.begin = end;
         line.begin = skip_blanks(line);
         if (is_over(line)) {
-            if (axis == 2)
-                return true;
-            return fail_coordinate(file, number, line, axis + 1);
+            *rest = line;
+            return axis == 2 || fail_coordinate(file, number, line, axis + 1);
         }
-        char mark = is_mark(*line.begin) ? *line.begin : ' ';
-        if (mark == ' ' && line.begin == end)
+        *mark = is_mark(*line.begin) ? *line.begin : ' ';
+        if (*mark == ' ' && line.begin == end)
             return fail_coordinate(file, number, column, axis);
-        if (separator && mark != separator)
+        if (separator && *mark != separator)
             return cloud_fail_line(file, number, "mixes blanks, commas and semicolons between its columns");
-        separator = mark;
-        if (mark != ' ')
-            line.begin++;
+        separator = *mark;
+        line.begin += *mark != ' ';
         line.begin = skip_blanks(line);
     }
+    *rest = line;
     return true;
 }
+
+/* Cut the next column off, which ends at such a mark, or, where that is ' ', at a blank. False at the end. */
+static bool next_field(cloud_span *line, char mark, cloud_span *field)
+{
+    line->begin = skip_blanks(*line);
+    if (is_over(*line))
+        return false;
+    field->begin = line->begin;
+    while (!is_over(*line) && (mark == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != mark))
+        line->begin++;
+    field->limit = line->begin;
+    if (!is_over(*line))
+        line->begin++;
+    while (field->limit > field->begin && cloud_is_blank(field->limit[-1]))
+        field->limit--;
+    return true;
+}
+
+/* NaN where a field is no number. */
+static double number_of(cloud_span field)
+{
+    double number = NAN;
+    const char *end;
+    field = strip_quotes(field);
+    return number_parse(field.begin, field.limit, &end, &number) && end == field.limit ? number : NAN;
+}
+
+/* What the columns after the coordinates hold; what is missing is NaN. Returns how many columns there are, of those
+ * that count and one more. */
+static size_t parse_values(cloud_span line, char mark, const text_columns *columns, double numbers[CLOUD_CHANNELS])
+{
+    cloud_span field;
+    size_t i = 0;
+    for (int channel = CLOUD_Z + 1; channel < CLOUD_CHANNELS; channel++)
+        numbers[channel] = NAN;
+    for (; i < columns->count && next_field(&line, mark, &field); i++)
+        if (columns->channels[i] >= 0)
+            numbers[columns->channels[i]] = number_of(field);
+    return i + next_field(&line, mark, &field);
+}
+
+/* ---- Columns without names ---------------------------------------------------------------------------------- */
+
+/* By the first line of numbers: three more columns may be r g b, four intensity r g b. */
+static bool guess_columns(cloud_file *file, cloud_span rest, char mark, text_columns *columns)
+{
+    static const signed char channels[] = {CLOUD_INTENSITY, CLOUD_RED, CLOUD_GREEN, CLOUD_BLUE};
+    const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
+    cloud_span field;
+    size_t count = 0;
+    while (next_field(&rest, mark, &field))
+        count++;
+    if (count != 3 && count != 4)
+        return true;
+    for (size_t i = 4 - count; i < 4; i++)
+        if (!add_column(columns, channels[i]))
+            return cloud_fail(file, "out of memory");
+    columns->guessed = true;
+    columns->shifted = count == 4;
+    cloud_begin_values(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 255);
+    return true;
+}
+
+static bool is_byte(double number)
+{
+    return number >= 0 && number <= 255 && number == floor(number);
+}
+
+static void forget(cloud_file *file, text_columns *columns)
+{
+    cloud_drop_values(file);
+    columns->count = 0;
+    columns->guessed = false;
+}
+
+/* Each line must bear it out. */
+static void check_guess(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
+{
+    bool fits = count == columns->count && (count == 3 || !isnan(numbers[CLOUD_INTENSITY]));
+    for (int i = 0; i < 3; i++) {
+        fits = fits && is_byte(numbers[CLOUD_RED + i]);
+        columns->brightest = fmax(columns->brightest, numbers[CLOUD_RED + i]);
+    }
+    columns->shifted = columns->shifted && is_byte(numbers[CLOUD_INTENSITY]);
+    if (!fits)
+        forget(file, columns);
+}
+
+static void end_guess(cloud_file *file, text_columns *columns)
+{
+    const bool four = columns->count == 4;
+    if (columns->brightest < 128) {
+        forget(file, columns);
+    } else if (columns->shifted) {
+        forget(file, columns);
+        file->out->decided = "columns 4 to 7 may be r g b and another or intensity r g b, and are not read: a first "
+                             "line with their names, as in x y z intensity r g b, says what they are";
+    } else {
+        file->out->decided = four ? "columns 4 to 7, which have no names, are read as intensity r g b"
+                                  : "columns 4 to 6, which have no names, are read as r g b";
+    }
+}
+
+/* ---- The file ----------------------------------------------------------------------------------------------- */
 
 /* The lines, without the mark that some editors put before UTF-8. */
 static cloud_lines lines_of(const cloud_file *file)
@@ -147,39 +284,81 @@ bool cloud_text_begins(const cloud_file *file)
     cloud_lines lines = lines_of(file);
     cloud_span line;
     double position[3];
+    char mark = ' ';
     for (bool first = true; cloud_next_line(&lines, &line);) {
         line.begin = skip_blanks(line);
         if (is_over(line))
             continue;
         if (!first || !is_header(line))
-            return parse_point(file, lines.number, line, position);
+            return parse_position(file, lines.number, &line, &mark, position);
         first = false;
     }
     return false;
 }
 
-static bool parse_text(cloud_file *file)
+static bool parse_point(cloud_file *file, size_t number, cloud_span line, bool first, text_columns *columns)
+{
+    double numbers[CLOUD_CHANNELS];
+    char mark = ' ';
+    if (!parse_position(file, number, &line, &mark, numbers) || (first && !guess_columns(file, line, mark, columns)))
+        return false;
+    if (columns->count > 0) {
+        const size_t count = parse_values(line, mark, columns, numbers);
+        if (columns->guessed)
+            check_guess(file, columns, count, numbers);
+    }
+    return cloud_add(file, numbers);
+}
+
+/* The names of columns in a comment, as CloudCompare writes them. */
+static bool is_named_comment(cloud_span *line)
+{
+    cloud_span rest = *line, column;
+    while (rest.begin < rest.limit && (*rest.begin == '#' || *rest.begin == '/' || cloud_is_blank(*rest.begin)))
+        rest.begin++;
+    const cloud_span names = rest;
+    for (int i = 0; i < 3; i++)
+        if (!next_column(&rest, &column) || channel_of(strip_quotes(column)) != i)
+            return false;
+    *line = names;
+    return is_header(names);
+}
+
+/* A line of names comes before the first point; a comment that names columns may come before it. */
+static bool parse_lines(cloud_file *file, text_columns *columns)
 {
     cloud_lines lines = lines_of(file);
     cloud_span line;
-    bool first = true;
-    if (!cloud_check_text(file))
-        return false;
+    bool first = true, named = false, has_header = false;
     while (cloud_next_line(&lines, &line)) {
-        double position[3];
         cloud_tell(file, lines.number, (uint64_t)(lines.at - (const char *)file->bytes), file->size);
         line.begin = skip_blanks(line);
-        if (is_over(line))
+        const bool comment = is_over(line);
+        if (comment && !(first && !named && is_named_comment(&line)))
             continue;
-        if (first && is_header(line)) {
-            if (!check_header(file, lines.number, line))
+        if (first && !has_header && (comment || is_header(line))) {
+            named = true;
+            has_header = !comment;
+            columns->count = 0;
+            if (!read_header(file, lines.number, line, columns))
                 return false;
-        } else if (!parse_point(file, lines.number, line, position) || !cloud_add(file, position)) {
-            return false;
+        } else {
+            if (!parse_point(file, lines.number, line, first && !named, columns))
+                return false;
+            first = false;
         }
-        first = false;
     }
     return true;
+}
+
+static bool parse_text(cloud_file *file)
+{
+    text_columns columns = {0};
+    const bool done = cloud_check_text(file) && parse_lines(file, &columns);
+    if (done && columns.guessed)
+        end_guess(file, &columns);
+    free(columns.channels);
+    return done;
 }
 
 const cloud_format cloud_text = {"x y z text", NULL, NULL, parse_text};

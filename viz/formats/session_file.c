@@ -85,7 +85,7 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
     whole = duplicate_owned((octree_query *)queries, from->query_count, (octree_foreign_tree *)foreign,
                             from->foreign_count) &&
             whole;
-    out->session = *from;
+    *out = (session_file){.session = *from};
     out->session.bodies = bodies;
     out->session.edits = edits;
     out->session.queries = queries;
@@ -123,6 +123,7 @@ void session_release(session_file *file)
     free((octree_shape *)file->session.shapes);
     free((octree_gap *)file->session.gaps);
     free((octree_foreign_tree *)file->session.foreign);
+    point_values_release(&file->values);
     *file = (session_file){0};
 }
 
@@ -241,11 +242,12 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
     session_loader loader = {.folder = folder, .header = {.session = session_default_header()}};
     loader.tick = OCTREE_EVERY_TICK;
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &loader, .error = error};
-    const bool done = read_stream(&r) && session_append_standing(&r);
-    *out = (session_file){.session = session_assemble(&loader, loader.lists)};
+    const bool done = read_stream(&r) && session_end_values(&r) && session_append_standing(&r);
+    *out = (session_file){.session = session_assemble(&loader, loader.lists), .values = loader.values.made};
     memcpy(out->note, loader.note, sizeof out->note);
     session_release_lists(loader.standing);
     cloud_release(&loader.points);
+    session_release_listed(&loader.values);
     if (!done)
         session_release(out);
     return done;
@@ -270,9 +272,9 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
 /* What is of every tick comes last in the session's arrays. */
-void session_write_header(const octree_session *session, FILE *out)
+void session_write_header(const octree_session *session, const point_values *values, FILE *out)
 {
-    session_header header = {.session = *session};
+    session_header header = {.session = *session, .values = values};
     octree_input *standing = &header.standing;
     for (size_t i = session->query_count; i > 0 && session->queries[i - 1].tick == OCTREE_EVERY_TICK; i--) {
         standing->queries = &session->queries[i - 1];
@@ -282,14 +284,14 @@ void session_write_header(const octree_session *session, FILE *out)
         standing->shapes = &session->shapes[i - 1];
         standing->shape_count++;
     }
-    json_writer writer = {.out = out};
+    json_writer writer = {.out = out, .context = values};
     json_write_object(&writer, session_header_members, &header);
     json_write_end_line(&writer);
 }
 
-void session_write_tick(uint64_t tick, const octree_input *input, FILE *out)
+void session_write_tick(uint64_t tick, const octree_input *input, const point_values *values, FILE *out)
 {
-    json_writer writer = {.out = out};
+    json_writer writer = {.out = out, .context = values};
     if (input->edit_count == 0 && input->query_count == 0 && input->shape_count == 0 && !input->gap && !input->foreign)
         return;
     json_write_object(&writer, session_tick_members, &(session_tick){tick, *input});
@@ -341,7 +343,7 @@ static octree_input take_tick(rest *left)
     return (octree_input){.gap = left->gaps++};
 }
 
-bool session_write(const octree_session *session, FILE *out)
+bool session_write(const octree_session *session, const point_values *values, FILE *out)
 {
     rest left = {.input = {.edits = session->edits,
                            .edit_count = session->edit_count,
@@ -353,11 +355,11 @@ bool session_write(const octree_session *session, FILE *out)
                  .gap_count = session->gap_count,
                  .foreign = session->foreign,
                  .foreign_count = session->foreign_count};
-    session_write_header(session, out);
+    session_write_header(session, values, out);
     for (find_next_tick(&left); left.tick != OCTREE_EVERY_TICK; find_next_tick(&left)) {
         const uint64_t tick = left.tick;
         const octree_input input = take_tick(&left);
-        session_write_tick(tick, &input, out);
+        session_write_tick(tick, &input, values, out);
     }
     return fflush(out) == 0 && !ferror(out);
 }

@@ -7,6 +7,7 @@
 
 #include "error.h"
 #include "octree/game.h"
+#include "point_values.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -25,6 +26,7 @@
 /* A session that owns its arrays and its keys. */
 typedef struct session_file {
     octree_session session;
+    point_values values; /* colours, intensities and classes, by the ids of the session's points */
     char note[512]; /* of one that was read: a sentence about its file of points; "" where there is nothing to say */
 } session_file;
 
@@ -38,7 +40,8 @@ bool session_read(const char *path, session_file *out, octreel_error *error);
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
                    octreel_error *error);
 
-/* Copy a session with all of its arrays. False when there is no memory or a key is unknown; *out is then empty. */
+/* Copy a session with all of its arrays; its points have no values. False when there is no memory or a key is unknown;
+ * *out is then empty. */
 bool session_copy(const octree_session *from, session_file *out, octreel_error *error);
 
 /* Give the session a copy of these keys instead of its own. False when there is no memory or a key is unknown; the
@@ -48,10 +51,11 @@ bool session_set_keys(session_file *file, const char *keys, octreel_error *error
 /* Free the arrays and empty the session; a zeroed one is allowed. */
 void session_release(session_file *file);
 
-/* Write the whole session inline, so that it plays anywhere: what is read back is equal to the bit, and the same
- * session makes the same bytes. The session must be one that a game accepts, with ids below SESSION_ID_LIMIT, finite
- * numbers and no tick beyond SESSION_LAST_TICK. The stream is flushed; false on an I/O error. Cost: O(size). */
-bool session_write(const octree_session *session, FILE *out);
+/* Write the whole session inline, with the values of its points, which may be null, so that it plays anywhere: what is
+ * read back is equal to the bit, and the same session makes the same bytes. The session must be one that a game
+ * accepts, with ids below SESSION_ID_LIMIT, finite numbers and no tick beyond SESSION_LAST_TICK. The stream is flushed;
+ * false on an I/O error. Cost: O(size). */
+bool session_write(const octree_session *session, const point_values *values, FILE *out);
 
 /* Copies that own their memory, to be released: the lists of ids of a query, and a program's tree. False where there is
  * no memory: what is there is then still to be released. */
@@ -65,7 +69,7 @@ void foreign_tree_release(octree_foreign_tree *tree);
 
 /* The parts of that, for a session that is being made: its header, and the object of one tick; nothing for a tick in
  * which nothing happens. Errors stay with the stream. */
-void session_write_header(const octree_session *session, FILE *out);
-void session_write_tick(uint64_t tick, const octree_input *input, FILE *out);
+void session_write_header(const octree_session *session, const point_values *values, FILE *out);
+void session_write_tick(uint64_t tick, const octree_input *input, const point_values *values, FILE *out);
 
 #endif

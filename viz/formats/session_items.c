@@ -20,16 +20,14 @@ struct session_items {
 
 /* ---- Edits -------------------------------------------------------------------------------------------------- */
 
-#define ID "id", &json_uint64, offsetof(octree_body, id), .max = JSON_LARGEST_WHOLE
-#define POSITION "position", &json_vector, offsetof(octree_body, position), .required = true
-#define VELOCITY "velocity", &json_nonzero_vector, .offset = offsetof(octree_body, velocity)
-
-const json_member session_body_members[] = {{ID}, {POSITION}, {VELOCITY}, {0}};
-static const json_member insert_members[] = {{ID, .required = true}, {POSITION}, {VELOCITY}, {0}};
-static const json_member move_members[] = {{ID, .required = true}, {POSITION}, {0}};
+static const json_member move_members[] = {
+    {"id", &json_uint64, offsetof(octree_body, id), .max = JSON_LARGEST_WHOLE, .required = true},
+    {"position", &json_vector, offsetof(octree_body, position), .required = true},
+    {0},
+};
 
 static const json_member edit_members[] = {
-    [OCTREE_EDIT_INSERT] = {"insert", &json_structure, offsetof(octree_edit, body), .members = insert_members},
+    [OCTREE_EDIT_INSERT] = {"insert", &session_insert_codec, .offset = offsetof(octree_edit, body)},
     [OCTREE_EDIT_REMOVE] = {"remove", &json_uint64, offsetof(octree_edit, body.id), .max = JSON_LARGEST_WHOLE},
     [OCTREE_EDIT_MOVE] = {"move", &json_structure, offsetof(octree_edit, body), .members = move_members},
 };

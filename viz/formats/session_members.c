@@ -259,6 +259,7 @@ const json_member session_header_members[] = {
     {"nodes", &session_nodes_codec, HEADER(standing.foreign)},
     {"sampled", &json_structure, HEADER(session.sampled), .given = offsetof(session_header, session.sampled.known),
      .members = session_sampled_members},
+    {"columns", &session_columns_codec, HEADER(values)},
     {"points", &session_points_codec, HEADER(session)},
     {"velocities", &session_velocities_codec, HEADER(session)},
     {0},

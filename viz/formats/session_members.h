@@ -6,6 +6,7 @@
 #define FORMATS_SESSION_MEMBERS_H
 
 #include "cloud.h"
+#include "hash_map.h"
 #include "json_table.h"
 #include "session_file.h"
 
@@ -18,8 +19,9 @@ typedef struct session_list {
 /* The first object of a file. Queries and shapes of every tick come last in a session's arrays, but first in its file.
  */
 typedef struct session_header {
-    octree_session session; /* without edits, and without the queries and shapes of single ticks */
-    octree_input standing;  /* queries and shapes of every tick */
+    octree_session session;     /* without edits, and without the queries and shapes of single ticks */
+    octree_input standing;      /* queries and shapes of every tick */
+    const point_values *values; /* to be written; may be null */
 } session_header;
 
 /* Each of the others: what happens in one tick. */
@@ -31,6 +33,16 @@ typedef struct session_tick {
 /* The lists of a session: those whose objects are of one kind among several, the gaps, and the nodes of programs. */
 enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_GAPS, SESSION_FOREIGN, SESSION_LISTS };
 
+/* The values of points while a session is read. */
+typedef struct session_values {
+    point_values made;   /* of a file of points; at the end of all */
+    point_entry *listed; /* of points in the session itself, in its order */
+    size_t room;
+    hash_map ids;                   /* of those */
+    int columns[POINT_VALUE_KINDS]; /* a point_value_kind each: what rows of points have after the id */
+    size_t column_count;
+} session_values;
+
 /* A session that is being read: the context of its json_reader. */
 typedef struct session_loader {
     const char *folder;    /* of files of points */
@@ -39,7 +51,8 @@ typedef struct session_loader {
     bool ends;             /* the header says after how many ticks */
     cloud points;          /* of the file that the header names, where it was needed before its turn */
     char note[512];        /* for session_file.note */
-    octree_body *bodies;   /* header.session.body_count of them */
+    session_values values;
+    octree_body *bodies;                                        /* header.session.body_count of them */
     session_list lists[SESSION_LISTS], standing[SESSION_LISTS]; /* of single ticks; of every tick */
 } session_loader;
 
@@ -86,8 +99,25 @@ extern const json_codec session_points_codec, session_velocities_codec;
 /* octree_sampled: what points that are listed were, where they were a sample. */
 extern const json_member session_sampled_members[];
 
-/* A body: id, position and velocity. */
+/* A body: id, position, velocity and values. Of an edit that inserts it the id is required. */
 extern const json_member session_body_members[];
+extern const json_codec session_body_codec, session_insert_codec;
+
+/* Names of values: what the rows of points have. */
+extern const json_codec session_columns_codec;
+
+/* Read a value of a row of points; null is none. */
+bool session_read_column(json_reader *r, json_t *value, const json_place *at, point_value_kind kind, point_value *into);
+
+/* The values of a point that is written, as the columns of its row. */
+void session_write_columns(json_writer *w, uint64_t id);
+
+/* Keep the values of an id. False where it was given others. */
+bool session_keep_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value);
+
+/* Put the values that were listed into s->values.made: at the end, or after each object of a stream. */
+bool session_end_values(json_reader *r);
+void session_release_listed(session_values *values);
 
 /* False with the reason when the game does not know a key. */
 bool session_check_keys(const char *keys, octreel_error *error);

@@ -39,15 +39,25 @@ static bool make_bodies(json_reader *r, const json_place *at, size_t count)
 
 /* ---- A list ------------------------------------------------------------------------------------------------- */
 
-/* [x, y, z] or [x, y, z, id] */
+/* [x, y, z], [x, y, z, id] or that and the columns. */
 static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
 {
+    const session_values *values = &((const session_loader *)r->context)->values;
     const size_t size = json_array_size(row);
-    if (size != 3 && size != 4)
-        return json_expected(r, row, at, "a point [x, y, z] or [x, y, z, id]");
-    return json_read_numbers(r, row, at, 0, 3, body->position) &&
-           (size == 3 ||
-            json_read_whole(r, json_array_get(row, 3), &(json_place){at, NULL, 3}, 0, JSON_LARGEST_WHOLE, &body->id));
+    point_value value = {0};
+    if (size != 3 && size != 4 && (values->column_count == 0 || size != 4 + values->column_count))
+        return json_expected(r, row, at,
+                             values->column_count ? "a point [x, y, z], [x, y, z, id] or that and all of \"columns\""
+                                                  : "a point [x, y, z] or [x, y, z, id]");
+    if (!json_read_numbers(r, row, at, 0, 3, body->position) ||
+        (size > 3 &&
+         !json_read_whole(r, json_array_get(row, 3), &(json_place){at, NULL, 3}, 0, JSON_LARGEST_WHOLE, &body->id)))
+        return false;
+    for (size_t i = 4; i < size; i++)
+        if (!session_read_column(r, json_array_get(row, i), &(json_place){at, NULL, i},
+                                 (point_value_kind)values->columns[i - 4], &value))
+            return false;
+    return session_keep_value(r, at, body->id, &value);
 }
 
 static bool read_point(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -58,7 +68,7 @@ static bool read_point(json_reader *r, json_t *value, const json_place *at, void
     if (json_is_array(value))
         return read_row(r, value, at, body);
     if (json_is_object(value))
-        return json_read_members(r, value, at, session_body_members, body);
+        return session_body_codec.read(r, value, at, body);
     return json_expected(r, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
 }
 
@@ -134,6 +144,8 @@ static bool load_file(json_reader *r, const json_t *value, const json_place *at)
     const bool done = cloud_read(path, NULL, &s->points, r->error);
     free(path);
     memcpy(s->note, s->points.note, sizeof s->note);
+    if (done && s->points.decided && !*s->note)
+        snprintf(s->note, sizeof s->note, "%.200s: %s", json_string_value(value), s->points.decided);
     return done;
 }
 
@@ -142,13 +154,28 @@ static bool is_file_name(const json_t *value)
     return json_is_string(value) && json_string_length(value) > 0;
 }
 
+/* The values of the file are those of its ids: of row 0 and on the ids from 1 on, but for the player's. */
+static bool take_values(json_reader *r, const json_place *at)
+{
+    session_loader *s = r->context;
+    point_values *values = &s->points.values;
+    const octree_player *player = &s->header.session.player;
+    const uint64_t place = player->id - 1; /* in rows */
+    if (is_apart(player) && player->id != 0 && place < values->count && !point_values_open_row(values, (size_t)place))
+        return json_fail(r, at, "out of memory for %zu points", s->points.count);
+    values->first = 1;
+    s->values.made = *values;
+    *values = (point_values){0};
+    return true;
+}
+
 static bool read_file(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = r->context;
     (void)into;
     if (!is_file_name(value))
         return json_expected(r, value, at, "the name of a file");
-    const bool done = load_file(r, value, at) && copy_points(r, at, &s->points);
+    const bool done = load_file(r, value, at) && copy_points(r, at, &s->points) && take_values(r, at);
     cloud_release(&s->points);
     return done;
 }
@@ -237,13 +264,14 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
 static void write_point(json_writer *w, const octree_body *body)
 {
     if (json_nonzero_vector.is_set(body->velocity)) {
-        json_write_object(w, session_body_members, body);
+        session_body_codec.write(w, body);
         return;
     }
     json_write_begin_array(w);
     for (int axis = 0; axis < 3; axis++)
         json_write_number(w, body->position[axis]);
     json_write_integer(w, body->id);
+    session_write_columns(w, body->id);
     json_write_end_array(w);
 }
 

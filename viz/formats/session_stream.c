@@ -37,6 +37,8 @@ void session_stream_close(session_stream *s)
     session_release_lists(s->loader.lists);
     session_release_lists(s->loader.standing);
     cloud_release(&s->loader.points);
+    point_values_release(&s->loader.values.made);
+    session_release_listed(&s->loader.values);
     free(s->loader.bodies);
     free((char *)s->loader.header.session.keys);
     free(s);
@@ -49,8 +51,10 @@ static session_stream_state read_object(session_stream *s, json_object_reader *r
     s->reader.error = error;
     switch (json_stream_next(&s->objects, &s->reader)) {
     case JSON_STREAM_OBJECT:
-        return session_check_text(&s->reader) && json_read_object(&s->reader, false, read) ? SESSION_STREAM_TICK
-                                                                                           : SESSION_STREAM_BROKEN;
+        return session_check_text(&s->reader) && json_read_object(&s->reader, false, read) &&
+                       session_end_values(&s->reader)
+                   ? SESSION_STREAM_TICK
+                   : SESSION_STREAM_BROKEN;
     case JSON_STREAM_END:
         return SESSION_STREAM_END;
     case JSON_STREAM_STOPPED:
@@ -130,6 +134,11 @@ session_stream_state session_stream_begin(session_stream *s, const char *keys, o
 const octree_session *session_stream_start(const session_stream *s)
 {
     return &s->start;
+}
+
+const point_values *session_stream_values(const session_stream *s)
+{
+    return &s->loader.values.made;
 }
 
 const char *session_stream_note(const session_stream *s)

@@ -38,6 +38,10 @@ session_stream_state session_stream_begin(session_stream *s, const char *keys, o
  * none. Valid until session_stream_next(), but for the bodies and keys. */
 const octree_session *session_stream_start(const session_stream *s);
 
+/* The values of its points, to which each tick adds those of points that it inserts. Valid until the stream is closed.
+ */
+const point_values *session_stream_values(const session_stream *s);
+
 /* The sentence about the file of points that the header names; "" where there is nothing to say. */
 const char *session_stream_note(const session_stream *s);
 

@@ -76,7 +76,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = count_frames(&r.share, options->every);
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
-    bool ok = playback_open(&p, session, &options->view, error);
+    bool ok = playback_open(&p, session, options->values, &options->view, error);
     if (ok)
         summary->start = film_count_start(session, octree_game_tick(p.game));
     ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_alone(&r, &p, error));

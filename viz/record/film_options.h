@@ -5,6 +5,7 @@
 
 #include "renderer.h"
 #include "octree/game.h"
+#include "point_values.h"
 #include "view.h"
 
 #define FILM_MOST_JOBS 256
@@ -12,6 +13,7 @@
 typedef struct film_options {
     const char *folder;
     view view;
+    const point_values *values; /* of the points that are filmed; may be null */
     renderer_choice renderer;
     uint64_t every; /* film ticks 0, every, 2 * every ...; 0: none, and nothing is drawn. ticks.jsonl has all ticks */
     /* A chunk: the ticks [first, last) alone; last 0 is all of them, and beyond the end is the end. Chunks of one

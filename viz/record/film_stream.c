@@ -88,7 +88,9 @@ film_stream_end film_stream(session_stream *from, const char *keys, const film_o
         return header == SESSION_STREAM_STOPPED ? FILM_STREAM_STOPPED : FILM_STREAM_BROKEN;
     const octree_session *start = session_stream_start(from);
     s.end = octree_session_length(start);
-    s.live = live_open(start, options, error);
+    film_options with_values = *options;
+    with_values.values = session_stream_values(from);
+    s.live = live_open(start, &with_values, error);
     if (!s.live)
         return FILM_STREAM_BROKEN;
     film_stream_end how = live_begin(s.live, error) ? film_ticks(&s) : FILM_STREAM_BROKEN;

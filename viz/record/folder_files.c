@@ -84,12 +84,13 @@ static bool put_file(const folder_place *place, const char *name, const char *by
 
 /* ---- Written ------------------------------------------------------------------------------------------------ */
 
-bool make_session_bytes(const octree_session *session, session_bytes *made, octreel_error *error)
+bool make_session_bytes(const octree_session *session, const point_values *values, session_bytes *made,
+                        octreel_error *error)
 {
     text_stream s;
     char *bytes;
     if (text_stream_begin(&s))
-        session_write(session, s.stream);
+        session_write(session, values, s.stream);
     if (!text_stream_end(&s, &bytes))
         return error_no_memory(error);
     *made = (session_bytes){bytes, s.size, octree_digest_bytes(OCTREE_DIGEST_START, bytes, s.size)};
@@ -237,7 +238,7 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
     session_bytes made = {0};
     if (!read_live_session(folder, &file, error))
         return false;
-    bool ok = make_session_bytes(&file.session, &made, error);
+    bool ok = make_session_bytes(&file.session, &file.values, &made, error);
     ok = ok && (made.digest == session_digest || error_set(error, "%s/session.json.live: is another session", folder));
     free(made.bytes);
     session_release(&file);

@@ -28,8 +28,9 @@ typedef struct session_bytes {
     uint64_t digest;
 } session_bytes;
 
-/* Nearly all of the work of writing session.json. */
-bool make_session_bytes(const octree_session *session, session_bytes *made, octreel_error *error);
+/* Nearly all of the work of writing session.json; the values of its points may be null. */
+bool make_session_bytes(const octree_session *session, const point_values *values, session_bytes *made,
+                        octreel_error *error);
 bool write_session_file(const folder_place *place, const session_bytes *session, octreel_error *error);
 
 /* recording.json: format version and view. */

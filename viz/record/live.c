@@ -70,12 +70,12 @@ static bool begin_session(live_recording *live, octreel_error *error)
     live->stream = fopen(live->path, "w+b");
     if (!live->stream)
         return fail_to_write(live, error);
-    session_write_header(&header, live->stream);
+    session_write_header(&header, live->options.values, live->stream);
     if (!flush(live, error))
         return false;
     live->head = live->whole;
     const octree_input input = first_tick(&header);
-    session_write_tick(0, &input, live->stream);
+    session_write_tick(0, &input, live->options.values, live->stream);
     return flush(live, error);
 }
 
@@ -83,7 +83,7 @@ static bool add_to_session(live_recording *live, uint64_t tick, const octree_inp
 {
     if (tick > SESSION_LAST_TICK)
         return error_set(error, "a recording has at most %d ticks", SESSION_LAST_TICK);
-    session_write_tick(tick, input, live->stream);
+    session_write_tick(tick, input, live->options.values, live->stream);
     return flush(live, error);
 }
 
@@ -135,7 +135,7 @@ static bool write_session(live_recording *live, uint64_t ticks, const char *path
     const octree_session header = end_header(live, ticks);
     if (!file_writer_open(&file, path, error))
         return false;
-    session_write_header(&header, file.stream);
+    session_write_header(&header, live->options.values, file.stream);
     return copy_ticks(live, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
 }
 
@@ -211,7 +211,7 @@ live_recording *live_open(const octree_session *start, const film_options *optio
     live->options.resume = false;
     live->key_count = start->keys ? strlen(start->keys) : 0;
     live->recording = (recording){.options = &live->options, .summary = &live->summary};
-    bool ok = playback_open(&live->playback, &live->start.session, &live->options.view, error);
+    bool ok = playback_open(&live->playback, &live->start.session, live->options.values, &live->options.view, error);
     if (ok)
         live->summary.start = film_count_start(&live->start.session, octree_game_tick(live->playback.game));
     if (ok && recording_film(&live->recording, &live->playback, error))

@@ -17,9 +17,10 @@ static bool add_heat(playback *p, octreel_error *error)
     return !(known && p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) || error_no_memory(error);
 }
 
-bool playback_open(playback *p, const octree_session *session, const view *v, octreel_error *error)
+bool playback_open(playback *p, const octree_session *session, const point_values *values, const view *v,
+                   octreel_error *error)
 {
-    *p = (playback){.view = *v};
+    *p = (playback){.view = *v, .values = values};
     const octree_status status = octree_game_create(session, &p->game);
     if (status != OCTREE_OK)
         return error_set(error, "the session cannot be played: %s", octree_status_text(status));

@@ -13,6 +13,7 @@
 
 #include "heat.h"
 #include "picture.h"
+#include "point_values.h"
 #include "scene.h"
 #include "ticks_write.h"
 
@@ -33,7 +34,8 @@ typedef struct playback_target {
 typedef struct playback {
     view view; /* fitted to tick 0 */
     octree_game *game;
-    heat heat; /* of all ticks that were played, filmed or not; where the view shows it */
+    const point_values *values; /* of the session's points; may be null */
+    heat heat;                  /* of all ticks that were played, filmed or not; where the view shows it */
     scene scene;
     playback_target target;
     uint64_t session_digest; /* of session.json, for the frames that are written; set by the caller */
@@ -56,9 +58,10 @@ typedef struct film_step {
     size_t size;
 } film_step;
 
-/* Play tick 0. Sessions and views that cannot be filmed are refused here, before any file is touched. `p` is set in any
- * case, to be closed. */
-bool playback_open(playback *p, const octree_session *session, const view *v, octreel_error *error);
+/* Play tick 0. Sessions and views that cannot be filmed are refused here, before any file is touched. The values of the
+ * session's points may be null, and stay the caller's. `p` is set in any case, to be closed. */
+bool playback_open(playback *p, const octree_session *session, const point_values *values, const view *v,
+                   octreel_error *error);
 void playback_close(playback *p);
 
 /* Open what draws the ticks to be filmed, if any. */

@@ -53,7 +53,7 @@ static bool play(playing *p, const octree_session *session, octreel_error *error
 {
     const film_share all = {.last = p->summary->total};
     playback played;
-    bool ok = playback_open(&played, session, &p->options->view, error);
+    bool ok = playback_open(&played, session, p->options->values, &p->options->view, error);
     if (ok)
         p->summary->start = film_count_start(session, octree_game_tick(played.game));
     ok = ok && begin_page(p->page, &played.view, error) && playback_run(&played, &all, add_tick, keeps_going, p, error);
@@ -84,7 +84,7 @@ bool write_played_page(const octree_session *session, const film_options *option
     if (!page_plays())
         return error_set(error, "this octreel was built without WebAssembly (clang, lld, wasi-libc), so no page of its "
                                 "own plays: octreel record films the session");
-    if (!check_size(least_size(session), error) || !make_session_bytes(session, &written, error))
+    if (!check_size(least_size(session), error) || !make_session_bytes(session, options->values, &written, error))
         return false;
     const bool ok = check_size(written.size, error) && play(&(playing){options, summary, page}, session, error);
     if (ok)

@@ -94,7 +94,7 @@ static bool begin_shared(recording *r, const beginning *b, octreel_error *error)
 bool recording_begin(recording *r, playback *p, octreel_error *error)
 {
     beginning b = {.view = &p->view};
-    if (r->session && !make_session_bytes(r->session, &b.session, error))
+    if (r->session && !make_session_bytes(r->session, r->options->values, &b.session, error))
         return false;
     if (r->options->every > 0)
         b.info = renderer_about(p->picture.renderer);

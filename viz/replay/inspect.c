@@ -32,14 +32,19 @@ static octree_status insert_all(const cloud *c, inspection *result)
     return status;
 }
 
-bool inspect_build(const cloud *c, const octree_def *def, inspection *result, octreel_error *error)
+bool inspect_build(cloud *c, const octree_def *def, inspection *result, octreel_error *error)
 {
     *result = (inspection){.points = c->count, .skipped = c->skipped, .why_skipped = c->why_skipped};
     octree_status status = octree_create(def, &result->tree);
     if (status == OCTREE_OK)
         status = insert_all(c, result);
-    if (status == OCTREE_OK)
+    if (status == OCTREE_OK) {
+        result->values = c->values;
+        c->values = (point_values){0};
+        result->color_full = c->color_full;
+        result->decided = c->decided;
         return true;
+    }
     inspect_release(result);
     return error_set(error, "the tree cannot be made: %s", octree_status_text(status));
 }
@@ -48,6 +53,7 @@ void inspect_release(inspection *i)
 {
     octree_destroy(i->tree);
     i->tree = NULL;
+    point_values_release(&i->values);
 }
 
 /* ---- Statistics ----------------------------------------------------------------------------------------- */
@@ -158,6 +164,7 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
             stats->points, i->refused, i->outside);
     if (i->skipped)
         fprintf(out, "  skipped   %zu %s\n", i->skipped, i->why_skipped);
+    inspect_print_values(i, out);
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
     fprintf(out, "  nodes     %zu, %zu of them %s; deepest %u; fullest leaf %zu point%s\n", stats->nodes, stats->leaves,
@@ -201,6 +208,7 @@ static void write_statistics(const inspection *i, const octree_stats *stats, con
     json_member_integer(w, "refused", i->refused);
     json_member_integer(w, "outside", i->outside);
     json_member_integer(w, "stored", stats->points);
+    inspect_write_values(i, w);
     json_member_box(w, "world", &def.world);
     json_member_integer(w, "capacity", def.leaf_capacity);
     json_member_integer(w, "max_depth", def.max_depth);

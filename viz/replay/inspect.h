@@ -16,10 +16,13 @@ typedef struct inspection {
     const char *why_skipped; /* what they are, as in cloud.h */
     size_t refused;          /* points refused by a full leaf, under OCTREE_REFUSE */
     size_t outside;          /* points outside the world */
+    point_values values;     /* of the cloud, by the ids of the tree */
+    unsigned color_full;     /* as in cloud.h */
+    const char *decided;
 } inspection;
 
-/* Insert every point of a cloud into a new tree. */
-bool inspect_build(const cloud *c, const octree_def *def, inspection *result, octreel_error *error);
+/* Insert every point of a cloud into a new tree, and take over the cloud's values. */
+bool inspect_build(cloud *c, const octree_def *def, inspection *result, octreel_error *error);
 void inspect_release(inspection *i);
 
 /* Print the statistics: for people, or as one JSON object on one line. `name` is what the cloud is called there. */
@@ -35,6 +38,11 @@ void inspect_print_node(const octree_node *node, const char *name, bool json, FI
 void inspect_print_numbers(const double *values, size_t count, FILE *out);
 void inspect_print_point(const octree_point *point, const double *distance, FILE *out);
 void inspect_write_point(json_writer *w, const octree_point *point, const double *distance);
+
+/* What the points have beside their positions: a line or two; and as a member of an object. Nothing where they have
+ * nothing. */
+void inspect_print_values(const inspection *i, FILE *out);
+void inspect_write_values(const inspection *i, json_writer *w);
 
 /* Write all nodes as CSV: address, depth, leaf, count, min_x ... max_z. */
 bool inspect_write_nodes(const inspection *i, const char *path, octreel_error *error);

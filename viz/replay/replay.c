@@ -19,7 +19,7 @@ bool replay_read(replay *r, const char *folder, octreel_error *error)
 /* No renderer is opened: many callers need no pixels. */
 static bool start(replay *r, octreel_error *error)
 {
-    return playback_open(&r->playback, &r->session.session, &r->film.view, error);
+    return playback_open(&r->playback, &r->session.session, &r->session.values, &r->film.view, error);
 }
 
 bool replay_open(replay *r, const char *folder, octreel_error *error)

@@ -261,7 +261,8 @@ static bool play_again(verifying *v, octreel_error *error)
     renderer_choice renderer = v->options->renderer;
     renderer.fill = DRAW_FILL_GL; /* the authority on pixels */
     const playback_target target = {FRAMES_SHOW, v->folder, v->replay.film.every, renderer};
-    if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.film.view, error) ||
+    if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.session.values, &v->replay.film.view,
+                       error) ||
         !playback_film(&v->replay.playback, &target, error))
         return false;
     if (v->replay.playback.picture.renderer)

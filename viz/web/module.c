@@ -105,7 +105,7 @@ bool web_open(size_t session, size_t recording)
     page.room = NULL;
     page.room_size = 0;
     page.counted = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
-    page.open = playback_open(&page.playback, &page.session.session, &v, &page.error);
+    page.open = playback_open(&page.playback, &page.session.session, &page.session.values, &v, &page.error);
     if (!page.open)
         close_all();
     return page.open || fails();
@@ -404,7 +404,7 @@ bool web_keys(double last, size_t count)
 
 static bool write_session(FILE *out)
 {
-    return session_write(&page.session.session, out);
+    return session_write(&page.session.session, &page.session.values, out);
 }
 
 /* The session as session.json. */

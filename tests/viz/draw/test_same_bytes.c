@@ -158,7 +158,7 @@ static void session_that_asks_for_everything_is_the_same_on_every_machine(void *
     random_session_full(&made, 11);
     FILE *file = fopen(session.path, "wb");
     assert_non_null(file);
-    assert_true(session_write(&made.session, file));
+    assert_true(session_write(&made.session, NULL, file));
     assert_int_equal(fclose(file), 0);
     assert_same_on_every_machine(*state, session.path, "--size 160x90 --every 20 --camera top");
 }

@@ -1,136 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cloud_las.c - the LAS reader, held against the tables of the specification: LAS 1.0 to 1.5, point formats 0 to
  * 10. */
-#include "clouds.h"
+#include "las_files.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { VERSIONS = 6, FORMATS = 11 };
-
-static const unsigned header_sizes[VERSIONS] = {227, 227, 227, 235, 375, 393};
-static const unsigned record_sizes[FORMATS] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
-
-/* What a file of two records says of itself; zeroed: LAS 1.0 of point format 0 and nothing more than that has. */
-typedef struct las {
-    unsigned minor, format;
-    unsigned records_before; /* bytes between the header and the points */
-    unsigned extra;          /* bytes of each record that the format does not have */
-    double scale[3], offset[3];
-    int32_t points[2][3];
-} las;
-
-/* Records that are two_points: not each of them is a number of hundredths, so the scales are what makes them. */
-static const las two = {.scale = {0.5, 1e10, 0.1}, .offset = {1.5, 2, 0}, .points = {{-1, 0, 30}, {-12, 5, 1}}};
-
-static las two_of(unsigned minor, unsigned format)
-{
-    las l = two;
-    l.minor = minor;
-    l.format = format;
-    return l;
-}
-
 static const double two_read[2][3] = {{1, 2, 30 * 0.1}, {-4.5, 5e10 + 2, 0.1}};
-
-static void put_zeros(bytes *file, size_t count)
-{
-    while (count-- > 0)
-        put(file, "", 1);
-}
-
-static void put_to(bytes *file, size_t end)
-{
-    assert_true(end >= file->size);
-    put_zeros(file, end - file->size);
-}
-
-/* The fields of the table "Public Header Block" in their order; what no reader needs for positions is set to a pattern
- * that would show. */
-static void put_header(bytes *file, const las *l)
-{
-    const unsigned size = header_sizes[l->minor];
-    const uint64_t count = 2, points = size + l->records_before;
-    const bool wide_alone = l->format >= 6;
-    put_text(file, "LASF");
-    put_bits(file, 0x0000beef, 4, false); /* file source, global encoding */
-    put_text(file, "0123456789abcdef");   /* project */
-    put_bits(file, 1, 1, false);
-    put_bits(file, l->minor, 1, false);
-    put_text(file, "system identifier, of 32 bytes..generating software, 32 bytes...");
-    put_bits(file, 2026 << 16 | 326, 4, false); /* day and year */
-    put_bits(file, size, 2, false);
-    put_bits(file, points, 4, false);
-    put_bits(file, 0, 4, false); /* variable length records */
-    put_bits(file, l->format, 1, false);
-    put_bits(file, record_sizes[l->format] + l->extra, 2, false);
-    put_bits(file, l->minor >= 4 && wide_alone ? 0 : count, 4, false);
-    for (int i = 0; i < 5; i++)
-        put_bits(file, 0x01010101, 4, false); /* by return */
-    for (int axis = 0; axis < 3; axis++)
-        put_double(file, l->scale[axis], false);
-    for (int axis = 0; axis < 3; axis++)
-        put_double(file, l->offset[axis], false);
-    for (int i = 0; i < 6; i++)
-        put_double(file, -7e77, false); /* bounds */
-    assert_int_equal(file->size, 227);
-    if (l->minor >= 3)
-        put_bits(file, 0, 8, false); /* waveforms */
-    if (l->minor >= 4) {
-        put_zeros(file, 12); /* extended variable length records: start and number */
-        put_bits(file, count, 8, false);
-        for (int i = 0; i < 15; i++)
-            put_bits(file, 0x01010101, 8, false); /* by return */
-    }
-    put_to(file, size);
-    for (unsigned i = 0; i < l->records_before; i++)
-        put(file, "V", 1);
-}
-
-/* A record whose further fields are all ones, but for the flags. */
-static void put_record(bytes *file, const las *l, const int32_t point[3])
-{
-    for (int axis = 0; axis < 3; axis++)
-        put_bits(file, (uint32_t)point[axis], 4, false);
-    put_bits(file, 0xffff, 2, false); /* intensity */
-    put_bits(file, 0xff, 1, false);   /* returns */
-    put_bits(file, l->minor == 0 ? 0xff : l->format < 6 ? 0x7f : 0xfb, 1, false);
-    for (unsigned i = 16; i < record_sizes[l->format] + l->extra; i++)
-        put_bits(file, 0xff, 1, false);
-}
-
-static bytes make(const las *l)
-{
-    bytes file = {.size = 0};
-    put_header(&file, l);
-    for (int i = 0; i < 2; i++)
-        put_record(&file, l, l->points[i]);
-    return file;
-}
-
-static void set_bits(bytes *file, size_t at, uint64_t bits, unsigned size)
-{
-    bytes field = {.size = 0};
-    put_bits(&field, bits, size, false);
-    memcpy(file->data + at, field.data, size);
-}
-
-static void set_double(bytes *file, size_t at, double value)
-{
-    bytes field = {.size = 0};
-    put_double(&field, value, false);
-    memcpy(file->data + at, field.data, 8);
-}
 
 /* ---- What is read ------------------------------------------------------------------------------------------- */
 
 static void las_is_read_in_every_version_and_point_format(void **state)
 {
     (void)state;
-    for (unsigned minor = 0; minor < VERSIONS; minor++)
-        for (unsigned format = 0; format < FORMATS; format++)
+    for (unsigned minor = 0; minor < LAS_VERSIONS; minor++)
+        for (unsigned format = 0; format < LAS_FORMATS; format++)
             for (unsigned more = 0; more < 4; more++) {
                 las l = two_of(minor, format);
                 l.extra = more & 1 ? 7 : 0;
@@ -144,7 +30,7 @@ static void las_is_read_in_every_version_and_point_format(void **state)
 static void las_that_is_cut_off_is_refused(void **state)
 {
     (void)state;
-    for (unsigned minor = 0; minor < VERSIONS; minor++) {
+    for (unsigned minor = 0; minor < LAS_VERSIONS; minor++) {
         const las l = two_of(minor, minor < 4 ? 3 : 7);
         const bytes file = make(&l);
         assert_refuses_every_beginning("a.las", &file);
@@ -214,13 +100,13 @@ static void las_counts_of_either_kind_are_read(void **state)
 static void las_points_that_are_withheld_are_skipped_and_keep_their_place(void **state)
 {
     (void)state;
-    for (unsigned minor = 0; minor < VERSIONS; minor++)
-        for (unsigned format = 0; format < FORMATS; format++) {
+    for (unsigned minor = 0; minor < LAS_VERSIONS; minor++)
+        for (unsigned format = 0; format < LAS_FORMATS; format++) {
             const las l = two_of(minor, format);
             bytes file = make(&l);
             cloud cloud;
             octreel_error error;
-            file.data[header_sizes[minor] + 15] = format < 6 ? 0x80 : 0x04;
+            file.data[las_header_sizes[minor] + 15] = format < 6 ? 0x80 : 0x04;
             assert_true(cloud_parse("a.las", file.data, file.size, &cloud, &error));
             assert_int_equal(cloud.count, minor == 0 ? 2 : 1);
             assert_int_equal(cloud.skipped, minor == 0 ? 0 : 1);

@@ -28,7 +28,7 @@ static char *write_session(const octree_session *session)
     size_t size;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    assert_true(session_write(session, out));
+    assert_true(session_write(session, NULL, out));
     assert_int_equal(fclose(out), 0);
     return text;
 }

@@ -27,7 +27,7 @@ static char *write_session(const octree_session *session)
     size_t size;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    assert_true(session_write(session, out));
+    assert_true(session_write(session, NULL, out));
     assert_int_equal(fclose(out), 0);
     return text;
 }
@@ -324,7 +324,7 @@ static void stream_without_room_is_told(void **state)
     FILE *full = fmemopen(room, sizeof room, "w");
     (void)state;
     assert_non_null(full);
-    assert_false(session_write(&session, full));
+    assert_false(session_write(&session, NULL, full));
     fclose(full);
 }
 

@@ -154,7 +154,7 @@ static void give_golden(driven *d)
         if (!golden_open(&golden_frames[i], &play, &error))
             fail_msg("%s", error.text);
         FILE *out = open_memstream(&session, &size);
-        assert_true(session_write(&play.session, out));
+        assert_true(session_write(&play.session, NULL, out));
         assert_int_equal(fclose(out), 0);
         out = open_memstream(&view, &size);
         recording_write(out, &play.view, 1);

@@ -65,7 +65,7 @@ static void world_holds_every_point_and_a_tree_takes_it(void **state)
     (void)state;
     for (size_t i = 0; i < CLOUDS; i++) {
         double positions[4][3];
-        const cloud c = cloud_of(&clouds[i], positions);
+        cloud c = cloud_of(&clouds[i], positions);
         const octree_def def =
             define(point_world(c.positions, sizeof *c.positions, c.count), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
         inspection made;
@@ -160,7 +160,7 @@ static void worlds_of_random_extents_hold_their_points(void **state)
     (void)state;
     for (int round = 0; round < 3000; round++) {
         double positions[4][3];
-        const cloud c = {.positions = positions, .count = 1 + random_below(&random, 4)};
+        cloud c = {.positions = positions, .count = 1 + random_below(&random, 4)};
         for (int axis = 0; axis < 3; axis++) {
             const double offset = ldexp(random_between(&random, -1, 1), (int)random_below(&random, 2090) - 1066);
             const double extent = ldexp(1, (int)random_below(&random, 2090) - 1066);
@@ -181,7 +181,7 @@ static void points_are_stored_refused_or_outside(void **state)
     enum { COUNT = 3000 };
     static double positions[COUNT][3];
     const octree_box all = cube(-10, 10), world = cube(-5, 5);
-    const cloud c = {.positions = positions, .count = COUNT, .skipped = 4};
+    cloud c = {.positions = positions, .count = COUNT, .skipped = 4};
     octree_def def = define(world, 2, 3, OCTREE_REFUSE);
     inspection made;
     octreel_error error = {""};
@@ -205,7 +205,7 @@ static void points_are_stored_refused_or_outside(void **state)
 static void points_that_were_skipped_are_told_with_the_reason(void **state)
 {
     double positions[1][3] = {{0, 0, 0}};
-    const cloud c = {.positions = positions, .count = 1, .skipped = 3, .why_skipped = "marked as withheld"};
+    cloud c = {.positions = positions, .count = 1, .skipped = 3, .why_skipped = "marked as withheld"};
     const octree_def def = define(cube(-1, 1), 2, 3, OCTREE_GROW);
     char text[4096] = "";
     inspection made;
@@ -223,7 +223,7 @@ static void points_that_were_skipped_are_told_with_the_reason(void **state)
 static void definition_that_a_tree_refuses_is_an_error(void **state)
 {
     double positions[1][3] = {{0, 0, 0}};
-    const cloud c = {.positions = positions, .count = 1};
+    cloud c = {.positions = positions, .count = 1};
     const octree_def defs[] = {define(cube(1, 1), 2, 3, OCTREE_GROW), define(cube(-1, 1), 0, 3, OCTREE_GROW),
                                define(cube(-INFINITY, 1), 2, 3, OCTREE_GROW)};
     (void)state;

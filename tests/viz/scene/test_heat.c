@@ -290,7 +290,7 @@ static void a_part_of_a_film_begins_with_the_heat_of_what_came_before(void **sta
         const film_share share = {.first = parted ? 200 : 0, .last = 201};
         octreel_error error;
         playback p;
-        assert_true(playback_open(&p, &session, &options.view, &error));
+        assert_true(playback_open(&p, &session, NULL, &options.view, &error));
         assert_true(playback_film(&p, &(playback_target){.frames = FRAMES_SHOW, .every = 1}, &error));
         assert_true(playback_run(&p, &share, keep_digest, NULL, parted ? part : whole, &error));
         playback_close(&p);

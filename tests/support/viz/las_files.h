@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* las_files.h - LAS files for tests, put together by the tables of the specification: LAS 1.0 to 1.5, point formats 0
+ * to 10. */
+#ifndef LAS_FILES_H
+#define LAS_FILES_H
+
+#include "clouds.h"
+
+enum { LAS_VERSIONS = 6, LAS_FORMATS = 11 };
+
+extern const unsigned las_header_sizes[LAS_VERSIONS], las_record_sizes[LAS_FORMATS];
+
+/* What a file of two records says of itself; zeroed: LAS 1.0 of point format 0 and nothing more than that has. */
+typedef struct las {
+    unsigned minor, format;
+    unsigned records_before; /* bytes between the header and the points */
+    unsigned extra;          /* bytes of each record that the format does not have */
+    double scale[3], offset[3];
+    int32_t points[2][3];
+} las;
+
+/* Records that are two_points: not each of them is a number of hundredths, so the scales are what makes them. */
+extern const las two;
+las two_of(unsigned minor, unsigned format);
+
+/* The fields of the table "Public Header Block" in their order; what no reader needs for positions is set to a pattern
+ * that would show. */
+void put_header(bytes *file, const las *l);
+
+/* A record whose further fields are all ones, but for the flags. */
+void put_record(bytes *file, const las *l, const int32_t point[3]);
+
+/* The whole file. */
+bytes make(const las *l);
+
+/* Change fields of a file. */
+void set_bits(bytes *file, size_t at, uint64_t bits, unsigned size);
+void set_double(bytes *file, size_t at, double value);
+
+void put_zeros(bytes *file, size_t count);
+void put_to(bytes *file, size_t end);
+
+#endif

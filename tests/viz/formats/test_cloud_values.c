@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cloud_values.c - colours, intensities and classes of text, PLY and PCD; test_cloud_las.c has those of LAS. */
+#include "clouds.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Read a cloud of values and say what each point has: "#rrggbb intensity class", "-" for none. */
+static void say(const cloud *c, char *text, size_t size)
+{
+    size_t length = 0;
+    text[0] = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const point_value v = point_values_get(&c->values, cloud_row(c, i));
+        char color[8] = "-", intensity[16] = "-", class[8] = "-";
+        if (v.has[POINT_COLOR])
+            snprintf(color, sizeof color, "#%02x%02x%02x", v.color[0], v.color[1], v.color[2]);
+        if (v.has[POINT_INTENSITY])
+            snprintf(intensity, sizeof intensity, "%g", (double)v.intensity);
+        if (v.has[POINT_CLASS])
+            snprintf(class, sizeof class, "%u", (unsigned)v.class);
+        length += (size_t)snprintf(text + length, size - length, "%s%s %s %s", i ? ", " : "", color, intensity, class);
+    }
+}
+
+static void assert_values(const char *name, const void *data, size_t size, const char *values, unsigned full,
+                          const char *decided)
+{
+    cloud c;
+    octreel_error error;
+    char said[256];
+    if (!cloud_parse(name, data, size, &c, &error))
+        fail_msg("%s", error.text);
+    say(&c, said, sizeof said);
+    if (strcmp(said, values) != 0)
+        print_error("%.*s\n", (int)size, (const char *)data);
+    assert_string_equal(said, values);
+    assert_int_equal(c.color_full, full);
+    if (decided && !c.decided)
+        fail_msg("nothing was decided: %s", decided);
+    assert_string_equal(c.decided ? c.decided : "", decided ? decided : "");
+    cloud_release(&c);
+}
+
+typedef struct reading {
+    const char *text, *values;
+    unsigned full;
+    const char *decided;
+} reading;
+
+static void assert_reads_each(const char *name, const reading *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        assert_values(name, rows[i].text, strlen(rows[i].text), rows[i].values, rows[i].full, rows[i].decided);
+}
+
+#define ASSERT_READS_EACH(name, rows) assert_reads_each(name, rows, sizeof rows / sizeof rows[0])
+
+/* ---- Text --------------------------------------------------------------------------------------------------- */
+
+static void text_has_the_values_that_its_first_line_names(void **state)
+{
+    static const reading rows[] = {
+        {"x y z r g b\n1 2 3 255 0 16\n", "#ff0010 - -", 255, NULL},
+        {"X,Y,Z,Red,Green,Blue,Intensity,Classification\n1,2,3,1,2,300,0.5,6\n4,5,6,65535,256,255,7,2\n",
+         "#000001 0.5 6, #ff0100 7 2", 65535, NULL},
+        {"x y z red green blue\n1 2 3 0 0.5 1\n4 5 6 1 1 1\n", "#0080ff - -, #ffffff - -", 1, NULL},
+        {"x y z red green blue\n1 2 3 0 0.5 1\n4 5 6 1 1 200\n", "#000101 - -, #0101c8 - -", 255, NULL},
+        {"//X Y Z B G R Scalar_Intensity\n1 2 3 9 8 7 -2.5\n", "#070809 -2.5 -", 255, NULL},
+        {"# x y z label\n1 2 3 40\n4 5 6\n7 8 9 1.5\n1 1 1 70000\n1 1 1 none\n", "- - 40, - - -, - - -, - - -, - - -",
+         0, NULL},
+        {"x [m], y [m], z [m], id, \"intensity\" [dB]\n1,2,3,17,-4\n4,5,6,,\n7,8,9,18,\"5\"\n", "- -4 -, - - -, - 5 -",
+         0, NULL},
+        {"# x y z r g b\nx;y;z;class\n1;2;3;4\n", "- - 4", 0, NULL},
+        {"x y z red\n1 2 3 255\n", "- - -", 0, NULL},
+        {"x y z intensity\n1 2 3 1e39\n4 5 6 nan\n7 8 9 1\n", "- - -, - - -, - 1 -", 0, NULL},
+        {"x y z r g b\n1 2 3 -1 0 0\n4 5 6 0 0 65536\n7 8 9 1 2 3 # here\n", "- - -, - - -, #010203 - -", 255, NULL},
+    };
+    (void)state;
+    ASSERT_READS_EACH("a.xyz", rows);
+}
+
+#define THREE_READ "columns 4 to 6, which have no names, are read as r g b"
+#define FOUR_READ "columns 4 to 7, which have no names, are read as intensity r g b"
+#define FOUR_LEFT                                                                                                      \
+    "columns 4 to 7 may be r g b and another or intensity r g b, and are not read: a first line with their names, "    \
+    "as in x y z intensity r g b, says what they are"
+
+static void columns_without_names_are_colours_where_every_line_says_so(void **state)
+{
+    static const reading rows[] = {
+        {"1 2 3 255 0 16\n4 5 6 0 0 0\n", "#ff0010 - -, #000000 - -", 255, THREE_READ},
+        {"1;2;3;255;0;16\n", "#ff0010 - -", 255, THREE_READ},
+        {"1 2 3 -1340 49 51 201\n4 5 6 7 1 1 1\n", "#3133c9 -1340 -, #010101 7 -", 255, FOUR_READ},
+        {"1 2 3 0.25 49 51 201\n", "#3133c9 0.25 -", 255, FOUR_READ},
+        {"1 2 3 7 49 51 201\n", "- - -", 0, FOUR_LEFT},
+        {"1 2 3 0 0 1\n4 5 6 0 1 0\n", "- - -, - - -", 0, NULL},      /* normals */
+        {"1 2 3 255 0 16\n4 5 6 0 0 0.5\n", "- - -, - - -", 0, NULL}, /* one line that is not */
+        {"1 2 3 255 0 16\n4 5 6 0 0 256\n", "- - -, - - -", 0, NULL},
+        {"1 2 3 255 0 16\n4 5 6 0 0\n", "- - -, - - -", 0, NULL},
+        {"1 2 3 255 0 16\n4 5 6 0 0 0 0\n", "- - -, - - -", 0, NULL},
+        {"1 2 3 255 0\n", "- - -", 0, NULL},
+        {"1 2 3 255 0 16 7 8\n", "- - -", 0, NULL},
+        {"1 2 3 255 0 name\n", "- - -", 0, NULL},
+    };
+    (void)state;
+    ASSERT_READS_EACH("a.xyz", rows);
+}
+
+/* ---- PLY ---------------------------------------------------------------------------------------------------- */
+
+#define PLY(properties, lines)                                                                                         \
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n" properties       \
+    "end_header\n" lines
+
+static void ply_has_colours_of_every_type(void **state)
+{
+    static const reading rows[] = {
+        {PLY("property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n",
+             "1 2 3 255 1 2 9\n4 5 6 0 0 1 9\n"),
+         "#ff0102 - -, #000001 - -", 255, NULL},
+        {PLY("property ushort red\nproperty ushort green\nproperty ushort blue\n",
+             "1 2 3 65535 256 255\n4 5 6 0 0 1\n"),
+         "#ff0100 - -, #000000 - -", 65535, NULL},
+        {PLY("property ushort r\nproperty ushort g\nproperty ushort b\n", "1 2 3 255 1 2\n4 5 6 0 0 1\n"),
+         "#ff0102 - -, #000001 - -", 255, NULL},
+        {PLY("property float red\nproperty float green\nproperty float blue\n", "1 2 3 1 0.2 0\n4 5 6 0 nan 1\n"),
+         "#ff3300 - -, - - -", 1, NULL},
+        {PLY("property uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar diffuse_blue\nproperty double "
+             "scalar_Intensity\nproperty int label\n",
+             "1 2 3 1 2 3 0.5 -1\n4 5 6 4 5 6 1e300 65535\n"),
+         "#010203 0.5 -, #040506 - 65535", 255, NULL},
+        {PLY("property uchar red\nproperty list uchar uchar green\nproperty uchar blue\n",
+             "1 2 3 1 1 2 3\n4 5 6 4 0 6\n"),
+         "- - -, - - -", 0, NULL},
+    };
+    (void)state;
+    ASSERT_READS_EACH("a.ply", rows);
+}
+
+static void binary_ply_has_values_in_both_byte_orders(void **state)
+{
+    (void)state;
+    for (int big = 0; big < 2; big++) {
+        bytes file = {.size = 0};
+        put_text(&file, big ? "ply\nformat binary_big_endian 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
+        put_text(&file, "element vertex 1\nproperty ushort red\nproperty float x\nproperty float y\nproperty float z\n"
+                        "property ushort green\nproperty ushort blue\nproperty float intensity\nproperty uchar class\n"
+                        "end_header\n");
+        put_bits(&file, 0x1234, 2, big);
+        for (int i = 0; i < 3; i++)
+            put_float(&file, 1, big);
+        put_bits(&file, 0xff00, 2, big);
+        put_bits(&file, 7, 2, big);
+        put_float(&file, 0.25F, big);
+        put_bits(&file, 31, 1, big);
+        assert_values("a.ply", file.data, file.size, "#12ff00 0.25 31", 65535, NULL);
+    }
+}
+
+/* ---- PCD ---------------------------------------------------------------------------------------------------- */
+
+#define PCD(fields, sizes, types, lines)                                                                               \
+    "VERSION 0.7\nFIELDS x y z " fields "\nSIZE 4 4 4 " sizes "\nTYPE F F F " types "\nWIDTH 2\nHEIGHT 1\nDATA "       \
+    "ascii\n" lines
+
+static void pcd_has_packed_colours_as_integers_and_floats(void **state)
+{
+    static const reading rows[] = {
+        {PCD("rgb", "4", "F", "1 2 3 2.34180529e-38\n4 5 6 nan\n"), "#ff0001 - -, - - -", 255, NULL},
+        {PCD("rgb", "4", "F", "1 2 3 4278190335\n4 5 6 16711680\n"), "#0000ff - -, #ff0000 - -", 255, NULL},
+        {PCD("rgba", "4", "U", "1 2 3 4278255361\n4 5 6 0\n"), "#00ff01 - -, #000000 - -", 255, NULL},
+        {PCD("r g b intensity label", "1 1 1 4 4", "U U U F U", "1 2 3 255 0 1 0.5 2\n4 5 6 9 8 7 -1 70000\n"),
+         "#ff0001 0.5 2, #090807 -1 -", 255, NULL},
+        {PCD("rgb", "8", "F", "1 2 3 1\n4 5 6 2\n"), "- - -, - - -", 0, NULL},
+    };
+    (void)state;
+    ASSERT_READS_EACH("a.pcd", rows);
+}
+
+static void binary_pcd_has_packed_colours_in_the_bits_of_a_float(void **state)
+{
+    bytes file = {.size = 0};
+    (void)state;
+    put_text(&file,
+             "VERSION 0.7\nFIELDS rgb x y z label\nSIZE 4 4 4 4 4\nTYPE F F F F U\nWIDTH 3\nHEIGHT 1\nDATA binary\n");
+    for (unsigned i = 0; i < 3; i++) {
+        put_bits(&file, 0xff0a0b00 + i, 4, false); /* a NaN */
+        for (int axis = 0; axis < 3; axis++)
+            put_float(&file, i == 1 ? NAN : 1, false);
+        put_bits(&file, i, 4, false);
+    }
+    assert_values("a.pcd", file.data, file.size, "#0a0b00 - 0, #0a0b02 - 2", 255, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_has_the_values_that_its_first_line_names),
+        cmocka_unit_test(columns_without_names_are_colours_where_every_line_says_so),
+        cmocka_unit_test(ply_has_colours_of_every_type),
+        cmocka_unit_test(binary_ply_has_values_in_both_byte_orders),
+        cmocka_unit_test(pcd_has_packed_colours_as_integers_and_floats),
+        cmocka_unit_test(binary_pcd_has_packed_colours_in_the_bits_of_a_float),
+    };
+    return cmocka_run_group_tests_name("cloud values", tests, NULL, NULL);
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* cloud_values.c - colours, intensities and classes of a cloud: their names, and how they are kept. */
+#include "cloud_format.h"
+#include "number.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- Names -------------------------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *name;
+    cloud_channel channel;
+} names[] = {
+    {"red", CLOUD_RED},           {"green", CLOUD_GREEN},
+    {"blue", CLOUD_BLUE},         {"r", CLOUD_RED},
+    {"g", CLOUD_GREEN},           {"b", CLOUD_BLUE},
+    {"diffuse_red", CLOUD_RED},   {"diffuse_green", CLOUD_GREEN},
+    {"diffuse_blue", CLOUD_BLUE}, {"rgb", CLOUD_PACKED},
+    {"rgba", CLOUD_PACKED},       {"intensity", CLOUD_INTENSITY},
+    {"class", CLOUD_CLASS},       {"classification", CLOUD_CLASS},
+    {"label", CLOUD_CLASS},
+};
+
+static bool is_name(cloud_span word, const char *name)
+{
+    const size_t length = (size_t)(word.limit - word.begin);
+    return length == strlen(name) && strncasecmp(word.begin, name, length) == 0;
+}
+
+int cloud_word_channel(cloud_span word)
+{
+    static const char before[] = "scalar_";
+    const size_t length = (size_t)(word.limit - word.begin);
+    if (length == 1 && *word.begin >= 'x' && *word.begin <= 'z')
+        return *word.begin - 'x';
+    if (length >= sizeof before && strncasecmp(word.begin, before, sizeof before - 1) == 0)
+        word.begin += sizeof before - 1;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (is_name(word, names[i].name))
+            return (int)names[i].channel;
+    return -1;
+}
+
+bool cloud_word_number(const cloud_file *file, size_t line, cloud_span word, int channel, double *number)
+{
+    uint64_t whole;
+    uint32_t bits;
+    if (channel == CLOUD_PACKED && cloud_word_count(word, &whole)) {
+        *number = (double)whole;
+        return true;
+    }
+    if (!cloud_word_coordinate(file, line, word, number))
+        return false;
+    if (channel == CLOUD_PACKED && fabs(*number) <= FLT_MAX) {
+        const float narrow = (float)*number;
+        memcpy(&bits, &narrow, sizeof bits);
+        *number = bits;
+    }
+    return true;
+}
+
+/* ---- Values ------------------------------------------------------------------------------------------------- */
+
+enum { UNIT = 1, BYTE = 255, WORD = 65535 };
+
+#define THREE (1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE)
+
+/* A channel alone is no colour. */
+void cloud_begin_values(cloud_file *file, unsigned channels, unsigned full)
+{
+    if ((channels & THREE) != THREE)
+        channels &= ~THREE;
+    file->channels = channels & ~(1U << CLOUD_X | 1U << CLOUD_Y | 1U << CLOUD_Z);
+    file->out->color_full = channels & THREE ? full : BYTE;
+}
+
+void cloud_drop_values(cloud_file *file)
+{
+    file->channels = 0;
+    point_values_release(&file->out->values);
+}
+
+/* A channel is more than a full one was taken for. All before it were not: nothing is lost. */
+static void widen(cloud *points)
+{
+    const bool unit = points->color_full == UNIT;
+    unsigned char *at = points->values.colors ? points->values.colors[0] : NULL;
+    for (size_t i = 0; at && i < 3 * points->values.count; i++)
+        at[i] = unit && at[i] > BYTE / 2;
+    points->color_full = unit ? BYTE : WORD;
+}
+
+static unsigned char channel_of(double number, unsigned full)
+{
+    if (full == WORD)
+        return (unsigned char)((unsigned)number >> 8);
+    return (unsigned char)(number * (full == UNIT ? BYTE : 1) + 0.5);
+}
+
+static bool take_color(cloud *points, const double *channels, unsigned char color[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (!(channels[i] >= 0 && channels[i] <= WORD))
+            return false;
+    for (int i = 0; i < 3; i++)
+        while (channels[i] > points->color_full)
+            widen(points);
+    for (int i = 0; i < 3; i++)
+        color[i] = channel_of(channels[i], points->color_full);
+    return true;
+}
+
+static bool unpack_color(double number, unsigned char color[3])
+{
+    if (!(number >= 0 && number <= UINT32_MAX))
+        return false;
+    const uint32_t packed = (uint32_t)number;
+    for (int i = 0; i < 3; i++)
+        color[i] = (unsigned char)(packed >> (16 - 8 * i));
+    return true;
+}
+
+static bool has(const cloud_file *file, cloud_channel channel)
+{
+    return file->channels >> channel & 1;
+}
+
+point_value cloud_value_of(cloud_file *file, const double *numbers)
+{
+    point_value value = {0};
+    if (has(file, CLOUD_RED))
+        value.has[POINT_COLOR] = take_color(file->out, numbers + CLOUD_RED, value.color);
+    else if (has(file, CLOUD_PACKED))
+        value.has[POINT_COLOR] = unpack_color(numbers[CLOUD_PACKED], value.color);
+    if (has(file, CLOUD_INTENSITY) && fabs(numbers[CLOUD_INTENSITY]) <= FLT_MAX) {
+        value.has[POINT_INTENSITY] = true;
+        value.intensity = (float)numbers[CLOUD_INTENSITY];
+    }
+    const double class = has(file, CLOUD_CLASS) ? numbers[CLOUD_CLASS] : -1;
+    if (class >= 0 && class <= UINT16_MAX && class == floor(class)) {
+        value.has[POINT_CLASS] = true;
+        value.class = (uint16_t) class;
+    }
+    return value;
+}
+
+static bool all_zero(const void *items, size_t size)
+{
+    const unsigned char *bytes = items;
+    for (size_t i = 0; i < size; i++)
+        if (bytes[i])
+            return false;
+    return true;
+}
+
+void cloud_end_values(cloud_file *file)
+{
+    point_values *v = &file->out->values;
+    if (file->zero_is_none) {
+        if (v->colors && all_zero(v->colors, v->count * sizeof *v->colors))
+            point_values_drop(v, POINT_COLOR);
+        if (v->intensities && all_zero(v->intensities, v->count * sizeof *v->intensities))
+            point_values_drop(v, POINT_INTENSITY);
+        if (v->classes && all_zero(v->classes, v->count * sizeof *v->classes))
+            point_values_drop(v, POINT_CLASS);
+    }
+    if (point_values_kinds(v) == 0)
+        cloud_drop_values(file);
+    if (!v->colors)
+        file->out->color_full = 0;
+}

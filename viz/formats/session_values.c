@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: MIT */
+/* session_values.c - the values of points in a session file, beside their positions: as members of a point's object or
+ * as further columns of its row. */
+#include "array.h"
+#include "number.h"
+#include "session_members.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- One value ---------------------------------------------------------------------------------------------- */
+
+static const char *const kind_names[] = {
+    [POINT_COLOR] = "color", [POINT_INTENSITY] = "intensity", [POINT_CLASS] = "class"};
+
+static int hex_of(char c)
+{
+    const char *digits = "0123456789abcdef", *at = c ? strchr(digits, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c) : NULL;
+    return at ? (int)(at - digits) : -1;
+}
+
+static bool read_color(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *text = json_string_value(value);
+    unsigned char *color = into;
+    bool ok = text && strlen(text) == 7 && *text == '#';
+    for (int i = 0; ok && i < 3; i++) {
+        const int high = hex_of(text[1 + 2 * i]), low = hex_of(text[2 + 2 * i]);
+        ok = high >= 0 && low >= 0;
+        color[i] = (unsigned char)(ok ? high * 16 + low : 0);
+    }
+    return ok || json_expected(r, value, at, "a colour \"#rrggbb\"");
+}
+
+static void write_color(json_writer *w, const void *from)
+{
+    const unsigned char *color = from;
+    char text[8];
+    snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
+    json_write_string(w, text);
+}
+
+static bool read_intensity(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    double number;
+    float *intensity = into;
+    if (!json_read_number(r, value, at, &number))
+        return false;
+    if (fabs(number) > FLT_MAX)
+        return json_fail(r, at, "an intensity is a float, and this is beyond the largest");
+    *intensity = (float)number;
+    return true;
+}
+
+/* As the double of the fewest digits that reads back to the same float. */
+static void write_intensity(json_writer *w, const void *from)
+{
+    enum { FEWEST = 6, MOST = 9 };
+    char text[NUMBER_TEXT];
+    const float intensity = *(const float *)from;
+    double number = (double)intensity;
+    for (int digits = FEWEST; digits < MOST; digits++) {
+        double shorter;
+        const char *end;
+        number_text((double)intensity, digits, text);
+        if (number_parse(text, text + strlen(text), &end, &shorter) && fabs(shorter) <= FLT_MAX &&
+            (float)shorter == intensity) {
+            number = shorter;
+            break;
+        }
+    }
+    json_write_number(w, number);
+}
+
+static bool read_class(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    uint64_t whole;
+    uint16_t *class = into;
+    if (!json_read_whole(r, value, at, 0, UINT16_MAX, &whole))
+        return false;
+    *class = (uint16_t)whole;
+    return true;
+}
+
+static void write_class(json_writer *w, const void *from)
+{
+    json_write_integer(w, *(const uint16_t *)from);
+}
+
+/* ---- Points that are objects -------------------------------------------------------------------------------- */
+
+/* A point as its members are read and written. */
+typedef struct valued_body {
+    octree_body body;
+    point_value value;
+} valued_body;
+
+#define ID "id", &json_uint64, offsetof(valued_body, body.id), .max = JSON_LARGEST_WHOLE
+#define POSITION "position", &json_vector, offsetof(valued_body, body.position), .required = true
+#define VELOCITY "velocity", &json_nonzero_vector, .offset = offsetof(valued_body, body.velocity)
+#define VALUE(name, read, write, kind, field)                                                                          \
+    name, JSON_CODEC(read, write, NULL), .offset = offsetof(valued_body, value.field),                                 \
+                                         .given = offsetof(valued_body, value.has[kind])
+#define COLOR VALUE("color", read_color, write_color, POINT_COLOR, color)
+#define INTENSITY VALUE("intensity", read_intensity, write_intensity, POINT_INTENSITY, intensity)
+#define CLASS VALUE("class", read_class, write_class, POINT_CLASS, class)
+
+const json_member session_body_members[] = {{ID}, {POSITION}, {VELOCITY}, {COLOR}, {INTENSITY}, {CLASS}, {0}};
+static const json_member insert_members[] = {
+    {ID, .required = true}, {POSITION}, {VELOCITY}, {COLOR}, {INTENSITY}, {CLASS}, {0}};
+
+static bool read_valued(json_reader *r, json_t *value, const json_place *at, const json_member *members,
+                        octree_body *body)
+{
+    valued_body valued = {.body = *body};
+    if (!json_read_members(r, value, at, members, &valued))
+        return false;
+    *body = valued.body;
+    return session_keep_value(r, at, body->id, &valued.value);
+}
+
+static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return read_valued(r, value, at, session_body_members, into);
+}
+
+static bool read_insert(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return read_valued(r, value, at, insert_members, into);
+}
+
+static void write_body(json_writer *w, const void *from)
+{
+    valued_body valued = {.body = *(const octree_body *)from};
+    valued.value = point_values_get(w->context, valued.body.id);
+    json_write_object(w, session_body_members, &valued);
+}
+
+const json_codec session_body_codec = {read_body, write_body, NULL};
+const json_codec session_insert_codec = {read_insert, write_body, NULL};
+
+/* ---- Points that are rows ----------------------------------------------------------------------------------- */
+
+static const char *kind_at(int n)
+{
+    return n < POINT_VALUE_KINDS ? kind_names[n] : NULL;
+}
+
+static bool read_columns(json_reader *r, json_t *list, const json_place *at, void *into)
+{
+    session_values *values = &((session_loader *)r->context)->values;
+    const size_t count = json_array_size(list);
+    unsigned seen = 0;
+    (void)into;
+    if (!json_is_array(list) || count == 0)
+        return json_expected(r, list, at, "a list of \"color\", \"intensity\" and \"class\"");
+    for (size_t i = 0; i < count; i++) {
+        json_t *name = json_array_get(list, i);
+        const json_place place = {at, NULL, i};
+        const int kind = json_find_name(kind_at, json_string_value(name));
+        if (kind < 0)
+            return json_expected(r, name, &place, "one of \"color\", \"intensity\" and \"class\"");
+        if (seen >> kind & 1)
+            return json_fail(r, &place, "\"%s\" is there twice", kind_names[kind]);
+        seen |= 1U << kind;
+        values->columns[values->column_count++] = kind;
+    }
+    return true;
+}
+
+static void write_columns(json_writer *w, const void *from)
+{
+    (void)from;
+    json_write_begin_array(w);
+    for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
+        if (point_values_kinds(w->context) >> kind & 1)
+            json_write_string(w, kind_names[kind]);
+    json_write_end_array(w);
+}
+
+static bool has_columns(const void *from)
+{
+    const point_values *const *values = from;
+    return point_values_kinds(*values) != 0;
+}
+
+const json_codec session_columns_codec = {read_columns, write_columns, has_columns};
+
+bool session_read_column(json_reader *r, json_t *value, const json_place *at, point_value_kind kind, point_value *into)
+{
+    if (json_is_null(value))
+        return true;
+    into->has[kind] = true;
+    switch (kind) {
+    case POINT_COLOR:
+        return read_color(r, value, at, into->color);
+    case POINT_INTENSITY:
+        return read_intensity(r, value, at, &into->intensity);
+    default:
+        return read_class(r, value, at, &into->class);
+    }
+}
+
+/* A row without any is short. */
+void session_write_columns(json_writer *w, uint64_t id)
+{
+    const unsigned kinds = point_values_kinds(w->context);
+    const point_value value = kinds ? point_values_get(w->context, id) : (point_value){0};
+    if (!point_value_is_set(&value))
+        return;
+    for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
+        if (!(kinds >> kind & 1))
+            continue;
+        if (!value.has[kind])
+            json_write_null(w);
+        else if (kind == POINT_COLOR)
+            write_color(w, value.color);
+        else if (kind == POINT_INTENSITY)
+            write_intensity(w, &value.intensity);
+        else
+            write_class(w, &value.class);
+    }
+}
+
+/* ---- By id -------------------------------------------------------------------------------------------------- */
+
+static const hash_map_keys by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_same_id};
+
+static bool append(session_values *s, uint64_t id, const point_value *value)
+{
+    point_entry *listed = array_reserve(s->listed, s->ids.count + 1, &s->room, sizeof *listed);
+    if (!listed)
+        return false;
+    s->listed = listed;
+    listed[s->ids.count] = (point_entry){id, *value};
+    return hash_map_add(&s->ids, &by_id, listed);
+}
+
+bool session_keep_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
+{
+    session_values *s = &((session_loader *)r->context)->values;
+    if (!point_value_is_set(value))
+        return true;
+    const uint32_t listed = hash_map_find(&s->ids, &by_id, s->listed, &id);
+    const point_value before = listed == HASH_MAP_NONE ? point_values_get(&s->made, id) : s->listed[listed].value;
+    if (!point_value_is_set(&before))
+        return append(s, id, value) || json_fail(r, at, "out of memory");
+    return point_value_same(&before, value) ||
+           json_fail(r, at,
+                     "the point with the id %" PRIu64 " had another color, intensity or class before, and an id keeps "
+                     "its own through a session",
+                     id);
+}
+
+bool session_end_values(json_reader *r)
+{
+    session_values *s = &((session_loader *)r->context)->values;
+    if (!point_values_add(&s->made, s->listed, s->ids.count))
+        return json_fail(r, NULL, "out of memory for the values");
+    hash_map_clear(&s->ids);
+    return true;
+}
+
+void session_release_listed(session_values *values)
+{
+    free(values->listed);
+    hash_map_release(&values->ids);
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/* inspect_values.c - what the points of a cloud have beside their positions: colours, intensities and classes. */
+#include "inspect.h"
+#include "number.h"
+#include "text.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+enum { CLASSES = UINT16_MAX + 1, CLASSES_LISTED = 16 };
+
+/* What there is of each kind. */
+typedef struct value_summary {
+    size_t counts[POINT_VALUE_KINDS]; /* points that have one */
+    float least, most;                /* intensities */
+    size_t *classes;                  /* points of each of CLASSES; null: no memory, or there are none */
+} value_summary;
+
+static void count_intensity(value_summary *s, float intensity)
+{
+    const bool first = s->counts[POINT_INTENSITY] == 1;
+    if (first || intensity < s->least)
+        s->least = intensity;
+    if (first || intensity > s->most)
+        s->most = intensity;
+}
+
+static value_summary sum_up(const point_values *v)
+{
+    value_summary s = {.classes = v->classes ? calloc(CLASSES, sizeof *s.classes) : NULL};
+    for (size_t row = 0; row < v->count; row++) {
+        for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
+            s.counts[kind] += point_values_has(v, row, (point_value_kind)kind);
+        if (point_values_has(v, row, POINT_INTENSITY))
+            count_intensity(&s, v->intensities[row]);
+        if (s.classes && point_values_has(v, row, POINT_CLASS))
+            s.classes[v->classes[row]]++;
+    }
+    return s;
+}
+
+static void print_classes(const size_t *classes, FILE *out)
+{
+    size_t listed = 0, all = 0;
+    for (int i = 0; i < CLASSES; i++)
+        all += classes[i] > 0;
+    fputs(all == 1 ? "class" : "classes", out);
+    for (int i = 0; i < CLASSES && listed < CLASSES_LISTED; i++)
+        if (classes[i] > 0)
+            fprintf(out, "%s %d", listed++ ? "," : "", i);
+    if (all > listed)
+        fprintf(out, " and %zu more", all - listed);
+}
+
+static void print_kind(const inspection *i, const value_summary *s, point_value_kind kind, FILE *out)
+{
+    char least[NUMBER_TEXT], most[NUMBER_TEXT];
+    if (kind == POINT_COLOR)
+        fprintf(out, "color 0-%u", i->color_full);
+    else if (kind == POINT_INTENSITY)
+        fprintf(out, "intensity %s to %s", number_text((double)s->least, 6, least),
+                number_text((double)s->most, 6, most));
+    else if (s->classes)
+        print_classes(s->classes, out);
+    else
+        fputs("classes", out);
+    if (s->counts[kind] < i->points)
+        fprintf(out, " of %zu point%s", s->counts[kind], plural(s->counts[kind]));
+}
+
+void inspect_print_values(const inspection *i, FILE *out)
+{
+    const value_summary s = sum_up(&i->values);
+    const char *before = "  values    ";
+    for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
+        if (s.counts[kind] == 0)
+            continue;
+        fputs(before, out);
+        print_kind(i, &s, (point_value_kind)kind, out);
+        before = "; ";
+    }
+    if (point_values_kinds(&i->values))
+        fputc('\n', out);
+    if (i->decided)
+        fprintf(out, "  columns   %s\n", i->decided);
+    free(s.classes);
+}
+
+static void write_classes(const value_summary *s, json_writer *w)
+{
+    json_member_begin_array(w, "classes");
+    for (int i = 0; s->classes && i < CLASSES; i++) {
+        if (s->classes[i] == 0)
+            continue;
+        json_write_begin_object(w);
+        json_member_integer(w, "class", (uint64_t)i);
+        json_member_integer(w, "points", s->classes[i]);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+/* "values": {"color": {"points": 3, "full": 255}, "intensity": {...}, "class": {...}} */
+void inspect_write_values(const inspection *i, json_writer *w)
+{
+    const value_summary s = sum_up(&i->values);
+    if (point_values_kinds(&i->values) == 0 && !i->decided)
+        return;
+    json_member_begin_object(w, "values");
+    if (s.counts[POINT_COLOR]) {
+        json_member_begin_object(w, "color");
+        json_member_integer(w, "points", s.counts[POINT_COLOR]);
+        json_member_integer(w, "full", i->color_full);
+        json_write_end_object(w);
+    }
+    if (s.counts[POINT_INTENSITY]) {
+        json_member_begin_object(w, "intensity");
+        json_member_integer(w, "points", s.counts[POINT_INTENSITY]);
+        json_member_number(w, "min", (double)s.least);
+        json_member_number(w, "max", (double)s.most);
+        json_write_end_object(w);
+    }
+    if (s.counts[POINT_CLASS]) {
+        json_member_begin_object(w, "class");
+        json_member_integer(w, "points", s.counts[POINT_CLASS]);
+        write_classes(&s, w);
+        json_write_end_object(w);
+    }
+    if (i->decided)
+        json_member_text(w, "columns", i->decided);
+    json_write_end_object(w);
+    free(s.classes);
+}
