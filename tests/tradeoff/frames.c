@@ -82,7 +82,7 @@ image draw_reference(const scene *picture)
 {
     image drawn = draw_samples(picture), small;
     if (!image_create(&small, picture->view.width, picture->view.height, 3) ||
-        !image_shrink(&drawn, REFERENCE_SAMPLES, &small))
+        !image_shrink(&drawn, NULL, REFERENCE_SAMPLES, &small))
         stop("there is no memory for a picture");
     image_release(&drawn);
     return small;

@@ -175,7 +175,7 @@ static void measure_frame(const run *r, table *t, const char *name, const image 
 static image in_colors(const image *indexed)
 {
     image rgb;
-    if (!image_create(&rgb, indexed->width, indexed->height, 3) || !image_shrink(indexed, 1, &rgb))
+    if (!image_create(&rgb, indexed->width, indexed->height, 3) || !image_shrink(indexed, NULL, 1, &rgb))
         stop("there is no memory for a picture");
     return rgb;
 }

@@ -16,6 +16,7 @@ void painter_release(painter *p)
     edges_release(&p->edges);
     free(p->nearest);
     free(p->places);
+    splats_release(&p->splats);
     memset(p, 0, sizeof *p);
 }
 
@@ -166,7 +167,8 @@ bool paint(painter *p, const scene *picture)
     p->quads.out_of_memory = false;
     p->quads.limit = clip_square(s->view.width, s->view.height) * QUAD_SUBPIXELS;
     p->overflowed = 0;
-    if (!paint_boxes(p, s) || !paint_points(p, s))
+    if (!paint_boxes(p, s) ||
+        !(view_paints_points(&s->view) ? splats_paint(&p->splats, &p->quads, s) : paint_points(p, s)))
         return false;
     paint_segments(p, s, false);
     for (size_t i = 0; i < s->markers.count; i++) {
@@ -177,6 +179,8 @@ bool paint(painter *p, const scene *picture)
     for (size_t i = 0; i < s->panels.count; i++) {
         quads_begin(&p->quads, SCENE_PANEL, i);
         stroke_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
+        if (s->panels.items[i].style.role == ROLE_OWN)
+            splats_fill(&p->splats, s, &s->panels.items[i]);
     }
     paint_segments(p, s, true); /* above the panels of their layer */
     for (size_t i = 0; i < s->labels.count; i++) {

@@ -5,6 +5,7 @@
 
 #include "edges.h"
 #include "quads.h"
+#include "splats.h"
 
 /* Data that is reused from frame to frame. Empty when zeroed. */
 typedef struct painter {
@@ -15,6 +16,7 @@ typedef struct painter {
     size_t pixels;
     struct point_place *places; /* where each point is drawn */
     size_t place_room;
+    splats splats;     /* points that are painted one by one */
     size_t overflowed; /* elements of the last scene that are too far away for doubles, and so not drawn */
 } painter;
 

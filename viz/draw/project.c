@@ -131,13 +131,27 @@ bool project_flat(const scene *s, const double from[3], const double to[3], piec
     return clip_to_picture(&s->view, p);
 }
 
-bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band)
+unsigned project_band(const camera *c, double depth)
+{
+    return band_of(band_position(c, depth));
+}
+
+bool project_place(const scene *s, const double position[3], double pixel[2], double *depth)
 {
     double seen[3];
     if (!see(s, position, seen) || (s->camera.perspective && seen[2] < s->camera.near))
         return false;
     camera_project(&s->camera, seen, pixel);
-    *band = band_of(band_position(&s->camera, seen[2]));
+    *depth = seen[2];
     return pixel[0] >= -CLIP_MARGIN && pixel[0] < s->view.width + CLIP_MARGIN && pixel[1] >= -CLIP_MARGIN &&
            pixel[1] < s->view.height + CLIP_MARGIN;
+}
+
+bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band)
+{
+    double depth;
+    if (!project_place(s, position, pixel, &depth))
+        return false;
+    *band = project_band(&s->camera, depth);
+    return true;
 }

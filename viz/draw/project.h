@@ -26,6 +26,12 @@ unsigned project_segment(const scene *s, const double from[3], const double to[3
  * picture. */
 bool project_flat(const scene *s, const double from[3], const double to[3], piece *p);
 
+/* A point's pixel and view depth; false when it lies behind the camera or outside the picture. */
+bool project_place(const scene *s, const double position[3], double pixel[2], double *depth);
+
+/* The band of a view depth. */
+unsigned project_band(const camera *c, double depth);
+
 /* A point's pixel and band; false when it lies behind the camera or outside the picture. */
 bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band);
 

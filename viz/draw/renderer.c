@@ -116,6 +116,11 @@ bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error 
     return true;
 }
 
+const uint8_t *renderer_own_colors(const renderer *r)
+{
+    return r->painter.splats.colors;
+}
+
 size_t renderer_left_out(const renderer *r)
 {
     return r->left_out;

@@ -39,6 +39,10 @@ renderer_info renderer_about(const renderer *r);
 /* Draw a scene whose picture has the renderer's size in samples into width * height indices, rows from the top. */
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error *error);
 
+/* Of the scene that was drawn last, where its view paints points: r, g, b a sample, the colour where the index is
+ * THEME_OWN. Valid until the next one. */
+const uint8_t *renderer_own_colors(const renderer *r);
+
 /* Elements of the last scene that are not in its frame: NaN or infinite, or too far off for doubles. */
 size_t renderer_left_out(const renderer *r);
 

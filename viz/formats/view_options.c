@@ -45,6 +45,26 @@ static const char *diagram_words_at(int n)
     return view_diagram_words((view_diagram)n);
 }
 
+static const char *point_color_at(int n)
+{
+    return view_point_color_name((view_point_color)n);
+}
+
+static const char *point_color_words_at(int n)
+{
+    return view_point_color_words((view_point_color)n);
+}
+
+static const char *shade_at(int n)
+{
+    return view_shade_name((view_shade)n);
+}
+
+static const char *shade_words_at(int n)
+{
+    return view_shade_words((view_shade)n);
+}
+
 const char *view_layer_at(int n)
 {
     return n < LAYER_COUNT ? layer_rows[n].name : NULL;
@@ -180,6 +200,35 @@ static void write_fit(json_writer *w, const void *from)
 static bool fits_box(const void *from)
 {
     return ((const view *)from)->fit == FIT_BOX;
+}
+
+/* ---- Points ------------------------------------------------------------------------------------------------- */
+
+#define SCALE_NUMBERS (sizeof(point_scale) / sizeof(double))
+
+static bool read_scale(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    double n[SCALE_NUMBERS];
+    if (!json_is_array(value) || json_array_size(value) != SCALE_NUMBERS)
+        return json_expected(r, value, at, "nine numbers");
+    if (!json_read_numbers(r, value, at, 0, SCALE_NUMBERS, n))
+        return false;
+    const point_scale s = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7]}, n[8]};
+    for (int i = 0; i < 3; i++)
+        if (s.low[i] > s.high[i])
+            return json_fail(r, at, "the lowest place is above the highest");
+    if (s.spacing < 0)
+        return json_fail(r, at, "the spacing is below 0");
+    memcpy(into, &s, sizeof s);
+    return true;
+}
+
+static void write_scale(json_writer *w, const void *from)
+{
+    const point_scale *s = from;
+    const double n[SCALE_NUMBERS] = {s->low[0],  s->low[1], s->low[2], s->high[0], s->high[1],
+                                     s->high[2], s->ids[0], s->ids[1], s->spacing};
+    json_write_numbers(w, n, SCALE_NUMBERS);
 }
 
 /* ---- Layers ------------------------------------------------------------------------------------------------- */
@@ -392,6 +441,14 @@ static const view_option rows[] = {
     {"color-by", "MODE", "colour mode", "what the colour of a node tells (default depth): one of", parse_choice,
      MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at, .words = coloring_words_at,
      .noun = "colouring"},
+    {"color-points", "MODE", "point colour",
+     "what the colour of a point tells (default plain; inspect: height): one of", parse_choice,
+     MEMBER("color_points", &json_later_choice, point_color), .member.names = point_color_at,
+     .words = point_color_words_at, .noun = "colouring of points"},
+    {"shade", "MODE", "shade", "what tells how far off points are (default bands): one of", parse_choice,
+     MEMBER("shade", &json_later_choice, shade), .member.names = shade_at, .words = shade_words_at},
+    {MEMBER("point_scale", JSON_CODEC(read_scale, write_scale, NULL), point_scale.of),
+     .member.given = offsetof(view, point_scale.given), .noun = "scale of points"},
     {"diagram", "WHERE", "diagram", "draw the tree as a tree, its root at the top (default none): one of", parse_choice,
      MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at, .words = diagram_words_at},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",

@@ -56,47 +56,57 @@ image_color image_color_at(const image *image, int x, int y)
 
 /* One block of samples, whose first is at `at`. */
 typedef struct block {
-    const uint8_t *at;
-    size_t row; /* samples from one row to the next */
+    const image *of;
+    const uint8_t *own;
+    size_t at;
     int side;
 } block;
 
-/* Most blocks are of one colour. */
+/* Most blocks are of one colour of the palette. */
 static bool is_flat(const block *b)
 {
-    for (int y = 0; y < b->side; y++)
+    const uint8_t *at = b->of->pixels + b->at;
+    if (*at >= b->of->palette.count)
+        return b->side == 1;
+    for (int y = 0; y < b->side; y++, at += b->of->width)
         for (int x = 0; x < b->side; x++)
-            if (b->at[(size_t)y * b->row + (size_t)x] != *b->at)
+            if (at[x] != b->of->pixels[b->at])
                 return false;
     return true;
 }
 
-static image_color mean_of(const block *b, const image_palette *palette)
+static image_color sample_at(const block *b, size_t at)
+{
+    const uint8_t index = b->of->pixels[at], *own = b->own + 3 * at;
+    return index < b->of->palette.count ? b->of->palette.colors[index] : (image_color){own[0], own[1], own[2]};
+}
+
+static image_color mean_of(const block *b)
 {
     const unsigned count = (unsigned)(b->side * b->side);
     unsigned sums[3] = {count / 2, count / 2, count / 2}; /* to the nearest */
     for (int y = 0; y < b->side; y++) {
         for (int x = 0; x < b->side; x++) {
-            const image_color *color = &palette->colors[b->at[(size_t)y * b->row + (size_t)x]];
-            sums[0] += color->r;
-            sums[1] += color->g;
-            sums[2] += color->b;
+            const image_color color = sample_at(b, b->at + (size_t)y * (size_t)b->of->width + (size_t)x);
+            sums[0] += color.r;
+            sums[1] += color.g;
+            sums[2] += color.b;
         }
     }
     return (image_color){(uint8_t)(sums[0] / count), (uint8_t)(sums[1] / count), (uint8_t)(sums[2] / count)};
 }
 
-bool image_shrink(const image *from, int factor, image *small)
+bool image_shrink(const image *from, const uint8_t *own, int factor, image *small)
 {
     if (factor < 1 || factor > 16 || from->channels != 1 || small->channels != 3 ||
         from->width != small->width * factor || from->height != small->height * factor)
         return false;
-    block b = {.row = (size_t)from->width, .side = factor};
+    block b = {.of = from, .own = own, .side = factor};
     uint8_t *out = small->pixels;
     for (int y = 0; y < small->height; y++) {
-        b.at = from->pixels + (size_t)y * (size_t)factor * b.row;
-        for (int x = 0; x < small->width; x++, b.at += factor, out += 3) {
-            const image_color color = is_flat(&b) ? from->palette.colors[*b.at] : mean_of(&b, &from->palette);
+        b.at = (size_t)y * (size_t)factor * (size_t)from->width;
+        for (int x = 0; x < small->width; x++, b.at += (size_t)factor, out += 3) {
+            const image_color color = is_flat(&b) ? sample_at(&b, b.at) : mean_of(&b);
             out[0] = color.r;
             out[1] = color.g;
             out[2] = color.b;

@@ -67,7 +67,8 @@ image_color image_color_at(const image *image, int x, int y);
 bool image_has_colors(const image *image);
 
 /* Fill an RGB image from an indexed one whose sides are `factor` times (1 to 16) as long: each pixel is the mean of
- * factor * factor, rounded to the nearest. False, and nothing done, when the two do not fit together so. */
-bool image_shrink(const image *from, int factor, image *small);
+ * factor * factor, rounded to the nearest. Where an index is beyond the palette, the colour is that of `own`, r, g, b a
+ * pixel of `from`; null where there is none such. False, and nothing done, when the two do not fit together so. */
+bool image_shrink(const image *from, const uint8_t *own, int factor, image *small);
 
 #endif

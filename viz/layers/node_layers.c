@@ -4,7 +4,9 @@
 #include "layer_type.h"
 #include "layout.h"
 #include "node_boxes.h"
+#include "point_colors.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,7 +85,12 @@ static void add_points(tree_walk *w, const octree_node *leaf)
         if (takes_point(w, &leaf->points[i]))
             some[count++] = leaf->points[i];
     sort_points(some, count);
-    scene_add_points(s, some, count, SHAPE_SQUARE, layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width));
+    scene_style style = layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width);
+    style.role = view_paints_points(&s->view) ? ROLE_OWN : style.role;
+    const size_t before = s->markers.count;
+    scene_add_points(s, some, count, SHAPE_SQUARE, style);
+    if (style.role == ROLE_OWN)
+        color_points(&s->view, leaf, s->markers.items + before, s->markers.count - before);
     s->tally.points += count;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
         thin_points(w);
@@ -201,6 +208,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     octree_walk(in->tree, add_node, &w);
     s->tally.deepest = w.deepest;
     s->tally.one_in = w.sieve + 1;
+    s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * sqrt((double)s->tally.one_in) : 0;
     if (s->view.labels && view_shows(&s->view, own))
         add_labels(s);
 }

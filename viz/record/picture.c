@@ -2,6 +2,7 @@
 #include "picture.h"
 #include "filter.h"
 #include "camera.h"
+#include "point_scale.h"
 
 _Static_assert(VIEW_MAX_SIDE <= IMAGE_MAX_SIDE, "what is drawn can be written, and read again");
 
@@ -20,6 +21,8 @@ bool picture_fit(view *v, const octree *tree, octreel_error *error)
     char reason[FILTER_TEXT];
     const octree_def def = octree_definition(tree);
     camera_fit(v, tree);
+    if (!point_scale_fit(v, tree))
+        return error_no_memory(error);
     return !filter_refusal(&v->filter, &def, reason) || error_set(error, "%s", reason);
 }
 
@@ -39,9 +42,10 @@ static bool check_samples(const view *v, octreel_error *error)
 static bool create_images(picture *p, const view *v)
 {
     const int samples = view_samples(v);
-    image *drawn = samples > 1 ? &p->samples : &p->frame;
+    const bool rgb = view_is_rgb(v);
+    image *drawn = rgb ? &p->samples : &p->frame;
     if (!image_create(drawn, v->width * samples, v->height * samples, 1) ||
-        (samples > 1 && !image_create(&p->frame, v->width, v->height, 3)))
+        (rgb && !image_create(&p->frame, v->width, v->height, 3)))
         return false;
     drawn->palette = theme_palette();
     return true;
@@ -74,6 +78,7 @@ bool picture_draw(picture *p, const scene *s, octreel_error *error)
     image *drawn = p->samples.pixels ? &p->samples : &p->frame;
     if (!renderer_draw(p->renderer, s, drawn->pixels, error))
         return false;
-    return drawn == &p->frame || image_shrink(drawn, view_samples(&s->view), &p->frame) ||
+    return drawn == &p->frame ||
+           image_shrink(drawn, renderer_own_colors(p->renderer), view_samples(&s->view), &p->frame) ||
            error_set(error, "the scene is not of the picture's anti-aliasing");
 }

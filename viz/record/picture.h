@@ -9,8 +9,8 @@
 
 typedef struct picture {
     renderer *renderer;
-    image frame;   /* the scene that was drawn last: indices of the theme's table, or RGB under anti-aliasing */
-    image samples; /* under anti-aliasing what the frame is made of; else empty */
+    image frame;   /* the scene that was drawn last: indices of the theme's table, or RGB: view_is_rgb() */
+    image samples; /* of RGB what the frame is made of; else empty */
 } picture;
 
 /* Fit a view to the tree that it shows first. False with the reason where there is nothing in it to be seen. */

@@ -12,6 +12,7 @@ void scene_clear(scene *s)
 {
     s->boxes.count = s->segments.count = s->markers.count = s->labels.count = s->panels.count = 0;
     s->tally = (scene_tally){0};
+    s->spacing = 0;
     s->refused = 0;
     s->out_of_memory = false;
 }
@@ -185,7 +186,7 @@ static uint64_t digest_doubles(uint64_t digest, const double *values, size_t cou
 /* Layers and roles enter a digest as hashes of their names, so that adding one does not change the digests of scenes
  * without it. */
 typedef struct digest_names {
-    uint64_t layers[LAYER_DIAGRAM + 1], roles[ROLE_COUNT];
+    uint64_t layers[LAYER_DIAGRAM + 1], roles[ROLE_OWN + 1];
 } digest_names;
 
 static uint64_t hash_name(const char *what, const char *name)
@@ -198,7 +199,7 @@ static digest_names hash_names(void)
     digest_names n;
     for (int i = 0; i <= LAYER_DIAGRAM; i++)
         n.layers[i] = hash_name("layer ", layer_rows[i].name);
-    for (int i = 0; i < ROLE_COUNT; i++)
+    for (int i = 0; i <= ROLE_OWN; i++)
         n.roles[i] = hash_name("role ", theme_role_name((theme_role)i));
     return n;
 }
@@ -208,6 +209,16 @@ static uint64_t digest_style(const digest_names *n, uint64_t id, scene_style sty
     const uint64_t how = (uint64_t)style.stroke | (uint64_t)style.width << 8 | (uint64_t)extra << 16;
     const uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
     return octree_digest_word(digest, n->layers[style.layer] + n->roles[style.role] + how);
+}
+
+/* Where points are painted, how. */
+static uint64_t digest_painting(const scene *s, uint64_t digest)
+{
+    if (!view_paints_points(&s->view))
+        return digest;
+    digest = octree_digest_word(digest, hash_name("color ", view_point_color_name(s->view.point_color)));
+    digest = octree_digest_word(digest, hash_name("shade ", view_shade_name(s->view.shade)));
+    return octree_digest_double(digest, s->spacing);
 }
 
 static uint64_t digest_view(const scene *s)
@@ -224,7 +235,7 @@ static uint64_t digest_view(const scene *s)
     digest = digest_doubles(digest, c->forward, 3);
     digest = digest_doubles(digest, c->eye, 3);
     digest = digest_doubles(digest, (double[]){c->perspective, c->zoom, c->near, c->near_depth, c->far_depth}, 5);
-    return digest_doubles(digest, c->middle, 2);
+    return digest_painting(s, digest_doubles(digest, c->middle, 2));
 }
 
 static uint64_t digest_box(const digest_names *n, const scene_box *box)
@@ -239,9 +250,16 @@ static uint64_t digest_segment(const digest_names *n, const scene_segment *segme
     return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
 }
 
+/* 0 where an element has no colour of its own. */
+static unsigned word_of(theme_color color)
+{
+    return (unsigned)color.r << 16 | (unsigned)color.g << 8 | color.b;
+}
+
 static uint64_t digest_marker(const digest_names *n, const scene_marker *marker)
 {
-    return digest_doubles(digest_style(n, marker->id, marker->style, marker->shape), marker->at, 3);
+    const unsigned extra = marker->shape | word_of(marker->color) << 8;
+    return digest_doubles(digest_style(n, marker->id, marker->style, extra), marker->at, 3);
 }
 
 static uint64_t digest_label(const digest_names *n, const scene_label *label)
@@ -253,7 +271,7 @@ static uint64_t digest_label(const digest_names *n, const scene_label *label)
 
 static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
 {
-    uint64_t digest = digest_style(n, panel->id, panel->style, 0);
+    uint64_t digest = digest_style(n, panel->id, panel->style, word_of(panel->color));
     digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }

@@ -63,7 +63,8 @@ typedef enum scene_shape {
 typedef struct scene_marker {
     uint64_t id; /* a point's in LAYER_POINTS */
     scene_style style;
-    uint8_t shape; /* scene_shape */
+    uint8_t shape;     /* scene_shape */
+    theme_color color; /* of ROLE_OWN alone */
     double at[3];
 } scene_marker;
 
@@ -82,6 +83,7 @@ typedef struct scene_label {
 typedef struct scene_panel {
     uint64_t id;
     scene_style style;
+    theme_color color; /* of ROLE_OWN alone */
     int x, y, width, height;
 } scene_panel;
 
@@ -131,7 +133,8 @@ static inline bool scene_leaves_out_small(const scene_tally *tally)
 typedef struct scene {
     view view;
     camera camera;
-    int unit; /* whole pixels a unit of width and text */
+    int unit;       /* whole pixels a unit of width and text */
+    double spacing; /* between the points that it shows, where they are painted, in world units; 0: not known */
     SCENE_ARRAY(scene_box) boxes;
     SCENE_ARRAY(scene_segment) segments;
     SCENE_ARRAY(scene_marker) markers;

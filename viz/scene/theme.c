@@ -8,7 +8,7 @@ static const theme_color roles[ROLE_COUNT] = {THEME_ROLE_MAP(ROLE_COLOR)};
 
 const char *theme_role_name(theme_role role)
 {
-    return role_names[role];
+    return role == ROLE_OWN ? "own" : role_names[role];
 }
 
 /* The part of the role's own colour in each shade, in 256ths. */
@@ -19,11 +19,15 @@ static uint8_t mix(uint8_t color, uint8_t ground, int part)
     return (uint8_t)((color * part + ground * (256 - part)) / 256);
 }
 
-theme_color theme_shade(theme_color full, unsigned shade)
+theme_color theme_fade(theme_color full, int parts)
 {
     const theme_color ground = roles[ROLE_BACKGROUND];
-    const int part = strength[shade];
-    return (theme_color){mix(full.r, ground.r, part), mix(full.g, ground.g, part), mix(full.b, ground.b, part)};
+    return (theme_color){mix(full.r, ground.r, parts), mix(full.g, ground.g, parts), mix(full.b, ground.b, parts)};
+}
+
+theme_color theme_shade(theme_color full, unsigned shade)
+{
+    return theme_fade(full, strength[shade]);
 }
 
 theme_color theme_color_at(uint8_t index)
@@ -43,4 +47,39 @@ unsigned theme_step(uint64_t amount, unsigned shift)
     for (; amount > 0 && step < THEME_NODE_DEPTHS - 1; amount >>= shift)
         step++;
     return step;
+}
+
+/* ---- Colours of amounts and kinds ----------------------------------------------------------------------------- */
+
+#define RAMP_STEPS 32
+
+static const theme_color ramp[RAMP_STEPS] = {
+    {67, 58, 130},  {65, 68, 135},  {62, 75, 137},  {58, 83, 138},  {55, 91, 140},  {52, 98, 141},  {48, 105, 141},
+    {45, 113, 142}, {42, 120, 142}, {40, 127, 141}, {37, 134, 141}, {34, 141, 140}, {33, 148, 139}, {33, 155, 136},
+    {34, 162, 134}, {35, 169, 131}, {44, 175, 126}, {53, 181, 121}, {61, 187, 116}, {72, 192, 110}, {86, 197, 102},
+    {100, 202, 94}, {113, 206, 86}, {128, 210, 77}, {143, 213, 68}, {157, 216, 58}, {172, 220, 49}, {187, 223, 39},
+    {204, 225, 38}, {221, 227, 38}, {237, 229, 37}, {253, 231, 37},
+};
+
+static uint8_t between(uint8_t from, uint8_t to, int part)
+{
+    return (uint8_t)(from + ((to - from) * part + 128) / 256);
+}
+
+theme_color theme_ramp(double part)
+{
+    if (!(part > 0))
+        return ramp[0];
+    if (part >= 1)
+        return ramp[RAMP_STEPS - 1];
+    const int at = (int)(part * ((RAMP_STEPS - 1) * 256)), step = at / 256, rest = at % 256;
+    const theme_color a = ramp[step], b = ramp[step + 1];
+    return (theme_color){between(a.r, b.r, rest), between(a.g, b.g, rest), between(a.b, b.b, rest)};
+}
+
+theme_color theme_kind(unsigned kind)
+{
+    static const theme_color kinds[THEME_KINDS] = {{86, 180, 233}, {230, 159, 0},   {0, 158, 115},   {240, 228, 66},
+                                                   {0, 114, 178},  {204, 121, 167}, {225, 225, 225}, {140, 140, 140}};
+    return kinds[kind % THEME_KINDS];
 }

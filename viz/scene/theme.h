@@ -78,6 +78,21 @@ static inline uint8_t theme_index(unsigned role, unsigned shade)
 /* The number of indices in use. */
 #define THEME_COLORS (ROLE_COUNT * THEME_SHADES)
 
+/* The role of an element that has a colour of its own, beside this table, and the index of its pixels. */
+#define ROLE_OWN ROLE_COUNT
+#define THEME_OWN THEME_COLORS
+
+/* A colour that fades to the background: 256 parts of it are the colour itself, 0 the background. */
+theme_color theme_fade(theme_color full, int parts);
+
+/* The colours of an amount from 0 to 1, beyond which they stay: viridis (van der Walt and Smith 2015) without its
+ * darkest sixth, which would be lost on the background; in equal steps to the eye, and lighter with each. */
+theme_color theme_ramp(double part);
+
+/* Colours that any eye tells apart: those of Okabe and Ito without their red, and two greys. */
+#define THEME_KINDS 8
+theme_color theme_kind(unsigned kind);
+
 /* The colour of a node by its depth, or by any other step of the same ramp. */
 theme_role theme_node_role(unsigned depth);
 

@@ -23,6 +23,24 @@
     X(OCCUPANCY, "occupancy", "how many points are in it, on a fixed scale of powers of two")                          \
     X(PLAIN, "plain", "nothing: all have one colour")
 
+/* What the colour of a point means. */
+#define VIEW_POINT_COLOR_MAP(ROW)                                                                                      \
+    ROW(PLAIN, "plain", "nothing: all have one colour")                                                                \
+    ROW(HEIGHT, "height", "how high it lies, which is z")                                                              \
+    ROW(X, "x", "its x")                                                                                               \
+    ROW(Y, "y", "its y")                                                                                               \
+    ROW(Z, "z", "its z")                                                                                               \
+    ROW(LEAF, "leaf", "its leaf: dark and light by turns, in the colours of height")                                   \
+    ROW(DEPTH, "depth", "how deep its leaf lies in the tree")                                                          \
+    ROW(DENSITY, "density", "how many points share its pixel")                                                         \
+    ROW(ID, "id", "its id: of a cloud, its place in the file")
+
+/* What tells how far away a point is. */
+#define VIEW_SHADE_MAP(X)                                                                                              \
+    X(BANDS, "bands", "eight bands, darker with depth")                                                                \
+    X(EDL, "edl", "eye-dome lighting: darker behind what is nearer, which shows surfaces")                             \
+    X(NONE, "none", "nothing")
+
 /* Where the diagram of the tree is drawn: the same of each choice. */
 #define VIEW_DIAGRAM_MAP(X)                                                                                            \
     X(NONE, "none", "nowhere")                                                                                         \
@@ -49,6 +67,27 @@ typedef enum view_diagram {
 #undef VIEW_DIAGRAM_ENUM
         DIAGRAM_COUNT
 } view_diagram;
+
+typedef enum view_point_color {
+#define VIEW_POINT_COLOR_ENUM(name, ...) POINTS_BY_##name,
+    VIEW_POINT_COLOR_MAP(VIEW_POINT_COLOR_ENUM)
+#undef VIEW_POINT_COLOR_ENUM
+        POINTS_BY_COUNT
+} view_point_color;
+
+typedef enum view_shade {
+#define VIEW_SHADE_ENUM(name, ...) SHADE_##name,
+    VIEW_SHADE_MAP(VIEW_SHADE_ENUM)
+#undef VIEW_SHADE_ENUM
+        SHADE_COUNT
+} view_shade;
+
+/* What the points shown at tick 0 are like: point_scale.h. */
+typedef struct point_scale {
+    double low[3], high[3]; /* where nearly all of them are */
+    double ids[2];          /* the least and the greatest */
+    double spacing;         /* from one to the next on a surface, about; 0: not known */
+} point_scale;
 
 /* What the camera frames. */
 typedef enum view_fit {
@@ -77,6 +116,12 @@ typedef struct view {
     unsigned layers; /* bit 1 << view_layer: layer.h */
     view_coloring coloring;
     view_diagram diagram;
+    view_point_color point_color;
+    view_shade shade;
+    struct {
+        bool given;
+        point_scale of;
+    } point_scale; /* of painted points */
     view_filter filter;
     bool labels; /* the paths of nodes on their boxes */
     double lod;  /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
@@ -101,20 +146,36 @@ view view_default(void);
  * at 2160; a narrow picture counts as its 16:9 part. */
 int view_unit(const view *v);
 
+/* Whether points are painted one by one, with colours of their own: not as marks of the theme's table. */
+static inline bool view_paints_points(const view *v)
+{
+    return v->point_color != POINTS_BY_PLAIN || v->shade != SHADE_BANDS;
+}
+
 /* Samples a pixel on each axis. */
 static inline int view_samples(const view *v)
 {
     return v->aa > 1 ? v->aa : 1;
 }
 
+/* Whether its frames are RGB, for colours that the theme's table does not have. */
+static inline bool view_is_rgb(const view *v)
+{
+    return view_samples(v) > 1 || view_paints_points(v);
+}
+
 /* The name; null beyond the last. */
 const char *view_camera_name(view_camera camera);
 const char *view_coloring_name(view_coloring coloring);
 const char *view_diagram_name(view_diagram diagram);
+const char *view_point_color_name(view_point_color color);
+const char *view_shade_name(view_shade shade);
 
 /* What a choice is, in some words; null beyond the last. */
 const char *view_camera_words(view_camera camera);
 const char *view_coloring_words(view_coloring coloring);
 const char *view_diagram_words(view_diagram diagram);
+const char *view_point_color_words(view_point_color color);
+const char *view_shade_words(view_shade shade);
 
 #endif

@@ -163,7 +163,8 @@ bool web_view(size_t recording)
     if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) ||
         !picture_fit(&v, octree_game_tree(page.playback.game), &page.error))
         return fails();
-    if (v.width != now->width || v.height != now->height || view_samples(&v) != view_samples(now)) {
+    if (v.width != now->width || v.height != now->height || view_samples(&v) != view_samples(now) ||
+        view_is_rgb(&v) != view_is_rgb(now)) {
         picture_close(&page.playback.picture);
         free(page.rgba);
         page.rgba = NULL;

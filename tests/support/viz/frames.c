@@ -50,7 +50,7 @@ uint8_t *draw(renderer *r, const scene *s)
     if (!renderer_draw(r, s, frame, &error))
         fail_msg("%s", error.text);
     for (size_t i = 0; i < frame_samples(s); i++)
-        if (frame[i] >= THEME_COLORS)
+        if (frame[i] >= THEME_COLORS && frame[i] != THEME_OWN)
             fail_msg("pixel %zu has the index %d of no role", i, frame[i]);
     return frame;
 }

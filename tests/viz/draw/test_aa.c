@@ -45,7 +45,7 @@ static void each_pixel_is_the_mean_of_its_samples_rounded_to_the_nearest(void **
     uint64_t random = 4;
     for (int factor = 1; factor <= 5; factor++) {
         image from = random_samples(factor * 23, factor * 9, &random), small;
-        assert_true(image_create(&small, 23, 9, 3) && image_shrink(&from, factor, &small));
+        assert_true(image_create(&small, 23, 9, 3) && image_shrink(&from, NULL, factor, &small));
         for (int y = 0; y < 9; y++) {
             for (int x = 0; x < 23; x++) {
                 const uint8_t expected[3] = {mean(&from, x, y, factor, 0), mean(&from, x, y, factor, 1),
@@ -69,7 +69,7 @@ static void images_that_do_not_fit_together_are_left_alone(void **state)
     image from = random_samples(12, 10, &random), small;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         assert_true(image_create(&small, rows[i].width, rows[i].height, rows[i].channels));
-        assert_false(image_shrink(&from, rows[i].factor, &small));
+        assert_false(image_shrink(&from, NULL, rows[i].factor, &small));
         for (int j = 0; j < rows[i].width * rows[i].height * rows[i].channels; j++)
             assert_int_equal(small.pixels[j], 0);
         image_release(&small);
@@ -114,7 +114,7 @@ static void samples_are_the_pixels_of_a_larger_picture(void **state)
         scene small = tick_scene_of(1280, 720, aa, layers), large = tick_scene_of(1280 * aa, 720 * aa, 1, layers);
         small.markers.count = large.markers.count = 0; /* a mark of an odd number of pixels has no middle of another */
         image drawn = picture_of(&small), samples = picture_of(&large), expected;
-        assert_true(image_create(&expected, 1280, 720, 3) && image_shrink(&samples, aa, &expected));
+        assert_true(image_create(&expected, 1280, 720, 3) && image_shrink(&samples, NULL, aa, &expected));
         const image_difference difference = image_compare(&expected, &drawn);
         assert_true(image_same(&difference));
         assert_int_equal(drawn.channels, 3);

@@ -3,6 +3,7 @@
  * places far outside the picture, markers, letters and panels of any size, and whole sessions with all layers. */
 #include "frames.h"
 #include "camera.h"
+#include "point_scale.h"
 #include "random_session.h"
 
 #include <float.h>
@@ -179,6 +180,7 @@ static void check_session(const octree_session *session, view v, uint64_t step)
     octree_game *game;
     assert_int_equal(octree_game_create(session, &game), OCTREE_OK);
     camera_fit(&v, octree_game_tree(game));
+    assert_true(point_scale_fit(&v, octree_game_tree(game)));
     both b = open_both(&v);
     scene s = {0};
     for (uint64_t tick = 0; tick < 12 * step; tick++) {
@@ -207,6 +209,8 @@ static void sessions_with_all_layers_are_drawn_alike(void **state)
         v.diagram = i / 2 % 2 ? DIAGRAM_BESIDE : DIAGRAM_NONE;
         v.zoom.given = i % 3 == 0; /* most of the tree is outside */
         v.zoom.times = 7;
+        v.point_color = (view_point_color)(i % POINTS_BY_COUNT);
+        v.shade = (view_shade)(i % SHADE_COUNT);
         check_session(&session, v, 21);
         check_session(&made.session, v, 7);
     }

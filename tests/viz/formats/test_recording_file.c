@@ -43,6 +43,15 @@ static view random_view(uint64_t *random)
         v.center.place[i] = random_between(random, -1e6, 1e6);
     v.zoom.given = random_below(random, 2);
     v.zoom.times = v.zoom.given ? random_between(random, 0.001, 1e6) : 0;
+    v.point_color = (view_point_color)random_below(random, POINTS_BY_COUNT);
+    v.shade = (view_shade)random_below(random, SHADE_COUNT);
+    v.point_scale.given = random_below(random, 2);
+    for (int i = 0; v.point_scale.given && i < 3; i++) {
+        v.point_scale.of.low[i] = random_between(random, -1e6, 0);
+        v.point_scale.of.high[i] = random_between(random, 0, 1e6);
+        v.point_scale.of.spacing = random_between(random, 0, 10);
+        v.point_scale.of.ids[1] = random_between(random, 0, 1e15);
+    }
     v.filter.slice = "\0xyz"[random_below(random, 4)];
     v.filter.slice_at = v.filter.slice ? random_between(random, -1, 1) : 0;
     v.filter.leaves = random_below(random, 2);
@@ -67,6 +76,9 @@ static void assert_same_view(const view *a, const view *b)
     assert_true(a->coloring == b->coloring && a->diagram == b->diagram && a->fit == b->fit);
     assert_true(a->labels == b->labels && a->lod == b->lod && a->budget == b->budget &&
                 view_samples(a) == view_samples(b));
+    assert_true(a->point_color == b->point_color && a->shade == b->shade);
+    assert_int_equal(a->point_scale.given, b->point_scale.given);
+    assert_memory_equal(&a->point_scale.of, &b->point_scale.of, sizeof a->point_scale.of);
     assert_memory_equal(&a->focus, &b->focus, sizeof a->focus);
     assert_true(a->look.given == b->look.given && a->look.azimuth == b->look.azimuth &&
                 a->look.elevation == b->look.elevation);
@@ -110,10 +122,26 @@ static void write_text(const view *v, char text[2048])
 static void every_option_of_the_command_line_is_kept(void **state)
 {
     static const char *const samples[][2] = {
-        {"size", "640x360"}, {"camera", "top"},   {"layers", "nodes"}, {"color-by", "plain"}, {"diagram", "only"},
-        {"slice", "z=7"},    {"depths", "2:3"},   {"leaves", ""},      {"labels", ""},        {"region", "0,0,0,1,2,3"},
-        {"lod", "9"},        {"budget", "77"},    {"aa", "4"},         {"camera-from", NULL}, {"fit", NULL},
-        {"look", "10,-5"},   {"center", "1,2,3"}, {"zoom", "2.5"},
+        {"size", "640x360"},
+        {"camera", "top"},
+        {"layers", "nodes"},
+        {"color-by", "plain"},
+        {"diagram", "only"},
+        {"slice", "z=7"},
+        {"depths", "2:3"},
+        {"leaves", ""},
+        {"labels", ""},
+        {"region", "0,0,0,1,2,3"},
+        {"lod", "9"},
+        {"budget", "77"},
+        {"aa", "4"},
+        {"camera-from", NULL},
+        {"fit", NULL},
+        {"look", "10,-5"},
+        {"center", "1,2,3"},
+        {"zoom", "2.5"},
+        {"color-points", "leaf"},
+        {"shade", "edl"},
     };
     const temp_folder *folder = *state;
     char unchanged[2048], written[2048], again[2048];

@@ -181,13 +181,57 @@ static void meanings_stay_apart_from_nodes_unless_they_are_dashed(void **state)
                 assert_true(apart(meanings[i], theme_node_role(depth), eyes[eye]) > CLEARLY_APART);
 }
 
-/* ---- A colour for a new role -------------------------------------------------------------------------------- */
-
 /* The contrast of WCAG 2.1, of a colour that is lighter than its ground; 4.5 is asked for letters. */
 static double contrast(theme_color c, theme_role ground)
 {
     return (luminance(c) + 0.05) / (luminance(theme_color_at(theme_index(ground, 0))) + 0.05);
 }
+
+/* ---- Colours of amounts and kinds --------------------------------------------------------------------------- */
+
+#define RAMP_TESTED 64
+
+/* Steps of equal size to the eye, however it sees; lighter with each, so that grey tells them too. */
+static void the_ramp_is_even_for_every_eye_and_grows_lighter(void **state)
+{
+    (void)state;
+    for (size_t eye = 0; eye < EYES; eye++) {
+        double smallest = 1000, largest = 0, lightness = 0;
+        for (int i = 0; i < RAMP_TESTED; i++) {
+            const theme_color a = theme_ramp((double)i / RAMP_TESTED), b = theme_ramp((i + 1.0) / RAMP_TESTED);
+            const double step = colors_apart(a, b, eyes[eye]);
+            double lab[3];
+            smallest = fmin(smallest, step);
+            largest = fmax(largest, step);
+            to_lab(b, eyes[eye], lab);
+            assert_true(lab[0] > lightness);
+            lightness = lab[0];
+        }
+        assert_true(smallest > 0.5);
+        assert_true(largest < 6 * smallest);
+    }
+    assert_true(contrast(theme_ramp(0), ROLE_BACKGROUND) > 2);
+}
+
+static void the_ramp_ends_where_amounts_do(void **state)
+{
+    (void)state;
+    const theme_color ends[] = {theme_ramp(0), theme_ramp(1)}, beyond[] = {theme_ramp(-3), theme_ramp(1e300)};
+    const theme_color none = theme_ramp(nan(""));
+    assert_memory_equal(ends, beyond, sizeof ends);
+    assert_memory_equal(&ends[0], &none, sizeof none);
+}
+
+static void kinds_stay_apart_without_red_or_green(void **state)
+{
+    (void)state;
+    for (size_t eye = 0; eye < EYES; eye++)
+        for (unsigned i = 0; i < THEME_KINDS; i++)
+            for (unsigned j = i + 1; j < THEME_KINDS; j++)
+                assert_true(colors_apart(theme_kind(i), theme_kind(j), eyes[eye]) > CLEARLY_APART);
+}
+
+/* ---- A colour for a new role -------------------------------------------------------------------------------- */
 
 /* How far a colour is from that of every role by every eye, at least; 0 where it is reddish, or hard to see on the
  * background or the panel. */
@@ -245,6 +289,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_background_has_no_shades_and_is_index_0),
         cmocka_unit_test(every_index_fits_a_byte_and_is_used_once),
         cmocka_unit_test(meanings_stay_apart_without_red_or_green),
+        cmocka_unit_test(the_ramp_is_even_for_every_eye_and_grows_lighter),
+        cmocka_unit_test(the_ramp_ends_where_amounts_do),
+        cmocka_unit_test(kinds_stay_apart_without_red_or_green),
         cmocka_unit_test(meanings_stay_apart_from_nodes_unless_they_are_dashed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

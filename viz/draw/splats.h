@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* splats.h - points painted one by one, each with its own colour: squares of whole samples, of which the nearest wins,
+ * lit by the depths around them. All in integers, once the points' places and depths are known. For this folder.
+ *
+ * GL or the filler only fills: where points are seen the quads have the index THEME_OWN, and what colour that is at
+ * each sample is known here.
+ */
+#ifndef DRAW_SPLATS_H
+#define DRAW_SPLATS_H
+
+#include "quads.h"
+
+/* Data that is reused from frame to frame. Empty when zeroed. */
+typedef struct splats {
+    struct splat *samples; /* what is nearest at each */
+    uint32_t *shared;      /* under POINTS_BY_DENSITY: the points whose middle is in each pixel */
+    uint8_t *colors;       /* r, g, b a sample, where the picture has the index THEME_OWN */
+    size_t room;           /* samples; of `shared` and `colors` likewise, where they are needed */
+} splats;
+
+void splats_release(splats *t);
+
+/* Where the view of a scene, which is in samples, paints points, make room for colours and add the quads of its points.
+ * False when there is no memory. Cost: O(samples + points * the samples of one). */
+bool splats_paint(splats *t, quad_list *quads, const scene *s);
+
+/* Colour a rectangle of the picture in pixels, such as a swatch. Above points alone. */
+void splats_fill(splats *t, const scene *s, const scene_panel *panel);
+
+/* The samples that a point covers where nothing is nearer: left, top and how many to each side. False where it is not a
+ * painted point, or outside the picture. */
+typedef struct splat_square {
+    int left, top, side;
+} splat_square;
+bool splats_square(const scene *s, const scene_marker *marker, splat_square *square);
+
+#endif

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+#include "point_scale.h"
+#include "array.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* One point in so many may be an outlier at either end. */
+#define OUTLIERS 100
+
+/* The points of a leaf that tell how far they are apart. */
+#define FEWEST 4
+
+/* The points that are shown of one leaf. A sum over leaves does not depend on the order of the points in them. */
+typedef struct leaf_extent {
+    double low[3], high[3], spacing;
+    size_t count;
+} leaf_extent;
+
+typedef struct gathering {
+    const view_filter *filter;
+    octree_box world;
+    leaf_extent *leaves;
+    size_t count, room, points;
+    double ids[2];
+    bool out_of_memory;
+} gathering;
+
+static double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* Of k x k points on a grid k - 1 spaces lie along a side. The shortest side of the three is the way through the
+ * surface that the points are on. Few points are on no surface that could be seen. */
+static double spacing_of(const leaf_extent *e)
+{
+    const double a = e->high[0] - e->low[0], b = e->high[1] - e->low[1], c = e->high[2] - e->low[2];
+    const double longest = most(a, most(b, c)), middle = most(least(a, b), least(most(a, b), c));
+    return e->count >= FEWEST ? sqrt(longest) * sqrt(middle) / (sqrt((double)e->count) - 1) : 0;
+}
+
+static void add_leaf(gathering *g, const octree_node *leaf)
+{
+    leaf_extent e = {.count = 0};
+    for (size_t i = 0; i < leaf->count; i++) {
+        const octree_point *point = &leaf->points[i];
+        const double id = (double)point->id;
+        if (!filter_shows_point(g->filter, point->position))
+            continue;
+        for (int axis = 0; axis < 3; axis++) {
+            const double at = point->position[axis];
+            e.low[axis] = e.count ? least(e.low[axis], at) : at;
+            e.high[axis] = e.count ? most(e.high[axis], at) : at;
+        }
+        g->ids[0] = g->points ? least(g->ids[0], id) : id;
+        g->ids[1] = g->points ? most(g->ids[1], id) : id;
+        e.count++;
+        g->points++;
+    }
+    leaf_extent *leaves = e.count ? array_reserve(g->leaves, g->count + 1, &g->room, sizeof *leaves) : NULL;
+    g->out_of_memory |= e.count && !leaves;
+    if (!leaves)
+        return;
+    e.spacing = spacing_of(&e);
+    g->leaves = leaves;
+    g->leaves[g->count++] = e;
+}
+
+static octree_walk_order gather(const octree_node *node, void *context)
+{
+    gathering *g = context;
+    if (!filter_enters(g->filter, &g->world, node))
+        return OCTREE_WALK_SKIP;
+    if (node->leaf && filter_shows_points_of(g->filter, &g->world, node))
+        add_leaf(g, node);
+    return g->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+/* ---- Quantiles ---------------------------------------------------------------------------------------------- */
+
+/* A value, and the points that it stands for. */
+typedef struct weighted {
+    double value;
+    size_t weight;
+} weighted;
+
+static int compare_values(const void *a, const void *b)
+{
+    const double p = ((const weighted *)a)->value, q = ((const weighted *)b)->value;
+    return (p > q) - (p < q);
+}
+
+/* The value that `rank` points are not above. `offset` is that of the values in a leaf_extent. */
+static double value_at(const gathering *g, weighted *values, size_t offset, size_t rank)
+{
+    size_t at = 0, passed = 0;
+    for (size_t i = 0; i < g->count; i++)
+        values[i] = (weighted){*(const double *)((const char *)&g->leaves[i] + offset), g->leaves[i].count};
+    qsort(values, g->count, sizeof *values, compare_values);
+    for (; at + 1 < g->count && passed + values[at].weight <= rank; at++)
+        passed += values[at].weight;
+    return values[at].value;
+}
+
+static point_scale measure(const gathering *g, weighted *values)
+{
+    const size_t few = g->points / OUTLIERS;
+    point_scale s = {.ids = {g->ids[0], g->ids[1]}};
+    for (size_t i = 0; i < 3; i++) {
+        const size_t axis = i * sizeof(double);
+        s.low[i] = value_at(g, values, offsetof(leaf_extent, low) + axis, few);
+        s.high[i] = most(s.low[i], value_at(g, values, offsetof(leaf_extent, high) + axis, g->points - 1 - few));
+    }
+    s.spacing = value_at(g, values, offsetof(leaf_extent, spacing), g->points / 2);
+    s.spacing = isfinite(s.spacing) ? s.spacing : 0;
+    return s;
+}
+
+bool point_scale_fit(view *v, const octree *tree)
+{
+    if (!view_paints_points(v) || v->point_scale.given)
+        return true;
+    gathering g = {.filter = &v->filter, .world = octree_definition(tree).world};
+    octree_walk(tree, gather, &g);
+    weighted *values = g.count ? malloc(g.count * sizeof *values) : NULL;
+    const bool measured = !g.out_of_memory && (values || g.count == 0);
+    v->point_scale.given = measured && g.count > 0;
+    if (v->point_scale.given)
+        v->point_scale.of = measure(&g, values);
+    free(values);
+    free(g.leaves);
+    return measured;
+}
