@@ -79,7 +79,7 @@ theme_color theme_ramp(double part)
 
 theme_color theme_kind(unsigned kind)
 {
-    static const theme_color kinds[THEME_KINDS] = {{86, 180, 233}, {230, 159, 0},   {0, 158, 115},   {240, 228, 66},
-                                                   {0, 114, 178},  {204, 121, 167}, {225, 225, 225}, {140, 140, 140}};
+    static const theme_color kinds[THEME_KINDS] = {{95, 100, 110}, {230, 159, 0},   {0, 158, 115},  {240, 228, 66},
+                                                   {0, 114, 178},  {220, 130, 190}, {86, 180, 233}, {236, 236, 236}};
     return kinds[kind % THEME_KINDS];
 }
