@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT */
+/* peer_campaign.c - octree-peer-campaign: is the judge of other people's answers right? Indexes as they should be, and
+ * with planted faults, answer random queries in games that judge them; each verdict is held against the truth.
+ */
+#include "index_peer.h"
+#include "point_sets.h"
+#include "program.h"
+#include "truth.h"
+
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char program_name[] = "octree-peer-campaign";
+
+enum { TICKS = 20, QUERIES = 10, ALL_IDS = TRUTH_POINTS };
+
+static const index_peer *const peers[] = {
+    &grid_doubles,      &grid_floats,
+#ifdef PEER_NANOFLANN
+    &nanoflann_doubles, &nanoflann_floats,
+#endif
+#ifdef PEER_BOOST
+    &boost_doubles,     &boost_floats,
+#endif
+};
+
+enum { PEERS = sizeof peers / sizeof peers[0] };
+
+static const char *const fault_names[PLANTED_FAULTS] = {
+#define PLANTED_FAULT_NAME(name, word, meaning) word,
+    PLANTED_FAULT_MAP(PLANTED_FAULT_NAME)
+#undef PLANTED_FAULT_NAME
+};
+
+/* What came of trials. */
+typedef struct tally {
+    uint64_t answers, wrong, open; /* by the truth */
+    uint64_t trials, bitten;       /* trials in which an answer was wrong */
+    uint64_t first_ticks;          /* the sum of the first ticks in which one was */
+} tally;
+
+/* A game with an index beside it. */
+typedef struct trial {
+    const index_peer *peer;
+    planted_fault fault;
+    const point_set *set;
+    uint64_t seed, random;
+    octree_point points[POINT_SET_MOST];
+    size_t count;
+    octree_game *game;
+    void *index, *sound; /* with the fault, and without, which answers before the fault begins */
+    uint64_t begins;     /* the tick in which it does */
+    octree_edit edits[POINT_SET_MOST];
+    octree_query queries[QUERIES];
+    uint64_t ids[QUERIES][ALL_IDS];
+} trial;
+
+/* ---- A tick ------------------------------------------------------------------------------------------------- */
+
+/* Some points move, one of them perhaps twice. */
+static size_t move_points(trial *t)
+{
+    const size_t moves = 1 + t->count / 8;
+    for (size_t i = 0; i < moves; i++) {
+        octree_point *point = &t->points[octree_random(&t->random) % t->count];
+        t->set->place(&t->random, point->position);
+        t->edits[i] = (octree_edit){.kind = OCTREE_EDIT_MOVE, .body.id = point->id};
+        memcpy(t->edits[i].body.position, point->position, sizeof point->position);
+    }
+    t->peer->update(t->index, t->points);
+    t->peer->update(t->sound, t->points);
+    return moves;
+}
+
+static void ask(trial *t, const void *index, octree_query *query, uint64_t *ids)
+{
+    const bool floats = t->peer->precision == OCTREE_FLOATS;
+    octree_query_kind kind;
+    do
+        kind = (octree_query_kind)(octree_random(&t->random) % OCTREE_QUERY_KINDS);
+    while (!(t->peer->kinds >> kind & 1));
+    *query = point_set_ask(t->set, &t->random, kind, t->points, t->count);
+    query->answer_count = t->peer->ask(index, query, ids);
+    query->answer = ids;
+    query->answered = true;
+    query->precision = t->peer->precision;
+    if (floats && octree_query_about(kind)->neighbors)
+        query->epsilon = FLOAT_RATIO;
+    if (kind == OCTREE_QUERY_RADIUS)
+        query->epsilon = (floats ? FLOAT_REACH : DOUBLE_REACH) * query->radius;
+}
+
+static _Noreturn void accuse(const trial *t, uint64_t tick, size_t number, const char *what)
+{
+    const octree_query *q = &t->queries[number];
+    const octree_judgement *made = &octree_game_tick(t->game)->answers[number].judgement;
+    printf("%s: peer %s, fault %s, set %s, trial %" PRIu64 ", tick %" PRIu64 ", query %zu:\n  %s k %zu radius %.17g at "
+           "[%.17g, %.17g, %.17g], box [%.17g, %.17g, %.17g] to [%.17g, %.17g, %.17g], of %zu points; %zu named\n  "
+           "judged: %s, %zu missed, %zu extra, rank %zu, ratio %.17g\n",
+           what, t->peer->name, fault_names[t->fault], t->set->name, t->seed, tick, number, octree_query_name(q->kind),
+           q->k, q->radius, q->target[0], q->target[1], q->target[2], q->box.min[0], q->box.min[1], q->box.min[2],
+           q->box.max[0], q->box.max[1], q->box.max[2], t->count, q->answer_count, octree_fault_name(made->fault),
+           made->missed_count, made->extra_count, made->rank, made->ratio);
+    finish(EXIT_FINDING);
+}
+
+/* Whether an answer of the tick is wrong; the tick must have the event then, and not else. */
+static bool compare(const trial *t, uint64_t tick, tally *sum)
+{
+    const octree_tick *played = octree_game_tick(t->game);
+    bool any = false, open = false;
+    for (size_t i = 0; i < QUERIES; i++) {
+        const truth right = truth_of(&t->queries[i], t->points, t->count);
+        const bool accused = played->answers[i].judgement.fault != OCTREE_FAULT_NONE;
+        sum->answers++;
+        sum->wrong += right == TRUTH_WRONG;
+        sum->open += right == TRUTH_OPEN;
+        any |= right == TRUTH_WRONG;
+        open |= right == TRUTH_OPEN;
+        if (right == TRUTH_WRONG && (t->fault == PLANTED_NONE || tick < t->begins))
+            accuse(t, tick, i, "a peer without a fault is wrong");
+        if (right != TRUTH_OPEN && accused != (right == TRUTH_WRONG))
+            accuse(t, tick, i, accused ? "a right answer is accused" : "a wrong answer is not found");
+    }
+    if (!open && any != ((played->events & OCTREE_EVENT_WRONG) != 0))
+        accuse(t, tick, 0, "the tick's event is not that of its answers");
+    return any;
+}
+
+/* ---- A trial ------------------------------------------------------------------------------------------------ */
+
+static void begin(trial *t)
+{
+    octree_body bodies[POINT_SET_MOST] = {{0}};
+    octree_session session = {.tree = octree_def_default(), .player.kind = OCTREE_PLAYER_NONE, .bodies = bodies};
+    t->random = t->seed;
+    session.body_count = t->count = point_set_fill(t->set, &t->random, t->points);
+    session.tree.world = t->set->world;
+    session.tree.leaf_capacity = 4;
+    session.tree.full_leaf = OCTREE_GROW;
+    for (size_t i = 0; i < t->count; i++) {
+        bodies[i].id = t->points[i].id;
+        memcpy(bodies[i].position, t->points[i].position, sizeof bodies[i].position);
+    }
+    if (octree_game_create(&session, &t->game) != OCTREE_OK)
+        stop("a game of the set %s cannot be made", t->set->name);
+    t->index = t->peer->create(t->points, t->count, t->fault);
+    t->sound = t->peer->create(t->points, t->count, PLANTED_NONE);
+    t->begins = octree_random(&t->random) % (TICKS / 2);
+}
+
+static void end(trial *t)
+{
+    octree_game_destroy(t->game);
+    t->peer->destroy(t->index);
+    t->peer->destroy(t->sound);
+}
+
+/* Of a planted fault, until it has bitten. */
+static void run(trial *t, tally *sum)
+{
+    begin(t);
+    sum->trials++;
+    for (uint64_t tick = 1; tick <= TICKS; tick++) {
+        octree_input input = {.edits = t->edits, .queries = t->queries, .query_count = QUERIES};
+        input.edit_count = move_points(t);
+        for (size_t i = 0; i < QUERIES; i++)
+            ask(t, tick < t->begins ? t->sound : t->index, &t->queries[i], t->ids[i]);
+        if (octree_game_play(t->game, &input) != OCTREE_OK)
+            stop("a tick of the set %s cannot be played", t->set->name);
+        if (!compare(t, tick, sum))
+            continue;
+        sum->bitten++;
+        sum->first_ticks += tick;
+        break;
+    }
+    end(t);
+}
+
+/* Sets that are too wide for the squares of floats are none for who computes in them. */
+static bool fits(const index_peer *peer, const point_set *set)
+{
+    return peer->precision == OCTREE_DOUBLES || set->in_floats;
+}
+
+/* One trial on each set. */
+static void run_sets(trial *t, tally *sum)
+{
+    for (int i = 0; i < POINT_SETS; i++) {
+        t->set = &point_sets[i];
+        if (fits(t->peer, t->set))
+            run(t, sum);
+    }
+}
+
+/* ---- The campaign ------------------------------------------------------------------------------------------- */
+
+typedef struct options {
+    uint64_t answers, seed, rounds;
+} options;
+
+static void print_help(void)
+{
+    puts("octree-peer-campaign - is the judge of other people's answers right? A plain grid and, where they were "
+         "found,\n"
+         "nanoflann's k-d tree and Boost.Geometry's R-tree, of doubles and of floats, answer random queries about "
+         "points\n"
+         "that move, in games that judge the answers; each verdict is held against the truth, found by looking at "
+         "every\n"
+         "point with real numbers. Then faults are planted in the indexes, one at a time and from some tick on: each\n"
+         "is to be found in the first tick in which it makes an answer wrong.\n\n"
+         "usage: octree-peer-campaign [OPTION ...]\n\n"
+         "      --answers N   of indexes without faults, at least so many (default 1e6)\n"
+         "      --rounds N    trials of each fault on each set (default 20)\n"
+         "      --seed S      a whole number (default 1); each gives another campaign\n"
+         "  -h, --help\n\n"
+         "The sets:");
+    for (int i = 0; i < POINT_SETS; i++)
+        printf("      %-8s %s%s\n", point_sets[i].name, point_sets[i].about,
+               point_sets[i].in_floats ? "" : "; doubles alone");
+    puts("The faults:");
+#define PLANTED_FAULT_HELP(name, word, meaning) printf("      %-8s %s\n", word, meaning);
+    PLANTED_FAULT_MAP(PLANTED_FAULT_HELP)
+#undef PLANTED_FAULT_HELP
+    puts("Exit status: 0 every verdict is right, 1 one is not, 2 trouble.");
+}
+
+static options read_options(int argc, char **argv)
+{
+    static const struct option names[] = {{"answers", required_argument, NULL, 'a'},
+                                          {"rounds", required_argument, NULL, 'r'},
+                                          {"seed", required_argument, NULL, 's'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
+    options o = {.answers = 1000000, .seed = 1, .rounds = 20};
+    for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;)
+        if (name == 'a')
+            o.answers = (uint64_t)take_whole("--answers", optarg, 1, 1e12);
+        else if (name == 'r')
+            o.rounds = (uint64_t)take_whole("--rounds", optarg, 1, 1e6);
+        else if (name == 's')
+            o.seed = (uint64_t)take_whole("--seed", optarg, 0, 1e15);
+        else if (name == 'h') {
+            print_help();
+            finish(EXIT_DONE);
+        } else
+            exit(EXIT_TROUBLE); /* getopt has said why */
+    if (optind < argc)
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
+    return o;
+}
+
+static void judge_unbroken(trial *t, const options *o)
+{
+    tally sums[PEERS] = {{0}};
+    uint64_t answers = 0;
+    while (answers < o->answers) {
+        answers = 0;
+        t->seed++;
+        for (int i = 0; i < PEERS; i++) {
+            t->peer = peers[i];
+            run_sets(t, &sums[i]);
+            answers += sums[i].answers;
+        }
+    }
+    for (int i = 0; i < PEERS; i++)
+        printf("%-16s %9" PRIu64 " answers, none accused, %" PRIu64 " at the edge of the promise\n", peers[i]->name,
+               sums[i].answers, sums[i].open);
+    printf("%" PRIu64 " answers of indexes as they should be: none accused\n\n", answers);
+}
+
+static void judge_fault(trial *t, const options *o)
+{
+    tally sum = {0};
+    for (uint64_t round = 0; round < o->rounds; round++) {
+        t->seed++;
+        run_sets(t, &sum);
+    }
+    if (sum.bitten == 0)
+        stop("peer %s: the fault %s makes no answer wrong", t->peer->name, fault_names[t->fault]);
+    printf("%-16s %-8s %5" PRIu64 " of %5" PRIu64
+           " trials had a wrong answer, the first in tick %4.1f; all were found in "
+           "it\n",
+           t->peer->name, fault_names[t->fault], sum.bitten, sum.trials, (double)sum.first_ticks / (double)sum.bitten);
+}
+
+int main(int argc, char **argv)
+{
+    static trial t;
+    const options o = read_options(argc, argv);
+    t.seed = o.seed << 32;
+    judge_unbroken(&t, &o);
+    for (int i = 0; i < PEERS; i++)
+        for (int fault = PLANTED_NONE + 1; fault < PLANTED_FAULTS; fault++) {
+            t.peer = peers[i];
+            t.fault = (planted_fault)fault;
+            if (t.peer->faults >> fault & 1)
+                judge_fault(&t, &o);
+        }
+    finish(EXIT_DONE);
+}
