@@ -3,10 +3,11 @@
 #include "naive.h"
 
 #include <GL/gl.h>
+#include "glyphs.h"
+
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <png.h>
-#include <stb_easy_font.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -222,23 +223,31 @@ static void draw_panels(naive *n, const scene *s)
     flush(n, GL_QUADS);
 }
 
+/* The parts of a letter whose cell is at x and y. */
+static void draw_letter(naive *n, const lettering *l, const scene_label *label, char letter, double x, double y)
+{
+    const glyph_set *set = &glyph_sets[l->face];
+    const unsigned i = (unsigned char)letter - (unsigned)GLYPH_FIRST;
+    for (unsigned j = set->first[i]; j < set->first[i + 1]; j++) {
+        const glyph_part *p = &set->parts[j];
+        for (int corner = 0; corner < 4; corner++)
+            add_vertex(&n->vertices, x + (p->x + (corner == 1 || corner == 2 ? p->width : 0)) * l->multiple,
+                       y + (p->y + (corner >= 2 ? p->height : 0)) * l->multiple, 0, color_of(label->style));
+    }
+}
+
 static void draw_labels(naive *n, const scene *s)
 {
-    vertex letters[4 * 16 * SCENE_TEXT];
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        char text[SCENE_TEXT];
+        const lettering *letters = scene_lettering(s, label);
         double seen[3], at[2] = {label->at[0], label->at[1]};
-        memcpy(text, label->text, sizeof text);
         if (label->in_world) {
             camera_transform(&s->camera, label->at, seen);
             camera_project(&s->camera, seen, at);
         }
-        const int scale = s->unit * label->style.width,
-                  count = stb_easy_font_print(0, 0, text, NULL, letters, sizeof letters);
-        for (int j = 0; j < 4 * count; j++)
-            add_vertex(&n->vertices, (int)at[0] + (double)letters[j].x * scale,
-                       (int)at[1] + (double)letters[j].y * scale, 0, color_of(label->style));
+        for (int j = 0; label->text[j]; j++)
+            draw_letter(n, letters, label, label->text[j], (int)at[0] + j * letters->width, (int)at[1]);
     }
     flush(n, GL_QUADS);
 }

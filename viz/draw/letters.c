@@ -1,21 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "letters.h"
+#include "glyphs.h"
 #include "project.h"
 
 #include <math.h>
-#include <stb_easy_font.h>
 #include <string.h>
-
-#define QUADS_A_LABEL (SCENE_TEXT * 16) /* the font needs about 11 quads a letter at most */
 
 /* Text that begins so many pixels away does not reach into a picture. */
 #define FARTHEST 1e6
-
-/* What stb_easy_font writes for a corner. */
-typedef struct corner {
-    float x, y, z;
-    unsigned char color[4];
-} corner;
 
 /* The pixel of the text's top left corner; false when its position is not visible. Text begins at whole pixels under
  * anti-aliasing too, and stays crisp. */
@@ -26,8 +18,8 @@ static bool place(const scene *s, const scene_label *label, int *x, int *y)
     if (label->in_world) {
         if (!project_point(s, label->at, pixel, &band))
             return false;
-        pixel[0] = pixel[0] / view_samples(&s->view) + 3 * s->unit;
-        pixel[1] = pixel[1] / view_samples(&s->view) - 4 * s->unit;
+        pixel[0] = pixel[0] / view_samples(&s->view) + s->text.width / 2;
+        pixel[1] = pixel[1] / view_samples(&s->view) - s->text.height / 2;
     }
     if (!(fabs(pixel[0]) < FARTHEST && fabs(pixel[1]) < FARTHEST))
         return false;
@@ -36,36 +28,42 @@ static bool place(const scene *s, const scene_label *label, int *x, int *y)
     return true;
 }
 
+/* Add the parts of a letter whose cell begins at x and y, in subpixels; `pixel` is one of the face. What the face does
+ * not have is drawn as a question mark. */
+static void add_letter(quad_list *list, quad *q, const glyph_set *set, char letter, int x, int y, int pixel)
+{
+    const unsigned at = (unsigned char)letter - (unsigned)GLYPH_FIRST;
+    const unsigned i = at < GLYPH_COUNT ? at : '?' - GLYPH_FIRST;
+    for (const glyph_part *part = set->parts + set->first[i]; part < set->parts + set->first[i + 1]; part++) {
+        const int left = x + part->x * pixel, top = y + part->y * pixel;
+        const int right = left + part->width * pixel, bottom = top + part->height * pixel;
+        memcpy(q->x, (int32_t[]){left, right, right, left}, sizeof q->x);
+        memcpy(q->y, (int32_t[]){top, top, bottom, bottom}, sizeof q->y);
+        quads_add(list, q);
+    }
+}
+
 void letters_add(quad_list *list, const scene *s, const scene_label *label)
 {
-    corner corners[QUADS_A_LABEL * 4];
-    char text[SCENE_TEXT];
+    const lettering *letters = scene_lettering(s, label);
+    const int sub = QUAD_SUBPIXELS * view_samples(&s->view);
+    quad q = {.color = theme_index(label->style.role, 0), .order = quad_order_of_text(label->style.layer)};
     int left, top;
     if (!place(s, label, &left, &top))
         return;
-    memcpy(text, label->text, sizeof text);
-    const int count = stb_easy_font_print(0, 0, text, NULL, corners, sizeof corners);
-    const int pixel = QUAD_SUBPIXELS * view_samples(&s->view), scale = s->unit * label->style.width * pixel;
-    quad q = {.color = theme_index(label->style.role, 0), .order = quad_order_of_text(label->style.layer)};
-    for (int i = 0; i < count; i++) {
-        for (int j = 0; j < 4; j++) {
-            q.x[j] = left * pixel + (int)corners[4 * i + j].x * scale;
-            q.y[j] = top * pixel + (int)corners[4 * i + j].y * scale;
-        }
-        quads_add(list, &q);
-    }
+    for (int i = 0; label->text[i]; i++)
+        add_letter(list, &q, &glyph_sets[letters->face], label->text[i], (left + i * letters->width) * sub, top * sub,
+                   letters->multiple * sub);
 }
 
 /* The box around a label's letters; false when it is not visible. */
 static bool find_box(const scene *s, const scene_label *label, draw_box *box)
 {
-    char text[SCENE_TEXT];
+    const lettering *letters = scene_lettering(s, label);
     if (!place(s, label, &box->x, &box->y))
         return false;
-    memcpy(text, label->text, sizeof text);
-    const int scale = s->unit * label->style.width;
-    box->width = stb_easy_font_width(text) * scale;
-    box->height = stb_easy_font_height(text) * scale;
+    box->width = (int)strlen(label->text) * letters->width;
+    box->height = letters->height;
     return true;
 }
 

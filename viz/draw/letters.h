@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* letters.h - text as quads, by stb_easy_font; and the boxes around a scene's text. */
+/* letters.h - text as quads; and the boxes around a scene's text. */
 #ifndef DRAW_LETTERS_H
 #define DRAW_LETTERS_H
 

@@ -85,7 +85,7 @@ static void describe_range(description *d, const described *element)
 
 const layer_type layer_RANGE = {.add_answer = add_range,
                                 .write_answer = write_range,
-                                .legend_place = 150,
+                                .legend_place = 120,
                                 .sign = SIGN_DASHES,
                                 .text = "range query, dashed",
                                 .worth = WORTH_ANSWER,
@@ -124,8 +124,10 @@ static void add_ball(scene *s, const octree_answer *answer, size_t place, view_l
 
 static void write_radius(pen *p, const octree_answer *answer)
 {
-    char radius[NUMBER_TEXT];
-    write_row(p, "radius", "%zu within %s", answer->count, number_text(answer->radius, 6, radius));
+    char radius[NUMBER_TEXT], found[SCENE_TEXT];
+    const size_t taken = (size_t)snprintf(found, sizeof found, "%zu found", answer->count) + DETAIL + 1;
+    number_fitting(answer->radius, taken < (size_t)p->letters ? (size_t)p->letters - taken : 1, radius);
+    write_detailed_row(p, "radius", radius, "%s", found);
 }
 
 static void describe_radius(description *d, const described *element)
@@ -142,7 +144,7 @@ static void describe_radius(description *d, const described *element)
 
 const layer_type layer_RADIUS = {.add_answer = add_ball,
                                  .write_answer = write_radius,
-                                 .legend_place = 160,
+                                 .legend_place = 130,
                                  .sign = SIGN_LINE,
                                  .text = "radius query, round",
                                  .worth = WORTH_ANSWER,
@@ -150,17 +152,13 @@ const layer_type layer_RADIUS = {.add_answer = add_ball,
 
 /* ---- K nearest ---------------------------------------------------------------------------------------------- */
 
-/* Units that a digit takes, and its distance from the next. */
-#define DIGIT_WIDTH 8
-#define DIGIT_HEIGHT 9
-
 /* True when a number beside this place would cover one of those beside earlier places. */
 static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
 {
     bool crowded = false;
     for (size_t i = 0; i < earlier; i++)
-        crowded |= fabs(pixels[i][0] - pixels[earlier][0]) < DIGIT_WIDTH * s->unit &&
-                   fabs(pixels[i][1] - pixels[earlier][1]) < DIGIT_HEIGHT * s->unit;
+        crowded |= fabs(pixels[i][0] - pixels[earlier][0]) < s->text.width + 2 * s->unit &&
+                   fabs(pixels[i][1] - pixels[earlier][1]) < s->text.height;
     return crowded;
 }
 
@@ -193,7 +191,7 @@ static void write_knearest(pen *p, const octree_answer *answer)
     octree_point first[PEN_MOST_IDS];
     for (size_t i = 0; i < answer->count && i < PEN_MOST_IDS; i++)
         first[i] = answer->neighbors[i].point;
-    write_ids(p, "k near", first, answer->count);
+    write_ids(p, "k nearest", first, answer->count);
 }
 
 static void describe_knearest(description *d, const described *element)
@@ -206,7 +204,7 @@ static void describe_knearest(description *d, const described *element)
 
 const layer_type layer_KNEAREST = {.add_answer = add_knearest,
                                    .write_answer = write_knearest,
-                                   .legend_place = 170,
+                                   .legend_place = 140,
                                    .sign = SIGN_LINE,
                                    .text = "k nearest, numbered",
                                    .worth = WORTH_ANSWER,
@@ -231,11 +229,11 @@ static void write_nearest(pen *p, const octree_answer *answer)
         return;
     }
     number_text(answer->neighbors[0].distance, 6, distance);
-    snprintf(id, sizeof id, "%" PRIu64, answer->neighbors[0].point.id);
-    const bool fits = strlen(id) + strlen(" at ") + strlen(distance) <= text_room(VALUE, 1);
-    write_row(p, "nearest", "%s%s%s", id, fits ? " at " : "", fits ? distance : "");
+    snprintf(id, sizeof id, "#%" PRIu64, answer->neighbors[0].point.id);
+    const bool fits = DETAIL + strlen(id) + 1 + strlen(distance) + strlen(" away") <= (size_t)p->letters;
     if (!fits)
-        write_row(p, "", "at %s", distance);
+        write_row(p, "nearest", "%s", id);
+    write_detailed_row(p, fits ? "nearest" : "", fits ? id : "", "%s away", distance);
 }
 
 static void describe_nearest(description *d, const described *element)
@@ -245,7 +243,7 @@ static void describe_nearest(description *d, const described *element)
 
 const layer_type layer_NEAREST = {.add_answer = add_nearest,
                                   .write_answer = write_nearest,
-                                  .legend_place = 180,
+                                  .legend_place = 150,
                                   .sign = SIGN_DASHES,
                                   .text = "nearest point, dashed",
                                   .worth = WORTH_ANSWER,

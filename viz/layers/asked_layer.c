@@ -36,4 +36,4 @@ static void describe(description *d, const described *element)
 }
 
 const layer_type layer_ASKED = {
-    .applies = applies, .add = add, .legend_place = 80, .legend = add_legend, .describe = describe};
+    .applies = applies, .add = add, .legend_place = 60, .legend = add_legend, .describe = describe};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* change_layers.c - the layers of what happened to the tree's nodes: merges, splits, and what must never happen. */
 #include "layer_type.h"
+#include "text.h"
 #include "node_boxes.h"
 
 #include <stdio.h>
@@ -46,15 +47,15 @@ static void add_changes(scene *s, const layer_source *in, view_layer own)
         add_planes(s, in, nodes[i], style);
 }
 
-/* "2 split .. 7/7/0", with the address of the last where there is room for all of it. */
+/* "2 nodes split .. 7/7/0", with the address of the last where there is room for all of it. */
 static void add_change_legend(legend *l, const layer_source *in)
 {
     char last[OCTREE_ADDRESS_TEXT];
     size_t count;
     const bool split = l->next.layer == LAYER_SPLITS;
     const octree_address *nodes = nodes_of(in->tick, l->next.layer, &count);
-    legend_line *line =
-        legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu %s", count, split ? "split" : "merged");
+    legend_line *line = legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu node%s %s", count, plural(count),
+                                   split ? "split" : "merged");
     if (count == 0)
         return;
     octree_address_format(nodes[count - 1], last);
@@ -71,13 +72,13 @@ static void describe_change(description *d, const described *element)
 
 const layer_type layer_MERGES = {.applies = layer_in_games,
                                  .add = add_changes,
-                                 .legend_place = 70,
+                                 .legend_place = 110,
                                  .legend = add_change_legend,
                                  .describe = describe_change};
 
 const layer_type layer_SPLITS = {.applies = layer_in_games,
                                  .add = add_changes,
-                                 .legend_place = 60,
+                                 .legend_place = 100,
                                  .legend = add_change_legend,
                                  .describe = describe_change};
 

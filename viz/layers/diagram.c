@@ -26,8 +26,9 @@
 #define NARROWEST 2 /* of a slot */
 #define BAR 2       /* the width of a bar */
 
-/* Room for words, in units; a diagram smaller than the last two has no words. */
-enum { WORDS_LEFT = 26, WORDS_RIGHT = 54, WORDS_ABOVE = 24, WORDS_BELOW = 24, WORDS_WIDTH = 150, WORDS_HEIGHT = 120 };
+/* Room for words beside the nodes, in letters, and above and below them, in lines; and the letters and lines that a
+ * diagram with words has at least. */
+enum { WORDS_LEFT = 4, WORDS_RIGHT = 8, WORDS_ABOVE = 2, WORDS_BELOW = 2, WORDS_WIDTH = 25, WORDS_HEIGHT = 9 };
 
 #define BAR_STEPS 16       /* of a bar's height; as high as a row */
 #define ROWS_AT_ONCE 4     /* rows are added in steps, so that they seldom move when the tree grows deeper */
@@ -72,20 +73,22 @@ static bool arrange(diagram *d)
     scene *s = d->scene;
     const int unit = s->unit;
     const camera_window w = d->window;
-    d->words = view_shows(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * unit && w.height >= WORDS_HEIGHT * unit;
-    const double left = d->words ? WORDS_LEFT : EDGE, right = d->words ? WORDS_RIGHT : EDGE;
-    const double above = d->words ? WORDS_ABOVE : EDGE, below = d->words ? WORDS_BELOW : EDGE;
-    d->left = w.x + left * unit;
-    d->width = w.width - (left + right) * unit;
-    d->top = w.y + above * unit;
-    if (d->width < NARROWEST * unit || w.height <= (above + below) * unit)
+    const int letter = s->text.width, line = s->text.line, edge = EDGE * unit;
+    d->words = view_shows(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * letter && w.height >= WORDS_HEIGHT * line;
+    const int left = d->words ? edge + WORDS_LEFT * letter : edge,
+              right = d->words ? edge + WORDS_RIGHT * letter : edge;
+    const int above = d->words ? WORDS_ABOVE * line : edge, below = d->words ? WORDS_BELOW * line : edge;
+    d->left = w.x + left;
+    d->width = w.width - (left + right);
+    d->top = w.y + above;
+    if (d->width < NARROWEST * unit || w.height <= above + below)
         return false;
     if (!diagram_arrange(&d->slots, d->in->tree, (size_t)(d->width / (NARROWEST * unit)))) {
         s->out_of_memory = true;
         return false;
     }
     d->rows = rows_of(d->in->tree, d->slots.stats.depth);
-    d->pitch = (w.height - (above + below) * unit) / d->rows;
+    d->pitch = (w.height - (above + below)) / d->rows;
     return true;
 }
 
@@ -317,29 +320,36 @@ static void write_words(diagram *d, double x, double y, theme_role role, const c
     scene_add_label(d->scene, label);
 }
 
-static void write_count(diagram *d, double x, double y, size_t count)
+/* Where a text begins that ends at the right edge. */
+static double right_of(const diagram *d, const char *text)
+{
+    const scene *s = d->scene;
+    return d->window.x + d->window.width - EDGE * s->unit - (double)strlen(text) * s->text.width;
+}
+
+/* At the right edge, where all counts end. */
+static void write_count(diagram *d, double y, size_t count)
 {
     char text[NUMBER_TEXT];
     if (count <= MOST_DIGITS)
         snprintf(text, sizeof text, "%zu", count);
     else
         number_text((double)count, 3, text);
-    write_words(d, x, y, ROLE_TEXT, "%s", text);
+    write_words(d, right_of(d, text), y, ROLE_TEXT, "%s", text);
 }
 
 static void write_rows(diagram *d)
 {
-    const int unit = d->scene->unit;
-    const double left = d->window.x + EDGE * unit, right = d->left + d->width + EDGE * unit;
-    const unsigned each = (unsigned)ceil(TEXT_HEIGHT * unit / d->pitch); /* rows that are too low have words but now and
-                                                                            then */
-    write_words(d, left, d->window.y + EDGE * unit, ROLE_FAINT, "depth");
-    write_words(d, right, d->window.y + EDGE * unit, ROLE_FAINT, "nodes");
+    const scene *s = d->scene;
+    const double left = d->window.x + EDGE * s->unit, top = d->window.y + s->text.line / 2;
+    const unsigned each = (unsigned)ceil(s->text.height / d->pitch); /* rows too low have words but now and then */
+    write_words(d, left, top, ROLE_FAINT, "depth");
+    write_words(d, right_of(d, "nodes"), top, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth < d->rows; depth += each) {
-        const double y = row_at(d, depth) - 4 * unit;
+        const double y = row_at(d, depth) - s->text.height / 2;
         write_words(d, left, y, ROLE_FAINT, "%u", depth);
         if (d->slots.stats.nodes_at_depth[depth])
-            write_count(d, right, y, d->slots.stats.nodes_at_depth[depth]);
+            write_count(d, y, d->slots.stats.nodes_at_depth[depth]);
     }
 }
 
@@ -348,8 +358,9 @@ static void write_end(diagram *d)
 {
     const octree_node *end = &d->end;
     const int unit = d->scene->unit;
-    const size_t letters = (size_t)((d->window.width - 2 * EDGE * unit) / (TEXT_LETTER * unit));
-    const double foot = d->window.y + d->window.height - (WORDS_BELOW - 6) * unit;
+    const lettering *letters_of = &d->scene->text;
+    const size_t letters = (size_t)((d->window.width - 2 * EDGE * unit) / letters_of->width);
+    const double foot = d->window.y + d->window.height - letters_of->line / 2 - letters_of->height;
     char address[OCTREE_ADDRESS_TEXT], text[SCENE_TEXT * 2];
     const size_t length =
         (size_t)snprintf(text, sizeof text, "%s of %zu point%s: %s", end->leaf ? "leaf" : "node", end->count,
@@ -405,7 +416,7 @@ static void add_legend(legend *l, const layer_source *in)
     if (tally->path)
         legend_add(l, SIGN_LINE, "way from the root")->role = ROLE_PLAYER;
     if (tally->folded)
-        legend_add(l, SIGN_BARS, "nodes, log2, folded")->role = ROLE_NODE_PLAIN;
+        legend_add(l, SIGN_BARS, "bars: many nodes, log2")->role = ROLE_NODE_PLAIN;
     if (filter_is_on(&l->scene->view.filter))
         legend_add(l, SIGN_NODE, "node filtered out")->role = ROLE_WORLD;
 }
@@ -437,4 +448,4 @@ static void describe(description *d, const described *element)
     }
 }
 
-const layer_type layer_DIAGRAM = {.add = add, .legend_place = 20, .legend = add_legend, .describe = describe};
+const layer_type layer_DIAGRAM = {.add = add, .legend_place = 190, .legend = add_legend, .describe = describe};

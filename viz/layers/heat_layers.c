@@ -67,8 +67,8 @@ static void add_legend(legend *l, const layer_source *in)
 {
     const bool visits = l->next.layer == LAYER_VISIT_HEAT;
     (void)in;
-    legend_add(l, SIGN_GROWING_RAMP, "%s 1-%" PRIu64 "+ %s", visits ? "[]" : "<>", HEAT_LAST(shift_of(l->next.layer)),
-               visits ? "visits" : "points");
+    legend_add(l, SIGN_GROWING_RAMP, "%s 1-%" PRIu64 "+ %s", visits ? "square" : "diamond",
+               HEAT_LAST(shift_of(l->next.layer)), visits ? "visits" : "points");
 }
 
 static void describe(description *d, const described *element)
@@ -83,7 +83,7 @@ static void describe(description *d, const described *element)
 }
 
 const layer_type layer_VISIT_HEAT = {
-    .applies = layer_in_games, .add = add, .legend_place = 90, .legend = add_legend, .describe = describe};
+    .applies = layer_in_games, .add = add, .legend_place = 170, .legend = add_legend, .describe = describe};
 
 const layer_type layer_POINT_HEAT = {
-    .applies = layer_in_games, .add = add, .legend_place = 100, .legend = add_legend, .describe = describe};
+    .applies = layer_in_games, .add = add, .legend_place = 180, .legend = add_legend, .describe = describe};

@@ -7,7 +7,7 @@
 
 int panel_width(const view *v)
 {
-    const int width = LAYOUT_COLUMN * view_unit(v);
+    const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_of_text(v).width;
     return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
 }
 
@@ -56,7 +56,7 @@ static bool is_free(const text_space *t, const double box[4])
 
 bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2])
 {
-    const double width = (double)strlen(text) * TEXT_LETTER * s->unit, height = TEXT_HEIGHT * s->unit;
+    const double width = (double)strlen(text) * s->text.width, height = s->text.height;
     const double left = floor(middle[0] - width / 2), top = floor(middle[1] - height / 2);
     const double box[4] = {left - s->unit, top - s->unit, left + width + s->unit, top + height};
     const camera_window w = layout_space(&s->view);
@@ -72,7 +72,6 @@ void text_add_on_ground(scene *s, const scene_label *label, theme_role ground)
 {
     const int unit = s->unit, letters = (int)strlen(label->text);
     scene_add_rectangle(s, label->id, (int[]){(int)label->at[0] - unit, (int)label->at[1] - unit},
-                        (int[]){(letters * TEXT_LETTER + 1) * unit, (TEXT_HEIGHT + 1) * unit}, label->style.layer,
-                        ground);
+                        (int[]){letters * s->text.width + 2 * unit, s->text.height + unit}, label->style.layer, ground);
     scene_add_label(s, *label);
 }

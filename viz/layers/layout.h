@@ -6,7 +6,9 @@
 
 #include "scene.h"
 
-#define LAYOUT_COLUMN 160 /* the width of the column of text, in units (view_unit) */
+/* Letters in a line of the column of text, and the margins at both of its sides. */
+#define LAYOUT_LETTERS 28
+#define LAYOUT_MARGIN 2
 
 /* The width of the column in pixels; 0 when the view has no text or the picture is too small for it. */
 int panel_width(const view *v);
@@ -21,8 +23,6 @@ camera_window layout_diagram(const view *v);
 /* ---- Words among the lines ---------------------------------------------------------------------------------- */
 
 #define TEXT_SPACE_MOST 400 /* more labels than that are unreadable */
-#define TEXT_LETTER 6       /* units that a letter takes, about */
-#define TEXT_HEIGHT 9       /* units from the top of a letter to below its foot */
 
 /* Rectangles in use, in pixels: left, top, right, bottom. */
 typedef struct text_space {

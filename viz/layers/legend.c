@@ -101,14 +101,19 @@ static size_t make_fit(legend *l, size_t room)
 
 /* ---- How they are written ----------------------------------------------------------------------------------- */
 
-/* Signs of rectangles: x, y, width and height in a line of SWATCH units. */
+/* Signs are drawn in whole dots, as many pixels wide as letters are twelve dots high, about: SWATCH dots wide, and 9
+ * high in the middle of the line. */
+#define SWATCH 18
+#define SIGN_HEIGHT 9
+
+/* Signs of rectangles: x, y, width and height. */
 enum { SIGN_PARTS = 8 };
 static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_LINE] = {{0, 4, SWATCH, 1}},
     [SIGN_BOLD] = {{0, 3, SWATCH, 2}},
-    [SIGN_DASHES] = {{0, 4, 5, 1}, {8, 4, 5, 1}, {16, 4, 5, 1}},
-    [SIGN_PLUS] = {{5, 4, 11, 1}, {10, -1, 1, 11}},
-    [SIGN_DASHED_PLUS] = {{5, 4, 3, 1}, {10, -1, 1, 3}, {9, 4, 3, 1}, {10, 3, 1, 3}, {13, 4, 3, 1}, {10, 7, 1, 3}},
+    [SIGN_DASHES] = {{0, 4, 4, 1}, {7, 4, 4, 1}, {14, 4, 4, 1}},
+    [SIGN_PLUS] = {{4, 4, 11, 1}, {9, -1, 1, 11}},
+    [SIGN_DASHED_PLUS] = {{4, 4, 3, 1}, {9, -1, 1, 3}, {8, 4, 3, 1}, {9, 3, 1, 3}, {12, 4, 3, 1}, {9, 7, 1, 3}},
     [SIGN_FRAME] = {{6, 1, 7, 1}, {6, 7, 7, 1}, {6, 2, 1, 5}, {12, 2, 1, 5}},
     [SIGN_RING] = {{8, -1, 5, 2},
                    {8, 7, 5, 2},
@@ -120,25 +125,32 @@ static const int8_t signs[][SIGN_PARTS][4] = {
                    {13, 6, 2, 2}},
     [SIGN_DOT] = {{9, 3, 2, 2}},
     [SIGN_SQUARE] = {{7, 2, 5, 5}},
-    [SIGN_ARROW] = {{0, 4, SWATCH, 1}, {17, 3, 2, 3}, {15, 2, 2, 5}, {13, 1, 2, 7}},
+    [SIGN_ARROW] = {{0, 4, SWATCH, 1}, {15, 3, 2, 3}, {13, 2, 2, 5}, {11, 1, 2, 7}},
     [SIGN_NODES] = {{3, 1, 6, 6}, {14, 3, 3, 3}},
     [SIGN_BARS] = {{6, 3, 2, 2}, {9, 1, 2, 6}, {12, 2, 2, 4}},
     [SIGN_NODE] = {{7, 1, 6, 6}},
 };
 
+/* A rectangle of a sign, in dots. */
+static void fill_dots(pen *p, int x, int y, int width, int height, unsigned role)
+{
+    const int letter = p->scene->text.height, dot = letter < 24 ? 1 : letter / 12;
+    fill(p, x * dot, (letter - SIGN_HEIGHT * dot) / 2 + y * dot, width * dot, height * dot, role);
+}
+
 /* The rows of a triangle on its side or, filled, on its corner. */
 static void fill_triangle(pen *p, theme_role role, bool on_side)
 {
-    const int middle = MARGIN + SWATCH / 2;
+    const int middle = SWATCH / 2;
     for (int i = 0; i < 6; i++) {
-        const int y = p->y + 1 + (on_side ? i : 5 - i);
+        const int y = 1 + (on_side ? i : 5 - i);
         if (!on_side || i == 5) {
-            fill(p, middle - i, y, 2 * i + 1, 1, role);
+            fill_dots(p, middle - i, y, 2 * i + 1, 1, role);
             continue;
         }
-        fill(p, middle - i, y, 1, 1, role);
+        fill_dots(p, middle - i, y, 1, 1, role);
         if (i > 0)
-            fill(p, middle + i, y, 1, 1, role);
+            fill_dots(p, middle + i, y, 1, 1, role);
     }
 }
 
@@ -149,38 +161,42 @@ static void fill_sign(pen *p, const legend_line *line)
     } else if (line->sign == SIGN_CROSS) {
         for (int i = -4; i <= 4; i++)
             for (int side = -1; side <= (i ? 1 : -1); side += 2)
-                fill(p, MARGIN + SWATCH / 2 + i, p->y + 4 + side * i, 1, 1, line->role);
+                fill_dots(p, SWATCH / 2 + i, 4 + side * i, 1, 1, line->role);
     } else if (line->sign == SIGN_GROWING_RAMP) {
         for (int i = 0; i < THEME_NODE_DEPTHS; i++)
-            fill(p, MARGIN + i * 2, p->y + 4 - i / 2, 2, i + 1, theme_node_role((unsigned)i));
+            fill_dots(p, i * SWATCH / THEME_NODE_DEPTHS, 4 - i / 2, 2, i + 1, theme_node_role((unsigned)i));
     } else if (line->sign == SIGN_RAMP) {
-        for (int i = 0; i < line->steps; i++)
-            fill(p, MARGIN + i * SWATCH / line->steps, p->y + 1, SWATCH / line->steps + 1, 6,
-                 theme_node_role((unsigned)i));
+        for (int i = 0; i < line->steps; i++) {
+            const int from = i * SWATCH / line->steps, to = (i + 1) * SWATCH / line->steps;
+            fill_dots(p, from, 1, to - from, 7, theme_node_role((unsigned)i));
+        }
     } else {
         const int8_t(*parts)[4] = signs[line->sign];
         for (int i = 0; i < SIGN_PARTS && parts[i][2]; i++)
-            fill(p, MARGIN + parts[i][0], p->y + parts[i][1], parts[i][2], parts[i][3], line->role);
+            fill_dots(p, parts[i][0], parts[i][1], parts[i][2], parts[i][3], line->role);
     }
 }
 
 void write_legend(pen *p, const layer_source *in)
 {
     const scene *s = p->scene;
-    const int foot = s->view.height / s->unit - MARGIN, room = (foot - p->y - LINE / 2) / LINE;
+    const int line = s->text.line, foot = s->view.height - LAYOUT_MARGIN * s->text.width;
+    const int room = (foot - p->y - line / 2) / line;
     legend l = {.scene = s, .in_frame = layers_in_frame(s)};
     list_layers(&l, in);
     const size_t left_out = make_fit(&l, room > 0 ? (size_t)room : 0);
     if (l.count == 0)
         return;
-    p->y = foot - (int)(l.count + (left_out > 0)) * LINE;
+    p->y = foot - (int)(l.count + (left_out > 0)) * line - line / 2;
+    write_rule(p);
     for (size_t i = 0; i < l.count; i++) {
         fill_sign(p, &l.lines[i]);
-        write_line(p, WORDS, ROLE_FAINT, l.lines[i].text);
+        write_text(p, LEGEND_WORDS, ROLE_FAINT, l.lines[i].text);
+        p->y += line;
     }
     if (left_out) {
         char text[SCENE_TEXT];
         snprintf(text, sizeof text, "and %zu more", left_out);
-        write_text(p, WORDS, ROLE_FAINT, 1, text);
+        write_text(p, LEGEND_WORDS, ROLE_FAINT, text);
     }
 }

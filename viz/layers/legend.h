@@ -59,7 +59,8 @@ typedef struct legend {
 } legend;
 
 /* Letters that fit into a line. */
-#define LEGEND_LETTERS ((COLUMN - WORDS) / LETTER)
+#define LEGEND_LETTERS (LAYOUT_LETTERS - LEGEND_WORDS)
+#define LEGEND_WORDS 4 /* the letter at which its words begin, behind the sign */
 
 /* Add a line in the layer's colour. The result may be changed. */
 legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...);

@@ -178,7 +178,7 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
     double middle[3], pixel[2];
     scene_box_middle(&box->box, middle);
     snprintf(label.text, sizeof label.text, "%s", octree_address_format(box->id, text));
-    const double width = (double)(strlen(label.text) + 1) * TEXT_LETTER * s->unit;
+    const double width = (double)(strlen(label.text) + 1) * s->text.width;
     if (!camera_pixel(&s->camera, middle, pixel) || camera_box_pixels(&s->camera, &box->box) < width ||
         !text_space_take(words, s, label.text, pixel, label.at))
         return false;
@@ -217,10 +217,10 @@ static void add_legend(legend *l, const layer_source *in)
 {
     const size_t depths = octree_definition(in->tree).max_depth + 1;
     if (l->scene->view.coloring == COLORING_DEPTH)
-        legend_add(l, SIGN_RAMP, "node, shallow to deep")->steps =
+        legend_add(l, SIGN_RAMP, "nodes, shallow to deep")->steps =
             depths < THEME_NODE_DEPTHS ? (int)depths : THEME_NODE_DEPTHS;
     else if (l->scene->view.coloring == COLORING_OCCUPANCY)
-        legend_add(l, SIGN_RAMP, "node, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
+        legend_add(l, SIGN_RAMP, "nodes, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
     else
         legend_add(l, SIGN_BOLD, "node");
 }
@@ -234,6 +234,6 @@ static void describe(description *d, const described *element)
     say_node(d, element->id);
 }
 
-const layer_type layer_NODES = {.add = add, .legend_place = 10, .legend = add_legend, .describe = describe};
+const layer_type layer_NODES = {.add = add, .legend_place = 50, .legend = add_legend, .describe = describe};
 
-const layer_type layer_POINTS = {.legend_place = 110, .sign = SIGN_DOT, .text = "point", .worth = WORTH_PLAIN};
+const layer_type layer_POINTS = {.legend_place = 30, .sign = SIGN_DOT, .text = "point", .worth = WORTH_PLAIN};

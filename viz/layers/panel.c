@@ -3,47 +3,83 @@
 #include "judgement_words.h"
 #include "layer_type.h"
 #include "layout.h"
-#include "number.h"
 #include "text.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define LETTERS 10 /* units from the top of a row to below its letters */
+/* ---- Numbers in columns ------------------------------------------------------------------------------------- */
 
-/* On one line where it fits, else on three. */
-static void write_position(pen *p, const char *name, const double position[3])
+#define MOST_DECIMALS 9
+#define WORLD_NUMBER 12 /* letters of a number of the world */
+
+/* The decimals that a number is written with. */
+static int decimals_of(double value)
 {
-    char axes[3][NUMBER_TEXT], line[SCENE_TEXT * 2];
-    for (int i = 0; i < 3; i++)
-        number_text(position[i], 6, axes[i]);
-    snprintf(line, sizeof line, "%s %s %s", axes[0], axes[1], axes[2]);
-    if (strlen(line) <= (COLUMN - VALUE) / LETTER) {
-        write_row(p, name, "%s", line);
-        return;
+    char text[NUMBER_TEXT];
+    const char *point = strchr(number_text(value, MOST_DECIMALS, text), '.');
+    return strchr(text, 'e') ? MOST_DECIMALS + 1 : point ? (int)strlen(point + 1) : 0;
+}
+
+/* The decimals that all places have where a player can come to by its keys, so that its numbers keep their place from
+ * tick to tick; more than MOST_DECIMALS where they need an exponent. Another player's have six digits of the world. */
+static int decimals_of_player(const layer_source *in)
+{
+    const octree_player *player = &in->session->player;
+    int decimals = 0;
+    if (player->kind == OCTREE_PLAYER_KEYS) {
+        const double numbers[] = {player->step, player->position[0], player->position[1], player->position[2]};
+        for (int i = 0; i < 4; i++)
+            decimals = decimals_of(numbers[i]) > decimals ? decimals_of(numbers[i]) : decimals;
+        return decimals;
     }
+    double largest = 0;
     for (int i = 0; i < 3; i++)
-        write_row(p, i ? "" : name, "%s", number_text(position[i], 9, axes[i]));
+        largest = fmax(largest, fmax(fabs(in->world.min[i]), fabs(in->world.max[i])));
+    for (double digit = largest * 1e-5; digit < 0.5 && decimals <= MOST_DECIMALS; digit *= 10)
+        decimals++;
+    return decimals;
+}
+
+/* A row an axis. */
+static void write_position(pen *p, const char *name, const double position[3], int decimals)
+{
+    for (int i = 0; i < 3; i++) {
+        char axis[NUMBER_TEXT], text[NUMBER_TEXT];
+        snprintf(axis, sizeof axis, "%-7s%c", i ? "" : name, "xyz"[i]);
+        if (decimals > MOST_DECIMALS || !(fabs(position[i]) < 1e9))
+            number_text(position[i], 9, text);
+        else
+            snprintf(text, sizeof text, "%.*f", decimals, position[i] + 0.0); /* + 0.0: no minus zero */
+        write_row(p, axis, "%s", text);
+    }
 }
 
 static void write_world(pen *p, const octree_box *world)
 {
+    char from[NUMBER_TEXT], to[NUMBER_TEXT], both[SCENE_TEXT * 2];
+    snprintf(both, sizeof both, "%*s %*s", WORLD_NUMBER, "from", WORLD_NUMBER, "to");
+    write_text(p, 0, ROLE_FAINT, "world");
+    write_right(p, ROLE_FAINT, both);
+    p->y += p->scene->text.line;
     for (int i = 0; i < 3; i++) {
         const char name[2] = {(char)('x' + i), 0};
-        char from[NUMBER_TEXT], to[NUMBER_TEXT];
-        write_row(p, name, "%s", number_text(world->min[i], 9, from));
-        write_row(p, "  to", "%s", number_text(world->max[i], 9, to));
+        write_row(p, name, "%*s %*s", WORLD_NUMBER, number_fitting(world->min[i], WORLD_NUMBER, from), WORLD_NUMBER,
+                  number_fitting(world->max[i], WORLD_NUMBER, to));
     }
 }
+
+/* ---- What the tick did -------------------------------------------------------------------------------------- */
 
 static void write_statistics(pen *p, const octree *tree, const octree_stats *stats)
 {
     write_row(p, "points", "%zu", stats->points);
     write_row(p, "nodes", "%zu", stats->nodes);
     write_row(p, "leaves", "%zu", stats->leaves);
-    write_row(p, "depth", "%u of %zu", stats->depth, octree_definition(tree).max_depth);
-    write_row(p, "leaf", "up to %zu", octree_definition(tree).leaf_capacity);
+    write_row(p, "depth", "%u of max %zu", stats->depth, octree_definition(tree).max_depth);
+    write_row(p, "leaf capacity", "%zu", octree_definition(tree).leaf_capacity);
 }
 
 /* Whether the player is moved by keys. */
@@ -69,6 +105,24 @@ static const char *quiet_word(const layer_source *in)
     return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
 }
 
+/* The sentence in lines that fit the column, broken at blanks. */
+static void write_wrapped(pen *p, theme_role role, const char *text)
+{
+    const size_t most = (size_t)p->letters;
+    while (*text) {
+        char line[SCENE_TEXT];
+        size_t length = strlen(text);
+        for (size_t i = length > most ? most : 0; i > 0; i--)
+            if (text[i] == ' ') {
+                length = i;
+                break;
+            }
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        write_line(p, role, line);
+        text += length + (text[length] == ' ');
+    }
+}
+
 /* What the tick did, in words; the most urgent gives the colour. */
 static void write_events(pen *p, const layer_source *in)
 {
@@ -82,7 +136,7 @@ static void write_events(pen *p, const layer_source *in)
     }
     const bool warns = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL | OCTREE_EVENT_WRONG);
     const theme_role role = tick->hit_count ? ROLE_COLLISION : warns ? ROLE_WARNING : ROLE_TEXT;
-    write_line(p, MARGIN, role, words[0] ? words : quiet_word(in));
+    write_wrapped(p, role, words[0] ? words : quiet_word(in));
 }
 
 /* In the colours of the answers' layers. */
@@ -96,67 +150,57 @@ static void write_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* "1 of 3: nearest", with the kind where it fits, and what is wrong with the worst of the program's answers. */
+/* How many of the program's answers are wrong, and the kind of the worst and what is wrong with it. */
 static void write_wrong(pen *p, const layer_source *in)
 {
-    char count[2 * SCENE_TEXT], kind[SCENE_TEXT], words[JUDGEMENT_WORDS];
+    char words[JUDGEMENT_WORDS];
     size_t judged = 0, worst;
     const size_t wrong = judgement_count(in->answers, in->answer_count, &worst);
     if (wrong == 0)
         return;
     for (size_t i = 0; i < in->answer_count; i++)
         judged += in->answers[i].judgement.judged;
-    snprintf(count, sizeof count, "%zu of %zu", wrong, judged);
-    snprintf(kind, sizeof kind, ": %s", octree_query_name(in->answers[worst].kind));
-    if (strlen(count) + strlen(kind) <= text_room(VALUE, 1))
-        strcat(count, kind);
     p->name = ROLE_WRONG;
-    write_row(p, "wrong", "%s", count);
+    write_detailed_row(p, "wrong", octree_query_name(in->answers[worst].kind), "%zu of %zu", wrong, judged);
     write_row(p, "", "%s", judgement_words(&in->answers[worst].judgement, words));
     p->name = ROLE_FAINT;
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
 {
-    for (size_t i = 0; i < tick->refusal_count && i < 2; i++)
-        write_row(p, i ? "" : "refused", "%" PRIu64 ": %s", tick->refusals[i].id,
-                  octree_status_name(tick->refusals[i].why));
+    for (size_t i = 0; i < tick->refusal_count && i < 2; i++) {
+        char id[SCENE_TEXT];
+        snprintf(id, sizeof id, "#%" PRIu64, tick->refusals[i].id);
+        write_detailed_row(p, i ? "" : "refused", id, "%s", octree_status_name(tick->refusals[i].why));
+    }
     if (tick->refusal_count > 2)
         write_row(p, "", "and %zu more", tick->refusal_count - 2);
 }
 
-/* A few keys before and after this tick's, which is in brackets. */
+/* A few keys before and after this tick's, which is in brackets and always at the same place. */
 static void write_keys(pen *p, const layer_source *in)
 {
+    enum { BEFORE = 5, AFTER = 6 };
     const uint64_t now = in->tick->number;
     const char *keys = in->session->keys ? in->session->keys : "";
-    const size_t count = strlen(keys);
+    const uint64_t count = strlen(keys);
     char text[SCENE_TEXT];
     size_t used = 0;
-    for (uint64_t tick = now > 5 ? now - 5 : 1; tick <= now + 6 && tick <= count; tick++)
-        used += (size_t)snprintf(text + used, sizeof text - used, tick == now ? "[%c] " : "%c ", keys[tick - 1]);
-    if (used) {
-        text[used - 1] = 0; /* the last blank */
-        write_line(p, MARGIN, ROLE_FAINT, text);
+    if (!count)
+        return;
+    for (uint64_t i = 0; i <= BEFORE + AFTER; i++) {
+        const uint64_t tick = now + i - BEFORE; /* from 1; below that it wraps around */
+        const char key = tick - 1 < count ? keys[tick - 1] : ' ';
+        used += (size_t)snprintf(text + used, sizeof text - used,
+                                 i != BEFORE  ? "%c "
+                                 : key == ' ' ? " %c  "
+                                              : "[%c] ",
+                                 key);
     }
-}
-
-/* The sentence in lines that fit the column, broken at blanks. */
-static void write_wrapped(pen *p, theme_role role, const char *text)
-{
-    const size_t most = (COLUMN - MARGIN) / LETTER;
-    while (*text) {
-        char line[SCENE_TEXT];
-        size_t length = strlen(text);
-        for (size_t i = length > most ? most : 0; i > 0; i--)
-            if (text[i] == ' ') {
-                length = i;
-                break;
-            }
-        snprintf(line, sizeof line, "%.*s", (int)length, text);
-        write_line(p, MARGIN, role, line);
-        text += length + (text[length] == ' ');
-    }
+    while (used && text[used - 1] == ' ')
+        text[--used] = 0;
+    if (used || now < count)
+        write_line(p, ROLE_FAINT, text);
 }
 
 static void write_broken(pen *p, const layer_source *in)
@@ -164,16 +208,37 @@ static void write_broken(pen *p, const layer_source *in)
     char text[OCTREE_ADDRESS_TEXT];
     if (!in->broken)
         return;
-    p->y += LINE / 2;
+    write_gap(p);
     write_row(p, "broken", "%s", octree_address_format(in->broken_at, text));
     write_wrapped(p, ROLE_WARNING, in->broken);
 }
 
-static void write_title(pen *p, const char *text)
+/* The title, in its own letters where there is room for them and for so many small ones at the right. */
+static void write_title(pen *p, const char *text, size_t beside)
 {
-    const bool fits = strlen(text) <= (COLUMN - MARGIN) / (2 * LETTER);
-    write_text(p, MARGIN, ROLE_TEXT, fits ? 2 : 1, text);
-    p->y += 2 * LINE;
+    const scene *s = p->scene;
+    const size_t taken = (strlen(text) * (size_t)s->title.width + (size_t)s->text.width - 1) / (size_t)s->text.width;
+    if (taken + (beside ? beside + 1 : 0) <= (size_t)p->letters)
+        write_title_text(p, ROLE_TEXT, text);
+    else
+        write_text(p, 0, ROLE_TEXT, text);
+}
+
+/* The tick, and at its right the key that was pressed and what it does. */
+static void write_tick_title(pen *p, const layer_source *in, const char *title)
+{
+    const char key = in->tick->key;
+    const int y = p->y, line = p->scene->text.height;
+    char text[SCENE_TEXT] = "";
+    if (key && (has_keys(in) || key == 'n'))
+        snprintf(text, sizeof text, "%c %s", key, key_meaning(key));
+    write_title(p, title, strlen(text));
+    if (*text) {
+        write_right(p, ROLE_FAINT, "key");
+        p->y += line;
+        write_right(p, ROLE_TEXT, text);
+    }
+    p->y = y + 2 * line + line / 2;
 }
 
 /* ---- What the view leaves out ------------------------------------------------------------------------------- */
@@ -217,30 +282,23 @@ static void write_budget(pen *p, const scene_tally *tally)
 static void write_folded(pen *p, const scene_tally *tally)
 {
     if (tally->folded && tally->folded_from == tally->folded_to)
-        write_row(p, "folded", "depth %u", tally->folded_from);
+        write_row(p, "drawn as bars", "depth %u", tally->folded_from);
     else if (tally->folded)
-        write_row(p, "folded", "depths %u to %u", tally->folded_from, tally->folded_to);
+        write_row(p, "drawn as bars", "depths %u to %u", tally->folded_from, tally->folded_to);
 }
 
-/* "12 below 2 px"; what is no node in words that fit, "12 met < 2 px", or on a line of its own, "and 12 met". */
+/* A row for each kind of what is smaller than the view's lod. */
 static void write_small(pen *p, const scene_tally *tally)
 {
     const size_t counts[] = {tally->small, tally->small_met, tally->arrows.small};
-    const char *const words[] = {"", " met", tally->arrows.small == 1 ? " arrow" : " arrows"};
-    char lod[NUMBER_TEXT], text[SCENE_TEXT * 2];
-    const char *name = "lod";
-    number_text(p->scene->view.lod, 3, lod);
+    static const char *const words[][2] = {{"node", "nodes"}, {"node met", "nodes met"}, {"arrow", "arrows"}};
+    char lod[NUMBER_TEXT], name[SCENE_TEXT];
+    snprintf(name, sizeof name, "under %s px", number_text(p->scene->view.lod, 3, lod));
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (!counts[i])
             continue;
-        if (*name)
-            snprintf(text, sizeof text, i ? "%zu%s < %s px" : "%zu%s below %s px", counts[i], words[i], lod);
-        else
-            snprintf(text, sizeof text, "and %zu%s", counts[i], words[i]);
-        if (i && *name && strlen(text) > text_room(VALUE, 1))
-            text[strlen(text) - strlen(" px")] = 0;
-        write_row(p, name, "%s", text);
-        name = "";
+        write_row(p, name, "%zu %s", counts[i], words[i][counts[i] != 1]);
+        name[0] = 0;
     }
 }
 
@@ -262,7 +320,7 @@ static void write_left_out(pen *p)
 {
     const scene_tally *tally = &p->scene->tally;
     const int before = p->y;
-    p->y += LINE / 2;
+    write_gap(p);
     const int begin = p->y;
     p->value = ROLE_WARNING;
     write_folded(p, tally);
@@ -274,24 +332,39 @@ static void write_left_out(pen *p)
     p->value = ROLE_TEXT;
     if (p->scene->view.labels && tally->labels < tally->nodes)
         write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
-    p->y = p->y == begin ? before : p->y; /* nothing is left out */
+    const int end = p->y;
+    p->y = before;
+    if (end != begin) {
+        write_rule(p);
+        p->y = end;
+    }
 }
 
 /* ---- The column --------------------------------------------------------------------------------------------- */
+
+/* Leave out the rules of the column from this pixel on. */
+static void drop_rules(scene *s, int from)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < s->panels.count; i++)
+        if (s->panels.items[i].style.layer != LAYER_TEXT || s->panels.items[i].y < from)
+            s->panels.items[kept++] = s->panels.items[i];
+    s->panels.count = kept;
+}
 
 /* Rows that do not fit are replaced by a line that counts them. */
 static void end_rows(pen *p)
 {
     scene *s = p->scene;
-    const int last = s->view.height / s->unit - LETTERS; /* where the last row may begin */
+    const int last = s->view.height - s->text.height, line = s->text.line; /* where the last row may begin */
     size_t kept = 0, rows = 0;
     double at = -1, first = 0;
     char text[SCENE_TEXT];
-    if (p->y - LINE <= last)
+    if (p->y - line <= last)
         return;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label label = s->labels.items[i];
-        if (label.style.layer != LAYER_TEXT || label.at[1] <= (last - LINE) * s->unit) {
+        if (label.style.layer != LAYER_TEXT || label.at[1] <= last - line) {
             s->labels.items[kept++] = label;
             continue;
         }
@@ -300,35 +373,41 @@ static void end_rows(pen *p)
         at = label.at[1];
     }
     s->labels.count = kept;
-    p->y = (int)first / s->unit < last ? (int)first / s->unit : last;
+    p->y = (int)first < last ? (int)first : last;
+    drop_rules(s, p->y);
     snprintf(text, sizeof text, "and %zu more", rows);
-    write_line(p, MARGIN, ROLE_WARNING, text);
+    write_line(p, ROLE_WARNING, text);
 }
 
-/* If the session has a player. */
+/* If the session has a player. What it may lack leaves its room, so that the rows below stay where they are. */
 static void write_player(pen *p, const layer_source *in)
 {
+    const int end = p->y + 3 * p->scene->text.line;
+    if (in->session->player.kind == OCTREE_PLAYER_NONE && !in->tick->has_player)
+        return;
     if (in->tick->has_player)
-        write_position(p, "player", in->tick->player);
-    else if (in->session->player.kind != OCTREE_PLAYER_NONE)
+        write_position(p, "player", in->tick->player, decimals_of_player(in));
+    else
         write_row(p, "player", "away");
+    p->y = end;
+    if (in->tick->swept)
+        write_row(p, "box tested", "the whole way");
+    write_rule(p);
 }
 
 static void write_tick_rows(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
-    if (tick->key && (has_keys(in) || tick->key == 'n'))
-        write_row(p, "key", "%c  %s", tick->key, key_meaning(tick->key));
+    write_events(p, in);
     write_keys(p, in);
+    write_rule(p);
     write_player(p, in);
-    if (tick->swept)
-        write_row(p, "tested", "the whole way");
-    p->y += LINE / 2;
     write_statistics(p, in->tree, &tick->stats);
     write_left_out(p);
-    p->y += LINE / 2;
-    if (tick->hit_count)
-        write_ids(p, "hits", tick->hits, tick->hit_count);
+    if (tick->has_player || in->answer_count || tick->refusal_count)
+        write_rule(p);
+    if (tick->has_player)
+        write_ids(p, "box hits", tick->hits, tick->hit_count);
     write_wrong(p, in);
     write_answers(p, in);
     write_refusals(p, tick);
@@ -340,26 +419,42 @@ static void write_tree_rows(pen *p, const layer_source *in)
     octree_statistics(in->tree, &stats);
     write_statistics(p, in->tree, &stats);
     write_left_out(p);
-    p->y += LINE / 2;
+    write_rule(p);
     write_world(p, &in->world);
     if (in->answer_count)
-        p->y += LINE / 2;
+        write_rule(p);
     write_answers(p, in);
 }
 
 /* When there is no room for the column, its most important lines are written on the picture. */
 static void add_lines(scene *s, const layer_source *in, const char *title)
 {
-    pen p = {.scene = s, .y = 4, .name = ROLE_FAINT, .value = ROLE_TEXT};
+    pen p = pen_in_corner(s);
     if (in->tick) {
-        write_text(&p, 4, ROLE_TEXT, 1, title);
-        p.y += LINE;
+        write_line(&p, ROLE_TEXT, title);
         write_events(&p, in);
         write_wrong(&p, in);
     }
     write_left_out(&p);
     write_broken(&p, in);
     end_rows(&p);
+}
+
+static void add_column(scene *s, const layer_source *in, const char *title)
+{
+    pen p = pen_in_column(s);
+    fill(&p, -p.left, -p.y, panel_width(&s->view), s->view.height, ROLE_PANEL);
+    if (in->tick) {
+        write_tick_title(&p, in, title);
+        write_tick_rows(&p, in);
+    } else {
+        write_title(&p, title, 0);
+        p.y += s->title.height + s->text.height / 2;
+        write_tree_rows(&p, in);
+    }
+    write_broken(&p, in);
+    end_rows(&p);
+    write_legend(&p, in);
 }
 
 static void add(scene *s, const layer_source *in, view_layer own)
@@ -369,29 +464,16 @@ static void add(scene *s, const layer_source *in, view_layer own)
     const char *title = in->tick ? tick : in->title;
     if (in->tick)
         snprintf(tick, sizeof tick, "tick %" PRIu64, in->tick->number);
-    if (panel_width(&s->view) == 0) {
+    if (panel_width(&s->view) == 0)
         add_lines(s, in, title);
-        return;
-    }
-    pen p = {.scene = s, .y = MARGIN, .name = ROLE_FAINT, .value = ROLE_TEXT};
-    fill(&p, 0, 0, COLUMN, s->view.height / s->unit + 1, ROLE_PANEL);
-    write_title(&p, title);
-    if (in->tick) {
-        write_events(&p, in);
-        p.y += LINE / 2;
-        write_tick_rows(&p, in);
-    } else {
-        write_tree_rows(&p, in);
-    }
-    write_broken(&p, in);
-    end_rows(&p);
-    write_legend(&p, in);
+    else
+        add_column(s, in, title);
 }
 
 static void describe(description *d, const described *element)
 {
     if (element->kind == SCENE_PANEL)
-        say(d, element->style.role == ROLE_PANEL ? "the panel that the text is on" : "a sign in the panel");
+        say(d, element->style.role == ROLE_PANEL ? "the panel that the text is on" : "a sign or a rule in the panel");
 }
 
 const layer_type layer_TEXT = {.add = add, .describe = describe};

@@ -7,29 +7,64 @@
 #include <stdio.h>
 #include <string.h>
 
-size_t text_room(int x, int size)
+pen pen_in_column(scene *s)
 {
-    const size_t fits = (size_t)((COLUMN - x) / (LETTER * size));
-    return fits < SCENE_TEXT ? fits : SCENE_TEXT - 1;
+    const int margin = LAYOUT_MARGIN * s->text.width;
+    return (pen){
+        .scene = s, .left = margin, .y = margin, .letters = LAYOUT_LETTERS, .name = ROLE_FAINT, .value = ROLE_TEXT};
 }
 
-void write_text(pen *p, int x, theme_role role, int size, const char *text)
+pen pen_in_corner(scene *s)
 {
-    const scene *s = p->scene;
+    pen p = pen_in_column(s);
+    p.left = p.y = s->text.width;
+    const int fits = (s->view.width - 2 * p.left) / s->text.width;
+    p.letters = fits < 1 ? 1 : fits < LAYOUT_LETTERS ? fits : LAYOUT_LETTERS;
+    return p;
+}
+
+static void add_text(pen *p, int x, theme_role role, int size, size_t room, const char *text)
+{
     scene_label label = {.id = p->next_id++,
-                         .at = {x * s->unit, p->y * s->unit},
+                         .at = {p->left + x, p->y},
                          .style = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
-    const int fits = (int)text_room(x, size);
+    const int fits = (int)(room < SCENE_TEXT ? room : SCENE_TEXT - 1);
     snprintf(label.text, SCENE_TEXT, "%.*s", fits, text);
-    if (strlen(text) > (size_t)fits)
+    if (strlen(text) > (size_t)fits && fits > 2)
         memcpy(label.text + fits - 2, "..", 2);
     scene_add_label(p->scene, label);
 }
 
-void write_line(pen *p, int x, theme_role role, const char *text)
+void write_text(pen *p, int at, theme_role role, const char *text)
 {
-    write_text(p, x, role, 1, text);
-    p->y += LINE;
+    add_text(p, at * p->scene->text.width, role, 1, at < p->letters ? (size_t)(p->letters - at) : 1, text);
+}
+
+void write_right(pen *p, theme_role role, const char *text)
+{
+    const int length = (int)strlen(text);
+    write_text(p, length < p->letters ? p->letters - length : 0, role, text);
+}
+
+void write_title_text(pen *p, theme_role role, const char *text)
+{
+    add_text(p, 0, role, 2, (size_t)(p->letters * p->scene->text.width / p->scene->title.width), text);
+}
+
+void write_line(pen *p, theme_role role, const char *text)
+{
+    write_text(p, 0, role, text);
+    p->y += p->scene->text.line;
+}
+
+/* The value is cut where the name would cover it. */
+static void end_row(pen *p, size_t taken, char *value)
+{
+    const size_t room = (size_t)p->letters > taken + 1 ? (size_t)p->letters - taken - 1 : 0;
+    if (strlen(value) > room && room > 2)
+        memcpy(value + room - 2, "..", 3);
+    write_right(p, p->value, value);
+    p->y += p->scene->text.line;
 }
 
 void write_row(pen *p, const char *name, const char *format, ...)
@@ -39,32 +74,71 @@ void write_row(pen *p, const char *name, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
-    write_text(p, MARGIN, p->name, 1, name);
-    write_line(p, VALUE, p->value, value);
+    write_text(p, 0, p->name, name);
+    end_row(p, strlen(name), value);
+}
+
+void write_detailed_row(pen *p, const char *name, const char *detail, const char *format, ...)
+{
+    char value[SCENE_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(value, sizeof value, format, arguments);
+    va_end(arguments);
+    const int room = p->letters - DETAIL - (int)strlen(value) - 1;
+    const int fits = room < 0 ? 0 : room < (int)strlen(detail) ? room : (int)strlen(detail);
+    char cut[SCENE_TEXT];
+    snprintf(cut, sizeof cut, "%.*s", fits, detail);
+    if (detail[fits] && fits > 2)
+        memcpy(cut + fits - 2, "..", 2);
+    write_text(p, 0, p->name, name);
+    if (*cut)
+        write_text(p, DETAIL, ROLE_FAINT, cut);
+    end_row(p, *cut ? DETAIL + strlen(cut) : strlen(name), value);
+}
+
+void write_gap(pen *p)
+{
+    p->y += p->scene->text.line / 2;
+}
+
+void write_rule(pen *p)
+{
+    const scene *s = p->scene;
+    if (panel_width(&s->view))
+        fill(p, 0, s->text.line / 4, p->letters * s->text.width, s->text.height < 48 ? 1 : s->text.height / 24,
+             ROLE_WORLD);
+    write_gap(p);
+}
+
+const char *number_fitting(double value, size_t letters, char text[NUMBER_TEXT])
+{
+    for (int digits = 9; digits > 0 && strlen(number_text(value, digits, text)) > letters; digits--)
+        continue;
+    return text;
 }
 
 void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
 {
-    char text[SCENE_TEXT], more[SCENE_TEXT], longer[SCENE_TEXT * 2];
+    char text[SCENE_TEXT] = "", more[SCENE_TEXT] = "", longer[SCENE_TEXT * 2], found[SCENE_TEXT];
+    const size_t taken = (size_t)snprintf(found, sizeof found, "%zu found", count) + DETAIL + 1;
     size_t told = 0;
-    snprintf(text, sizeof text, "%zu", count);
-    more[0] = 0;
     for (; told < count && told < PEN_MOST_IDS; told++) {
         char rest[SCENE_TEXT] = "";
         if (told + 1 < count)
             snprintf(rest, sizeof rest, " +%zu", count - told - 1);
-        snprintf(longer, sizeof longer, "%s%s %" PRIu64, text, told ? "" : ":", points[told].id);
-        if (strlen(longer) + strlen(rest) > text_room(VALUE, 1))
+        snprintf(longer, sizeof longer, "%s%s#%" PRIu64, text, told ? " " : "", points[told].id);
+        if (taken + strlen(longer) + strlen(rest) > (size_t)p->letters)
             break;
         strcpy(text, longer);
         strcpy(more, rest);
     }
-    write_row(p, name, "%s%s", text, more);
+    strcat(text, more);
+    write_detailed_row(p, name, text, "%s", found);
 }
 
 void fill(pen *p, int x, int y, int width, int height, unsigned role)
 {
-    const int unit = p->scene->unit;
-    scene_add_rectangle(p->scene, p->next_id++, (int[]){x * unit, y * unit}, (int[]){width * unit, height * unit},
-                        LAYER_TEXT, role);
+    scene_add_rectangle(p->scene, p->next_id++, (int[]){p->left + x, p->y + y}, (int[]){width, height}, LAYER_TEXT,
+                        role);
 }

@@ -1,44 +1,56 @@
 /* SPDX-License-Identifier: MIT */
-/* pen.h - writing into the column of text at the left, line by line. */
+/* pen.h - writing into the column of text at the left, line by line. Letters are all as wide (lettering.h), so that
+ * places in a line are counted in letters. */
 #ifndef LAYERS_PEN_H
 #define LAYERS_PEN_H
 
 #include "layout.h"
+#include "number.h"
 #include "octree/octree.h"
 #include "scene.h"
 
-/* In units (view_unit). */
-#define COLUMN LAYOUT_COLUMN
-#define MARGIN 8
-#define LINE 13
-#define VALUE 54                    /* where a row's value begins */
-#define LETTER 6                    /* the width of the widest usual letter: text is cut by it to fit the panel */
-#define SWATCH 20                   /* the width of a sign in the legend */
-#define WORDS (MARGIN + SWATCH + 6) /* where its words begin */
+#define DETAIL 10 /* the letter of a row at which its detail begins */
 
-/* Where the next line of text goes, in units. */
+/* Where the next line of text goes. */
 typedef struct pen {
     scene *scene;
-    int y;
+    int left, y;            /* pixels of the top left corner of its first letter */
+    int letters;            /* that fit into a line */
     theme_role name, value; /* the colours of names and values of rows */
     uint64_t next_id;
 } pen;
 
-/* How many letters fit from x to the end of the column. */
-size_t text_room(int x, int size);
+/* A pen in the column, or where there is none in the corner of the picture. */
+pen pen_in_column(scene *s);
+pen pen_in_corner(scene *s);
 
-/* Write a text; one that does not fit is cut and ends in two dots. */
-void write_text(pen *p, int x, theme_role role, int size, const char *text);
+/* Write a text at a letter of the line, or to end at its end. One that does not fit is cut and ends in two dots. */
+void write_text(pen *p, int at, theme_role role, const char *text);
+void write_right(pen *p, theme_role role, const char *text);
 
-/* Write a line of text, or a row of a name and a value, and move to the next line. */
-void write_line(pen *p, int x, theme_role role, const char *text);
+/* Write in the letters of titles, which are twice as wide and as high. */
+void write_title_text(pen *p, theme_role role, const char *text);
+
+/* Write a line of text and move to the next line. */
+void write_line(pen *p, theme_role role, const char *text);
+
+/* Write a line of a name at its left and a value at its right; and a detail between them, which is cut
+ * where the value needs the room. */
 void write_row(pen *p, const char *name, const char *format, ...);
+void write_detailed_row(pen *p, const char *name, const char *detail, const char *format, ...);
 
-/* Write a row of a count and as many ids as fit, PEN_MOST_IDS at most: "3: 17 5 +1". */
+/* Move down by half a line; with a thin line in its middle where there is a column, or without. */
+void write_gap(pen *p);
+void write_rule(pen *p);
+
+/* Write a row of as many ids as fit, PEN_MOST_IDS at most, and the count: "#17 #5 +1", "3 found". */
 void write_ids(pen *p, const char *name, const octree_point *points, size_t count);
 #define PEN_MOST_IDS 3
 
-/* A rectangle. */
+/* A number with as many significant digits as fit into so many letters, 9 at most. Returns `text`. */
+const char *number_fitting(double value, size_t letters, char text[NUMBER_TEXT]);
+
+/* A rectangle, in pixels from the pen's place. */
 void fill(pen *p, int x, int y, int width, int height, unsigned role);
 
 #endif

@@ -33,7 +33,7 @@ static void describe_player(description *d, const described *element)
 
 const layer_type layer_PLAYER = {.applies = applies,
                                  .add = add_player,
-                                 .legend_place = 130,
+                                 .legend_place = 10,
                                  .sign = SIGN_SQUARE,
                                  .text = "player and its box",
                                  .worth = WORTH_PLAIN,
@@ -135,4 +135,4 @@ static void describe_box(description *d, const described *element)
 }
 
 const layer_type layer_BOX = {
-    .applies = applies, .add = add_box, .legend_place = 140, .legend = add_box_legend, .describe = describe_box};
+    .applies = applies, .add = add_box, .legend_place = 20, .legend = add_box_legend, .describe = describe_box};

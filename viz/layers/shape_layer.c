@@ -65,4 +65,4 @@ static void describe(description *d, const described *element)
 }
 
 const layer_type layer_SHAPES = {
-    .applies = applies, .add = add, .legend_place = 190, .legend = add_legend, .describe = describe};
+    .applies = applies, .add = add, .legend_place = 160, .legend = add_legend, .describe = describe};

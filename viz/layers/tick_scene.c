@@ -57,8 +57,7 @@ static bool build(scene *s, layer_source *in, const double player[3])
 {
     const view *v = in->view;
     scene_clear(s);
-    s->view = *v;
-    s->unit = view_unit(v);
+    scene_set_view(s, v);
     if (v->diagram == DIAGRAM_ONLY)
         s->view.layers &= 1u << LAYER_TEXT;
     s->camera = camera_make(v, layout_space(v), &in->world, player, in->tick ? in->tick->number : 0);

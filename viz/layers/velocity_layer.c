@@ -145,4 +145,4 @@ static void describe(description *d, const described *element)
 }
 
 const layer_type layer_VELOCITIES = {
-    .applies = applies, .add = add, .legend_place = 120, .legend = add_legend, .describe = describe};
+    .applies = applies, .add = add, .legend_place = 40, .legend = add_legend, .describe = describe};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* visit_layers.c - the layers of a tick's queries: nodes pruned, nodes visited, leaves with hits. */
 #include "layer_type.h"
+#include "text.h"
 #include "node_boxes.h"
 
 #include <stdio.h>
@@ -36,15 +37,17 @@ static void add_hit(scene *s, const layer_source *in, view_layer own)
 
 static void add_pruned_legend(legend *l, const layer_source *in)
 {
-    legend_add(l, SIGN_DASHES, "%zu pruned", in->tick->touched[OCTREE_TOUCH_PRUNED]);
+    const size_t pruned = in->tick->touched[OCTREE_TOUCH_PRUNED];
+    legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
 /* Nodes taken whole have a line of their own if both counts do not fit into one. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = in->tick->touched[OCTREE_TOUCH_TAKEN];
+    const size_t visited = in->tick->touched[OCTREE_TOUCH_VISITED];
     char rest[SCENE_TEXT];
-    legend_line *line = legend_add(l, SIGN_BOLD, "%zu visited", in->tick->touched[OCTREE_TOUCH_VISITED]);
+    legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
     const int length = snprintf(rest, sizeof rest, "%zu taken", taken);
     if (taken && strlen(line->text) + strlen(", ") + (size_t)length > LEGEND_LETTERS)
         legend_add(l, SIGN_NONE, "%s", rest);
@@ -68,10 +71,10 @@ static void describe(description *d, const described *element)
 }
 
 const layer_type layer_PRUNED = {
-    .applies = layer_in_games, .add = add_met, .legend_place = 40, .legend = add_pruned_legend, .describe = describe};
+    .applies = layer_in_games, .add = add_met, .legend_place = 80, .legend = add_pruned_legend, .describe = describe};
 
 const layer_type layer_VISITED = {
-    .applies = layer_in_games, .add = add_met, .legend_place = 30, .legend = add_visited_legend, .describe = describe};
+    .applies = layer_in_games, .add = add_met, .legend_place = 70, .legend = add_visited_legend, .describe = describe};
 
 const layer_type layer_HIT = {
-    .applies = layer_in_games, .add = add_hit, .legend_place = 50, .legend = add_hit_legend, .describe = describe};
+    .applies = layer_in_games, .add = add_hit, .legend_place = 90, .legend = add_hit_legend, .describe = describe};

@@ -73,8 +73,8 @@ static bool place_number(axes *a, const double end[3], scene_label *number)
     for (int i = 0; i < 2; i++)
         away[i] = pixel[i] - a->middle[i];
     const double length = sqrt(away[0] * away[0] + away[1] * away[1]);
-    const double reach[2] = {(double)strlen(number->text) * TEXT_LETTER * unit / 2 + unit,
-                             TEXT_HEIGHT * unit / 2.0 + unit};
+    const double reach[2] = {(double)strlen(number->text) * a->scene->text.width / 2 + unit,
+                             a->scene->text.height / 2.0 + unit};
     for (int i = 0; i < 2; i++)
         pixel[i] += length > 0 ? away[i] / length * reach[i] : 0;
     return text_space_take(&a->words, a->scene, number->text, pixel, number->at);
@@ -131,7 +131,7 @@ static void add_letter(axes *a, int axis)
     letter.at[axis] = a->box->max[axis];
     scene_add_label(a->scene, letter);
     if (camera_pixel(&a->scene->camera, letter.at, pixel)) {
-        pixel[0] += 6 * a->scene->unit; /* where draw puts it */
+        pixel[0] += a->scene->text.width; /* where draw puts it */
         text_space_take(&a->words, a->scene, letter.text, pixel, corner);
     }
 }

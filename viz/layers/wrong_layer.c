@@ -101,8 +101,8 @@ static void add_words(scene *s, const octree_answer *answer, size_t place, text_
     place_of(answer, at);
     if (!camera_pixel(&s->camera, at, pixel))
         return;
-    const double aside = (RING / 2.0 + (double)strlen(label.text) * TEXT_LETTER / 2 + 3) * s->unit;
-    const double above = (RING / 2.0 + TEXT_HEIGHT) * s->unit;
+    const double aside = (RING / 2.0 + 3) * s->unit + (double)strlen(label.text) * s->text.width / 2;
+    const double above = RING / 2.0 * s->unit + s->text.height;
     const double ways[][2] = {{aside, 0}, {-aside, 0}, {0, -above}, {0, above}};
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
         const double middle[2] = {pixel[0] + ways[i][0], pixel[1] + ways[i][1]};

@@ -121,6 +121,14 @@ void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[
                                      .style = {.layer = (uint8_t)layer, .role = (uint8_t)role}});
 }
 
+void scene_set_view(scene *s, const view *v)
+{
+    s->view = *v;
+    s->unit = view_unit(v);
+    s->text = lettering_of_text(v);
+    s->title = lettering_of_title(v);
+}
+
 void scene_add_label(scene *s, scene_label label)
 {
     if (admits(s, label.style, all_finite(label.at, 3)))
@@ -221,12 +229,19 @@ static uint64_t digest_painting(const scene *s, uint64_t digest)
     return octree_digest_double(digest, s->spacing);
 }
 
+static uint64_t digest_lettering(uint64_t digest, const lettering *l)
+{
+    return octree_digest_word(digest, (uint64_t)l->face << 32 | (uint64_t)(uint32_t)l->multiple);
+}
+
 static uint64_t digest_view(const scene *s)
 {
     const camera *c = &s->camera;
     uint64_t digest = OCTREE_DIGEST_START;
     digest = octree_digest_word(digest, (uint64_t)s->view.width << 32 | (uint64_t)s->view.height);
     digest = octree_digest_word(digest, (uint64_t)s->unit);
+    digest = digest_lettering(digest, &s->text);
+    digest = digest_lettering(digest, &s->title);
     digest = digest_doubles(digest, c->origin, 3);
     digest = digest_doubles(digest, c->half, 3);
     digest = digest_doubles(digest, (double[]){c->scale, c->size}, 2);

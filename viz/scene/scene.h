@@ -9,6 +9,7 @@
 #define SCENE_SCENE_H
 
 #include "camera.h"
+#include "lettering.h"
 #include "octree/octree.h"
 #include "theme.h"
 #include "view.h"
@@ -70,7 +71,7 @@ typedef struct scene_marker {
 
 #define SCENE_TEXT 48
 
-/* Text at a pixel, or beside the pixel of a world position. */
+/* Text at a pixel, or beside the pixel of a world position. A width of 2 makes it a title. */
 typedef struct scene_label {
     uint64_t id;
     scene_style style;
@@ -133,8 +134,9 @@ static inline bool scene_leaves_out_small(const scene_tally *tally)
 typedef struct scene {
     view view;
     camera camera;
-    int unit;       /* whole pixels a unit of width and text */
-    double spacing; /* between the points that it shows, where they are painted, in world units; 0: not known */
+    int unit;              /* whole pixels a unit of the widths of lines and marks */
+    lettering text, title; /* of labels; see scene_lettering() */
+    double spacing;        /* between the points that it shows, where they are painted, in world units; 0: not known */
     SCENE_ARRAY(scene_box) boxes;
     SCENE_ARRAY(scene_segment) segments;
     SCENE_ARRAY(scene_marker) markers;
@@ -145,9 +147,18 @@ typedef struct scene {
     bool out_of_memory; /* set by scene_add_*: the scene is incomplete */
 } scene;
 
+/* The letters that a label has. */
+static inline const lettering *scene_lettering(const scene *s, const scene_label *label)
+{
+    return label->style.width > 1 ? &s->title : &s->text;
+}
+
 /* Empty a scene for its next tick, keeping its memory. A zeroed scene is empty. */
 void scene_clear(scene *s);
 void scene_release(scene *s);
+
+/* Set the view, and the sizes that follow from it. The camera is another's. */
+void scene_set_view(scene *s, const view *v);
 
 /* Append an element, unless the view does not show its layer: nothing else tests that. */
 void scene_add_box(scene *s, scene_box box);

@@ -15,10 +15,15 @@ view view_default(void)
                   .budget = VIEW_DEFAULT_BUDGET};
 }
 
-int view_unit(const view *v)
+int view_height_in_wide(const view *v)
 {
     const int wide = v->width / 16 * 9;
-    const int height = v->height < wide ? v->height : wide;
+    return v->height < wide ? v->height : wide;
+}
+
+int view_unit(const view *v)
+{
+    const int height = view_height_in_wide(v);
     return height < 640 ? 1 : (height + 180) / 360;
 }
 

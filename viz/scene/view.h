@@ -142,8 +142,11 @@ typedef struct view {
 /* These, the iso camera, the default layers, no anti-aliasing, and nodes coloured by depth. */
 view view_default(void);
 
-/* The unit of text and line widths, in whole pixels so that they stay crisp. 1 below a height of 640, 2 from there, 6
- * at 2160; a narrow picture counts as its 16:9 part. */
+/* The height of a picture, or of its 16:9 part where it is narrower than that. */
+int view_height_in_wide(const view *v);
+
+/* The unit of the widths of lines and marks, in whole pixels so that they stay crisp: 1 below that height of 640, 2
+ * from there, 6 at 2160. */
 int view_unit(const view *v);
 
 /* Whether points are painted one by one, with colours of their own: not as marks of the theme's table. */

@@ -4,6 +4,7 @@
 #include "fixture.h"
 #include "layer.h"
 #include "layout.h"
+#include "legend.h"
 
 #include <string.h>
 
@@ -13,6 +14,11 @@ const scene_label *find_text(const scene *s, const char *text)
         if (s->labels.items[i].style.layer == LAYER_TEXT && strstr(s->labels.items[i].text, text))
             return &s->labels.items[i];
     return NULL;
+}
+
+int legend_words(const scene *s)
+{
+    return (LAYOUT_MARGIN + LEGEND_WORDS) * s->text.width;
 }
 
 bool has_swatch(const scene *s, unsigned role)

@@ -11,6 +11,9 @@ const scene_label *find_text(const scene *s, const char *text);
 /* Whether there is one. */
 bool says(const scene *s, const char *text);
 
+/* The pixel at which the words of the legend begin. */
+int legend_words(const scene *s);
+
 /* Whether a panel has this colour. */
 bool has_swatch(const scene *s, unsigned role);
 

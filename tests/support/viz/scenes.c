@@ -11,8 +11,9 @@ view view_of(int width, int height, view_camera camera, unsigned layers)
 
 scene empty_scene(const view *v, const octree_box *world)
 {
-    scene s = {.view = *v, .unit = view_unit(v)};
+    scene s = {0};
     double center[3];
+    scene_set_view(&s, v);
     for (int axis = 0; axis < 3; axis++)
         center[axis] = world->min[axis] / 2 + world->max[axis] / 2;
     s.camera = camera_make(v, (camera_window){0, 0, v->width, v->height}, world, center, 0);

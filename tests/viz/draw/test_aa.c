@@ -105,16 +105,23 @@ static image picture_of(const scene *s)
     return drawn;
 }
 
-/* The samples of lines and letters are the pixels of a picture that is so many times larger. */
+/* The samples of lines and letters are the pixels of a picture that is so many times larger; of letters where both have
+ * the same face. */
 static void samples_are_the_pixels_of_a_larger_picture(void **state)
 {
     (void)state;
-    for (int aa = 2; aa <= 4; aa += 2) {
-        const unsigned layers = 1u << LAYER_NODES | 1u << LAYER_TEXT | 1u << LAYER_RANGE;
-        scene small = tick_scene_of(1280, 720, aa, layers), large = tick_scene_of(1280 * aa, 720 * aa, 1, layers);
+    enum { LINES = 1 << LAYER_NODES | 1 << LAYER_RANGE };
+    static const struct {
+        int width, height, aa;
+        unsigned layers;
+    } cases[] = {{1280, 720, 2, LINES}, {1280, 720, 4, LINES}, {1920, 1080, 2, 1u << LAYER_TEXT}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const int width = cases[i].width, height = cases[i].height, aa = cases[i].aa;
+        scene small = tick_scene_of(width, height, aa, cases[i].layers);
+        scene large = tick_scene_of(width * aa, height * aa, 1, cases[i].layers);
         small.markers.count = large.markers.count = 0; /* a mark of an odd number of pixels has no middle of another */
         image drawn = picture_of(&small), samples = picture_of(&large), expected;
-        assert_true(image_create(&expected, 1280, 720, 3) && image_shrink(&samples, NULL, aa, &expected));
+        assert_true(image_create(&expected, width, height, 3) && image_shrink(&samples, NULL, aa, &expected));
         const image_difference difference = image_compare(&expected, &drawn);
         assert_true(image_same(&difference));
         assert_int_equal(drawn.channels, 3);
@@ -191,6 +198,7 @@ static void the_scene_does_not_depend_on_it(void **state)
 static void pictures_with_too_many_samples_are_refused_with_a_sentence(void **state)
 {
     (void)state;
+    enum { LINES = 1 << LAYER_NODES | 1 << LAYER_RANGE };
     static const struct {
         int width, height, aa;
         const char *part;

@@ -62,7 +62,7 @@ static bool are_crowded(const scene *s, const double a[3], const double b[3])
     double p[2], q[2];
     pixel_of(s, a, p);
     pixel_of(s, b, q);
-    return fabs(p[0] - q[0]) < 8 * s->unit && fabs(p[1] - q[1]) < 9 * s->unit;
+    return fabs(p[0] - q[0]) < s->text.width + 2 * s->unit && fabs(p[1] - q[1]) < s->text.height;
 }
 
 static bool is_behind_the_eye(const scene *s, const double at[3])

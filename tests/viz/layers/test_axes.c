@@ -88,13 +88,13 @@ static void check_grounds(const scene *s)
         const scene_label *label = &s->labels.items[i];
         if (!is_number(label))
             continue;
-        const int width = (int)strlen(label->text) * 6 * s->unit;
+        const int width = (int)strlen(label->text) * s->text.width;
         bool has = false;
         for (size_t j = 0; j < s->panels.count; j++) {
             const scene_panel *p = &s->panels.items[j];
             has = has || (p->style.layer == LAYER_WORLD && p->id == label->id && p->style.role == ROLE_BACKGROUND &&
                           p->x <= label->at[0] && p->y <= label->at[1] && p->x + p->width >= label->at[0] + width &&
-                          p->y + p->height >= label->at[1] + 8 * s->unit);
+                          p->y + p->height >= label->at[1] + s->text.height);
         }
         assert_true(has);
         numbers++;
@@ -105,8 +105,8 @@ static void check_grounds(const scene *s)
 /* By the room that their letters take in pixels. */
 static bool overlap(const scene *s, const scene_label *a, const scene_label *b)
 {
-    const double width[2] = {(double)strlen(a->text) * 6 * s->unit, (double)strlen(b->text) * 6 * s->unit};
-    const double height = 8 * s->unit;
+    const double width[2] = {(double)strlen(a->text) * s->text.width, (double)strlen(b->text) * s->text.width};
+    const double height = s->text.height;
     return a->at[0] < b->at[0] + width[1] && b->at[0] < a->at[0] + width[0] && a->at[1] < b->at[1] + height &&
            b->at[1] < a->at[1] + height;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_change_layers.c - splits, merges and a broken invariant in the draw list: each where it is, and nothing else. */
 #include "scenes.h"
+#include "layout.h"
 
 #include <string.h>
 
@@ -208,7 +209,7 @@ static void every_sentence_is_told_whole(void **state)
         assert_true(i + 1 == sizeof sentences / sizeof sentences[0] ? strlen(told) > 0
                                                                     : strcmp(told, sentences[i]) == 0);
         for (size_t j = 0; j < s.labels.count; j++)
-            assert_true(strlen(s.labels.items[j].text) <= 152 / 6);
+            assert_true(strlen(s.labels.items[j].text) <= LAYOUT_LETTERS);
     }
     octree_game_destroy(game);
     scene_release(&s);

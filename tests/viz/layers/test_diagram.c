@@ -442,9 +442,9 @@ static void check_inside(const scene *s)
         }
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        const double right = label->at[0] + (double)strlen(label->text) * 6 * s->unit;
+        const double right = label->at[0] + (double)strlen(label->text) * s->text.width;
         assert_true(label->style.layer != LAYER_DIAGRAM ||
-                    (label->at[0] >= w.x && right <= w.x + w.width && label->at[1] + 8 * s->unit <= w.y + w.height));
+                    (label->at[0] >= w.x && right <= w.x + w.width && label->at[1] + s->text.height <= w.y + w.height));
     }
 }
 

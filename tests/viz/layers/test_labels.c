@@ -58,7 +58,7 @@ typedef struct room {
 
 static room room_of(const scene *s, const char *text, double x, double y)
 {
-    return (room){x, y, x + (double)strlen(text) * 6 * s->unit, y + 9 * s->unit};
+    return (room){x, y, x + (double)strlen(text) * s->text.width, y + s->text.height};
 }
 
 static bool overlap(const room *a, const room *b, double slack)
@@ -70,7 +70,7 @@ static bool overlap(const room *a, const room *b, double slack)
 /* Some reason there must be: too small a box, no place in the picture, or a label there. */
 static bool has_no_room(const scene *s, const scene_box *box, const char *path)
 {
-    const double width = (double)strlen(path) * 6 * s->unit, height = 9 * s->unit, slack = 3 * s->unit;
+    const double width = (double)strlen(path) * s->text.width, height = s->text.height, slack = 3 * s->unit;
     double middle[3], pixel[2], seen[3];
     for (int i = 0; i < 3; i++)
         middle[i] = (box->box.min[i] + box->box.max[i]) / 2;

@@ -19,23 +19,23 @@ static const struct legend_row {
     {LAYER_WRONG, ROLE_WRONG, false, "wrong answer"},
     {LAYER_WRONG, ROLE_MISSED, false, "missed by it"},
     {LAYER_WRONG, ROLE_WRONG, false, "wrongly in it"},
+    {LAYER_PLAYER, ROLE_PLAYER, false, "player and its box"},
+    {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
+    {LAYER_POINTS, ROLE_POINT, true, "point"},
+    {LAYER_VELOCITIES, ROLE_POINT, true, "velocity, "},
     {LAYER_NODES, ROLE_NODE, true, "shallow to deep"},
     {LAYER_VISITED, ROLE_NODE + 2, true, " visited"},
     {LAYER_PRUNED, ROLE_NODE + 2, true, " pruned"},
     {LAYER_HIT, ROLE_POINT, true, " hit"},
     {LAYER_SPLITS, ROLE_POINT, true, " split"},
     {LAYER_MERGES, ROLE_POINT, true, " merged"},
-    {LAYER_VISIT_HEAT, ROLE_NODE + 9, true, "+ visits"},
-    {LAYER_POINT_HEAT, ROLE_NODE + 9, true, "+ points"},
-    {LAYER_POINTS, ROLE_POINT, true, "point"},
-    {LAYER_VELOCITIES, ROLE_POINT, true, "velocity, "},
     {LAYER_RANGE, ROLE_RANGE, false, "range query"},
     {LAYER_RADIUS, ROLE_RADIUS, false, "radius query"},
     {LAYER_KNEAREST, ROLE_KNEAREST, false, "k nearest"},
     {LAYER_NEAREST, ROLE_NEAREST, false, "nearest point"},
     {LAYER_SHAPES, ROLE_SHAPE, false, "4 shapes"},
-    {LAYER_PLAYER, ROLE_PLAYER, false, "player and its box"},
-    {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
+    {LAYER_VISIT_HEAT, ROLE_NODE + 9, true, "+ visits"},
+    {LAYER_POINT_HEAT, ROLE_NODE + 9, true, "+ points"},
 };
 
 #define LEGEND_ROWS (sizeof legend_rows / sizeof legend_rows[0])
@@ -46,7 +46,7 @@ static bool is_explained(const scene *s, const struct legend_row *row)
 {
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->style.layer != LAYER_TEXT || label->at[0] != 34 * s->unit)
+        if (label->style.layer != LAYER_TEXT || label->at[0] != legend_words(s))
             continue;
         if (row->layer == LAYER_POINTS ? strcmp(label->text, row->text) == 0 : strstr(label->text, row->text) != NULL)
             return true;
@@ -122,7 +122,7 @@ static void the_legend_leaves_out_what_is_needed_least(void **state)
         snprintf(more, sizeof more, "and %zu more", missing[3]);
         bool told = false;
         for (size_t i = 0; i < s.labels.count; i++)
-            told = told || (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].at[0] == 34 * s.unit);
+            told = told || (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].at[0] == legend_words(&s));
         assert_int_equal(told, all > 0 && missing[3] > 0);
         whole += missing[0] == 0;
         partial += missing[3] == 0 && missing[0] > 0;
@@ -200,9 +200,9 @@ static void the_legend_has_what_the_diagram_shows(void **state)
         v.filter.leaves = i & 2;
         const tree_subject about = {.title = "legend", .node = i & 8 ? OCTREE_ROOT : 0};
         assert_true(tree_scene_build(&s, &v, i & 4 ? large : small, &about));
-        assert_true(says(&s, "inner node, leaf") && says(&s, "node, shallow to deep"));
+        assert_true(says(&s, "inner node, leaf") && says(&s, "nodes, shallow to deep"));
         assert_int_equal(says(&s, "node filtered out"), (i & 2) != 0);
-        assert_int_equal(says(&s, "nodes, log2, folded"), (i & 4) != 0);
+        assert_int_equal(says(&s, "bars: many nodes, log2"), (i & 4) != 0);
         assert_int_equal(says(&s, "way from the root"), (i & 8) != 0);
         scene_release(&s);
     }

@@ -122,8 +122,10 @@ static void assert_lod(const octree *tree, const view *v)
     assert_int_equal(count_layer(&s, LAYER_NODES).boxes, check.drawn);
     assert_true(v->filter.by_depth || count_layer(&s, LAYER_POINTS).markers == octree_count(tree));
     assert_true(s.tally.nodes == check.drawn && s.tally.small == check.left_out);
-    snprintf(text, sizeof text, "%zu below %g px", check.left_out, v->lod);
+    snprintf(text, sizeof text, "under %.3g px", v->lod);
     assert_int_equal(has_text(&s, text), check.left_out > 0);
+    snprintf(text, sizeof text, "%zu node%s", check.left_out, check.left_out == 1 ? "" : "s");
+    assert_true(check.left_out == 0 || has_text(&s, text));
     scene_release(&s);
 }
 

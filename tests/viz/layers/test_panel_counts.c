@@ -4,6 +4,7 @@
  * tick met is held so in test_visit_layers.c, what is left out in test_lod.c. */
 #include "scenes.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -126,19 +127,47 @@ static const octree_point *find_nearest(const division *d, const double target[3
 
 /* ---- The column --------------------------------------------------------------------------------------------- */
 
-/* The value of the n-th row of this name, or null. */
-static const char *row_of(const scene *s, const char *name, size_t n)
+/* Whether a text of the column begins with the line, or ends with it. */
+static bool is_left(const scene *s, const scene_label *label)
+{
+    return label->at[0] == LAYOUT_MARGIN * s->text.width;
+}
+
+static bool is_right(const scene *s, const scene_label *label)
+{
+    const size_t end = LAYOUT_MARGIN + LAYOUT_LETTERS - strlen(label->text);
+    return label->at[0] == (double)end * s->text.width;
+}
+
+/* The value of the n-th row of this name, or null; its detail is the text before, where there is one. */
+static const scene_label *find_row(const scene *s, const char *name, size_t n)
 {
     for (size_t i = 0; i + 1 < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i], *value = label + 1;
-        if (label->style.layer != LAYER_TEXT || strcmp(label->text, name) != 0 || label->at[0] != MARGIN * s->unit)
+        if (label->style.layer != LAYER_TEXT || strcmp(label->text, name) != 0 || !is_left(s, label))
             continue;
-        if (value->at[1] != label->at[1] || value->at[0] != VALUE * s->unit)
+        if (!is_right(s, value) && i + 2 < s->labels.count)
+            value++;
+        if (value->at[1] != label->at[1] || !is_right(s, value))
             continue; /* an event's word */
         if (n-- == 0)
-            return value->text;
+            return value;
     }
     return NULL;
+}
+
+static const char *row_of(const scene *s, const char *name, size_t n)
+{
+    const scene_label *value = find_row(s, name, n);
+    return value ? value->text : NULL;
+}
+
+/* Of a row that is there; empty where there is none. */
+static const char *detail_of(const scene *s, const char *name, size_t n)
+{
+    const scene_label *value = find_row(s, name, n);
+    assert_non_null(value);
+    return is_left(s, value - 1) ? "" : value[-1].text;
 }
 
 static void assert_row(const scene *s, const char *name, size_t n, const char *format, ...)
@@ -153,20 +182,21 @@ static void assert_row(const scene *s, const char *name, size_t n, const char *f
     assert_string_equal(row, expected);
 }
 
-/* The number that a row of ids begins with, the first id, and how many of them are named or counted: all. */
+/* The number that a row of ids ends with, the first id, and how many of them are named or counted: all, or none where
+ * there is no room for the first. */
 static void assert_ids(const scene *s, const char *name, size_t n, size_t count, uint64_t first)
 {
-    const char *row = row_of(s, name, n);
-    assert_non_null(row);
-    char *end;
-    assert_int_equal(strtoull(row, &end, 10), count);
-    assert_true(count ? *end == ':' : *end == 0);
-    if (count == 0)
+    assert_row(s, name, n, "%zu found", count);
+    const char *ids = detail_of(s, name, n);
+    assert_true(count || !*ids);
+    if (!*ids)
         return;
-    assert_int_equal(strtoull(end + 1, &end, 10), first);
-    size_t told = 1;
-    while (*end) {
-        const bool rest = strncmp(end, " +", 2) == 0;
+    char *end = (char *)ids;
+    size_t told = 0;
+    assert_int_equal(strtoull(ids + 1, NULL, 10), first);
+    for (; *end; end += *end == ' ') {
+        const bool rest = *end == '+';
+        assert_true(rest || *end == '#');
         const uint64_t number = strtoull(end + 1, &end, 10);
         told += rest ? number : 1;
     }
@@ -194,7 +224,7 @@ static void check_tree(const scene *s, const json_t *line, const division *d, co
     assert_row(s, "points", 0, "%zu", d->count);
     assert_row(s, "nodes", 0, "%zu", d->nodes);
     assert_row(s, "leaves", 0, "%zu", d->leaves);
-    assert_row(s, "depth", 0, "%u of %zu", d->depth, octree_definition(tree).max_depth);
+    assert_row(s, "depth", 0, "%u of max %zu", d->depth, octree_definition(tree).max_depth);
     assert_whole_number(json_member(told, "points"), d->count);
     assert_whole_number(json_member(told, "nodes"), d->nodes);
     assert_whole_number(json_member(told, "leaves"), d->leaves);
@@ -204,7 +234,7 @@ static void check_tree(const scene *s, const json_t *line, const division *d, co
 static bool legend_says(const scene *s, size_t count, const char *word)
 {
     char begin[SCENE_TEXT];
-    const int length = snprintf(begin, sizeof begin, "%zu %s", count, word);
+    const int length = snprintf(begin, sizeof begin, "%zu node%s %s", count, count == 1 ? "" : "s", word);
     for (size_t i = 0; i < s->labels.count; i++)
         if (strncmp(s->labels.items[i].text, begin, (size_t)length) == 0)
             return true;
@@ -235,10 +265,10 @@ static void check_hits(const scene *s, const json_t *line, const division *d, co
         const size_t found = count_in_box(d, &box) - box_holds(&box, tick->player); /* the player is in the tree */
         assert_int_equal(count, found);
     }
-    if (count)
-        assert_ids(s, "hits", 0, count, tick->hits[0].id);
+    if (tick->has_player)
+        assert_ids(s, "box hits", 0, count, count ? tick->hits[0].id : 0);
     else
-        assert_null(row_of(s, "hits", 0));
+        assert_null(row_of(s, "box hits", 0));
 }
 
 static void check_neighbors(const scene *s, const json_t *told, const division *d, const octree_answer *answer,
@@ -249,7 +279,7 @@ static void check_neighbors(const scene *s, const json_t *told, const division *
     if (answer->kind == OCTREE_QUERY_KNEAREST) {
         const size_t count = answer->k < others ? answer->k : others;
         assert_int_equal(json_array_size(json_member(json_member(told, "knearest"), "neighbors")), count);
-        assert_ids(s, "k near", seen[answer->kind], count, count ? nearest->id : 0);
+        assert_ids(s, "k nearest", seen[answer->kind], count, count ? nearest->id : 0);
         return;
     }
     const json_t *id = json_member(json_member(told, "nearest"), "id");
@@ -257,7 +287,8 @@ static void check_neighbors(const scene *s, const json_t *told, const division *
     assert_non_null(row);
     if (nearest) {
         assert_whole_number(id, nearest->id);
-        assert_int_equal(strtoull(row, NULL, 10), nearest->id);
+        const char *detail = detail_of(s, "nearest", seen[answer->kind]);
+        assert_int_equal(strtoull((*detail ? detail : row) + 1, NULL, 10), nearest->id);
     } else {
         assert_true(json_is_null(id));
         assert_string_equal(row, "none");
@@ -281,7 +312,9 @@ static void check_answers(const scene *s, const json_t *line, const division *d,
         } else if (answer->kind == OCTREE_QUERY_RADIUS) {
             const size_t count = count_in_ball(d, answer->target, answer->radius);
             assert_int_equal(json_array_size(json_member(json_member(one, "radius"), "ids")), count);
-            assert_row(s, "radius", seen[answer->kind], "%zu within %g", count, answer->radius);
+            assert_row(s, "radius", seen[answer->kind], "%zu found", count);
+            const double told_radius = strtod(detail_of(s, "radius", seen[answer->kind]), NULL);
+            assert_true(fabs(told_radius - answer->radius) <= 5e-6 * answer->radius);
         } else {
             const bool at_player = same_position(answer->target, tick->player) && answer->count < d->count;
             bool player_found = false;

@@ -83,7 +83,8 @@ static void a_farther_neighbour_is_marked_and_the_true_one_ringed(void **state)
         assert_true(missed->id == 1 && missed->style.role == ROLE_MISSED);
         assert_true(extra->id == 3 && extra->style.role == ROLE_WRONG && same_position(extra->at, bodies[2].position));
         assert_int_equal(lines_between(&s, LAYER_WRONG, 0, query.target, bodies[2].position), 1);
-        assert_true(has_words(&s, LAYER_TEXT, "1 of 1: nearest") && has_words(&s, LAYER_TEXT, "5.83 times as far"));
+        assert_true(has_words(&s, LAYER_TEXT, "1 of 1") && has_words(&s, LAYER_TEXT, "nearest") &&
+                    has_words(&s, LAYER_TEXT, "5.83 times as far"));
         assert_true(has_words(&s, LAYER_WRONG, "5.83 times as far"));
         scene_release(&s);
     }
@@ -166,7 +167,8 @@ static void of_many_wrong_answers_the_worst_is_seen_first(void **state)
     }
     assert_int_equal(large, 1);
     assert_int_equal(count_layer(&s, LAYER_WRONG).labels, 1);
-    assert_true(has_words(&s, LAYER_WRONG, "8.06 times as far") && has_words(&s, LAYER_TEXT, "6 of 6: nearest"));
+    assert_true(has_words(&s, LAYER_WRONG, "8.06 times as far") && has_words(&s, LAYER_TEXT, "6 of 6") &&
+                has_words(&s, LAYER_TEXT, "nearest"));
     scene_release(&s);
 }
 
@@ -191,7 +193,7 @@ static void words_that_have_no_room_are_left_out(void **state)
             if (label->style.layer != LAYER_WRONG)
                 continue;
             assert_true(label->at[0] >= panel_width(&v) && label->at[1] >= 0 && label->at[1] < v.height);
-            assert_true(label->at[0] + (double)strlen(label->text) * TEXT_LETTER * s.unit <= v.width);
+            assert_true(label->at[0] + (double)strlen(label->text) * s.text.width <= v.width);
         }
         scene_release(&s);
     }

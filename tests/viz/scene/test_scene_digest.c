@@ -116,6 +116,10 @@ static void every_number_of_the_camera_and_the_size_count(void **state)
     assert_int_counts(&s, &s.view.width);
     assert_int_counts(&s, &s.view.height);
     assert_int_counts(&s, &s.unit);
+    assert_int_counts(&s, &s.text.multiple);
+    assert_int_counts(&s, &s.title.multiple);
+    assert_member_counts(&s, &s.text.face, sizeof s.text.face, &(text_face){FACE_16X32});
+    assert_member_counts(&s, &s.title.face, sizeof s.title.face, &(text_face){FACE_5X8});
     scene_release(&s);
 }
 

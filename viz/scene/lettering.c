@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+#include "lettering.h"
+
+#include <stddef.h>
+
+/* Pictures of at least this height, as high as 16:9 at most. Leading grows with the face. */
+static const struct lettering_row {
+    int from;
+    text_face text;
+    int leading;
+    text_face title;
+    int title_multiple;
+} rows[] = {
+    {0, FACE_5X8, 1, FACE_8X16, 1},      {300, FACE_6X12, 1, FACE_12X24, 1},   {600, FACE_8X16, 3, FACE_16X32, 1},
+    {900, FACE_12X24, 4, FACE_12X24, 2}, {1280, FACE_16X32, 6, FACE_16X32, 2},
+};
+
+/* From here on 12x24 is multiplied, once for each 1080 lines. */
+enum { MULTIPLIED = 1700, LINES_A_MULTIPLE = 1080, MULTIPLE_LEADING = 4 };
+
+static lettering of_face(text_face face, int multiple, int leading)
+{
+#define FACE_SIZE(width, height) {width, height},
+    static const int sizes[FACE_COUNT][2] = {FACE_MAP(FACE_SIZE)};
+#undef FACE_SIZE
+    const int width = sizes[face][0] * multiple, height = sizes[face][1] * multiple;
+    return (lettering){face, multiple, width, height, height + leading * multiple};
+}
+
+static lettering choose(const view *v, bool title)
+{
+    const int height = view_height_in_wide(v);
+    size_t row = sizeof rows / sizeof rows[0] - 1;
+    if (height >= MULTIPLIED) {
+        const int multiple = (height + LINES_A_MULTIPLE / 2) / LINES_A_MULTIPLE;
+        return of_face(FACE_12X24, title ? 2 * multiple : multiple, MULTIPLE_LEADING);
+    }
+    while (height < rows[row].from)
+        row--;
+    return title ? of_face(rows[row].title, rows[row].title_multiple, 0)
+                 : of_face(rows[row].text, 1, rows[row].leading);
+}
+
+lettering lettering_of_text(const view *v)
+{
+    return choose(v, false);
+}
+
+lettering lettering_of_title(const view *v)
+{
+    return choose(v, true);
+}
