@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_audit.c - octreel audit: what a program answered to queries, judged by the true answers. */
-#include "audit.h"
+#include "audit_print.h"
 #include "command.h"
 #include "command_line.h"
+#include "file.h"
+#include "file_kind.h"
 #include "progress.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const char help[] = "usage: octreel audit RECORDING|SESSION [OPTION ...]\n\n"
                            "Judge a program's own spatial index: play a session whose queries say what the program "
@@ -15,46 +19,172 @@ static const char help[] = "usage: octreel audit RECORDING|SESSION [OPTION ...]\
                            "that were named; of neighbours how many times as far as the true one of its rank one of "
                            "them was, at worst and in\n"
                            "99 of 100 answers; the first tick with a wrong one; and the three worst cases with their "
-                           "numbers. Nothing is drawn,\n"
-                           "and files are not changed. octreel help session says how a query carries an answer.\n\n";
+                           "numbers; and what is proved\n"
+                           "wrong about nodes of its own. Nothing is drawn, and the files are not changed. octreel "
+                           "help session says how a\n"
+                           "query carries an answer.\n\n";
 
 static const char more_help[] =
+    "      --allow LIMITS    what is no finding: ratio=1.01, neighbours up to so many times as far; recall=0.99, "
+    "answers\n"
+    "                        that miss points, as long as so much of all true points is named; or both with a comma.\n"
+    "                        Nothing allows ids that no point has, points named twice, left out or outside\n"
+    "      --html FILE|DIR   write a page, DIR/audit.html: recall and ratio over the ticks, where each point leads to "
+    "its\n"
+    "                        frame, and the worst cases\n"
+    "      --junit FILE      write JUnit's XML, a test case for each kind of query\n"
     "      --json            print JSON; a ratio of null is infinite: the true one is at the target\n"
+    "                        (FILE may be -, standard output, for one of them)\n"
     "  -h, --help\n\n"
-    "Exit status: 0 all are right, 1 one is wrong, 2 trouble, or no query has an answer.\n"
+    "Exit status: 0 all are right or within what is allowed, 1 a finding, 2 trouble, or no query has an answer.\n"
     "Examples: octreel audit flight\n"
-    "          octreel audit game.json --json\n";
+    "          octreel audit flight --html flight --junit audit.xml\n"
+    "          octreel audit game.json --allow ratio=1.01,recall=0.99 --json\n";
+
+typedef struct arguments {
+    audit_limits limits;
+    const char *html, *junit; /* null: not asked for */
+    bool json;
+} arguments;
+
+static bool read_limits(const command_option *option, const char *text, void *into)
+{
+    octreel_error error;
+    return audit_limits_parse(text, into, &error) || refuse("--%s: %s", option->name, error.text);
+}
+
+/* "-" is standard output. */
+static bool read_report(const command_option *option, const char *text, void *into)
+{
+    return file_is_standard(text) ? read_text(option, text, into) : read_file(option, text, into);
+}
+
+static const command_option options[] = {
+    {"allow", read_limits, OPTION_VALUE(arguments, limits), 0, 0},
+    {"html", read_name, OPTION_VALUE(arguments, html), 0, 0},
+    {"junit", read_report, OPTION_VALUE(arguments, junit), 0, 0},
+    {0},
+};
 
 static void on_progress(uint64_t done, uint64_t total, void *context)
 {
     progress_show(context, done, total);
 }
 
-static int audit_it(const char *path, bool json)
+/* ---- Files -------------------------------------------------------------------------------------------------- */
+
+static bool is_stdout(const char *path)
+{
+    return path && file_is_standard(path);
+}
+
+static const char *file_of(const char *path)
+{
+    return is_stdout(path) ? NULL : path;
+}
+
+/* The page's file; a folder holds it under its own name. Null where there is no memory. */
+static char *page_file(const char *html)
+{
+    const file_kind kind = file_kind_of(html);
+    const bool folder = !is_stdout(html) && (kind == KIND_FOLDER || kind == KIND_RECORDING);
+    return folder ? path_join(html, AUDIT_PAGE) : strdup(html);
+}
+
+/* The folder that a file lies in; for standard output the current one. Null where there is no memory. */
+static char *folder_of(const char *file)
+{
+    const char *slash = is_stdout(file) ? NULL : strrchr(file, '/');
+    return slash ? strndup(file, slash == file ? 1 : (size_t)(slash - file)) : strdup(".");
+}
+
+/* None may take the place of what is read, nor of another. */
+static bool check_files(const char *path, const char *page, const char *junit, octreel_error *error)
+{
+    const output_file outputs[] = {{"--html", file_of(page)}, {"--junit", file_of(junit)}};
+    char *session = path_join(path, "session.json");
+    bool ok = session ? outputs_apart(outputs, 2, error) : error_no_memory(error);
+    for (int i = 0; ok && i < 2; i++)
+        ok = output_spares(&outputs[i], path, error) && output_spares(&outputs[i], session, error);
+    free(session);
+    return ok;
+}
+
+/* `from` is the folder in which the file lies. */
+typedef bool printer(FILE *out, const audit_verdict *verdict, const char *from);
+
+static bool print_junit(FILE *out, const audit_verdict *verdict, const char *from)
+{
+    (void)from;
+    return audit_print_junit(out, verdict);
+}
+
+static bool write_file(const char *path, printer *print, const audit_verdict *verdict, octreel_error *error)
+{
+    file_writer file;
+    char *from;
+    if (!path || is_stdout(path))
+        return true;
+    if (!file_writer_open(&file, path, error))
+        return false;
+    from = folder_of(path);
+    const bool made = from && print(file.stream, verdict, from);
+    free(from);
+    if (made)
+        return file_writer_close(&file, error);
+    error_set(error, "%s: there is no memory to write it", path);
+    return file_writer_abandon(&file);
+}
+
+static bool print_verdict(const arguments *a, const audit_verdict *verdict, octreel_error *error)
+{
+    const bool ok = a->json               ? audit_print_json(stdout, verdict)
+                    : is_stdout(a->junit) ? audit_print_junit(stdout, verdict)
+                    : is_stdout(a->html)  ? audit_print_page(stdout, verdict, ".")
+                                          : audit_print_text(stdout, verdict);
+    return ok || error_set(error, "there is no memory to print the verdict");
+}
+
+/* ---- The command -------------------------------------------------------------------------------------------- */
+
+static bool audit_to(const arguments *a, const char *path, const char *page, audit_report *report, octreel_error *error)
 {
     progress p = progress_start("ticks");
-    audit_report report;
-    octreel_error error;
-    const bool done = audit_read(path, on_progress, &p, &report, &error);
-    const bool wrong = report.wrong > 0;
+    const bool done = check_files(path, page, a->junit, error) && audit_read(path, on_progress, &p, report, error);
     progress_end(&p);
-    if (done)
-        audit_print(stdout, path, &report, json);
+    const audit_verdict verdict = {path, file_kind_of(path) == KIND_RECORDING, report, &a->limits};
+    return done && write_file(page, audit_print_page, &verdict, error) &&
+           write_file(a->junit, print_junit, &verdict, error) && print_verdict(a, &verdict, error);
+}
+
+static int audit_it(const arguments *a, const char *path)
+{
+    audit_report report = {0};
+    octreel_error error;
+    if (a->json + is_stdout(a->junit) + is_stdout(a->html) > 1)
+        return trouble("standard output has room for one report: give the others a file");
+    char *page = a->html ? page_file(a->html) : NULL;
+    if (a->html && !page)
+        return trouble("there is no memory");
+    const bool done = audit_to(a, path, page, &report, &error), passes = done && audit_passes(&report, &a->limits);
+    free(page);
     audit_release(&report);
-    return !done ? trouble("%s", error.text) : wrong ? EXIT_FINDING : EXIT_DONE;
+    return !done ? trouble("%s", error.text) : passes ? EXIT_DONE : EXIT_FINDING;
 }
 
 int cmd_audit(int argc, char **argv)
 {
-    bool json = false;
+    arguments a = {.json = false};
     const command_line line = {.name = "audit",
                                .help = help,
                                .more_help = more_help,
-                               .json = &json,
+                               .options = options,
+                               .arguments = &a,
+                               .json = &a.json,
                                .least = 1,
                                .most = 1,
                                .takes = "the folder of one recording, or one session",
                                .inputs = {FILE_KIND(RECORDING) | FILE_KIND(SESSION)}};
     const int status = command_line_read(&line, argc, argv);
-    return status == COMMAND_GO_ON ? audit_it(argv[optind], json) : status;
+    return status == COMMAND_GO_ON ? audit_it(&a, argv[optind]) : status;
 }

@@ -3,22 +3,19 @@
 #include "array.h"
 #include "file_kind.h"
 #include "folder_files.h"
+#include "judgement_words.h"
 #include "number.h"
 #include "session_file.h"
 #include "text.h"
 #include "ticks_write.h"
 
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- Counting ----------------------------------------------------------------------------------------------- */
-
-static bool is_worse(const audit_case *a, const audit_case *b)
-{
-    return a->ratio != b->ratio ? a->ratio > b->ratio : a->missed + a->extra > b->missed + b->extra;
-}
 
 static bool write_answer(const octree_answer *answer, char **text)
 {
@@ -28,25 +25,46 @@ static bool write_answer(const octree_answer *answer, char **text)
     return text_stream_end(&s, text);
 }
 
+static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from, size_t count)
+{
+    if (count > 0)
+        memcpy(to, from, (count < AUDIT_POINTS ? count : AUDIT_POINTS) * sizeof *to);
+}
+
 /* Keep a wrong answer where it is among the worst. False when there is no memory. */
 static bool keep_worst(audit_kind *kind, uint64_t tick, size_t place, const octree_answer *answer)
 {
-    const octree_judgement *made = &answer->judgement;
-    audit_case c = {
-        tick, place, made->fault, made->fault_id, made->rank, made->ratio, made->missed_count, made->extra_count, NULL};
+    audit_case c = {.tick = tick, .place = place, .made = answer->judgement};
     size_t at = kind->worst_count;
-    while (at > 0 && is_worse(&c, &kind->worst[at - 1]))
+    while (at > 0 && judgement_is_worse(&c.made, &kind->worst[at - 1].made))
         at--;
     if (at == AUDIT_WORST)
         return true;
     if (!write_answer(answer, &c.answer))
         return false;
+    copy_points(c.missed, c.made.missed, c.made.missed_count);
+    copy_points(c.extra, c.made.extra, c.made.extra_count);
+    c.made.given = NULL;
+    c.made.missed = c.made.extra = NULL;
     if (kind->worst_count == AUDIT_WORST)
         free(kind->worst[--kind->worst_count].answer);
     memmove(&kind->worst[at + 1], &kind->worst[at], (kind->worst_count - at) * sizeof c);
     kind->worst[at] = c;
     kind->worst_count++;
     return true;
+}
+
+/* The row of a tick, which is the last. Null when there is no memory. */
+static audit_tick *tick_of(audit_kind *kind, uint64_t tick)
+{
+    if (kind->tick_count && kind->ticks[kind->tick_count - 1].tick == tick)
+        return &kind->ticks[kind->tick_count - 1];
+    audit_tick *grown = array_reserve(kind->ticks, kind->tick_count + 1, &kind->tick_room, sizeof *grown);
+    if (!grown)
+        return NULL;
+    kind->ticks = grown;
+    grown[kind->tick_count] = (audit_tick){.tick = tick, .ratio = 1};
+    return &grown[kind->tick_count++];
 }
 
 static bool keep_ratio(audit_kind *kind, double ratio)
@@ -59,6 +77,27 @@ static bool keep_ratio(audit_kind *kind, double ratio)
     return true;
 }
 
+/* False when there is no memory. */
+static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgement *made)
+{
+    audit_tick *row = tick_of(kind, tick);
+    if (!row)
+        return false;
+    row->asked++;
+    row->wrong += made->fault != OCTREE_FAULT_NONE;
+    row->expected += made->expected;
+    row->missed += made->missed_count;
+    row->ratio = made->ratio > row->ratio ? made->ratio : row->ratio;
+    return true;
+}
+
+static void count_fault(audit_kind *kind, const octree_judgement *made)
+{
+    kind->faults[made->fault]++;
+    kind->fewer += made->fault == OCTREE_FAULT_COUNT && made->given_count < made->expected;
+    kind->mixed += made->fault == OCTREE_FAULT_MISSED && made->extra_count > 0;
+}
+
 static bool count_answer(audit_report *report, uint64_t tick, size_t place, const octree_answer *answer)
 {
     audit_kind *kind = &report->kinds[answer->kind];
@@ -68,7 +107,9 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     kind->expected += made->expected;
     kind->missed += made->missed_count;
     kind->extra += made->extra_count;
-    if (octree_query_about(answer->kind)->neighbors && !keep_ratio(kind, made->ratio))
+    count_fault(kind, made);
+    if (!count_in_tick(kind, tick, made) ||
+        (octree_query_about(answer->kind)->neighbors && !keep_ratio(kind, made->ratio)))
         return false;
     if (!made->fault)
         return true;
@@ -78,12 +119,27 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     return keep_worst(kind, tick, place, answer);
 }
 
+static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
+{
+    nodes->given |= tick->foreign.given;
+    if (tick->foreign.fault_count == 0)
+        return;
+    if (nodes->ticks++ == 0)
+        nodes->first_wrong = tick->number;
+    nodes->faults += tick->foreign.fault_count;
+    for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
+        nodes->kinds[i] += tick->foreign.faults[i];
+}
+
+/* Of a gap nothing is known. */
 static bool count_tick(audit_report *report, const octree_tick *tick)
 {
     report->ticks++;
-    for (size_t i = 0; i < tick->answer_count; i++)
+    for (size_t i = 0; !tick->gap && i < tick->answer_count; i++)
         if (tick->answers[i].judgement.judged && !count_answer(report, tick->number, i, &tick->answers[i]))
             return false;
+    if (!tick->gap)
+        count_nodes(&report->nodes, tick);
     return true;
 }
 
@@ -123,7 +179,7 @@ static bool play_session(const char *path, const octree_session *session, audit_
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
         if (report->kinds[kind].ratio_count > 1)
             qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_numbers);
-    if (done && report->asked == 0)
+    if (done && report->asked == 0 && !report->nodes.given)
         return error_set(error, "%s: no query has an \"answer\", so there is nothing to judge", path);
     return done;
 }
@@ -145,6 +201,7 @@ void audit_release(audit_report *report)
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++) {
         audit_kind *kind = &report->kinds[i];
         free(kind->ratios);
+        free(kind->ticks);
         for (size_t j = 0; j < kind->worst_count; j++)
             free(kind->worst[j].answer);
     }
@@ -162,132 +219,61 @@ double audit_recall(const audit_kind *kind)
     return kind->expected == 0 ? 1 : (double)(kind->expected - kind->missed) / (double)kind->expected;
 }
 
-/* ---- For people --------------------------------------------------------------------------------------------- */
-
-static const char *ratio_words(double ratio, char text[NUMBER_TEXT])
+double audit_tick_recall(const audit_tick *tick)
 {
-    return isinf(ratio) ? "infinite" : number_text(ratio, 6, text);
+    return tick->expected == 0 ? 1 : (double)(tick->expected - tick->missed) / (double)tick->expected;
 }
 
-static const char *reason_words(octree_fault fault)
+/* ---- What is allowed ---------------------------------------------------------------------------------------- */
+
+/* "NAME=NUMBER" at *at, which is moved after it and its comma. False where it is another, or said before. */
+static bool parse_limit(const char **at, const char *name, double least, double most, bool *given, double *value)
 {
-    static const char *const words[OCTREE_FAULTS] = {
-        [OCTREE_FAULT_NONE] = "right",
-        [OCTREE_FAULT_UNKNOWN] = "names an id that no point has",
-        [OCTREE_FAULT_DUPLICATE] = "names a point twice",
-        [OCTREE_FAULT_SKIPPED] = "names a point that is left out",
-        [OCTREE_FAULT_COUNT] = "not as many neighbours as there are",
-        [OCTREE_FAULT_FARTHER] = "a neighbour too far away",
-        [OCTREE_FAULT_MISSED] = "points are missing",
-        [OCTREE_FAULT_EXTRA] = "points that are outside",
-    };
-    return words[fault];
+    const size_t length = strlen(name);
+    char number[NUMBER_TEXT];
+    if (*given || strncmp(*at, name, length) != 0 || (*at)[length] != '=')
+        return false;
+    const char *from = *at + length + 1;
+    const size_t size = strcspn(from, ",");
+    if (size >= sizeof number || (from[size] == ',' && from[size + 1] == 0))
+        return false;
+    memcpy(number, from, size);
+    number[size] = 0;
+    *given = numbers_parse(number, value, 1) && *value >= least && *value <= most;
+    *at = from + size + (from[size] == ',');
+    return *given;
 }
 
-static void print_case(FILE *out, const audit_case *c, bool neighbors)
+bool audit_limits_parse(const char *text, audit_limits *limits, octreel_error *error)
 {
-    char text[NUMBER_TEXT];
-    fprintf(out, "  tick %" PRIu64 ", answers[%zu]: %s", c->tick, c->place, reason_words(c->fault));
-    if (c->fault <= OCTREE_FAULT_SKIPPED)
-        fprintf(out, " (%" PRIu64 ")", c->fault_id);
-    if (c->rank)
-        fprintf(out, "; wrong from rank %zu on", c->rank);
-    if (neighbors)
-        fprintf(out, "; ratio of distances %s", ratio_words(c->ratio, text));
-    fprintf(out, "; %zu missed, %zu extra\n    %s\n", c->missed, c->extra, c->answer);
+    const char *at = text;
+    *limits = (audit_limits){.by_ratio = false};
+    do {
+        if (!parse_limit(&at, "ratio", 1, DBL_MAX, &limits->by_ratio, &limits->ratio) &&
+            !parse_limit(&at, "recall", 0, 1, &limits->by_recall, &limits->recall))
+            return error_set(error,
+                             "what is allowed is a ratio from 1 on, a recall from 0 to 1, or both, as in "
+                             "ratio=1.01,recall=0.99, not \"%.200s\"",
+                             text);
+    } while (*at);
+    return true;
 }
 
-static void print_kind(FILE *out, const audit_kind *kind, const octree_query_traits *about)
+bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits)
 {
-    char texts[3][NUMBER_TEXT];
-    fprintf(out, "%s: %" PRIu64 " asked, %" PRIu64 " wrong, recall %s", about->name, kind->asked, kind->wrong,
-            number_text(audit_recall(kind), 6, texts[0]));
-    if (about->neighbors)
-        fprintf(out, ", ratio of distances %s at worst, 99th percentile %s",
-                ratio_words(audit_ratio(kind, 1), texts[1]), ratio_words(audit_ratio(kind, 0.99), texts[2]));
-    else
-        fprintf(out, ", %" PRIu64 " missed, %" PRIu64 " extra", kind->missed, kind->extra);
-    if (kind->wrong)
-        fprintf(out, "; first wrong at tick %" PRIu64, kind->first_wrong);
-    putc('\n', out);
-    for (size_t i = 0; i < kind->worst_count; i++)
-        print_case(out, &kind->worst[i], about->neighbors);
+    uint64_t allowed = 0;
+    if (limits->by_ratio || limits->by_recall)
+        allowed += kind->faults[OCTREE_FAULT_FARTHER];
+    if (limits->by_recall)
+        allowed += kind->fewer + kind->faults[OCTREE_FAULT_MISSED] - kind->mixed;
+    return kind->wrong == allowed && (!limits->by_ratio || audit_ratio(kind, 1) <= limits->ratio) &&
+           (!limits->by_recall || audit_recall(kind) >= limits->recall);
 }
 
-static void print_people(FILE *out, const char *path, const audit_report *report)
+bool audit_passes(const audit_report *report, const audit_limits *limits)
 {
-    fprintf(out, "%s: %" PRIu64 " answer%s in %" PRIu64 " tick%s, ", path, report->asked, plural(report->asked),
-            report->ticks, plural(report->ticks));
-    if (report->wrong)
-        fprintf(out, "%" PRIu64 " wrong\n", report->wrong);
-    else
-        fputs("all right\n", out);
+    bool passes = report->nodes.faults == 0;
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
-        if (report->kinds[i].asked)
-            print_kind(out, &report->kinds[i], octree_query_about((octree_query_kind)i));
-}
-
-/* ---- JSON --------------------------------------------------------------------------------------------------- */
-
-/* The answer is JSON already. */
-static void write_case(json_writer *w, const audit_case *c, bool neighbors)
-{
-    json_write_begin_object(w);
-    json_member_integer(w, "tick", c->tick);
-    json_member_integer(w, "place", c->place);
-    json_member_text(w, "wrong", octree_fault_name(c->fault));
-    if (c->rank)
-        json_member_integer(w, "rank", c->rank);
-    if (neighbors)
-        json_member_number(w, "ratio", c->ratio);
-    json_member_integer(w, "missed", c->missed);
-    json_member_integer(w, "extra", c->extra);
-    json_write_key(w, "answer");
-    fputs(c->answer, w->out);
-    w->comma = true;
-    json_write_end_object(w);
-}
-
-static void write_kind(json_writer *w, const audit_kind *kind, const octree_query_traits *about)
-{
-    json_member_begin_object(w, about->name);
-    json_member_integer(w, "asked", kind->asked);
-    json_member_integer(w, "wrong", kind->wrong);
-    json_member_number(w, "recall", audit_recall(kind));
-    json_member_integer(w, "missed", kind->missed);
-    json_member_integer(w, "extra", kind->extra);
-    if (about->neighbors) {
-        json_member_number(w, "worst_ratio", audit_ratio(kind, 1));
-        json_member_number(w, "ratio_99", audit_ratio(kind, 0.99));
-    }
-    if (kind->wrong)
-        json_member_integer(w, "first_wrong_tick", kind->first_wrong);
-    json_member_begin_array(w, "worst");
-    for (size_t i = 0; i < kind->worst_count; i++)
-        write_case(w, &kind->worst[i], about->neighbors);
-    json_write_end_array(w);
-    json_write_end_object(w);
-}
-
-static void print_json(FILE *out, const char *path, const audit_report *report)
-{
-    json_writer writer = {.out = out}, *w = &writer;
-    json_write_begin_object(w);
-    json_member_text(w, "path", path);
-    json_member_bool(w, "right", report->wrong == 0);
-    json_member_integer(w, "ticks", report->ticks);
-    json_member_integer(w, "asked", report->asked);
-    json_member_integer(w, "wrong", report->wrong);
-    json_member_begin_object(w, "kinds");
-    for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
-        if (report->kinds[i].asked)
-            write_kind(w, &report->kinds[i], octree_query_about((octree_query_kind)i));
-    json_write_end_object(w);
-    json_write_end_object(w);
-    json_write_end_line(w);
-}
-
-void audit_print(FILE *out, const char *path, const audit_report *report, bool json)
-{
-    (json ? print_json : print_people)(out, path, report);
+        passes = passes && audit_kind_passes(&report->kinds[i], limits);
+    return passes;
 }

@@ -6,16 +6,9 @@
  */
 #include "report.h"
 #include "diff_words.h"
-#include "text.h"
+#include "xml.h"
 
 #include <stdlib.h>
-
-static void write_attribute(FILE *out, const char *name, const char *value)
-{
-    fprintf(out, " %s=\"", name);
-    write_escaped(out, value, escape_xml);
-    putc('"', out);
-}
 
 static bool write_fault(FILE *out, const diff_report *report, size_t i)
 {

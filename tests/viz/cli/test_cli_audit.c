@@ -10,6 +10,7 @@
 #include "fixture.h"
 #include "recordings.h"
 #include "tick_lines.h"
+#include "xml_check.h"
 
 /* Point 2 is removed in tick 2. */
 #define START                                                                                                          \
@@ -53,12 +54,13 @@ static void wrong_answers_are_told_with_their_numbers_and_end_with_1(void **stat
     assert_non_null(strstr(result.out,
                            "nearest: 2 asked, 1 wrong, recall 0.5, ratio of distances 3.60555 at worst, 99th "
                            "percentile 3.60555; first wrong at tick 2\n"));
-    assert_non_null(strstr(result.out,
-                           "  tick 2, answers[0]: a neighbour too far away; wrong from rank 1 on; ratio of "
-                           "distances 3.60555; 1 missed, 1 extra\n    {\"nearest\": {\"target\": [2, 0, 0]"));
-    assert_non_null(strstr(result.out,
-                           "radius: 2 asked, 1 wrong, recall 0.8, 1 missed, 0 extra; first wrong at tick 2\n"
-                           "  tick 2, answers[1]: names an id that no point has (2); 1 missed, 0 extra\n"));
+    assert_non_null(strstr(result.out, "  tick 2, answers[0]: a neighbour too far away; wrong from rank 1 on; ratio of "
+                                       "distances 3.60555; 1 missed, 1 extra; missed 1 at (1, 0, 0); extra 3 at (0, 3, "
+                                       "0)\n    {\"nearest\": {\"target\": [2, 0, 0]"));
+    assert_non_null(
+        strstr(result.out,
+               "radius: 2 asked, 1 wrong, recall 0.8, 1 missed, 0 extra; first wrong at tick 2\n"
+               "  tick 2, answers[1]: names an id that no point has (2); 1 missed, 0 extra; missed 3 at (0, 3, 0)\n"));
     command_release(&result);
 }
 
@@ -75,6 +77,159 @@ static void json_is_one_object(void **state)
     assert_string_equal(json_string_value(json_object_get(worst, "wrong")), "unknown");
     assert_non_null(json_object_get(json_object_get(json_object_get(worst, "answer"), "radius"), "judged"));
     json_decref(all);
+    command_release(&result);
+}
+
+/* ---- A gate --------------------------------------------------------------------------------------------------- */
+
+/* Of two nearest points and two balls one each is wrong: 3.6 times as far, and an id that no point has. */
+static void what_is_allowed_is_no_finding_and_is_said(void **state)
+{
+    static const char farther[] = START FIRST SECOND("[3]", "[1,3]"), missing[] = START FIRST SECOND("[1]", "[1]");
+    static const struct {
+        const char *session, *allowed;
+        int status;
+    } runs[] = {
+        {farther, "ratio=3.7", 0},
+        {farther, "ratio=3.6", 1},
+        {farther, "recall=0.5", 0},
+        {farther, "recall=0.51", 1},
+        {farther, "ratio=3.7,recall=0.51", 1},
+        {missing, "recall=0.8", 0},
+        {missing, "recall=0.9", 1},
+        {missing, "ratio=9", 1},
+        {wrong, "ratio=9,recall=0", 1}, /* the id that no point has */
+        {right, "recall=1,ratio=1", 0},
+    };
+    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+        const place session = write_session_text(state, runs[i].session);
+        command_result result = run_octreel(NULL, "audit %s --allow %s", session.path, runs[i].allowed);
+        if (result.status != runs[i].status)
+            fail_msg("%zu: --allow %s ends with %d: %s", i, runs[i].allowed, result.status, result.out);
+        assert_non_null(
+            strstr(result.out, runs[i].status ? ", beyond what is allowed\n" : ", within what is allowed\n"));
+        assert_non_null(strstr(result.out, "\nallowed: "));
+        command_release(&result);
+    }
+}
+
+static void limits_that_make_no_sense_are_trouble(void **state)
+{
+    static const char *const bad[] = {"ratio=0.9", "recall=1.1", "recall=-0.1", "ratio=nan",  "ratio=inf",
+                                      "ratio",     "ratio=1,",   "''",          "other=1",    "ratio=1,ratio=2",
+                                      "recall=",   "ratio=1=2",  ",recall=1",   "recall=0.9x"};
+    const place session = write_session_text(state, right);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        command_result result = run_script("%s audit %s --allow %s", octreel_program(), session.path, bad[i]);
+        assert_trouble(&result, "--allow: what is allowed is a ratio from 1 on, a recall from 0 to 1, or both");
+    }
+}
+
+/* ---- Files ----------------------------------------------------------------------------------------------------- */
+
+static void junit_has_a_case_for_each_kind(void **state)
+{
+    const place session = write_session_text(state, wrong), xml = place_in(*state, "a.xml");
+    command_result result = run_octreel(NULL, "audit %s --allow ratio=4 --junit %s", session.path, xml.path);
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+    char *text = file_read(xml.path, NULL), *name = xml_attribute(text, "testcase", 1, "name");
+    assert_int_equal(xml_count(text, "testcase"), 2);
+    assert_int_equal(xml_count(text, "failure"), 1);
+    assert_string_equal(name, "radius");
+    assert_non_null(strstr(text, "tick 2, answers[1]: names an id that no point has (2)"));
+    free(name);
+    free(text);
+}
+
+/* The session that is read, a folder that is none, and two reports in one place. */
+static void reports_take_no_place_but_their_own(void **state)
+{
+    const place session = write_session_text(state, right), file = place_in(*state, "a");
+    command_result result = run_octreel(NULL, "audit %s --html %s", session.path, session.path);
+    assert_trouble(&result, "--html");
+    result = run_octreel(NULL, "audit %s --html %s --junit %s", session.path, file.path, file.path);
+    assert_trouble(&result, "--junit");
+    result = run_octreel(NULL, "audit %s --html - --json", session.path);
+    assert_trouble(&result, "standard output has room for one report");
+    result = run_octreel(NULL, "audit %s --html %s/none/a.html", session.path, file.path);
+    assert_trouble(&result, "none/a.html");
+    char *text = file_read(session.path, NULL);
+    assert_string_equal(text, right);
+    free(text);
+}
+
+/* Each point leads to its frame, from wherever the page lies; a tick without a frame to the recording's page. */
+static void points_of_the_page_lead_to_their_frames(void **state)
+{
+    const place session = write_session_text(state, wrong), film = place_in(*state, "a film"),
+                page = place_in(*state, "page.html");
+    command_result result = run_script("%s record %s --size 64x48 --every 2 -o %s", octreel_program(), session.path,
+                                       shell_quote(film.path).text);
+    assert_done(&result);
+    command_release(&result);
+    result = run_script("%s audit %s --html %s; %s audit %s --html %s", octreel_program(), shell_quote(film.path).text,
+                        page.path, octreel_program(), shell_quote(film.path).text, shell_quote(film.path).text);
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+    char *beside = file_read(page.path, NULL), *within = file_read(place_in(*state, "a film/audit.html").path, NULL);
+    assert_non_null(strstr(beside, "<a href=\"./a%20film/frame_000002.png\"><circle class=\"point wrong\""));
+    assert_non_null(strstr(beside, "<a href=\"./a%20film/index.html#t=1\"><circle class=\"point\""));
+    assert_non_null(strstr(within, "<a href=\"./frame_000002.png\"><circle"));
+    assert_non_null(strstr(within, "<title>tick 2: ratio 3.60555, 1 of 1 wrong</title>"));
+    assert_null(strstr(within, "<script"));
+    free(beside);
+    free(within);
+}
+
+static void a_page_of_a_session_leads_nowhere_and_says_so(void **state)
+{
+    const place session = place_in(*state, "<b>&.json");
+    file_write_text(session.path, wrong);
+    command_result result = run_script("%s audit %s --html -", octreel_program(), shell_quote(session.path).text);
+    assert_int_equal(result.status, 1);
+    assert_null(strstr(result.out, "<a "));
+    assert_null(strstr(result.out, "<b>"));
+    assert_non_null(strstr(result.out, "A session has no frames"));
+    command_release(&result);
+}
+
+/* A point stands for several ticks of a long session, by the worst of them. */
+static void a_chart_of_many_ticks_keeps_the_worst(void **state)
+{
+    const place session = place_in(*state, "session.json");
+    FILE *out = fopen(session.path, "w");
+    size_t points = 0;
+    assert_non_null(out);
+    fprintf(out, "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2]]}\n");
+    for (int tick = 1; tick <= 1001; tick++)
+        fprintf(out, "{\"tick\":%d,\"queries\":[{\"nearest\":[%d,0,0],\"answer\":[1]}]}\n", tick, tick == 777);
+    fprintf(out, "{\"tick\":1002,\"queries\":[{\"nearest\":[1,0,0],\"answer\":[2]}]}\n");
+    assert_int_equal(fclose(out), 0);
+    command_result result = run_octreel(NULL, "audit %s --html -", session.path);
+    assert_int_equal(result.status, 1);
+    for (const char *at = result.out; (at = strstr(at, "<circle")); at++)
+        points++;
+    assert_int_equal(points, 2 * 400);
+    assert_non_null(strstr(result.out, "<title>tick 1002: ratio infinite, 1 of 1 wrong"));
+    assert_non_null(strstr(result.out, "<title>tick 1002: recall 0, 1 of 1 wrong"));
+    command_release(&result);
+}
+
+/* What is wrong about nodes is a finding too, whatever is allowed of answers. */
+static void faults_of_nodes_are_a_finding(void **state)
+{
+    const place session =
+        write_session_text(state, START "{\"tick\":1,\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":"
+                                        "[9,9,9]},\"points\":[1,2]}]}\n");
+    command_result result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 faults of nodes, beyond what is allowed\n"));
+    assert_non_null(strstr(result.out, "nodes: 3 faults in 3 ticks, the first is 1; 3: "));
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s --junit -", session.path);
+    assert_int_equal(xml_count(result.out, "testcase"), 1);
+    assert_int_equal(xml_count(result.out, "failure"), 1);
     command_release(&result);
 }
 
@@ -128,6 +283,7 @@ static void diff_names_the_answers_that_became_wrong(void **state)
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 1);
     assert_non_null(strstr(result.out, "another answer of the program in the nearest query ((3), was (1))"));
+    assert_non_null(strstr(result.out, "1 more wrong answer at tick 2; "));
     assert_non_null(
         strstr(result.out, "another judgement of the program's answer in the nearest query (farther, was none)"));
     command_release(&result);
@@ -141,6 +297,14 @@ int main(void)
         IN_FOLDER(right_answers_end_with_0),
         IN_FOLDER(wrong_answers_are_told_with_their_numbers_and_end_with_1),
         IN_FOLDER(json_is_one_object),
+        IN_FOLDER(what_is_allowed_is_no_finding_and_is_said),
+        IN_FOLDER(limits_that_make_no_sense_are_trouble),
+        IN_FOLDER(junit_has_a_case_for_each_kind),
+        IN_FOLDER(reports_take_no_place_but_their_own),
+        IN_FOLDER(points_of_the_page_lead_to_their_frames),
+        IN_FOLDER(a_page_of_a_session_leads_nowhere_and_says_so),
+        IN_FOLDER(a_chart_of_many_ticks_keeps_the_worst),
+        IN_FOLDER(faults_of_nodes_are_a_finding),
         IN_FOLDER(sessions_without_answers_are_trouble),
         IN_FOLDER(recordings_keep_answers_and_judgements),
         IN_FOLDER(diff_names_the_answers_that_became_wrong),

@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: MIT */
+/* audit_html.c - the verdict on a program's answers as a page: see audit_print.h. Charts are SVG without a script: each
+ * point is a link to the tick's frame, or where it has none to its recording's page at that tick.
+ */
+#include "audit_page.h"
+#include "audit_print.h"
+#include "file.h"
+#include "frame_file.h"
+#include "number.h"
+#include "xml.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- Links -------------------------------------------------------------------------------------------------- */
+
+/* Where the recording is, as seen from the page. */
+typedef struct page {
+    FILE *out;
+    const audit_verdict *verdict;
+    char *base;      /* "./../flight/"; null: there is no recording to lead to */
+    bool has_viewer; /* index.html */
+} page;
+
+/* From one absolute folder to another: "../" for each folder of the first that the second is not in. */
+static char *relative_path(const char *from, const char *to)
+{
+    size_t shared = 0;
+    char *path = NULL;
+    text_stream s;
+    for (size_t i = 0;; i++) {
+        if ((from[i] == 0 || from[i] == '/') && (to[i] == 0 || to[i] == '/'))
+            shared = i;
+        if (from[i] != to[i] || from[i] == 0)
+            break;
+    }
+    if (!text_stream_begin(&s))
+        return NULL;
+    fputs("./", s.stream);
+    for (const char *at = from + shared; *at; at++)
+        if (*at == '/')
+            fputs("../", s.stream);
+    if (to[shared])
+        fprintf(s.stream, "%s/", to + shared + 1);
+    return text_stream_end(&s, &path) ? path : NULL;
+}
+
+/* A folder from the root on, without ".", ".." and double slashes, which are taken out as a browser does it. Null where
+ * there is no memory or no such path. */
+static char *absolute_path(const char *path)
+{
+    char here[PATH_MAX] = "";
+    if (path[0] != '/' && !getcwd(here, sizeof here))
+        return NULL;
+    char *made = malloc(strlen(here) + strlen(path) + 2);
+    size_t length = 0;
+    const char *const parts[] = {here, path};
+    for (int i = 0; made && i < 2; i++)
+        for (const char *at = parts[i]; *at;) {
+            const size_t size = strcspn(at, "/");
+            if (size == 2 && at[0] == '.' && at[1] == '.') {
+                while (length > 0 && made[--length] != '/')
+                    continue;
+            } else if (size > 1 || (size == 1 && *at != '.')) {
+                made[length++] = '/';
+                memcpy(made + length, at, size);
+                length += size;
+            }
+            at += size + (at[size] == '/');
+        }
+    if (made)
+        made[length] = 0;
+    return made;
+}
+
+/* False when there is no memory. */
+static bool find_recording(page *p, const char *from)
+{
+    if (!p->verdict->recording)
+        return true;
+    char *here = absolute_path(from), *there = absolute_path(p->verdict->path);
+    p->base = here && there ? relative_path(here, there) : NULL;
+    p->has_viewer = folder_has(p->verdict->path, "index.html");
+    free(here);
+    free(there);
+    return p->base;
+}
+
+static void write_url(FILE *out, const char *path)
+{
+    for (; *path; path++)
+        if (strchr("-._~/", *path) || (*path >= '0' && *path <= '9') || (*path >= 'A' && *path <= 'Z') ||
+            (*path >= 'a' && *path <= 'z'))
+            putc(*path, out);
+        else
+            fprintf(out, "%%%02X", (unsigned char)*path);
+}
+
+static bool has_frame(const page *p, uint64_t tick, char name[FRAME_NAME])
+{
+    return p->base && folder_has(p->verdict->path, frame_name(tick, name));
+}
+
+/* Begin a link to the tick's frame or, where that is wanted or there is none, to the viewer. Whether there is one. */
+static bool begin_link(const page *p, uint64_t tick, bool viewer)
+{
+    char name[FRAME_NAME];
+    const bool frame = !viewer && has_frame(p, tick, name);
+    if (!frame && !(p->base && p->has_viewer))
+        return false;
+    fputs("<a href=\"", p->out);
+    write_url(p->out, p->base);
+    if (frame)
+        write_url(p->out, name);
+    else
+        fprintf(p->out, "index.html#t=%" PRIu64, tick);
+    fputs("\">", p->out);
+    return true;
+}
+
+/* ---- Charts ------------------------------------------------------------------------------------------------- */
+
+enum { WIDTH = 960, HEIGHT = 150, LEFT = 70, RIGHT = 20, TOP = 12, FOOT = 26 };
+
+/* What is drawn over the ticks. */
+typedef struct chart {
+    const audit_kind *kind;
+    bool ratio; /* else recall */
+    double from, to;
+    const double *limit; /* null: none */
+} chart;
+
+static double value_of(const chart *c, const audit_tick *tick)
+{
+    return c->ratio ? tick->ratio : audit_tick_recall(tick);
+}
+
+static bool is_worse(const chart *c, const audit_tick *a, const audit_tick *than)
+{
+    return c->ratio ? a->ratio > than->ratio : audit_tick_recall(a) < audit_tick_recall(than);
+}
+
+/* From 1 to the worst that is finite, and the limit. */
+static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *limits)
+{
+    chart c = {.kind = kind, .ratio = ratio, .from = 1, .to = 1};
+    if (ratio ? limits->by_ratio : limits->by_recall)
+        c.limit = ratio ? &limits->ratio : &limits->recall;
+    double worst = c.limit ? *c.limit : 1;
+    for (size_t i = 0; i < kind->tick_count; i++) {
+        const double value = value_of(&c, &kind->ticks[i]);
+        worst = !isinf(value) && (ratio ? value > worst : value < worst) ? value : worst;
+    }
+    if (ratio)
+        c.to = worst > 1 ? worst : 2;
+    else
+        c.from = worst < 1 ? worst : 0;
+    return c;
+}
+
+static double x_of(const chart *c, uint64_t tick)
+{
+    const uint64_t first = c->kind->ticks[0].tick, last = c->kind->ticks[c->kind->tick_count - 1].tick;
+    return LEFT + (last > first ? (double)(tick - first) / (double)(last - first) : 0.5) * (WIDTH - LEFT - RIGHT);
+}
+
+/* What is infinite lies on the upper edge. */
+static double y_of(const chart *c, double value)
+{
+    const double share = isinf(value) ? 1 : (value - c->from) / (c->to - c->from);
+    return HEIGHT - FOOT - share * (HEIGHT - FOOT - TOP);
+}
+
+static void write_scale(const page *p, const chart *c, double value)
+{
+    char number[NUMBER_TEXT];
+    const double y = y_of(c, value);
+    fprintf(p->out, "<path class=\"axis\" d=\"M%d %.1fH%d\"/>", LEFT, y, WIDTH - RIGHT);
+    fprintf(p->out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", LEFT - 8, y + 4,
+            number_text(value, 6, number));
+}
+
+static void write_ticks_scale(const page *p, const chart *c)
+{
+    const uint64_t first = c->kind->ticks[0].tick, last = c->kind->ticks[c->kind->tick_count - 1].tick;
+    fprintf(p->out, "<text x=\"%.1f\" y=\"%d\">tick %" PRIu64 "</text>", x_of(c, first), HEIGHT - 8, first);
+    if (last > first)
+        fprintf(p->out, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%" PRIu64 "</text>", WIDTH - RIGHT, HEIGHT - 8,
+                last);
+    putc('\n', p->out);
+}
+
+/* The worst tick of those that a point stands for. */
+static const audit_tick *worst_of(const chart *c, size_t point, size_t points)
+{
+    const size_t count = c->kind->tick_count;
+    const size_t first = (size_t)((double)point / (double)points * (double)count);
+    const size_t end = point + 1 == points ? count : (size_t)((double)(point + 1) / (double)points * (double)count);
+    const audit_tick *worst = &c->kind->ticks[first];
+    for (size_t i = first + 1; i < end; i++)
+        if (is_worse(c, &c->kind->ticks[i], worst))
+            worst = &c->kind->ticks[i];
+    return worst;
+}
+
+static void write_point(const page *p, const chart *c, const audit_tick *tick)
+{
+    char text[AUDIT_RATIO_TEXT];
+    const bool linked = begin_link(p, tick->tick, false);
+    fprintf(p->out, "<circle class=\"point%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>tick %" PRIu64 ": ",
+            tick->wrong ? " wrong" : "", x_of(c, tick->tick), y_of(c, value_of(c, tick)), tick->wrong ? "5" : "2.5",
+            tick->tick);
+    fprintf(p->out, "%s %s, %" PRIu64 " of %" PRIu64 " wrong</title></circle>%s\n", c->ratio ? "ratio" : "recall",
+            audit_ratio_text(value_of(c, tick), text), tick->wrong, tick->asked, linked ? "</a>" : "");
+}
+
+static void write_chart(const page *p, const audit_kind *kind, bool ratio)
+{
+    const chart c = chart_of(kind, ratio, p->verdict->limits);
+    const size_t points = kind->tick_count < AUDIT_PAGE_POINTS ? kind->tick_count : AUDIT_PAGE_POINTS;
+    fprintf(p->out, "<h3>%s, by tick</h3>\n<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"%s by tick\">\n",
+            ratio ? "Ratio of distances" : "Recall", WIDTH, HEIGHT, ratio ? "Ratio of distances" : "Recall");
+    write_scale(p, &c, c.from);
+    write_scale(p, &c, c.to);
+    if (c.limit)
+        fprintf(p->out, "<path class=\"limit\" d=\"M%d %.1fH%d\"/>\n", LEFT, y_of(&c, *c.limit), WIDTH - RIGHT);
+    write_ticks_scale(p, &c);
+    fputs("<polyline class=\"way\" points=\"", p->out);
+    for (size_t i = 0; i < points; i++) {
+        const audit_tick *tick = worst_of(&c, i, points);
+        fprintf(p->out, "%s%.1f,%.1f", i ? " " : "", x_of(&c, tick->tick), y_of(&c, value_of(&c, tick)));
+    }
+    fputs("\"/>\n", p->out);
+    for (size_t i = 0; i < points; i++)
+        write_point(p, &c, worst_of(&c, i, points));
+    fputs("</svg>\n", p->out);
+}
+
+/* ---- Words -------------------------------------------------------------------------------------------------- */
+
+static void write_worst(const page *p, const audit_case *c, bool neighbors, text_stream *words)
+{
+    char name[FRAME_NAME];
+    fputs("<li>", p->out);
+    const bool linked = begin_link(p, c->tick, false);
+    fprintf(p->out, "tick %" PRIu64 "%s, answers[%zu]", c->tick, linked ? "</a>" : "", c->place);
+    if (p->has_viewer && has_frame(p, c->tick, name) && begin_link(p, c->tick, true))
+        fputs(" (to play)</a>", p->out);
+    fputs(": ", p->out);
+    audit_print_case(words->stream, c, neighbors);
+    write_escaped_stream(p->out, words, escape_xml_text);
+    fputs("<pre>", p->out);
+    write_escaped(p->out, c->answer, escape_xml_text);
+    fputs("</pre></li>\n", p->out);
+}
+
+static bool write_kind(const page *p, int of)
+{
+    const audit_kind *kind = &p->verdict->report->kinds[of];
+    const octree_query_traits *about = octree_query_about((octree_query_kind)of);
+    text_stream s;
+    bool ok = text_stream_begin(&s);
+    fprintf(p->out, "<section%s><h2>%s</h2>\n<p>",
+            audit_kind_passes(kind, p->verdict->limits) ? "" : " class=\"fails\"", about->name);
+    if (ok) {
+        audit_print_kind(s.stream, p->verdict, of);
+        ok = write_escaped_stream(p->out, &s, escape_xml_text);
+    }
+    fputs("</p>\n", p->out);
+    write_chart(p, kind, false);
+    if (about->neighbors)
+        write_chart(p, kind, true);
+    fputs(kind->worst_count ? "<h3>The worst</h3>\n<ol>\n" : "", p->out);
+    for (size_t i = 0; ok && i < kind->worst_count; i++) {
+        ok = text_stream_begin(&s);
+        if (ok)
+            write_worst(p, &kind->worst[i], about->neighbors, &s);
+    }
+    fputs(kind->worst_count ? "</ol>\n</section>\n" : "</section>\n", p->out);
+    return ok;
+}
+
+/* The verdict; of what; what is allowed; and that nothing can be led to. */
+static bool write_head(const page *p)
+{
+    const audit_verdict *v = p->verdict;
+    text_stream s;
+    bool ok = text_stream_begin(&s);
+    fprintf(p->out, "<h1%s>", audit_passes(v->report, v->limits) ? "" : " class=\"fails\"");
+    if (ok) {
+        audit_print_all(s.stream, v);
+        ok = write_escaped_stream(p->out, &s, escape_xml_text);
+    }
+    fputs("</h1>\n<p>octreel audit of ", p->out);
+    write_escaped(p->out, v->path, escape_xml);
+    fputs("</p>\n", p->out);
+    if (v->limits->by_ratio || v->limits->by_recall) {
+        fputs("<p>Allowed: ", p->out);
+        audit_print_limits(p->out, v->limits);
+        fputs("</p>\n", p->out);
+    }
+    fputs(p->base
+              ? "<p>A point is the worst of its ticks and leads to its frame; larger ones are wrong.</p>\n"
+              : "<p>A session has no frames: record it, and audit the recording, for points that lead to them.</p>\n",
+          p->out);
+    return ok;
+}
+
+bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
+{
+    page p = {.out = out, .verdict = verdict};
+    bool ok = find_recording(&p, from);
+    fwrite(audit_page_head, 1, audit_page_head_size, out);
+    ok = ok && write_head(&p);
+    for (int i = 0; ok && i < OCTREE_QUERY_KINDS; i++)
+        if (verdict->report->kinds[i].asked)
+            ok = write_kind(&p, i);
+    if (verdict->report->nodes.given) {
+        fprintf(out, "<section%s><h2>nodes</h2>\n<p>", verdict->report->nodes.faults ? " class=\"fails\"" : "");
+        audit_print_nodes(out, &verdict->report->nodes);
+        fputs("</p></section>\n", out);
+    }
+    fwrite(audit_page_tail, 1, audit_page_tail_size, out);
+    free(p.base);
+    return ok;
+}

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/* audit_page.h - the page of octreel audit, its style inside, as CMake made bytes of it: what comes before what is
+ * told, and what comes after. */
+#ifndef REPORT_AUDIT_PAGE_H
+#define REPORT_AUDIT_PAGE_H
+
+#include <stddef.h>
+
+extern const unsigned char audit_page_head[], audit_page_tail[];
+extern const size_t audit_page_head_size, audit_page_tail_size;
+
+#endif

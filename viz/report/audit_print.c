@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT */
+/* audit_print.c - the verdict on a program's answers as text for people, and as JSON. */
+#include "audit_print.h"
+#include "json_write.h"
+#include "number.h"
+#include "text.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+/* ---- Words -------------------------------------------------------------------------------------------------- */
+
+const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
+{
+    char number[NUMBER_TEXT];
+    snprintf(text, AUDIT_RATIO_TEXT, "%s", isinf(ratio) ? "infinite" : number_text(ratio, 6, number));
+    return text;
+}
+
+/* Where six digits would hide a difference from 1 all are printed. */
+static const char *share_text(double share, char text[NUMBER_TEXT])
+{
+    number_text(share, 6, text);
+    if (share < 1 && text[0] == '1')
+        number_print(share, text);
+    return text;
+}
+
+static const char *reason_words(octree_fault fault)
+{
+    static const char *const words[OCTREE_FAULTS] = {
+        [OCTREE_FAULT_NONE] = "right",
+        [OCTREE_FAULT_UNKNOWN] = "names an id that no point has",
+        [OCTREE_FAULT_DUPLICATE] = "names a point twice",
+        [OCTREE_FAULT_SKIPPED] = "names a point that is left out",
+        [OCTREE_FAULT_COUNT] = "not as many neighbours as there are",
+        [OCTREE_FAULT_FARTHER] = "a neighbour too far away",
+        [OCTREE_FAULT_MISSED] = "points are missing",
+        [OCTREE_FAULT_EXTRA] = "points that are outside",
+    };
+    return words[fault];
+}
+
+/* "; missed 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more" */
+static void print_points(FILE *out, const char *what, const octree_point *points, size_t count)
+{
+    const size_t told = count < AUDIT_POINTS ? count : AUDIT_POINTS;
+    char texts[3][NUMBER_TEXT];
+    for (size_t i = 0; i < told; i++) {
+        for (int axis = 0; axis < 3; axis++)
+            number_print(points[i].position[axis], texts[axis]);
+        fprintf(out, "%s%s%" PRIu64 " at (%s, %s, %s)", i ? ", " : what, i ? "" : " ", points[i].id, texts[0], texts[1],
+                texts[2]);
+    }
+    if (count > told)
+        fprintf(out, " and %zu more", count - told);
+}
+
+void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
+{
+    char text[AUDIT_RATIO_TEXT];
+    fputs(reason_words(c->made.fault), out);
+    if (c->made.fault <= OCTREE_FAULT_SKIPPED)
+        fprintf(out, " (%" PRIu64 ")", c->made.fault_id);
+    if (c->made.rank)
+        fprintf(out, "; wrong from rank %zu on", c->made.rank);
+    if (neighbors)
+        fprintf(out, "; ratio of distances %s", audit_ratio_text(c->made.ratio, text));
+    fprintf(out, "; %zu missed, %zu extra", c->made.missed_count, c->made.extra_count);
+    print_points(out, "; missed", c->missed, c->made.missed_count);
+    print_points(out, "; extra", c->extra, c->made.extra_count);
+}
+
+void audit_print_limits(FILE *out, const audit_limits *limits)
+{
+    char texts[2][NUMBER_TEXT];
+    number_print(limits->ratio, texts[0]);
+    number_print(limits->recall, texts[1]);
+    if (limits->by_ratio)
+        fprintf(out, "ratio of distances up to %s", texts[0]);
+    if (limits->by_recall)
+        fprintf(out, "%srecall from %s on", limits->by_ratio ? ", " : "", texts[1]);
+}
+
+/* ": within what is allowed", ": beyond what is allowed", or nothing. */
+static void print_within(FILE *out, const audit_limits *limits, bool passes)
+{
+    if (limits->by_ratio || limits->by_recall)
+        fprintf(out, ", %s what is allowed", passes ? "within" : "beyond");
+}
+
+void audit_print_all(FILE *out, const audit_verdict *v)
+{
+    const audit_report *report = v->report;
+    fprintf(out, "%" PRIu64 " answer%s in %" PRIu64 " tick%s", report->asked, plural(report->asked), report->ticks,
+            plural(report->ticks));
+    if (report->wrong)
+        fprintf(out, ", %" PRIu64 " wrong", report->wrong);
+    else if (report->asked)
+        fputs(", all right", out);
+    if (report->nodes.faults)
+        fprintf(out, ", %" PRIu64 " fault%s of nodes", report->nodes.faults, plural(report->nodes.faults));
+    print_within(out, v->limits, audit_passes(report, v->limits));
+}
+
+void audit_print_kind(FILE *out, const audit_verdict *v, int of)
+{
+    const audit_kind *kind = &v->report->kinds[of];
+    const octree_query_traits *about = octree_query_about((octree_query_kind)of);
+    char recall[NUMBER_TEXT], ratios[2][AUDIT_RATIO_TEXT];
+    fprintf(out, "%s: %" PRIu64 " asked, %" PRIu64 " wrong, recall %s", about->name, kind->asked, kind->wrong,
+            share_text(audit_recall(kind), recall));
+    if (about->neighbors)
+        fprintf(out, ", ratio of distances %s at worst, 99th percentile %s",
+                audit_ratio_text(audit_ratio(kind, 1), ratios[0]),
+                audit_ratio_text(audit_ratio(kind, 0.99), ratios[1]));
+    else
+        fprintf(out, ", %" PRIu64 " missed, %" PRIu64 " extra", kind->missed, kind->extra);
+    if (kind->wrong)
+        fprintf(out, "; first wrong at tick %" PRIu64, kind->first_wrong);
+    print_within(out, v->limits, audit_kind_passes(kind, v->limits));
+}
+
+void audit_print_nodes(FILE *out, const audit_nodes *nodes)
+{
+    fprintf(out, "nodes: %" PRIu64 " fault%s", nodes->faults, plural(nodes->faults));
+    if (nodes->faults == 0)
+        return;
+    fprintf(out, " in %" PRIu64 " tick%s, the first is %" PRIu64, nodes->ticks, plural(nodes->ticks),
+            nodes->first_wrong);
+    for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
+        if (nodes->kinds[i])
+            fprintf(out, "; %" PRIu64 ": %s", nodes->kinds[i], octree_node_fault_words((octree_node_fault_kind)i));
+}
+
+/* ---- For people --------------------------------------------------------------------------------------------- */
+
+bool audit_print_text(FILE *out, const audit_verdict *v)
+{
+    write_escaped(out, v->path, escape_nothing);
+    fputs(": ", out);
+    audit_print_all(out, v);
+    putc('\n', out);
+    for (int i = 0; i < OCTREE_QUERY_KINDS; i++) {
+        const audit_kind *kind = &v->report->kinds[i];
+        if (!kind->asked)
+            continue;
+        audit_print_kind(out, v, i);
+        putc('\n', out);
+        for (size_t j = 0; j < kind->worst_count; j++) {
+            const audit_case *c = &kind->worst[j];
+            fprintf(out, "  tick %" PRIu64 ", answers[%zu]: ", c->tick, c->place);
+            audit_print_case(out, c, octree_query_about((octree_query_kind)i)->neighbors);
+            fprintf(out, "\n    %s\n", c->answer);
+        }
+    }
+    if (v->report->nodes.given) {
+        audit_print_nodes(out, &v->report->nodes);
+        putc('\n', out);
+    }
+    if (v->limits->by_ratio || v->limits->by_recall) {
+        fputs("allowed: ", out);
+        audit_print_limits(out, v->limits);
+        putc('\n', out);
+    }
+    return true;
+}
+
+/* ---- JSON --------------------------------------------------------------------------------------------------- */
+
+static void write_points(json_writer *w, const char *key, const octree_point *points, size_t count)
+{
+    if (count == 0)
+        return;
+    json_member_begin_array(w, key);
+    for (size_t i = 0; i < count && i < AUDIT_POINTS; i++) {
+        json_write_begin_object(w);
+        json_member_integer(w, "id", points[i].id);
+        json_member_vector(w, "position", points[i].position);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+/* The answer is JSON already. */
+static void write_case(json_writer *w, const audit_case *c, bool neighbors)
+{
+    json_write_begin_object(w);
+    json_member_integer(w, "tick", c->tick);
+    json_member_integer(w, "place", c->place);
+    json_member_text(w, "wrong", octree_fault_name(c->made.fault));
+    if (c->made.rank)
+        json_member_integer(w, "rank", c->made.rank);
+    if (neighbors)
+        json_member_number(w, "ratio", c->made.ratio);
+    json_member_integer(w, "missed", c->made.missed_count);
+    json_member_integer(w, "extra", c->made.extra_count);
+    write_points(w, "missed_points", c->missed, c->made.missed_count);
+    write_points(w, "extra_points", c->extra, c->made.extra_count);
+    json_write_key(w, "answer");
+    fputs(c->answer, w->out);
+    w->comma = true;
+    json_write_end_object(w);
+}
+
+static void write_kind(json_writer *w, const audit_verdict *v, int of)
+{
+    const audit_kind *kind = &v->report->kinds[of];
+    const octree_query_traits *about = octree_query_about((octree_query_kind)of);
+    json_member_begin_object(w, about->name);
+    json_member_integer(w, "asked", kind->asked);
+    json_member_integer(w, "wrong", kind->wrong);
+    json_member_bool(w, "passes", audit_kind_passes(kind, v->limits));
+    json_member_number(w, "recall", audit_recall(kind));
+    json_member_integer(w, "missed", kind->missed);
+    json_member_integer(w, "extra", kind->extra);
+    if (about->neighbors) {
+        json_member_number(w, "worst_ratio", audit_ratio(kind, 1));
+        json_member_number(w, "ratio_99", audit_ratio(kind, 0.99));
+    }
+    if (kind->wrong)
+        json_member_integer(w, "first_wrong_tick", kind->first_wrong);
+    json_member_begin_object(w, "faults");
+    for (int i = OCTREE_FAULT_NONE + 1; i < OCTREE_FAULTS; i++)
+        if (kind->faults[i])
+            json_member_integer(w, octree_fault_name((octree_fault)i), kind->faults[i]);
+    json_write_end_object(w);
+    json_member_begin_array(w, "worst");
+    for (size_t i = 0; i < kind->worst_count; i++)
+        write_case(w, &kind->worst[i], about->neighbors);
+    json_write_end_array(w);
+    json_write_end_object(w);
+}
+
+static void write_nodes(json_writer *w, const audit_nodes *nodes)
+{
+    if (!nodes->given)
+        return;
+    json_member_begin_object(w, "nodes");
+    json_member_integer(w, "faults", nodes->faults);
+    if (nodes->faults)
+        json_member_integer(w, "first_wrong_tick", nodes->first_wrong);
+    for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
+        if (nodes->kinds[i])
+            json_member_integer(w, octree_node_fault_name((octree_node_fault_kind)i), nodes->kinds[i]);
+    json_write_end_object(w);
+}
+
+static void write_limits(json_writer *w, const audit_limits *limits)
+{
+    if (!limits->by_ratio && !limits->by_recall)
+        return;
+    json_member_begin_object(w, "allowed");
+    if (limits->by_ratio)
+        json_member_number(w, "ratio", limits->ratio);
+    if (limits->by_recall)
+        json_member_number(w, "recall", limits->recall);
+    json_write_end_object(w);
+}
+
+bool audit_print_json(FILE *out, const audit_verdict *v)
+{
+    json_writer writer = {.out = out}, *w = &writer;
+    const audit_report *report = v->report;
+    json_write_begin_object(w);
+    json_member_text(w, "path", v->path);
+    json_member_bool(w, "right", report->wrong == 0 && report->nodes.faults == 0);
+    json_member_bool(w, "passes", audit_passes(report, v->limits));
+    write_limits(w, v->limits);
+    json_member_integer(w, "ticks", report->ticks);
+    json_member_integer(w, "asked", report->asked);
+    json_member_integer(w, "wrong", report->wrong);
+    json_member_begin_object(w, "kinds");
+    for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
+        if (report->kinds[i].asked)
+            write_kind(w, v, i);
+    json_write_end_object(w);
+    write_nodes(w, &report->nodes);
+    json_write_end_object(w);
+    json_write_end_line(w);
+    return true;
+}

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* xml.h - attributes of XML and HTML. For this folder. */
+#ifndef REPORT_XML_H
+#define REPORT_XML_H
+
+#include "text.h"
+
+static inline void write_attribute(FILE *out, const char *name, const char *value)
+{
+    fprintf(out, " %s=\"", name);
+    write_escaped(out, value, escape_xml);
+    putc('"', out);
+}
+
+#endif
