@@ -46,12 +46,13 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
 {
     b->query_count = about->query_count;
     b->shape_count = about->shape_count;
-    b->queries = copy(b, about->queries, about->query_count, sizeof *about->queries);
     b->shapes = copy(b, about->shapes, about->shape_count, sizeof *about->shapes);
-    if ((b->query_count && !b->queries) || (b->shape_count && !b->shapes))
+    if (b->shape_count && !b->shapes)
         return false;
-    bool whole = true;
-    for (size_t i = 0; i < b->query_count; i++) {
+    b->queries = copy(b, about->queries, about->query_count, sizeof *about->queries);
+    bool whole = b->queries || b->query_count == 0;
+    /* Each, since what they point to is the program's until then. */
+    for (size_t i = 0; b->queries && i < b->query_count; i++) {
         octree_query *query = &b->queries[i];
         query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
         whole = whole && (query->answer || query->answer_count == 0);
@@ -82,13 +83,24 @@ batch *batch_make_gaps(const gap_list *gaps)
     return NULL;
 }
 
-batch *batch_make(const gap_list *gaps, const octreel_tick_info *about)
+static bool copy_foreign(batch *b, const octree_foreign_tree *foreign)
+{
+    if (!foreign_tree_copy(foreign, &b->foreign))
+        return false;
+    b->has_foreign = true;
+    b->bytes += foreign->node_count * sizeof *foreign->nodes;
+    for (size_t i = 0; i < foreign->node_count; i++)
+        b->bytes += foreign->nodes[i].points.count * sizeof(uint64_t);
+    return true;
+}
+
+batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign)
 {
     batch *b = batch_make_gaps(gaps);
     if (!b)
         return NULL;
     b->is_gap = false;
-    if (!about || copy_about(b, about))
+    if ((!about || copy_about(b, about)) && (!foreign || copy_foreign(b, foreign)))
         return b;
     batch_release(b);
     return NULL;
@@ -104,6 +116,7 @@ void batch_release(batch *b)
         query_release_ids(&b->queries[i]);
     free(b->queries);
     free(b->shapes);
+    foreign_tree_release(&b->foreign);
     free(b);
 }
 

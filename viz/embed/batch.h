@@ -35,12 +35,14 @@ typedef struct batch {
     size_t query_count;
     octree_shape *shapes;
     size_t shape_count;
+    bool has_foreign; /* the nodes of the program's tree are said in the tick; else they are as before */
+    octree_foreign_tree foreign;
     size_t bytes; /* of all of it */
 } batch;
 
-/* A tick with copies of the gaps before it, of the queries and the shapes, and as yet without changes; `about` may be
- * null. Null when there is no memory. Cost: O(gaps, queries, shapes). */
-batch *batch_make(const gap_list *gaps, const octreel_tick_info *about);
+/* A tick with copies of the gaps before it, of the queries, the shapes and the nodes, and as yet without changes;
+ * `about` and `foreign` may be null. Null when there is no memory. Cost: O(gaps, queries, shapes, nodes). */
+batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
 
 /* The gaps alone. */
 batch *batch_make_gaps(const gap_list *gaps);

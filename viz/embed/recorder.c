@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* recorder.c - ticks are checked, compared with those before them, and handed on to the ring or to what films them. */
 #include "octreel/recorder.h"
+#include "about.h"
 #include "contents.h"
 #include "error.h"
 #include "folder.h"
@@ -21,6 +22,8 @@ struct octreel_recorder {
     bool never_wait, closed;
     bool broken; /* the recording broke off */
     contents contents;
+    octree_foreign_tree kept; /* nodes that were said in a tick that was refused, for the next one that is taken */
+    bool has_kept;
     ring ring; /* most is 0 where ticks are filmed as they come: */
     char *folder;
     queue queue;
@@ -207,6 +210,7 @@ static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_
 static void release(octreel_recorder *r)
 {
     contents_release(&r->contents);
+    foreign_tree_release(&r->kept);
     ring_release(&r->ring);
     free(r->folder);
     free(r);
@@ -239,45 +243,6 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* A tree takes more than files do: boxes that are infinite, which JSON is not, and ids of any size. */
-static const char *fault_of(const octree_query *query)
-{
-    const octree_input one = {.queries = query, .query_count = 1};
-    octree_status status = octree_input_check(&one);
-    for (int i = 0; status == OCTREE_OK && query->kind == OCTREE_QUERY_RANGE && i < 3; i++)
-        if (!isfinite(query->box.min[i]) || !isfinite(query->box.max[i]))
-            status = OCTREE_NOT_FINITE;
-    if (status == OCTREE_OK && query->skip == OCTREE_SKIP_ID && query->skip_id >= SESSION_ID_LIMIT)
-        return octreel_status_text(OCTREEL_BAD_ID);
-    for (size_t i = 0; status == OCTREE_OK && query->answered && i < query->answer_count; i++)
-        if (query->answer[i] >= SESSION_ID_LIMIT)
-            return octreel_status_text(OCTREEL_BAD_ID);
-    if (status == OCTREE_BAD_OPTION)
-        return "there is no such kind or no such skip; COINCIDENT needs a target, which a box has not";
-    return status == OCTREE_OK ? NULL : octree_status_text(status);
-}
-
-/* One by one, so that the sentence can say which. */
-static octreel_status check_about(octreel_recorder *r, const octreel_tick_info *about)
-{
-    if (!about)
-        return OCTREEL_OK;
-    if ((!about->queries && about->query_count) || (!about->shapes && about->shape_count))
-        return status_fail(&r->error, OCTREEL_NULL_ARGUMENT);
-    for (size_t i = 0; i < about->query_count; i++) {
-        const char *fault = fault_of(&about->queries[i]);
-        if (fault)
-            return status_refuse(&r->error, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, fault);
-    }
-    for (size_t i = 0; i < about->shape_count; i++) {
-        const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};
-        const octree_status status = octree_input_check(&one);
-        if (status != OCTREE_OK)
-            return status_refuse(&r->error, OCTREEL_BAD_SHAPE, "shapes[%zu]: %s", i, octree_status_text(status));
-    }
-    return OCTREEL_OK;
-}
-
 /* Lists hold whatever the program's points are: a full leaf must not refuse one of them. */
 static octreel_status let_leaves_grow(octreel_recorder *r)
 {
@@ -292,12 +257,24 @@ static octreel_status let_leaves_grow(octreel_recorder *r)
     return OCTREEL_OK;
 }
 
+/* Of a tick that is refused for something else, the nodes come with the next. False when there is no memory. */
+static bool keep_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
+{
+    octree_foreign_tree copy;
+    if (!foreign_tree_copy(tree, &copy))
+        return false;
+    foreign_tree_release(&r->kept);
+    r->kept = copy;
+    r->has_kept = true;
+    return true;
+}
+
 /* What changed is read even where the tick is refused for something else. */
 static octreel_status read_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
     octreel_error why;
     const octreel_status read = contents_read(&r->contents, &r->settings.tree, tree, about, &why);
-    const octreel_status status = check_about(r, about);
+    const octreel_status status = about_check(about, &r->error);
     if (status != OCTREEL_OK)
         return status;
     if (read != OCTREEL_OK)
@@ -335,7 +312,8 @@ static octreel_status hand_on(octreel_recorder *r, batch *b)
 
 static octreel_status put_tick(octreel_recorder *r, const octreel_tick_info *about)
 {
-    batch *b = batch_make(&r->gaps, about);
+    const octree_foreign_tree *said = about ? about->foreign : NULL;
+    batch *b = batch_make(&r->gaps, about, said ? said : r->has_kept ? &r->kept : NULL);
     if (b && contents_add_changes(&r->contents, b))
         return hand_on(r, b);
     batch_release(b);
@@ -344,14 +322,24 @@ static octreel_status put_tick(octreel_recorder *r, const octreel_tick_info *abo
 
 static octreel_status take_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
+    octreel_error why;
+    const octreel_status nodes = about_check_nodes(about, &why);
     octreel_status status = read_tick(r, tree, about);
+    if (status == OCTREEL_OK && nodes != OCTREEL_OK) {
+        status = nodes;
+        r->error = why;
+    }
     if (status == OCTREEL_OK)
         status = put_tick(r, about);
+    if (status != OCTREEL_OK && nodes == OCTREEL_OK && about && about->foreign && !keep_nodes(r, about->foreign))
+        status = status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (status == OCTREEL_NO_MEMORY)
         contents_undo(&r->contents);
     if (status != OCTREEL_OK)
         return status;
     contents_take(&r->contents);
+    foreign_tree_release(&r->kept);
+    r->has_kept = false;
     r->gaps.count = 0;
     return OCTREEL_OK;
 }

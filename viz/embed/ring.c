@@ -28,6 +28,16 @@ static bool start_at(ring *r, batch *b)
     return true;
 }
 
+/* The nodes that are said in one tick are those of the next, where that says none. */
+static void hand_nodes_on(batch *from, batch *to)
+{
+    if (!from->has_foreign || to->has_foreign)
+        return;
+    to->foreign = from->foreign;
+    to->has_foreign = true;
+    from->foreign = (octree_foreign_tree){0};
+}
+
 bool ring_put(ring *r, batch *b)
 {
     const bool full = r->list.count == r->most;
@@ -35,7 +45,9 @@ bool ring_put(ring *r, batch *b)
     if ((full || !first) && !start_at(r, second))
         return false;
     if (full) {
-        batch_release(batch_list_take(&r->list));
+        first = batch_list_take(&r->list);
+        hand_nodes_on(first, second);
+        batch_release(first);
         r->dropped++;
     }
     batch_list_add(&r->list, b);

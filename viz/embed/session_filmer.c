@@ -18,6 +18,7 @@ static void number_tick(batch *b, uint64_t tick)
         b->queries[i].tick = tick;
     for (size_t i = 0; i < b->shape_count; i++)
         b->shapes[i].tick = tick;
+    b->foreign.tick = tick;
 }
 
 static octree_body *make_bodies(const points *start)
@@ -56,6 +57,8 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
                                     .query_count = gap ? 0 : first->query_count,
                                     .shapes = first->shapes,
                                     .shape_count = gap ? 0 : first->shape_count,
+                                    .foreign = &first->foreign,
+                                    .foreign_count = first->has_foreign && !gap,
                                     .gaps = gap,
                                     .gap_count = gap != NULL};
     film.folder = f->folder;
@@ -101,7 +104,8 @@ static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
                                          .queries = b->queries,
                                          .query_count = b->query_count,
                                          .shapes = b->shapes,
-                                         .shape_count = b->shape_count});
+                                         .shape_count = b->shape_count,
+                                         .foreign = b->has_foreign ? &b->foreign : NULL});
 }
 
 /* The gaps before the tick of a batch. */

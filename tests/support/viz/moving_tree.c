@@ -98,6 +98,26 @@ static void show(moving_tree *m)
     m->about.shape_count = random_below(&m->random, OCTREE_SHAPE_KINDS + 1);
 }
 
+/* A plane through the middle, and points on either side; in some ticks the program says nothing of its nodes. */
+static void grow_nodes(moving_tree *m)
+{
+    size_t left = 0, right = MOVING_TREE_MOST;
+    for (size_t i = 0; i < m->count; i++)
+        m->listed[m->points[i].position[0] < 0 ? left++ : --right] = m->points[i].id;
+    for (uint64_t id = 0; id < 3; id++) {
+        m->met[id] = id;
+        m->nodes[id] = (octree_foreign_node){.id = id, .has_parent = id > 0, .box = cube(-REACH, REACH)};
+        if (id > 0)
+            m->nodes[id].has_points = true;
+    }
+    m->nodes[1].box.max[0] = m->nodes[2].box.min[0] = 0;
+    m->nodes[1].points = (octree_ids){m->listed, left};
+    m->nodes[2].points = (octree_ids){m->listed + right, MOVING_TREE_MOST - right};
+    m->foreign = (octree_foreign_tree){.tick = 33, .nodes = m->nodes, .node_count = 3};
+    m->about.foreign = random_below(&m->random, 3) ? &m->foreign : NULL;
+    m->queries[0].met[OCTREE_MET_VISITED] = (octree_ids){m->met, 3};
+}
+
 void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed)
 {
     *m = (moving_tree){.random = seed, .tree = make_tree(cube(-REACH, REACH), 1, 2, full_leaf)};
@@ -107,6 +127,7 @@ void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed)
         come(m);
     ask(m);
     show(m);
+    grow_nodes(m);
 }
 
 void moving_tree_release(moving_tree *m)
@@ -121,6 +142,7 @@ void moving_tree_step(moving_tree *m)
         changes[random_below(&m->random, sizeof changes / sizeof changes[0])](m);
     ask(m);
     show(m);
+    grow_nodes(m);
 }
 
 octreel_recorder_def small_recorder(const moving_tree *m, const char *folder)

@@ -68,6 +68,7 @@ extern "C" {
     X(BAD_ID, "an id is not below 2^53, as files need it")                                                             \
     X(BAD_QUERY, "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or no such skip") \
     X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or a text that is none")           \
+    X(BAD_NODE, "a node has a box, an id, a parent, a kind or points that no node can have")                           \
     X(FLOAT_MODE, "the thread's floating-point mode is not the default: nearest rounding, subnormals")                 \
     X(BUSY, "the queue is full, and the recorder was told not to wait")                                                \
     X(BROKEN, "the recording broke off")                                                                               \
@@ -135,7 +136,7 @@ octreel_recorder_def octreel_recorder_def_default(void);
  * before: of a program that hands over lists an empty one, since that of a C++ vector is null; else nothing has
  * changed. A point outside the world is in no answer: the tick in which it comes or goes there has the event "refused".
  *
- * A point in a frame is the tree's; a shape is what else there is: walls, goals, somebody else's tree. */
+ * A point in a frame is one of these; a shape is what else there is, such as walls and goals. */
 typedef struct octreel_tick_info {
     const octree_query *queries; /* in any order; all numbers finite */
     size_t query_count;
@@ -146,6 +147,8 @@ typedef struct octreel_tick_info {
     const octree_edit *changes; /* since the call before, in the order in which they were made, several of one point
                                    too; velocities are not read */
     size_t change_count;
+    const octree_foreign_tree *foreign; /* the nodes of the program's own index, from this tick on: boxes, with which
+                                           its queries' `met` says what it visited, left out and hit. Null: as before */
 } octreel_tick_info;
 
 /* Start a recorder into *recorder, which is null on an error, with the sentence in *error (may be null). The definition
@@ -160,15 +163,16 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * OTHER_TREE once it has chosen another capacity. Nothing is kept of the arguments when this returns. Waits for the
  * worker where the queue is full, and at tick 0 until the first frame is drawn.
  *
- * Of a tick that is refused, a list counts for nothing, and changes are made all the same, since the program goes on
- * from there: the next tick that is taken has them. Those that cannot be made alone are left out: BAD_POINT (a NaN, an
- * infinity, no such kind), BAD_ID, DUPLICATE_ID (an insertion of an id that is there) and NO_POINT (a move or removal
- * of one that is not); the sentence names the first. After NO_MEMORY none is made: hand the tick over again.
+ * Of a tick that is refused, a list counts for nothing, and changes and nodes hold all the same, since the program
+ * goes on from there: the next tick that is taken has them. Those that cannot be made alone are left out: BAD_POINT (a
+ * NaN, an infinity, no such kind), BAD_ID, DUPLICATE_ID (an insertion of an id that is there) and NO_POINT (a move or
+ * removal of one that is not); the sentence names the first. After NO_MEMORY none is made: hand the tick over again.
  *
  * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
- * FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: of a tree or a list O(nodes +
- * n + queries + shapes) in time, and 96 bytes a point; of changes O(changes log changes + queries + shapes), after the
- * first that follow a list, and up to 128 bytes a point; and what changed until it is filmed. */
+ * BAD_NODE, FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: of a tree or a
+ * list O(nodes + n + queries + shapes) in time, and 96 bytes a point; of changes O(changes log changes + queries +
+ * shapes), after the first that follow a list, and up to 128 bytes a point; of foreign nodes O(m log m); and what
+ * changed until it is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
 
 /* Film what the ring holds, and the gaps between and after its ticks, into a folder as a recording of its own, whose

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/* test_recorder_nodes.c - the nodes of a program's own index, and how its queries met them, are recorded with a tick.
+ */
+#include "fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "film_again.h"
+#include "moving_tree.h"
+#include "recordings.h"
+
+static const octree_point points[] = {{{-4, 0, 0}, 10}, {{4, 0, 0}, 11}};
+
+/* A root with a leaf on either side of x = 0. */
+static const octree_foreign_node halves[] = {
+    {.id = 1, .box = {{-8, -8, -8}, {8, 8, 8}}},
+    {.id = 2, .has_parent = true, .parent = 1, .box = {{-8, -8, -8}, {0, 8, 8}}, .kind = "leaf"},
+    {.id = 3, .has_parent = true, .parent = 1, .box = {{0, -8, -8}, {8, 8, 8}}, .kind = "leaf"},
+};
+static const octree_foreign_tree two_leaves = {.nodes = halves, .node_count = 3},
+                                 one_node = {.nodes = halves, .node_count = 1}, no_node = {.nodes = NULL};
+
+static octreel_recorder *open_small(const char *folder, size_t ring)
+{
+    octreel_recorder_def def = octreel_recorder_def_default();
+    def.folder = folder;
+    def.tree.world = cube(-8, 8);
+    def.every = 0;
+    def.ring = ring;
+    return open_recorder(&def);
+}
+
+/* The program looks for what is nearest to a place on the left, and leaves one leaf out. */
+static octreel_status tick(octreel_recorder *recorder, const octree_foreign_tree *foreign, uint64_t pruned)
+{
+    uint64_t answer = 10, visited[] = {1, 5 - pruned};
+    const octree_query query = {.kind = OCTREE_QUERY_NEAREST,
+                                .target = {-3, 0, 0},
+                                .answered = true,
+                                .answer = &answer,
+                                .answer_count = 1,
+                                .met[OCTREE_MET_VISITED] = {visited, 2},
+                                .met[OCTREE_MET_PRUNED] = {&pruned, 1}};
+    const octreel_tick_info about = {
+        .points = points, .point_count = 2, .queries = &query, .query_count = pruned ? 1 : 0, .foreign = foreign};
+    return octreel_recorder_tick(recorder, NULL, &about);
+}
+
+/* The number of the nodes in force of each tick; '-' where there are none, 'W' where something is wrong. */
+static void note_nodes(const char *line, size_t number, void *context)
+{
+    static const char counted[] = "\"nodes\": {\"count\": ";
+    const char *nodes = strstr(line, counted);
+    char *told = context;
+    (void)number;
+    snprintf(told + strlen(told), 4, "%s%.1s", strstr(line, "\"wrong\"]") ? "W" : "",
+             nodes ? nodes + strlen(counted) : "-");
+}
+
+static void assert_nodes(const place *folder, const char *expected)
+{
+    char told[64] = "";
+    for_each_line(folder->path, note_nodes, told);
+    assert_string_equal(told, expected);
+}
+
+static void nodes_travel_with_ticks_and_are_judged(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    octreel_recorder *recorder = open_small(folder.path, 0);
+    assert_int_equal(tick(recorder, NULL, 0), OCTREEL_OK);
+    assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
+    assert_int_equal(tick(recorder, NULL, 2), OCTREEL_OK); /* the leaf that holds the answer */
+    assert_int_equal(tick(recorder, &one_node, 0), OCTREEL_OK);
+    assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
+    assert_int_equal(tick(recorder, &no_node, 0), OCTREEL_OK);
+    close_recorder(recorder);
+    assert_nodes(&folder, "-3W313W0");
+    assert_films_again(&folder, &again, 6);
+}
+
+static void nodes_of_tick_0_are_recorded(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    octreel_recorder *recorder = open_small(folder.path, 0);
+    assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
+    assert_int_equal(tick(recorder, NULL, 3), OCTREEL_OK);
+    close_recorder(recorder);
+    assert_nodes(&folder, "33");
+    assert_films_again(&folder, &again, 2);
+}
+
+/* What was said before the first tick of the ring holds there. */
+static void a_ring_knows_the_nodes_in_force(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    octreel_recorder *recorder = open_small(NULL, 2);
+    assert_int_equal(tick(recorder, &two_leaves, 0), OCTREEL_OK);
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(tick(recorder, NULL, 3), OCTREEL_OK);
+    assert_int_equal(octreel_recorder_write(recorder, folder.path, NULL), OCTREEL_OK);
+    close_recorder(recorder);
+    assert_nodes(&folder, "33");
+    assert_films_again(&folder, &again, 2);
+}
+
+static void nodes_of_a_tick_that_is_refused_come_with_the_next(void **state)
+{
+    const place folder = place_in(*state, "film"), again = place_in(*state, "again");
+    const octree_query bad = {.kind = OCTREE_QUERY_NEAREST, .target = {NAN}};
+    octreel_tick_info about = {.queries = &bad, .query_count = 1, .foreign = &two_leaves};
+    octreel_recorder *recorder = open_small(folder.path, 0);
+    assert_int_equal(octreel_recorder_tick(recorder, NULL, &about), OCTREEL_BAD_QUERY);
+    assert_int_equal(tick(recorder, NULL, 3), OCTREEL_OK);
+    assert_int_equal(octreel_recorder_tick(recorder, NULL, &about), OCTREEL_BAD_QUERY);
+    assert_int_equal(tick(recorder, &one_node, 0), OCTREEL_OK);
+    assert_int_equal(octreel_recorder_close(recorder), OCTREEL_GAPS);
+    octreel_recorder_destroy(recorder);
+    assert_nodes(&folder, "-3-1");
+    assert_films_again(&folder, &again, 4);
+}
+
+static void assert_bad(octreel_recorder *recorder, octree_foreign_node node, const char *sentence)
+{
+    octree_foreign_node nodes[] = {halves[0], node};
+    const octree_foreign_tree tree = {.nodes = nodes, .node_count = 2};
+    assert_int_equal(tick(recorder, &tree, 0), OCTREEL_BAD_NODE);
+    if (strncmp(octreel_recorder_error(recorder), sentence, strlen(sentence)) != 0)
+        fail_msg("%s", octreel_recorder_error(recorder));
+}
+
+static void nodes_that_cannot_be_are_refused_with_their_place(void **state)
+{
+    const place folder = place_in(*state, "film");
+    uint64_t large = UINT64_C(1) << 53;
+    octreel_recorder *recorder = open_small(folder.path, 0);
+    assert_bad(recorder, (octree_foreign_node){.id = 1}, "nodes[1]: ");
+    assert_bad(recorder, (octree_foreign_node){.id = 2, .box = {{NAN}, {0}}}, "nodes[1]: ");
+    assert_bad(recorder, (octree_foreign_node){.id = 2, .has_parent = true, .parent = 2}, "nodes[1]: ");
+    assert_bad(recorder, (octree_foreign_node){.id = 2, .has_points = true, .points = {&large, 1}},
+               "nodes[1]: an id is not below 2^53");
+    octreel_recorder_destroy(recorder);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(nodes_travel_with_ticks_and_are_judged),
+        TEST(nodes_of_tick_0_are_recorded),
+        TEST(a_ring_knows_the_nodes_in_force),
+        TEST(nodes_of_a_tick_that_is_refused_come_with_the_next),
+        TEST(nodes_that_cannot_be_are_refused_with_their_place),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

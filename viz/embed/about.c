@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* about.c - whether files can have what a program says of a tick. */
+#include "about.h"
+#include "session_file.h"
+#include "status.h"
+
+#include <math.h>
+
+/* A tree takes more than files do: boxes that are infinite, which JSON is not, and ids of any size. */
+static const char *fault_of(const octree_query *query)
+{
+    const octree_input one = {.queries = query, .query_count = 1};
+    octree_status status = octree_input_check(&one);
+    for (int i = 0; status == OCTREE_OK && query->kind == OCTREE_QUERY_RANGE && i < 3; i++)
+        if (!isfinite(query->box.min[i]) || !isfinite(query->box.max[i]))
+            status = OCTREE_NOT_FINITE;
+    if (status == OCTREE_OK && query->skip == OCTREE_SKIP_ID && query->skip_id >= SESSION_ID_LIMIT)
+        return octreel_status_text(OCTREEL_BAD_ID);
+    for (size_t i = 0; status == OCTREE_OK && query->answered && i < query->answer_count; i++)
+        if (query->answer[i] >= SESSION_ID_LIMIT)
+            return octreel_status_text(OCTREEL_BAD_ID);
+    if (status == OCTREE_BAD_OPTION)
+        return "there is no such kind or no such skip; COINCIDENT needs a target, which a box has not";
+    return status == OCTREE_OK ? NULL : octree_status_text(status);
+}
+
+/* One by one, so that the sentence can say which. */
+octreel_status about_check(const octreel_tick_info *about, octreel_error *error)
+{
+    if (!about)
+        return OCTREEL_OK;
+    if ((!about->queries && about->query_count) || (!about->shapes && about->shape_count))
+        return status_fail(error, OCTREEL_NULL_ARGUMENT);
+    for (size_t i = 0; i < about->query_count; i++) {
+        const char *fault = fault_of(&about->queries[i]);
+        if (fault)
+            return status_refuse(error, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, fault);
+    }
+    for (size_t i = 0; i < about->shape_count; i++) {
+        const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};
+        const octree_status status = octree_input_check(&one);
+        if (status != OCTREE_OK)
+            return status_refuse(error, OCTREEL_BAD_SHAPE, "shapes[%zu]: %s", i, octree_status_text(status));
+    }
+    return OCTREEL_OK;
+}
+
+/* Files keep no ids of points beyond their limit. */
+octreel_status about_check_nodes(const octreel_tick_info *about, octreel_error *error)
+{
+    size_t place = 0;
+    const octree_foreign_tree *tree = about ? about->foreign : NULL;
+    const octree_status status = tree ? octree_foreign_check(tree, &place) : OCTREE_OK;
+    if (status == OCTREE_NO_MEMORY)
+        return status_fail(error, OCTREEL_NO_MEMORY);
+    if (status != OCTREE_OK)
+        return status_refuse(error, OCTREEL_BAD_NODE, "nodes[%zu]: %s", place, octree_status_text(status));
+    for (size_t i = 0; tree && i < tree->node_count; i++)
+        for (size_t j = 0; j < tree->nodes[i].points.count; j++)
+            if (tree->nodes[i].points.ids[j] >= SESSION_ID_LIMIT)
+                return status_refuse(error, OCTREEL_BAD_NODE, "nodes[%zu]: %s", i, octreel_status_text(OCTREEL_BAD_ID));
+    return OCTREEL_OK;
+}
