@@ -2,8 +2,8 @@
 /* naive.h - how one would film without giving it much thought: the yardstick of octreel-bench.
  *
  * The scene of a tick through OSMesa into its own buffer: twelve GL_LINES a box, a GL_POINT a marker, GL's own
- * matrices, text as the rectangles of its letters; then RGB through libpng with its defaults. It is not made slow on purpose: vertices
- * go as arrays, one call a kind, and nothing is computed that the picture does not need.
+ * matrices, text as the rectangles of its letters; then RGB through libpng with its defaults. It is not made slow on
+ * purpose: vertices go as arrays, one call a kind, and nothing is computed that the picture does not need.
  */
 #ifndef BENCH_NAIVE_H
 #define BENCH_NAIVE_H

@@ -169,9 +169,12 @@ static void write_wrong(pen *p, const layer_source *in)
 static void write_refusals(pen *p, const octree_tick *tick)
 {
     for (size_t i = 0; i < tick->refusal_count && i < 2; i++) {
-        char id[SCENE_TEXT];
+        char id[SCENE_TEXT], why[SCENE_TEXT];
         snprintf(id, sizeof id, "#%" PRIu64, tick->refusals[i].id);
-        write_detailed_row(p, i ? "" : "refused", id, "%s", octree_status_name(tick->refusals[i].why));
+        snprintf(why, sizeof why, "%s", octree_status_name(tick->refusals[i].why));
+        for (char *c = strchr(why, '_'); c; c = strchr(c, '_'))
+            *c = ' ';
+        write_detailed_row(p, i ? "" : "refused", id, "%s", why);
     }
     if (tick->refusal_count > 2)
         write_row(p, "", "and %zu more", tick->refusal_count - 2);
@@ -213,15 +216,18 @@ static void write_broken(pen *p, const layer_source *in)
     write_wrapped(p, ROLE_WARNING, in->broken);
 }
 
-/* The title, in its own letters where there is room for them and for so many small ones at the right. */
-static void write_title(pen *p, const char *text, size_t beside)
+/* The title, in its own letters where there is room for them and for so many small ones at the right. Returns the
+ * height of its letters. */
+static int write_title(pen *p, const char *text, size_t beside)
 {
     const scene *s = p->scene;
     const size_t taken = (strlen(text) * (size_t)s->title.width + (size_t)s->text.width - 1) / (size_t)s->text.width;
-    if (taken + (beside ? beside + 1 : 0) <= (size_t)p->letters)
+    const bool fits = taken + (beside ? beside + 1 : 0) <= (size_t)p->letters;
+    if (fits)
         write_title_text(p, ROLE_TEXT, text);
     else
         write_text(p, 0, ROLE_TEXT, text);
+    return fits ? s->title.height : s->text.height;
 }
 
 /* The tick, and at its right the key that was pressed and what it does. */
@@ -448,8 +454,8 @@ static void add_column(scene *s, const layer_source *in, const char *title)
         write_tick_title(&p, in, title);
         write_tick_rows(&p, in);
     } else {
-        write_title(&p, title, 0);
-        p.y += s->title.height + s->text.height / 2;
+        p.y += write_title(&p, title, 0) + s->text.height / 2;
+        write_rule(&p);
         write_tree_rows(&p, in);
     }
     write_broken(&p, in);

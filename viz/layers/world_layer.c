@@ -120,20 +120,35 @@ static void add_ticks(axes *a, int axis)
         add_tick(a, axis, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
-/* The letter at the end of an axis that is not seen end on. Numbers do not cover it. */
+/* Beyond the end of an axis, on the way from its start. False when there is no room. */
+static bool place_letter(axes *a, const double end[3], scene_label *letter)
+{
+    const scene *s = a->scene;
+    double from[2], pixel[2], way[2];
+    if (!camera_pixel(&s->camera, a->box->min, from) || !camera_pixel(&s->camera, end, pixel))
+        return false;
+    for (int i = 0; i < 2; i++)
+        way[i] = pixel[i] - from[i];
+    const double length = sqrt(way[0] * way[0] + way[1] * way[1]);
+    for (int i = 0; i < 2; i++)
+        pixel[i] += length > 0 ? way[i] / length * s->text.height * 1.5 : 0;
+    return text_space_take(&a->words, s, letter->text, pixel, letter->at);
+}
+
+/* The letter at the end of an axis that is not seen end on. Numbers do not cover it. Where there is no room beyond the
+ * end, it stands beside it. */
 static void add_letter(axes *a, int axis)
 {
     if (is_end_on(a, axis))
         return;
-    scene_label letter = {.id = (uint64_t)axis, .in_world = true, .style = axis_style, .text = {(char)('x' + axis), 0}};
-    double pixel[2], corner[2];
-    memcpy(letter.at, a->box->min, sizeof letter.at);
-    letter.at[axis] = a->box->max[axis];
+    scene_label letter = {.id = (uint64_t)axis, .style = axis_style, .text = {(char)('x' + axis), 0}};
+    double end[3];
+    memcpy(end, a->box->min, sizeof end);
+    end[axis] = a->box->max[axis];
+    letter.in_world = !place_letter(a, end, &letter);
+    if (letter.in_world)
+        memcpy(letter.at, end, sizeof letter.at);
     scene_add_label(a->scene, letter);
-    if (camera_pixel(&a->scene->camera, letter.at, pixel)) {
-        pixel[0] += a->scene->text.width; /* where draw puts it */
-        text_space_take(&a->words, a->scene, letter.text, pixel, corner);
-    }
 }
 
 /* If the box is not the world's, nothing else draws its edges. */
