@@ -20,7 +20,7 @@
 
 static const char help[] =
     "usage: octreel inspect CLOUD [-o PICTURE.png] [OPTION ...]\n\n"
-    "Build an octree from a point cloud (x y z text, PLY, PCD or LAS), print its statistics, and draw its "
+    "Build an octree from a point cloud (x y z text, PLY, PCD, LAS or LAZ), print its statistics, and draw its "
     "subdivision.\n\n"
     "  -o, --output FILE     draw the tree into this PNG\n"
     "      --capacity N      points a leaf holds before it splits (default 64)\n"
@@ -34,7 +34,8 @@ static const char more_help[] =
     "      --json            print JSON\n"
     "  -h, --help\n\n"
     "Points are numbered from 0 in the order of the file, those that are skipped counted: without finite coordinates,\n"
-    "or withheld in LAS. LAZ is not read: pdal translate in.laz out.las\n\n"
+    "or withheld in LAS. LAZ and COPC are read by an octreel that was built with liblaszip (Debian 13); else, first:\n"
+    "pdal translate in.laz out.las\n\n"
     "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
     "          octreel inspect points.txt --node 0/3 --json\n"
     "          for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n";

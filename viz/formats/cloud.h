@@ -8,7 +8,8 @@
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
  * PCD: 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
  * LAS: 1.0 to 1.5, all point formats; coordinates are record * scale + offset in doubles, the bits that laspy computes.
- *   Records that are withheld, which is deleted, are skipped. LAZ and COPC, which are compressed, are refused.
+ *   Records that are withheld, which is deleted, are skipped. LAZ and COPC, which are compressed LAS, are read where this
+ *   was built with liblaszip: cloud_reads_laz(). The same points are the same bits.
  *
  * Values beside the coordinates go by their names, in any case: red green blue or r g b, diffuse_red ..., of PCD rgb
  * and rgba, which are packed; intensity; class, classification or label. CloudCompare's "scalar_" before a name is
@@ -59,6 +60,9 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
 
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error);
+
+/* Whether LAZ and COPC are read, too. */
+bool cloud_reads_laz(void);
 
 /* Whether these are the first bytes of a cloud: the header of one of the formats, or a text whose first line is a
  * point.

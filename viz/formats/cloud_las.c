@@ -6,6 +6,7 @@
  * compute.
  */
 #include "cloud_format.h"
+#include "cloud_laz.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -38,17 +39,23 @@ static const unsigned record_sizes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 
 enum {
     FORMATS = sizeof record_sizes / sizeof record_sizes[0],
     COMPRESSED = 0xc0, /* what LAZ adds to the format */
-    AT_INTENSITY = 12, /* in a record, all formats */
-    AT_FLAGS = 15,     /* the same */
-    AT_CLASS = 16,     /* from format 6 on; before, the class is five bits of the flags */
+    AT_INTENSITY = LAS_AT_INTENSITY,
+    AT_FLAGS = LAS_AT_FLAGS,
+    AT_CLASS = LAS_AT_CLASS,
 };
 
 /* Where a record has its colour, three times 16 bits; 0: nowhere. */
 static const unsigned colors_at[FORMATS] = {[2] = 20, [3] = 28, [5] = 28, [7] = 30, [8] = 30, [10] = 30};
 
+unsigned las_color_at(unsigned format)
+{
+    return colors_at[format];
+}
+
 typedef struct las_reader {
     cloud_file *file;
     unsigned minor, format, header_size;
+    bool compressed;
     unsigned withheld; /* the bit of a record's flags */
     uint64_t first, length, count;
     double scale[3], offset[3];
@@ -89,9 +96,13 @@ static bool read_format(las_reader *reader)
     const cloud_file *file = reader->file;
     reader->format = file->bytes[AT_FORMAT];
     reader->length = read_whole(reader, AT_LENGTH, 2);
-    if (reader->format & COMPRESSED)
-        return cloud_fail(file, "is compressed LAS (LAZ or COPC), which is not read; decompress it first, as in: pdal "
-                                "translate in.laz out.las");
+    reader->compressed = reader->format & COMPRESSED;
+    if (reader->compressed && !laz_is_read())
+        return cloud_fail(file,
+                          "is compressed LAS (LAZ or COPC), and this octreel was built without liblaszip; install "
+                          "that (Debian 13: liblaszip-dev) and build again, or decompress it, as in: pdal "
+                          "translate in.laz out.las");
+    reader->format &= ~(unsigned)COMPRESSED;
     if (reader->format >= FORMATS)
         return cloud_fail_byte(file, AT_FORMAT, "%u is not a known point format: 0 to %d", reader->format, FORMATS - 1);
     if (reader->length < record_sizes[reader->format])
@@ -212,10 +223,10 @@ static void read_values(const las_reader *reader, const unsigned char *record, d
                                                 : record[AT_FLAGS] & 0x1f;
 }
 
-static bool add_point(const las_reader *reader, size_t at)
+/* Add a point by its record; `at` is where in the file that is, for an error. */
+static bool add_record(const las_reader *reader, const unsigned char *record, size_t at)
 {
     static const cloud_scalar integer = {CLOUD_SIGNED, 4};
-    const unsigned char *record = reader->file->bytes + at;
     double numbers[CLOUD_CHANNELS];
     if (record[AT_FLAGS] & reader->withheld) {
         cloud_skip(reader->file, "marked as withheld");
@@ -229,6 +240,32 @@ static bool add_point(const las_reader *reader, size_t at)
     }
     read_values(reader, record, numbers);
     return cloud_add(reader->file, numbers);
+}
+
+static bool add_unpacked(void *context, const unsigned char *record)
+{
+    const las_reader *reader = context;
+    return add_record(reader, record, (size_t)reader->first);
+}
+
+/* The decompressor finds the points itself. */
+static bool read_compressed(las_reader *reader)
+{
+    reader->first = read_whole(reader, AT_POINTS, 4);
+    return laz_read(reader->file, reader->format, reader->count, add_unpacked, reader);
+}
+
+static bool read_plain(las_reader *reader)
+{
+    if (!find_points(reader) || !check_end(reader))
+        return false;
+    for (uint64_t i = 0; i < reader->count; i++) {
+        const size_t at = (size_t)(reader->first + i * reader->length);
+        cloud_tell(reader->file, i, i, reader->count);
+        if (!add_record(reader, reader->file->bytes + at, at))
+            return false;
+    }
+    return true;
 }
 
 /* Values have their place in each record, whether the file has them or not. */
@@ -245,16 +282,10 @@ static bool parse_las(cloud_file *file)
     las_reader reader = {.file = file};
     if (!is_las(file))
         return cloud_fail_byte(file, 0, "is not a LAS file: its first bytes are not LASF");
-    if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_factors(&reader) ||
-        !find_points(&reader) || !check_end(&reader))
+    if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_factors(&reader))
         return false;
     begin_values(&reader);
-    for (uint64_t i = 0; i < reader.count; i++) {
-        cloud_tell(file, i, i, reader.count);
-        if (!add_point(&reader, (size_t)(reader.first + i * reader.length)))
-            return false;
-    }
-    return true;
+    return (reader.compressed ? read_compressed : read_plain)(&reader);
 }
 
 const cloud_format cloud_las = {"LAS", ".las", is_las, parse_las};

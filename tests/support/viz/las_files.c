@@ -31,7 +31,7 @@ void put_to(bytes *file, size_t end)
 void put_header(bytes *file, const las *l)
 {
     const unsigned size = las_header_sizes[l->minor];
-    const uint64_t count = 2, points = size + l->records_before;
+    const uint64_t count = l->count ? l->count : 2, points = size + l->records_before;
     const bool wide_alone = l->format >= 6;
     put_text(file, "LASF");
     put_bits(file, 0x0000beef, 4, false); /* file source, global encoding */

@@ -17,6 +17,7 @@ typedef struct las {
     unsigned extra;          /* bytes of each record that the format does not have */
     double scale[3], offset[3];
     int32_t points[2][3];
+    uint64_t count; /* that the header has; 0: the two */
 } las;
 
 /* Records that are two_points: not each of them is a number of hundredths, so the scales are what makes them. */
