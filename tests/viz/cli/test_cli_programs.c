@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_programs.c - programs in Python and JavaScript are filmed while they print their sessions, and their answers
+ * are audited: those of tests/examples. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+
+typedef struct program {
+    const char *language, *file;
+} program;
+
+static const program python = {"python3", "brute.py"}, javascript = {"node", "brute.js"};
+
+static void need(const program *p)
+{
+    if (program_is_there(p->language))
+        return;
+    print_message("%s is not installed\n", p->language);
+    skip();
+}
+
+/* Film what it prints, with an argument or "", into "film", and audit that. */
+static command_result audit_program(void **state, const program *p, const char *argument)
+{
+    need(p);
+    const place folder = place_in(*state, "film");
+    const shell_word path = shell_quote(OCTREEL_EXAMPLES);
+    return run_script("%1$s %2$s/%3$s %4$s | %5$s record - --size 32x18 --every 10 -o %6$s >%6$s.txt && %5$s audit "
+                      "%6$s",
+                      p->language, path.text, p->file, argument, octreel_program(), folder.path);
+}
+
+static void assert_right(void **state, const program *p)
+{
+    command_result result = audit_program(state, p, "");
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "film: 60 answers in 31 ticks, all right\n"));
+    command_release(&result);
+    result = run_octreel(NULL, "verify %s", place_in(*state, "film").path);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void assert_fault_found(void **state, const program *p)
+{
+    command_result result = audit_program(state, p, "stale");
+    assert_string_equal(result.err, "");
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "film: 60 answers in 31 ticks, 21 wrong\n"));
+    assert_non_null(strstr(result.out, "\nradius: 30 asked, 19 wrong, "));
+    assert_non_null(strstr(result.out, "; first wrong at tick 1\n"));
+    command_release(&result);
+}
+
+static void answers_of_a_python_program_are_right(void **state)
+{
+    assert_right(state, &python);
+}
+
+static void a_stale_index_in_python_is_found(void **state)
+{
+    assert_fault_found(state, &python);
+}
+
+static void answers_of_a_javascript_program_are_right(void **state)
+{
+    assert_right(state, &javascript);
+}
+
+static void a_stale_index_in_javascript_is_found(void **state)
+{
+    assert_fault_found(state, &javascript);
+}
+
+static void both_programs_print_the_same_session(void **state)
+{
+    const shell_word path = shell_quote(OCTREEL_EXAMPLES);
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    need(&python);
+    need(&javascript);
+    command_result result =
+        run_script("python3 %1$s/brute.py >%2$s && node %1$s/brute.js >%3$s", path.text, a.path, b.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_same_files(a.path, b.path);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(answers_of_a_python_program_are_right),     IN_FOLDER(a_stale_index_in_python_is_found),
+        IN_FOLDER(answers_of_a_javascript_program_are_right), IN_FOLDER(a_stale_index_in_javascript_is_found),
+        IN_FOLDER(both_programs_print_the_same_session),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
