@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* file.c - files and their names: read whole, written whole or not at all, copied, compared. */
 #include "file.h"
+#include "array.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -27,6 +28,8 @@ bool folder_has(const char *folder, const char *name)
     return there;
 }
 
+/* ---- Standard input and output ------------------------------------------------------------------------------ */
+
 bool file_is_standard(const char *path)
 {
     return strcmp(path, "-") == 0;
@@ -37,7 +40,19 @@ const char *file_title(const char *path)
     return file_is_standard(path) ? FILE_STANDARD_INPUT : path;
 }
 
-/* ---- Read whole --------------------------------------------------------------------------------------------- */
+const char *file_output_title(const char *path)
+{
+    return file_is_standard(path) ? "standard output" : path;
+}
+
+/* Standard input, once it is read. */
+static struct {
+    bool read;
+    char *bytes; /* null: who read it has them */
+    size_t size;
+} standard;
+
+/* ---- Read --------------------------------------------------------------------------------------------------- */
 
 static bool refuse(char reason[FILE_REASON], const char *what)
 {
@@ -45,42 +60,135 @@ static bool refuse(char reason[FILE_REASON], const char *what)
     return false;
 }
 
-/* Read up to *size bytes, and set it to what was there. */
-static bool read_bytes(const char *path, char *bytes, size_t *size, char reason[FILE_REASON])
+/* Opening a pipe would wait for its other end; a device may never end. */
+static FILE *open_regular(const char *path, uint64_t *size, char reason[FILE_REASON])
 {
-    FILE *stream = fopen(path, "rb");
-    if (!stream)
-        return refuse(reason, "cannot be opened");
-    *size = fread(bytes, 1, *size, stream);
-    bool whole = !ferror(stream);
-    if (!whole)
+    struct stat status;
+    FILE *stream = NULL;
+    if (stat(path, &status) != 0)
+        refuse(reason, "cannot be opened");
+    else if (!S_ISREG(status.st_mode))
+        snprintf(reason, FILE_REASON, "is not a regular file");
+    else if (!(stream = fopen(path, "rb")))
+        refuse(reason, "cannot be opened");
+    *size = stream ? (uint64_t)status.st_size : 0;
+    return stream;
+}
+
+/* What is read of a stream to its end: `total` bytes, as far as anybody knows, or 0. */
+typedef struct reading {
+    FILE *stream;
+    uint64_t total;
+    file_progress *progress;
+    void *context;
+    char *bytes; /* with room for one more than `size` */
+    size_t size, room;
+} reading;
+
+static bool read_block(reading *r, size_t *got)
+{
+    const size_t most = (size_t)1 << 20, wanted = r->size + 2;
+    char *bytes = array_reserve(r->bytes, wanted, &r->room, 1);
+    if (!bytes)
+        return false;
+    r->bytes = bytes;
+    const size_t left = r->room - r->size - 1;
+    *got = fread(r->bytes + r->size, 1, left < most ? left : most, r->stream);
+    r->size += *got;
+    if (r->progress)
+        r->progress(r->size, r->total, r->context);
+    return true;
+}
+
+/* The first room is for all of a regular file, and to find its end. */
+static bool read_stream(reading *r, char reason[FILE_REASON])
+{
+    size_t got = 1;
+    bool there = r->total < SIZE_MAX - 2;
+    r->bytes = there && r->total > 0 ? malloc((size_t)r->total + 2) : NULL;
+    r->room = r->bytes ? (size_t)r->total + 2 : 0;
+    there = there && (r->bytes || r->total == 0);
+    while (there && got > 0)
+        there = read_block(r, &got);
+    if (there && !ferror(r->stream))
+        return true;
+    if (there)
         refuse(reason, "cannot be read");
-    fclose(stream);
-    return whole;
+    else
+        snprintf(reason, FILE_REASON, "out of memory for its %ju bytes",
+                 (uintmax_t)(r->total > r->size ? r->total : r->size));
+    free(r->bytes);
+    return false;
+}
+
+/* Its length is known where it is a file. */
+static bool read_standard(file_progress *progress, void *context, char **bytes, size_t *size, char reason[FILE_REASON])
+{
+    struct stat status;
+    const bool regular = fstat(fileno(stdin), &status) == 0 && S_ISREG(status.st_mode);
+    reading r = {stdin, regular ? (uint64_t)status.st_size : 0, progress, context, NULL, 0, 0};
+    if (standard.read) {
+        snprintf(reason, FILE_REASON, "is read already, and can be read once");
+        return false;
+    }
+    standard.read = true;
+    if (!read_stream(&r, reason))
+        return false;
+    *bytes = r.bytes;
+    *size = r.size;
+    return true;
+}
+
+FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
+{
+    uint64_t ignored;
+    if (!file_is_standard(path))
+        return open_regular(path, size ? size : &ignored, reason);
+    if (!standard.bytes && !read_standard(NULL, NULL, &standard.bytes, &standard.size, reason))
+        return NULL;
+    *(size ? size : &ignored) = standard.size;
+    FILE *stream = standard.size > 0 ? fmemopen(standard.bytes, standard.size, "rb") : NULL;
+    if (!stream && standard.size > 0)
+        refuse(reason, "cannot be opened");
+    else if (!stream)
+        snprintf(reason, FILE_REASON, "is empty");
+    return stream;
+}
+
+/* What is kept is copied: it is small, where who opens it first does not read it whole at once. */
+static bool copy_standard(char **bytes, size_t *size, char reason[FILE_REASON])
+{
+    *size = standard.size;
+    *bytes = malloc(standard.size + 1);
+    if (!*bytes) {
+        snprintf(reason, FILE_REASON, "out of memory for its %zu bytes", standard.size);
+        return false;
+    }
+    memcpy(*bytes, standard.bytes, standard.size);
+    return true;
+}
+
+bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
+                       char reason[FILE_REASON])
+{
+    reading r = {.progress = progress, .context = context};
+    *bytes = NULL;
+    *size = 0;
+    if (file_is_standard(path))
+        return standard.bytes ? copy_standard(bytes, size, reason)
+                              : read_standard(progress, context, bytes, size, reason);
+    r.stream = open_regular(path, &r.total, reason);
+    const bool read = r.stream && read_stream(&r, reason);
+    if (r.stream)
+        fclose(r.stream);
+    *bytes = read ? r.bytes : NULL;
+    *size = read ? r.size : 0;
+    return read;
 }
 
 bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON])
 {
-    struct stat status;
-    *bytes = NULL;
-    if (stat(path, &status) != 0)
-        return refuse(reason, "cannot be opened");
-    /* Opening a pipe would wait for its other end; a device may never end. */
-    if (!S_ISREG(status.st_mode)) {
-        snprintf(reason, FILE_REASON, "is not a regular file");
-        return false;
-    }
-    *size = (size_t)status.st_size;
-    *bytes = (uintmax_t)status.st_size < SIZE_MAX ? malloc(*size + 1) : NULL;
-    if (!*bytes) {
-        snprintf(reason, FILE_REASON, "out of memory for its %jd bytes", (intmax_t)status.st_size);
-        return false;
-    }
-    if (read_bytes(path, *bytes, size, reason))
-        return true;
-    free(*bytes);
-    *bytes = NULL;
-    return false;
+    return file_read_watched(path, NULL, NULL, bytes, size, reason);
 }
 
 /* ---- Written whole or not at all ---------------------------------------------------------------------------- */
@@ -94,7 +202,12 @@ static bool is_there_but_no_file(const char *path)
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
 {
     const size_t size = strlen(path) + sizeof ".part";
-    *file = (file_writer){.path = path, .temp = malloc(size)};
+    *file = (file_writer){.path = path};
+    if (file_is_standard(path)) {
+        file->stream = stdout;
+        return true;
+    }
+    file->temp = malloc(size);
     if (!file->temp)
         return error_no_memory(error);
     snprintf(file->temp, size, "%s%s", path, is_there_but_no_file(path) ? "" : ".part");
@@ -108,6 +221,8 @@ bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
 
 bool file_writer_close(file_writer *file, octreel_error *error)
 {
+    if (!file->temp)
+        return true;
     const bool direct = strcmp(file->temp, file->path) == 0;
     bool ok = fflush(file->stream) == 0 && !ferror(file->stream);
     int reason = errno;
@@ -127,6 +242,8 @@ bool file_writer_close(file_writer *file, octreel_error *error)
 
 bool file_writer_abandon(file_writer *file)
 {
+    if (!file->temp)
+        return false;
     fclose(file->stream);
     if (strcmp(file->temp, file->path) != 0)
         remove(file->temp);
@@ -146,13 +263,11 @@ static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *er
 
 bool file_copy_to(const char *from, const char *to, octreel_error *error)
 {
-    struct stat status;
+    char reason[FILE_REASON];
     file_writer file;
-    if (stat(from, &status) == 0 && !S_ISREG(status.st_mode))
-        return error_set(error, "%s: it is no regular file", from);
-    FILE *in = fopen(from, "rb");
+    FILE *in = file_open(from, NULL, reason);
     if (!in)
-        return error_set(error, "%s: cannot be opened: %s", from, strerror(errno));
+        return error_set(error, "%s: %s", file_title(from), reason);
     bool ok = file_writer_open(&file, to, error);
     if (ok)
         ok = copy_stream(in, from, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
@@ -177,6 +292,8 @@ static bool same_streams(FILE *a, FILE *b)
 bool same_bytes(const char *a, const char *b)
 {
     struct stat of_a, of_b;
+    if (file_is_standard(a) || file_is_standard(b))
+        return false;
     if (stat(a, &of_a) != 0 || stat(b, &of_b) != 0 || !S_ISREG(of_a.st_mode) || !S_ISREG(of_b.st_mode) ||
         of_a.st_size != of_b.st_size)
         return false;
@@ -218,6 +335,8 @@ static bool same_name(const char *a, const char *b)
 static bool are_one(const char *a, const char *b)
 {
     struct stat files[2];
+    if (file_is_standard(a) || file_is_standard(b))
+        return false;
     const bool there[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
     if (there[0] && there[1])
         return S_ISREG(files[0].st_mode) && same_file(&files[0], &files[1]);
@@ -234,7 +353,12 @@ bool outputs_apart(const output_file *outputs, size_t count, octreel_error *erro
 {
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < i; j++)
-            if (outputs[i].path && outputs[j].path && are_one(outputs[i].path, outputs[j].path))
+            if (!outputs[i].path || !outputs[j].path)
+                continue;
+            else if (file_is_standard(outputs[i].path) && file_is_standard(outputs[j].path))
+                return error_set(error, "%s and %s cannot both be standard output", outputs[j].option,
+                                 outputs[i].option);
+            else if (are_one(outputs[i].path, outputs[j].path))
                 return error_set(error, "%s %s is the same file as %s %s", outputs[i].option, outputs[i].path,
                                  outputs[j].option, outputs[j].path);
     return true;

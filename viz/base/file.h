@@ -6,6 +6,7 @@
 #include "error.h"
 
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <sys/stat.h>
 
@@ -15,26 +16,40 @@ char *path_join(const char *folder, const char *name);
 /* Whether the folder has anything of this name. */
 bool folder_has(const char *folder, const char *name);
 
-/* "-" stands for standard input where a file is read, and for standard output where one is written: here, and so
- * for every command. ./- is a file of that name. */
+/* "-" stands for standard input where a file is read, and for standard output where one is written: in each function
+ * below, and so in every command. ./- is a file of that name. */
 bool file_is_standard(const char *path);
 
-/* What a path that is read is called in a sentence: itself, or "standard input". */
+/* What a path is called in a sentence: itself, or "standard input" and "standard output". */
 #define FILE_STANDARD_INPUT "standard input"
 const char *file_title(const char *path);
+const char *file_output_title(const char *path);
 
 #define FILE_REASON 160
 
-/* Read a regular file into *bytes, which the caller frees. False with the reason, such as "cannot be opened: No such
- * file or directory", for what is missing, unreadable, a folder, a pipe or a device. */
+/* Open a regular file, or standard input, which is kept in memory from then on, so that it can be opened and read
+ * again. Null with the reason, such as "cannot be opened: No such file or directory", for what is missing, unreadable,
+ * a folder, a pipe or a device. *size, which may be null, is set to its bytes. */
+FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON]);
+
+/* Called after each block of what is read, with the bytes so far and those that there are in all; 0: nobody knows. */
+typedef void file_progress(uint64_t done, uint64_t total, void *context);
+
+/* Read such a file into *bytes, which the caller frees; `progress` may be null. There is room for a zero after them.
+ * Standard input is read to its end, and not kept: the next who reads it is refused. False with the reason. */
+bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
+                       char reason[FILE_REASON]);
+
+/* The same, unwatched. */
 bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON]);
 
 /* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. An
- * existing path that is not a regular file, such as a pipe, is written directly. */
+ * existing path that is not a regular file, such as a pipe, is written directly. Standard output is neither closed nor
+ * flushed: who ends the program tells what could not be written. */
 typedef struct file_writer {
     FILE *stream;
     const char *path;
-    char *temp; /* where the stream goes */
+    char *temp; /* where the stream goes; null: standard output */
 } file_writer;
 
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
@@ -53,13 +68,13 @@ typedef struct output_file {
 } output_file;
 
 /* False, with a sentence, where an output is this file that is read: the same device and inode, however they are named.
- * A path that is not a regular file, such as a pipe, may be both. */
+ * A path that is not a regular file, such as a pipe, may be both, and so may "-". */
 bool output_spares(const output_file *output, const char *input, octreel_error *error);
 
-/* False, with a sentence, where two outputs are one file, be it there already or not. */
+/* False, with a sentence, where two outputs are one file, be it there already or not; two may not be "-". */
 bool outputs_apart(const output_file *outputs, size_t count, octreel_error *error);
 
-/* Whether both are regular files with the same bytes. */
+/* Whether both are regular files with the same bytes; standard input is none. */
 bool same_bytes(const char *a, const char *b);
 
 /* Whether both are one file; and the folder in which a path lies. */

@@ -11,7 +11,8 @@
 static const char help[] =
     "usage: octreel accept REFERENCE NEW [FRAME ...]\n\n"
     "Take over new frames as the reference: all of them, or those that are named. NEW is a PNG, a folder of PNGs or a\n"
-    "recording; REFERENCE is the like, or a file of digests, and is made where there is nothing. References with the\n"
+    "recording, or -, a PNG from standard input; REFERENCE is the like, or a file of digests, and is made where there\n"
+    "is nothing. References with the\n"
     "same pixels stay as they are; those that NEW has no frame for are removed, where all or they are asked for.\n"
     "What was there before is told as octreel diff tells it. Look at the pictures first.\n\n"
     "Where the environment has CI set, nothing is accepted: a test that accepts what it should test proves nothing.\n\n"

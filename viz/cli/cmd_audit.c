@@ -22,7 +22,7 @@ static const char help[] = "usage: octreel audit RECORDING|SESSION [OPTION ...]\
                            "numbers; and what is proved\n"
                            "wrong about nodes of its own. Nothing is drawn, and the files are not changed. octreel "
                            "help session says how a\n"
-                           "query carries an answer.\n\n";
+                           "query carries an answer. SESSION may be -, standard input.\n\n";
 
 static const char more_help[] =
     "      --allow LIMITS    what is no finding: ratio=1.01, neighbours up to so many times as far; recall=0.99, "
@@ -53,16 +53,10 @@ static bool read_limits(const command_option *option, const char *text, void *in
     return audit_limits_parse(text, into, &error) || refuse("--%s: %s", option->name, error.text);
 }
 
-/* "-" is standard output. */
-static bool read_report(const command_option *option, const char *text, void *into)
-{
-    return file_is_standard(text) ? read_text(option, text, into) : read_file(option, text, into);
-}
-
 static const command_option options[] = {
     {"allow", read_limits, OPTION_VALUE(arguments, limits), 0, 0},
     {"html", read_name, OPTION_VALUE(arguments, html), 0, 0},
-    {"junit", read_report, OPTION_VALUE(arguments, junit), 0, 0},
+    {"junit", read_file, OPTION_VALUE(arguments, junit), 0, 0},
     {0},
 };
 
@@ -152,7 +146,7 @@ static bool audit_to(const arguments *a, const char *path, const char *page, aud
     progress p = progress_start("ticks");
     const bool done = check_files(path, page, a->junit, error) && audit_read(path, on_progress, &p, report, error);
     progress_end(&p);
-    const audit_verdict verdict = {path, file_kind_of(path) == KIND_RECORDING, report, &a->limits};
+    const audit_verdict verdict = {file_title(path), file_kind_of(path) == KIND_RECORDING, report, &a->limits};
     return done && write_file(page, audit_print_page, &verdict, error) &&
            write_file(a->junit, print_junit, &verdict, error) && print_verdict(a, &verdict, error);
 }

@@ -17,7 +17,8 @@
 static const char help[] =
     "usage: octreel diff REFERENCE COMPARED [OPTION ...]\n\n"
     "Compare pictures, exactly unless told otherwise. Each side is a PNG, a folder of PNGs (those directly in it), a\n"
-    "recording, or a file of digests made by octreel digest. Frames belong together by their names; a frame without a\n"
+    "recording, or a file of digests made by octreel digest; - is a PNG or digests from standard input. Frames belong\n"
+    "together by their names; a frame without a\n"
     "reference is a difference, and so is a reference without a frame. Of recordings without frames the ticks are\n"
     "compared.\n\n"
     "Forgiven is only what is asked for, and every verdict says so:\n"
@@ -42,7 +43,7 @@ static const char help[] =
     "      --junit FILE      write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions\n"
     "                        read it\n"
     "      --markdown FILE   write a summary for a CI job's page: the verdict and a table of what differs\n"
-    "                        (FILE may be -, standard output, for one of the two)\n"
+    "                        (FILE may be -, standard output, for one of the two, unless --json goes there)\n"
     "  -h, --help\n\n"
     "Exit status: 0 the same, or all forgiven; 1 different; 2 trouble, as when a picture cannot be read.\n\n"
     "Examples: octreel diff before.png after.png\n"
@@ -123,12 +124,6 @@ static bool read_causes(const command_option *option, const char *text, void *in
     return strcmp(text, "all") == 0 || read_whole(option, text, &a->causes);
 }
 
-/* "-" is standard output. */
-static bool read_report(const command_option *option, const char *text, void *into)
-{
-    return strcmp(text, "-") == 0 ? read_text(option, text, into) : read_file(option, text, into);
-}
-
 static const command_option options[] = {
     {"max-pixels", read_whole, OPTION_VALUE(arguments, options.tolerance.max_pixels), 0, UINT32_MAX},
     {"max-delta", read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta), 0, 0},
@@ -138,8 +133,8 @@ static const command_option options[] = {
     {"causes", read_causes, 0, sizeof(uint64_t), 0, UINT32_MAX},
     {"background", read_color, OPTION_VALUE(arguments, options.background), 0, 0},
     {"output", read_folder, OPTION_VALUE(arguments, folder), 0, 0},
-    {"junit", read_report, OPTION_VALUE(arguments, junit), 0, 0},
-    {"markdown", read_report, OPTION_VALUE(arguments, markdown), 0, 0},
+    {"junit", read_file, OPTION_VALUE(arguments, junit), 0, 0},
+    {"markdown", read_file, OPTION_VALUE(arguments, markdown), 0, 0},
     {0},
 };
 
@@ -160,44 +155,46 @@ static int tell_trouble(const diff_result *result, const explanation *why)
 
 typedef bool reporter(FILE *out, const diff_report *report);
 
-static bool is_stdout(const char *path)
+/* The files that it writes; the folder is one by its page. */
+enum { OUTPUTS = 3 };
+
+static void list_outputs(const arguments *a, const char *page, output_file outputs[OUTPUTS])
 {
-    return path && strcmp(path, "-") == 0;
+    outputs[0] = (output_file){"-o", page};
+    outputs[1] = (output_file){"--junit", a->junit};
+    outputs[2] = (output_file){"--markdown", a->markdown};
 }
 
 static bool check_outputs(const arguments *a)
 {
-    if (a->json + is_stdout(a->junit) + is_stdout(a->markdown) <= 1)
-        return true;
-    return refuse("standard output has room for one report: give the others a file");
+    output_file outputs[OUTPUTS];
+    list_outputs(a, NULL, outputs);
+    return check_standard_output(outputs, OUTPUTS, a->json);
 }
 
 static bool write_report(const char *path, reporter *write, const diff_report *report, octreel_error *error)
 {
     file_writer file;
-    if (!path || is_stdout(path))
+    if (!path)
         return true;
     if (!file_writer_open(&file, path, error))
         return false;
     if (write(file.stream, report))
         return file_writer_close(&file, error);
-    error_set(error, "%s: there is no memory to write it", path);
+    error_set(error, "%s: there is no memory to write it", file_output_title(path));
     return file_writer_abandon(&file);
 }
 
-static bool print_report(const arguments *a, const diff_report *report, octreel_error *error)
+static void print_report(const arguments *a, const diff_report *report)
 {
-    bool ok = true;
+    output_file outputs[OUTPUTS];
+    list_outputs(a, NULL, outputs);
     if (a->json)
         diff_report_json(stdout, report);
-    else if (is_stdout(a->junit))
-        ok = diff_report_junit(stdout, report);
-    else if (is_stdout(a->markdown))
-        ok = diff_report_markdown(stdout, report);
-    else if (report->result->by_ticks ||
-             report->result->found[FOUND_UNREADABLE] < report->result->count) /* else nothing was compared */
+    else if (!is_standard_output_taken(outputs, OUTPUTS) &&
+             (report->result->by_ticks ||
+              report->result->found[FOUND_UNREADABLE] < report->result->count)) /* else nothing was compared */
         diff_report_text(stdout, report);
-    return ok || error_set(error, "there is no memory to print the report");
 }
 
 static int report(const arguments *a, diff_report *all)
@@ -214,26 +211,23 @@ static int report(const arguments *a, diff_report *all)
         ok = ok && diff_report_page(all, &error);
     }
     ok = ok && write_report(a->junit, diff_report_junit, all, &error) &&
-         write_report(a->markdown, diff_report_markdown, all, &error) && print_report(a, all, &error);
+         write_report(a->markdown, diff_report_markdown, all, &error);
+    if (ok)
+        print_report(a, all);
     evidence_release(&e);
     if (!ok)
         return trouble("%s", error.text);
     return verdict == DIFF_TROUBLE ? tell_trouble(all->result, all->why) : statuses[verdict];
 }
 
-static const char *file_of(const char *path)
-{
-    return is_stdout(path) ? NULL : path;
-}
-
 /* What is written may not take the place of what is compared, nor a report that of another. */
 static bool check_files(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     char *page = a->folder ? path_join(a->folder, EVIDENCE_PAGE) : NULL;
-    const output_file outputs[] = {{"-o", page}, {"--junit", file_of(a->junit)}, {"--markdown", file_of(a->markdown)}};
-    const size_t count = sizeof outputs / sizeof outputs[0];
-    bool ok = outputs_apart(outputs, count, error);
-    for (size_t i = 0; ok && i < count; i++)
+    output_file outputs[OUTPUTS];
+    list_outputs(a, page, outputs);
+    bool ok = outputs_apart(outputs, OUTPUTS, error);
+    for (size_t i = 0; ok && i < OUTPUTS; i++)
         ok = diff_side_spared(&sides[0], &outputs[i], error) && diff_side_spared(&sides[1], &outputs[i], error);
     free(page);
     return ok;

@@ -10,8 +10,9 @@
 static const char help[] =
     "usage: octreel digest FOLDER [-o FILE] [OPTION ...]\n\n"
     "Write a digest of each frame's pixels as text, one line a frame: a baseline of a few kilobytes that octreel diff\n"
-    "takes in place of pictures. FOLDER is a recording or a folder of PNGs; a single PNG will do.\n\n"
-    "  -o, --output FILE     where it goes (default: standard output)\n"
+    "takes in place of pictures. FOLDER is a recording or a folder of PNGs; a single PNG will do, and so will -, one\n"
+    "from standard input.\n\n"
+    "  -o, --output FILE     where it goes (default: -, standard output)\n"
     "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
     "  -h, --help\n\n"
     "Examples: octreel digest frames -o frames.digests\n"
@@ -23,8 +24,6 @@ static const char help[] =
 static bool write_file(const diff_side *side, const char *path, octreel_error *error)
 {
     file_writer file;
-    if (!path)
-        return digest_file_write(stdout, side, error);
     if (!file_writer_open(&file, path, error))
         return false;
     return digest_file_write(file.stream, side, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
@@ -50,7 +49,7 @@ static int digest_it(const char *folder, const char *path, image_color backgroun
 }
 
 typedef struct arguments {
-    const char *path; /* null: standard output */
+    const char *path;
     image_color background;
 } arguments;
 
@@ -62,7 +61,7 @@ static const command_option options[] = {
 
 int cmd_digest(int argc, char **argv)
 {
-    arguments a = {.background = IMAGE_WHITE};
+    arguments a = {.path = "-", .background = IMAGE_WHITE};
     const command_line line = {.name = "digest",
                                .help = help,
                                .options = options,

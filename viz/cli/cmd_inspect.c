@@ -16,19 +16,19 @@
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const char help[] =
     "usage: octreel inspect CLOUD [-o PICTURE.png] [OPTION ...]\n\n"
     "Build an octree from a point cloud (x y z text, PLY, PCD, LAS or LAZ), print its statistics, and draw its "
-    "subdivision.\n\n"
-    "  -o, --output FILE     draw the tree into this PNG\n"
+    "subdivision.\n"
+    "CLOUD may be -, standard input: what it is is told by what it holds, as of a file.\n\n"
+    "  -o, --output FILE     draw the tree into this PNG; - is standard output, and what is said goes to stderr\n"
     "      --capacity N      points a leaf holds before it splits (default 64)\n"
     "      --depth N         deepest level, 0 to 21 (default 21)\n"
     "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
     "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"
     "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points; a picture marks it\n"
-    "      --nodes FILE.csv  write all nodes as CSV\n" FILL_HELP;
+    "      --nodes FILE.csv  write all nodes as CSV; - is standard output, as above\n" FILL_HELP;
 
 static const char more_help[] =
     "      --json            print JSON\n"
@@ -37,6 +37,7 @@ static const char more_help[] =
     "or withheld in LAS. LAZ and COPC are read by an octreel that was built with liblaszip (Debian 13); else, first:\n"
     "pdal translate in.laz out.las\n\n"
     "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
+    "          pdal translate scan.laz STDOUT --writer text | octreel inspect -\n"
     "          octreel inspect points.txt --node 0/3 --json\n"
     "          for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n";
 
@@ -126,29 +127,41 @@ static bool draw(const report *r, octreel_error *error)
     if (!film_tree(r->made->tree, &about, &options, a->picture, &drawn, error))
         return false;
     if (drawn.over_budget)
-        fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", a->picture);
+        fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", file_output_title(a->picture));
     if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* which says so in the picture */
-        fprintf(stderr, "octreel: %s leaves out what appears smaller than --lod\n", a->picture);
+        fprintf(stderr, "octreel: %s leaves out what appears smaller than --lod\n", file_output_title(a->picture));
     if (drawn.left_out)
         fprintf(stderr, "octreel: %" PRIu64 " element%s too far off to be in %s\n", drawn.left_out,
-                plural(drawn.left_out), a->picture);
+                plural(drawn.left_out), file_output_title(a->picture));
     return true;
+}
+
+/* The files that it writes. */
+enum { OUTPUTS = 2 };
+
+static void list_outputs(const arguments *a, output_file outputs[OUTPUTS])
+{
+    outputs[0] = (output_file){"-o", a->picture};
+    outputs[1] = (output_file){"--nodes", a->nodes};
 }
 
 /* A node or answers are printed without the statistics. JSON says nothing of files: it stays one object. */
 static void print(const report *r)
 {
     const arguments *a = r->a;
+    output_file outputs[OUTPUTS];
+    list_outputs(a, outputs);
+    FILE *out = is_standard_output_taken(outputs, OUTPUTS) ? stderr : stdout;
     if (a->node)
-        inspect_print_node(&r->node, r->name, a->json, stdout);
+        inspect_print_node(&r->node, r->name, a->json, out);
     if (a->queries.count)
-        inspect_print_answers(&r->answers, r->name, a->json, stdout);
+        inspect_print_answers(&r->answers, r->name, a->json, out);
     if (!a->node && !a->queries.count)
-        inspect_print(r->made, r->name, a->json, stdout);
+        inspect_print(r->made, r->name, a->json, out);
     if (a->picture && !a->json)
-        printf("wrote %s: %d x %d pixels\n", a->picture, a->view.width, a->view.height);
+        fprintf(out, "wrote %s: %d x %d pixels\n", file_output_title(a->picture), a->view.width, a->view.height);
     if (a->nodes && !a->json)
-        printf("wrote %s: all nodes\n", a->nodes);
+        fprintf(out, "wrote %s: all nodes\n", file_output_title(a->nodes));
 }
 
 /* Everything that can be refused comes before the first file is written. */
@@ -170,8 +183,15 @@ static bool make_report(report *r, octreel_error *error)
 
 typedef struct reading {
     progress bar;
-    double size; /* of the file, in bytes; 0 where it cannot be told */
+    double size; /* of what was read, in bytes */
 } reading;
+
+static void on_block(uint64_t done, uint64_t total, void *context)
+{
+    reading *r = context;
+    r->size = (double)done;
+    progress_show(&r->bar, done / 1000, total / 1000);
+}
 
 static void on_step(double fraction, void *context)
 {
@@ -182,19 +202,17 @@ static void on_step(double fraction, void *context)
 /* Read the cloud and build its tree; the bar on the terminal is gone afterwards. */
 static bool build(const arguments *a, inspection *made, octreel_error *error)
 {
-    struct stat status;
-    reading r = {.bar = progress_start("kB of the cloud"),
-                 .size = stat(a->cloud, &status) == 0 ? (double)status.st_size : 0};
+    reading r = {.bar = progress_start("kB of the cloud")};
     octree_def def = a->def;
     octreel_error why;
     cloud points;
     char note[sizeof points.note] = "";
-    bool ok = cloud_read(a->cloud, &(cloud_watch){on_step, &r}, &points, error);
+    bool ok = cloud_read(a->cloud, &(cloud_watch){on_block, on_step, &r}, &points, error);
     if (ok) {
         if (!a->has_world)
             def.world = point_world(points.positions, sizeof *points.positions, points.count);
         progress_say(&r.bar, "building the tree of %zu points", points.count);
-        ok = inspect_build(&points, &def, made, &why) || error_set(error, "%s: %s", a->cloud, why.text);
+        ok = inspect_build(&points, &def, made, &why) || error_set(error, "%s: %s", file_title(a->cloud), why.text);
         memcpy(note, points.note, sizeof note);
         cloud_release(&points);
     }
@@ -206,12 +224,12 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
 
 static int inspect_it(const arguments *a)
 {
-    const char *slash = strrchr(a->cloud, '/');
+    const char *title = file_title(a->cloud), *slash = strrchr(title, '/');
     inspection made;
     octreel_error error;
     if (!build(a, &made, &error))
         return trouble("%s", error.text);
-    report r = {.a = a, .name = slash ? slash + 1 : a->cloud, .made = &made};
+    report r = {.a = a, .name = slash ? slash + 1 : title, .made = &made};
     const bool ok = make_report(&r, &error);
     inspect_release(&made);
     return ok ? EXIT_DONE : trouble("%s", error.text);
@@ -235,9 +253,12 @@ static bool check_picture(const arguments *a)
 /* No file that is written may be the cloud, nor both be one file. */
 static bool check_outputs(const arguments *a)
 {
-    const output_file outputs[] = {{"-o", a->picture}, {"--nodes", a->nodes}};
+    output_file outputs[OUTPUTS];
     octreel_error error;
-    return (outputs_apart(outputs, 2, &error) && output_spares(&outputs[0], a->cloud, &error) &&
+    list_outputs(a, outputs);
+    if (!check_standard_output(outputs, OUTPUTS, a->json))
+        return false;
+    return (outputs_apart(outputs, OUTPUTS, &error) && output_spares(&outputs[0], a->cloud, &error) &&
             output_spares(&outputs[1], a->cloud, &error)) ||
            refuse("%s", error.text);
 }

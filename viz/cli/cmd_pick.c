@@ -65,7 +65,8 @@ int cmd_pick(int argc, char **argv)
                                .least = 3,
                                .most = 3,
                                .takes = "a frame and two coordinates, as in frames/frame_000041.png 312 200",
-                               .inputs = {FILE_KIND(PNG)}};
+                               .inputs = {FILE_KIND(PNG)},
+                               .no_standard_input = true};
     const int status = command_line_read(&line, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;

@@ -21,7 +21,7 @@ static const char help[] =
     "Make a page that plays a session, in one file that needs nothing beside it: in a browser it draws any tick, "
     "turns\n"
     "and zooms, asks what is at a place, and the keys of the game play on. Nothing is filmed. Without SESSION, the\n"
-    "paper's own is played; octreel help session tells what one holds.\n\n"
+    "paper's own is played; octreel help session tells what one holds. - is one from standard input.\n\n"
     "  -o, --output FILE     where the page goes; - is standard output (default: SESSION's name with .html in the\n"
     "                        current folder, or octreel.html). A page of octreel play is replaced, and nothing else\n"
     "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait, q "
@@ -38,14 +38,8 @@ typedef struct arguments {
     view_options view;
 } arguments;
 
-/* "-" is standard output. */
-static bool read_page(const command_option *option, const char *text, void *into)
-{
-    return strcmp(text, "-") == 0 ? read_text(option, text, into) : read_file(option, text, into);
-}
-
 static const command_option options[] = {
-    {"output", read_page, OPTION_VALUE(arguments, page), 0, 0},
+    {"output", read_file, OPTION_VALUE(arguments, page), 0, 0},
     {"keys", read_text, OPTION_VALUE(arguments, keys), 0, 0},
     {0},
 };
@@ -61,7 +55,8 @@ static const char *base_name(const char *path)
 /* "walk.html" of "sessions/walk.json". */
 static void name_page(const char *session, char name[NAME_MAX + 1])
 {
-    const char *base = session ? base_name(session) : "octreel", *dot = strrchr(base, '.');
+    const char *base = session && !file_is_standard(session) ? base_name(session) : "octreel",
+               *dot = strrchr(base, '.');
     const size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     snprintf(name, NAME_MAX + 1, "%.*s.html", (int)length, base);
 }
@@ -79,6 +74,8 @@ static bool check_page(const arguments *a)
 {
     const output_file output = {"-o", a->page};
     octreel_error error;
+    if (file_is_standard(a->page))
+        return true;
     if (a->session && !output_spares(&output, a->session, &error))
         return refuse("%s", error.text);
     if (is_of_recording(a->page))
@@ -125,8 +122,6 @@ static bool write_page(const arguments *a, const octree_session *session, FILE *
 static bool write_file(const arguments *a, const octree_session *session, film_summary *summary, octreel_error *error)
 {
     file_writer file;
-    if (strcmp(a->page, "-") == 0)
-        return write_page(a, session, stdout, summary, error);
     if (!file_writer_open(&file, a->page, error))
         return false;
     return write_page(a, session, file.stream, summary, error) ? file_writer_close(&file, error)
@@ -147,7 +142,7 @@ static int play_it(arguments *a, const octree_session *session)
         film_report_start(stderr, &summary.start, session);
     if (!ok)
         trouble("%s", error.text);
-    else if (strcmp(a->page, "-") != 0)
+    else if (!file_is_standard(a->page))
         tell(a->page, summary.ticks);
     watch_end(&w);
     return ok ? EXIT_DONE : EXIT_TROUBLE;

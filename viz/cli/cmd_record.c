@@ -12,6 +12,7 @@
 #include "text.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -219,10 +220,23 @@ static int play(arguments *a)
     return status;
 }
 
-static bool is_current(const char *folder)
+/* Whether it is the current folder, or one that this is in: frames there would lie among all that is below. */
+static bool holds_current(const char *folder)
 {
-    struct stat named, current;
-    return stat(folder, &named) == 0 && stat(".", &current) == 0 && same_file(&named, &current);
+    struct stat named, here, before = {0};
+    char up[PATH_MAX] = ".";
+    bool is = false, more = stat(folder, &named) == 0;
+    for (size_t length = 1; more && !is && length + sizeof "/.." < sizeof up; before = here) {
+        more = stat(up, &here) == 0 && (length == 1 || !same_file(&here, &before)); /* the root is above itself */
+        is = more && same_file(&named, &here);
+        length += (size_t)snprintf(up + length, sizeof up - length, "/..");
+    }
+    return is;
+}
+
+static bool is_own_folder(const char *folder)
+{
+    return !holds_current(folder) || file_kind_of(folder) == KIND_RECORDING;
 }
 
 int cmd_record(int argc, char **argv)
@@ -244,8 +258,9 @@ int cmd_record(int argc, char **argv)
         return status;
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
-    if (is_current(a.film.folder) && file_kind_of(a.film.folder) != KIND_RECORDING)
-        return trouble("-o takes a folder of its own for the frames, and \"%s\" is the current one: -o frames, say",
+    if (!is_own_folder(a.film.folder))
+        return trouble("-o takes a folder of its own for the frames, and \"%s\" is the current one or holds it: -o "
+                       "frames, say",
                        a.film.folder);
     if (a.film.replace && (a.film.resume || a.film.last != 0))
         return trouble("--replace does not go with %s: it begins a whole recording anew",

@@ -185,8 +185,19 @@ static bool refuse_part(const command_line *line, const char *path, file_kind ki
            !refuse("%s is %s, and %s takes %s: %s", path, file_kind_rows[kind].words, line->name, line->takes, folder);
 }
 
+/* Folders are no stream, nor is what may be made. */
+static bool check_standard_input(const command_line *line, file_kinds taken)
+{
+    const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(DIGESTS);
+    return (taken & files && !(taken & FILE_KIND(MISSING)) && !line->no_standard_input) ||
+           refuse("\"-\" is standard input, and %s takes %s; ./- is a file or folder of that name", line->name,
+                  line->takes);
+}
+
 static bool check_input(const command_line *line, const char *path, file_kinds taken)
 {
+    if (file_is_standard(path))
+        return check_standard_input(line, taken);
     const file_kind kind = file_kind_of(path);
     const file_kind_row *row = &file_kind_rows[kind];
     if (kind == KIND_UNKNOWN || taken >> kind & 1)
@@ -202,6 +213,8 @@ static bool check_input(const command_line *line, const char *path, file_kinds t
 
 static bool check_inputs(const command_line *line, char **paths, int count)
 {
+    if (count > 1 && line->inputs[1] && file_is_standard(paths[0]) && file_is_standard(paths[1]))
+        return refuse("standard input can be read once, and \"-\" names it twice");
     for (int i = 0; i < count && i < 2; i++)
         if (line->inputs[i] && !check_input(line, paths[i], line->inputs[i]))
             return false;

@@ -20,10 +20,11 @@ typedef struct command_line {
     view_options *view;
     query_options *queries; /* --nearest, --radius, --range */
 
-    int least, most;      /* arguments beside the options */
-    const char *takes;    /* what these are: "one session" */
-    file_kinds inputs[2]; /* of the first of them; 0: it is no file */
-    const char *several;  /* files of which one makes a PNG, and all of which may be given: "*.pcd"; may be null */
+    int least, most;        /* arguments beside the options */
+    const char *takes;      /* what these are: "one session" */
+    file_kinds inputs[2];   /* of the first of them; 0: it is no file. "-" is standard input where a file is taken, */
+    bool no_standard_input; /* unless it is read together with what lies beside it */
+    const char *several;    /* files of which one makes a PNG, and all of which may be given: "*.pcd"; may be null */
 } command_line;
 
 /* Read all options; optind is then the first argument. Returns COMMAND_GO_ON, or the command's exit status: help was

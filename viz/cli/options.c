@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* One line, whatever the names of files in it hold. */
 static void say(const char *format, va_list arguments)
@@ -101,20 +102,13 @@ bool is_meant_for(command_option_reader *reader, const char *path)
     return reader == read_picture ? kind == NAME_PNG : kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
 }
 
-/* Only reports are written to standard output for a name. */
-static bool is_path(const command_option *option, const char *text)
-{
-    char typed[OPTION_TYPED];
-    return strcmp(text, "-") != 0 ||
-           refuse("%s takes a name, and \"-\" is none; ./- is a file of that name", option_typed(option, typed));
-}
-
 bool read_folder(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
-    if (!is_path(option, text))
-        return false;
+    if (file_is_standard(text))
+        return refuse("%s takes the name of a folder, and \"-\" is standard output; ./- is a folder of that name",
+                      option_typed(option, typed));
     if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
         return **(const char **)into != 0;
     return refuse("%s takes the name of a folder, and \"%s\" is that of a %s%s", option_typed(option, typed), text,
@@ -127,8 +121,8 @@ bool read_folder(const command_option *option, const char *text, void *into)
 static bool read_file_name(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
-    return is_path(option, text) && read_name(option, text, into) &&
-           (!is_folder(text) ||
+    return read_name(option, text, into) &&
+           (file_is_standard(text) || !is_folder(text) ||
             refuse("%s takes the name of a file, and \"%s\" is a folder", option_typed(option, typed), text));
 }
 
@@ -136,6 +130,9 @@ bool read_picture(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
+    if (file_is_standard(text) && isatty(STDOUT_FILENO))
+        return refuse("%s - writes a PNG, which a terminal does not show: name a file, or send it on with | or >",
+                      option_typed(option, typed));
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_PNG ||
             refuse("%s takes the name of a PNG, and \"%s\" is none", option_typed(option, typed), text));
@@ -188,6 +185,22 @@ bool read_fill(const command_option *option, const char *text, void *into)
         hint_offer(&h, fill_at(i));
     return refuse("--%s takes no \"%s\"%sthere are %s", option->name, text, hint_text(&h, "", meant),
                   json_list_names(fill_at, known, sizeof known));
+}
+
+bool check_standard_output(const output_file *outputs, size_t count, bool json)
+{
+    size_t writers = json;
+    for (size_t i = 0; i < count; i++)
+        writers += outputs[i].path && file_is_standard(outputs[i].path);
+    return writers <= 1 || refuse("standard output has room for one report: give the others a file");
+}
+
+bool is_standard_output_taken(const output_file *outputs, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (outputs[i].path && file_is_standard(outputs[i].path))
+            return true;
+    return false;
 }
 
 /* ---- Options of a view -------------------------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
+#include "file.h"
 #include "renderer.h"
 #include "image_compare.h"
 
@@ -44,8 +45,10 @@ command_option_reader read_flag;    /* bool: the option takes no value */
 command_option_reader read_text;    /* const char * */
 command_option_reader read_name;    /* the same, of a file or folder: not empty */
 command_option_reader read_folder;  /* the same, of a folder that is written: not named as a file */
-command_option_reader read_picture; /* the same, of a PNG that is written: not a folder, nor named as another file */
-command_option_reader read_file;    /* the same, of another file: not a folder, nor named as a picture */
+command_option_reader read_picture; /* the same, of a PNG that is written: not a folder, nor named as another file; "-"
+                                     * is standard output, unless that is a terminal */
+command_option_reader read_file;    /* the same, of another file: not a folder, nor named as a picture; "-" is standard
+                                     * output */
 command_option_reader read_whole;   /* an integer type */
 command_option_reader read_color;   /* image_color, as RRGGBB or #RRGGBB */
 command_option_reader read_fill;    /* draw_fill, by its name; FILL_HELP is its help */
@@ -60,6 +63,12 @@ bool is_meant_for(command_option_reader *reader, const char *path);
 
 /* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
 bool check_names(const char *command, char *const *names, int count);
+
+/* False, with the sentence printed, where more than one of what is written goes to standard output; `json` does. */
+bool check_standard_output(const output_file *outputs, size_t count, bool json);
+
+/* Whether one of them does, so that what is said goes elsewhere. */
+bool is_standard_output_taken(const output_file *outputs, size_t count);
 
 /* A whole number that is no option's. */
 bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value);

@@ -58,7 +58,8 @@ static bool open_sides(accepting *a, octreel_error *error)
     if (a->is_new) {
         if (!check_new(o, a->frames.kind, error))
             return false;
-        a->reference = (diff_side){.path = o->reference, .kind = a->frames.kind, .no_frames = a->frames.no_frames};
+        a->reference = (diff_side){
+            .path = o->reference, .source = o->reference, .kind = a->frames.kind, .no_frames = a->frames.no_frames};
         return true;
     }
     if (!diff_side_open(&a->reference, o->reference, error))
@@ -68,7 +69,8 @@ static bool open_sides(accepting *a, octreel_error *error)
                          o->frames);
     /* An empty folder is to become one. */
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
-        a->reference = (diff_side){.path = o->reference, .kind = DIFF_RECORDING, .no_frames = a->frames.no_frames};
+        a->reference = (diff_side){
+            .path = o->reference, .source = o->reference, .kind = DIFF_RECORDING, .no_frames = a->frames.no_frames};
     return true;
 }
 

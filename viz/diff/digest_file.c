@@ -106,7 +106,7 @@ bool digest_file_read(diff_side *side, octreel_error *error)
 {
     char *bytes, reason[FILE_REASON];
     size_t size;
-    if (!file_read_whole(side->path, &bytes, &size, reason))
+    if (!file_read_whole(side->source, &bytes, &size, reason))
         return error_set(error, "%s: %s", side->path, reason);
     bytes[size] = 0;
     const bool ok = digest_file_parse(side, bytes, size, error);

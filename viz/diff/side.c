@@ -27,9 +27,11 @@ const char *diff_kind_name(diff_kind kind)
     return names[kind];
 }
 
-/* The part after the last slash. */
+/* The part after the last slash; of standard input a name that a file can have. */
 static const char *base_name(const char *path)
 {
+    if (file_is_standard(path))
+        return "stdin";
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
 }
@@ -41,7 +43,7 @@ bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octre
     diff_frame frame = {.name = grown ? strdup(name) : NULL, .digest = digest};
     side->frames = grown ? grown : side->frames;
     if (frame.name && has_path)
-        frame.path = side->kind == DIFF_PICTURE ? strdup(side->path) : path_join(side->path, name);
+        frame.path = side->kind == DIFF_PICTURE ? strdup(side->source) : path_join(side->path, name);
     if (frame.name && (frame.path || !has_path)) {
         side->frames[side->count++] = frame;
         return true;
@@ -98,15 +100,15 @@ static bool read_folder(diff_side *side, octreel_error *error)
 
 static bool read_file(diff_side *side, octreel_error *error)
 {
-    switch (file_kind_of(side->path)) {
+    switch (file_kind_read(side->source)) {
     case KIND_PNG:
         side->kind = DIFF_PICTURE;
-        return diff_side_add(side, base_name(side->path), (frame_digest){0}, error);
+        return diff_side_add(side, base_name(side->source), (frame_digest){0}, error);
     case KIND_DIGESTS:
         side->kind = DIFF_DIGESTS;
         return digest_file_read(side, error);
     default:
-        if (access(side->path, R_OK) != 0)
+        if (!file_is_standard(side->source) && access(side->path, R_OK) != 0)
             return error_set(error, "%s: %s", side->path, strerror(errno));
         return error_set(error, "%s: it is no PNG, no folder and no file of digests", side->path);
     }
@@ -116,8 +118,10 @@ bool diff_side_open(diff_side *side, const char *path, octreel_error *error)
 {
     struct stat status;
     bool ok;
-    *side = (diff_side){.path = path};
-    if (stat(path, &status) != 0)
+    *side = (diff_side){.path = file_title(path), .source = path};
+    if (file_is_standard(path))
+        ok = read_file(side, error);
+    else if (stat(path, &status) != 0)
         ok = error_set(error, "%s: %s", path, strerror(errno));
     else if (S_ISDIR(status.st_mode))
         ok = read_folder(side, error);
@@ -154,7 +158,7 @@ bool diff_side_spared(const diff_side *side, const output_file *output, octreel_
     struct stat status;
     if (!output->path || stat(output->path, &status) != 0)
         return true;
-    bool ok = side->kind != DIFF_DIGESTS || output_spares(output, side->path, error);
+    bool ok = side->kind != DIFF_DIGESTS || output_spares(output, side->source, error);
     for (size_t i = 0; ok && i < side->count; i++)
         ok = !side->frames[i].path || output_spares(output, side->frames[i].path, error);
     for (size_t i = 0; ok && side->kind == DIFF_RECORDING && folder_fact_name(i); i++)

@@ -25,7 +25,8 @@ typedef struct diff_frame {
 } diff_frame;
 
 typedef struct diff_side {
-    const char *path; /* as it was given; not owned */
+    const char *path;   /* for sentences, and of a folder to open: as it was given, or "standard input"; not owned */
+    const char *source; /* of a file, to open: as it was given */
     diff_kind kind;
     diff_frame *frames; /* in the order of their names' bytes, no name twice */
     size_t count, room;
@@ -33,9 +34,9 @@ typedef struct diff_side {
     image_color background; /* of a file of digests: what transparent pixels were laid over */
 } diff_side;
 
-/* Open what a path names. A folder has the PNG files directly in it whose names do not begin with a dot; a recording
- * has its frames, of which it may say that there are none. False with an error when it is none of the four; side is
- * then empty. */
+/* Open what a path names; "-" is a PNG or digests from standard input. A folder has the PNG files directly in it whose
+ * names do not begin with a dot; a recording has its frames, of which it may say that there are none. False with an
+ * error when it is none of the four; side is then empty. */
 bool diff_side_open(diff_side *side, const char *path, octreel_error *error);
 void diff_side_release(diff_side *side);
 

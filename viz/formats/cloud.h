@@ -30,6 +30,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct cloud {
     double (*positions)[3];  /* `count` rows of x, y, z, in the file's order and units; all finite; owned */
@@ -47,15 +48,17 @@ typedef struct cloud {
 /* The place of a point among all of its file, those that were skipped included; from 0 on. */
 size_t cloud_row(const cloud *c, size_t index);
 
-/* Called now and then with the part of the file that has been read, from 0 to 1. */
+/* Who follows a long reading: first the bytes come into memory, of which `total` may be 0, for nobody knows; then
+ * points are taken from them. */
 typedef struct cloud_watch {
-    void (*step)(double part, void *context);
+    void (*read)(uint64_t done, uint64_t total, void *context); /* after each block; may be null */
+    void (*step)(double part, void *context);                   /* now and then, from 0 to 1 of the bytes */
     void *context;
 } cloud_watch;
 
-/* Read a regular file into *out; `watch` may be null. False with the reason in *error; *out is then empty. A file
- * without any point is an error. Cost: O(size) in time and memory; a compressed PCD is bounded by 88 times its size,
- * before its points. */
+/* Read a regular file, or "-", standard input, into *out; `watch` may be null. False with the reason in *error; *out is
+ * then empty. A file without any point is an error. Cost: O(size) in time and memory; a compressed PCD is bounded by 88
+ * times its size, before its points. */
 bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error);
 
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */

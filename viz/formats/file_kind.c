@@ -67,10 +67,10 @@ static file_kind find_kind(const char *bytes, size_t size)
     return found != KIND_UNKNOWN || !cloud_begins((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
 }
 
-static file_kind find_file_kind(const char *path)
+file_kind file_kind_read(const char *path)
 {
-    char first[4096];
-    FILE *file = fopen(path, "rb");
+    char first[4096], ignored[FILE_REASON];
+    FILE *file = file_open(path, NULL, ignored);
     if (!file)
         return KIND_UNKNOWN;
     const size_t size = fread(first, 1, sizeof first - 1, file);
@@ -97,7 +97,7 @@ file_kind file_kind_of(const char *path)
         return errno == ENOENT || errno == ENOTDIR ? KIND_MISSING : KIND_UNKNOWN;
     if (S_ISDIR(status.st_mode))
         return find_folder_kind(path);
-    return S_ISREG(status.st_mode) ? find_file_kind(path) : KIND_UNKNOWN;
+    return S_ISREG(status.st_mode) ? file_kind_read(path) : KIND_UNKNOWN;
 }
 
 name_kind name_kind_of(const char *path)

@@ -31,8 +31,12 @@ typedef enum file_kind {
 typedef unsigned file_kinds;
 #define FILE_KIND(kind) (1u << KIND_##kind)
 
-/* UNKNOWN for what cannot be opened, and for what is neither a regular file nor a folder: a pipe is not read. */
+/* UNKNOWN for what cannot be opened, and for what is neither a regular file nor a folder: a pipe is not read, nor is
+ * "-", standard input. */
 file_kind file_kind_of(const char *path);
+
+/* The same of a file that is to be read in any case: "-" is, too, and is kept for who reads it. */
+file_kind file_kind_read(const char *path);
 
 typedef struct file_kind_row {
     const char *words, *command, *use;

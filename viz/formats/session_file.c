@@ -260,10 +260,10 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
     size_t size;
     *out = (session_file){0};
     if (!file_read_whole(path, &text, &size, reason))
-        return error_set(error, "%s: %s", json_name_end(path), reason);
+        return error_set(error, "%s: %s", json_name_end(file_title(path)), reason);
     const char *slash = strrchr(path, '/');
     char *folder = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
-    const bool done = folder ? session_parse(path, folder, text, size, out, error) : fail_memory(error);
+    const bool done = folder ? session_parse(file_title(path), folder, text, size, out, error) : fail_memory(error);
     free(folder);
     free(text);
     return done;

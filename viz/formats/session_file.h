@@ -30,9 +30,9 @@ typedef struct session_file {
     char note[512]; /* of one that was read: a sentence about its file of points; "" where there is nothing to say */
 } session_file;
 
-/* Read a session file into *out; files of points are looked for in its folder. False with the reason in *error; *out
- * is then empty. Cost: O(size) in time; memory about ten times the size for points and never beyond 100 times, plus
- * what files of points and samples need. A file has at most 2 GiB. */
+/* Read a session file, or "-", standard input, into *out; files of points are looked for in its folder. False with the
+ * reason in *error; *out is then empty. Cost: O(size) in time; memory about ten times the size for points and never
+ * beyond 100 times, plus what files of points and samples need. A file has at most 2 GiB. */
 bool session_read(const char *path, session_file *out, octreel_error *error);
 
 /* The same for text in memory. `name` is for errors; `folder` is where files of points are looked for, "" the current

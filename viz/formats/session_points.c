@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* session_points.c - the points of a session file: listed, from a file of points, or a sample; and velocities by id. */
 #include "cloud.h"
+#include "file.h"
 #include "hash_map.h"
 #include "octree/sample.h"
 #include "point_world.h"
@@ -121,9 +122,11 @@ static bool copy_points(json_reader *r, const json_place *at, const cloud *from)
     return true;
 }
 
-/* The path of a file that the session names; the caller frees it. */
+/* The path of a file that the session names; the caller frees it. One of the name "-" is a file. */
 static char *path_in_folder(const char *folder, const char *file)
 {
+    if (!*folder && file_is_standard(file))
+        folder = "./";
     const size_t length = strlen(folder), size = length + strlen(file) + 2;
     const bool separate = length > 0 && folder[length - 1] != '/';
     char *path = malloc(size);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "png_chunks.h"
+#include "file.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -53,17 +54,28 @@ static bool find_chunk(page *p, size_t offset, chunk *c)
     return c->size <= p->size - offset - DATA - CRC_SIZE && get_number(c->at + DATA + c->size) == crc_of(c);
 }
 
-/* Null also for anything but a regular file: opening a pipe would block. */
-static FILE *open_png(const char *path, const char *mode, page *p)
+/* Read the first page of a file, which may be null. Null, and closed, where it is no PNG. */
+static FILE *begin_png(FILE *file, page *p)
 {
-    struct stat status;
-    FILE *file = stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, mode) : NULL;
     p->size = file ? fread(p->bytes, 1, sizeof p->bytes, file) : 0;
     if (p->size >= sizeof signature && memcmp(p->bytes, signature, sizeof signature) == 0)
         return file;
     if (file)
         fclose(file);
     return NULL;
+}
+
+static FILE *open_png(const char *path, page *p)
+{
+    char ignored[FILE_REASON];
+    return begin_png(file_open(path, NULL, ignored), p);
+}
+
+/* A regular file alone: opening a pipe would block. */
+static FILE *open_to_change(const char *path, page *p)
+{
+    struct stat status;
+    return begin_png(stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "r+b") : NULL, p);
 }
 
 /* ---- Size ---------------------------------------------------------------------------------------------------- */
@@ -80,7 +92,7 @@ bool image_png_size(const char *path, int *width, int *height)
 {
     page p;
     chunk c;
-    FILE *file = open_png(path, "rb", &p);
+    FILE *file = open_png(path, &p);
     if (!file)
         return false;
     const bool found = find_chunk(&p, sizeof signature, &c) && is_named(&c, "IHDR") && c.size == 13;
@@ -109,7 +121,7 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
 {
     page p;
     chunk c;
-    FILE *file = open_png(path, "rb", &p);
+    FILE *file = open_png(path, &p);
     const uint8_t *found = file ? find_text(&p, keyword, &c) : NULL;
     if (found)
         snprintf(text, size, "%.*s", (int)(c.at + DATA + c.size - found), (const char *)found);
@@ -135,7 +147,7 @@ static bool replace(FILE *file, page *p, const char *keyword, const char *text)
 bool image_replace_text(const char *path, const char *keyword, const char *text)
 {
     page p;
-    FILE *file = open_png(path, "r+b", &p);
+    FILE *file = open_to_change(path, &p);
     const bool replaced = file && replace(file, &p, keyword, text);
     return file && fclose(file) == 0 && replaced;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "png_read.h"
+#include "file.h"
 #include "octree/digest.h"
 
 #include <errno.h>
@@ -7,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Limits on a hostile file's chunks other than pixels. */
 #define LARGEST_CHUNK 8000000
@@ -42,7 +42,7 @@ struct image_source {
 static bool fail(image_source *s, const char *reason)
 {
     s->failed = true;
-    return error_set(s->error, "%s: %s", s->path, reason);
+    return error_set(s->error, "%s: %s", file_title(s->path), reason);
 }
 
 /* ---- libpng -------------------------------------------------------------------------------------------------- */
@@ -358,17 +358,11 @@ bool image_source_failed(const image_source *s)
     return s->failed;
 }
 
-/* Opening a pipe would block, and a device may be endless. */
 static bool open_file(image_source *s)
 {
-    struct stat status;
-    if (stat(s->path, &status) != 0)
-        return fail(s, strerror(errno));
-    if (!S_ISREG(status.st_mode))
-        return fail(s, S_ISDIR(status.st_mode) ? strerror(EISDIR) : "it is not a regular file");
-    s->file_size = (uint64_t)status.st_size;
-    s->file = fopen(s->path, "rb");
-    return s->file || fail(s, strerror(errno));
+    char reason[FILE_REASON];
+    s->file = file_open(s->path, &s->file_size, reason);
+    return s->file || fail(s, reason);
 }
 
 static bool open_png(image_source *s)

@@ -112,7 +112,8 @@ static bool encode(output *out)
 static bool is_replaceable(const char *path)
 {
     struct stat status;
-    return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode); /* opening a folder fails */
+    return file_is_standard(path) || stat(path, &status) != 0 || S_ISREG(status.st_mode) ||
+           S_ISDIR(status.st_mode); /* opening a folder fails */
 }
 
 static bool write_file(output *out, const char *path)

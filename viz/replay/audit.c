@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "audit.h"
 #include "array.h"
+#include "file.h"
 #include "file_kind.h"
 #include "folder_files.h"
 #include "judgement_words.h"
@@ -173,14 +174,14 @@ static bool play_session(const char *path, const octree_session *session, audit_
     octree_game *game;
     const octree_status status = octree_game_create(session, &game);
     if (status != OCTREE_OK)
-        return error_set(error, "%s: cannot be played: %s", path, octree_status_text(status));
+        return error_set(error, "%s: cannot be played: %s", file_title(path), octree_status_text(status));
     const bool done = play(game, progress, context, report, error);
     octree_game_destroy(game);
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
         if (report->kinds[kind].ratio_count > 1)
             qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_numbers);
     if (done && report->asked == 0 && !report->nodes.given)
-        return error_set(error, "%s: no query has an \"answer\", so there is nothing to judge", path);
+        return error_set(error, "%s: no query has an \"answer\", so there is nothing to judge", file_title(path));
     return done;
 }
 

@@ -97,7 +97,7 @@ static char *picture_path(const char *folder, const diff_pair *pair, evidence_pi
 static bool check_apart(const char *folder, const diff_side *side, octreel_error *error)
 {
     struct stat own, other;
-    if (side->kind == DIFF_DIGESTS || stat(folder, &own) != 0)
+    if (side->kind == DIFF_DIGESTS || file_is_standard(side->source) || stat(folder, &own) != 0)
         return true;
     const bool found = side->kind == DIFF_PICTURE ? stat_parent(side->path, &other) : stat(side->path, &other) == 0;
     return !found || !same_file(&own, &other) ||
@@ -165,11 +165,13 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */
 
-/* Only regular files are copied; others are reported as unreadable. */
+/* Only regular files and standard input are copied; others are reported as unreadable. */
 static bool has_file(const diff_frame *frame)
 {
     struct stat status;
-    return frame && frame->path && stat(frame->path, &status) == 0 && S_ISREG(status.st_mode);
+    if (!frame || !frame->path)
+        return false;
+    return file_is_standard(frame->path) || (stat(frame->path, &status) == 0 && S_ISREG(status.st_mode));
 }
 
 static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_picture picture, const char *folder,

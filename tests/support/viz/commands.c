@@ -127,8 +127,9 @@ static bool set_limit(size_t bytes)
 
 static void become_program(const command_setting *setting, char **arguments, int out, int err)
 {
-    const bool ready = dup2(out, STDOUT_FILENO) >= 0 && dup2(err, STDERR_FILENO) >= 0 && leave_leaks() &&
-                       set_environment(setting) && set_limit(setting->file_limit);
+    const int in = setting->input == NULL ? STDIN_FILENO : open(setting->input, O_RDONLY);
+    const bool ready = dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0 && dup2(err, STDERR_FILENO) >= 0 &&
+                       leave_leaks() && set_environment(setting) && set_limit(setting->file_limit);
     if (ready)
         execv(arguments[0] == called ? OCTREEL_PROGRAM : arguments[0], arguments);
     _exit(127);

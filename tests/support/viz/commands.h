@@ -9,7 +9,7 @@
 /* The surroundings of a run; zeros are those of the test. */
 typedef struct command_setting {
     const char *environment[4]; /* "NAME=value", beside what is there; the first null ends them */
-    const char *output;         /* a file in place of stdout */
+    const char *input, *output; /* files in place of stdin and stdout */
     size_t file_limit;          /* no file can grow beyond this many bytes; 0 is no limit */
     bool terminal;              /* stderr is a terminal, of TERM=xterm unless the environment says otherwise, */
     unsigned columns;           /* so wide; 0: it does not say */

@@ -66,6 +66,41 @@ static void a_dumb_terminal_shows_nothing(void **state)
     }
 }
 
+/* Of what comes from standard input nobody knows how much it is. */
+static void a_stream_is_counted(void **state)
+{
+    const place session = place_in(*state, "session"), film = place_in(*state, "film");
+    if (!command_has_terminals())
+        skip();
+    file_write_text(session.path, "{\"octreel\":\"session\",\"version\":1}\n{\"tick\":3}\n");
+    command_result result = run_octreel(&(command_setting){.terminal = true, .columns = 80, .input = session.path},
+                                        "record - --size 16x16 -o %s", film.path);
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.err, "\r1 ticks  "));
+    assert_null(strstr(result.err, "left"));
+    assert_null(strstr(result.err, "[#"));
+    command_release(&result);
+}
+
+static void reading_and_building_a_cloud_are_shown(void **state)
+{
+    const place cloud = place_in(*state, "cloud");
+    char text[4001] = "";
+    if (!command_has_terminals())
+        skip();
+    for (int i = 0; i < 500; i++)
+        snprintf(text + 8 * i, 9, "%3d 1 2\n", i);
+    file_write_text(cloud.path, text);
+    for (int from_standard_input = 0; from_standard_input < 2; from_standard_input++) {
+        command_result result = run_octreel(&(command_setting){.terminal = true, .columns = 80, .input = cloud.path},
+                                            "inspect %s", from_standard_input ? "-" : cloud.path);
+        assert_int_equal(result.status, 0);
+        assert_non_null(strstr(result.err, "4/4 kB of the cloud"));
+        assert_non_null(strstr(result.err, "building the tree of 500 points"));
+        command_release(&result);
+    }
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -74,6 +109,8 @@ int main(void)
         IN_FOLDER(the_line_is_narrower_than_the_terminal),
         IN_FOLDER(a_terminal_that_does_not_say_its_width_has_80_columns),
         IN_FOLDER(a_dumb_terminal_shows_nothing),
+        IN_FOLDER(a_stream_is_counted),
+        IN_FOLDER(reading_and_building_a_cloud_are_shown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

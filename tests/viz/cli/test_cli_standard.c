@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_standard.c - "-" is standard input where a file is read, and standard output where one is written: with the
+ * same bytes. */
+#define _XOPEN_SOURCE 700 /* pseudo terminals */
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+
+static const char cloud[] = "0 0 0\n1 2 3\n4 5 6\n";
+static const char session[] = "{\"octreel\":\"session\",\"version\":1,\"points\":{\"sample\":\"uniform\",\"count\":9,"
+                              "\"seed\":1},\"keys\":\"wd\",\"queries\":[{\"nearest\":[-999,0,0],\"answer\":[77]}]}\n";
+
+/* Run lines in the folder of the test, where \"$octreel\" is the program. */
+static command_result run_lines(void **state, const char *lines)
+{
+    const temp_folder *own = *state;
+    return run_script("octreel=%s && cd %s && %s", octreel_program(), own->name, lines);
+}
+
+static void assert_lines_done(void **state, const char *lines)
+{
+    command_result result = run_lines(state, lines);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void a_cloud_is_told_by_what_it_holds(void **state)
+{
+    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
+                              "property double z\nend_header\n1 2 3\n4 5 6\n";
+    file_write_text(place_in(*state, "standard input").path, cloud); /* whose name is in what is said */
+    assert_lines_done(state, "\"$octreel\" inspect 'standard input' --nodes nodes --nearest 1,2,2 >a && "
+                             "cat 'standard input' | \"$octreel\" inspect - --nearest 1,2,2 >b && tail -n +3 b >c && "
+                             "test -s b && grep -v '^wrote' a | cmp - b && "
+                             "cat 'standard input' | \"$octreel\" inspect - --nodes - 2>d | cmp - nodes && "
+                             "grep -q 'wrote standard output: all nodes' d");
+    file_write_text(place_in(*state, "standard input").path, ply);
+    assert_lines_done(state, "\"$octreel\" inspect 'standard input' --json >a && "
+                             "cat 'standard input' | \"$octreel\" inspect - --json | cmp - a");
+}
+
+static void a_picture_goes_to_standard_output_alone(void **state)
+{
+    file_write_text(place_in(*state, "standard input").path, cloud);
+    assert_lines_done(state, "\"$octreel\" inspect 'standard input' -o a.png --size 64x36 >a && "
+                             "\"$octreel\" inspect - -o - --size 64x36 <'standard input' 2>b | cmp - a.png && "
+                             "sed 's/wrote a.png/wrote standard output/' a | cmp - b");
+}
+
+static void a_terminal_is_sent_no_picture(void **state)
+{
+    const place file = place_in(*state, "cloud");
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0)
+        skip();
+    assert_true(grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+    file_write_text(file.path, cloud);
+    command_result result =
+        run_octreel(&(command_setting){.output = ptsname(terminal)}, "inspect %s -o - --size 64x36", file.path);
+    assert_trouble(&result, "-o - writes a PNG, which a terminal does not show");
+    close(terminal);
+}
+
+static void sessions_come_from_standard_input(void **state)
+{
+    file_write_text(place_in(*state, "octreel.json").path, session);
+    assert_lines_done(state, "\"$octreel\" play octreel.json -o a.html >a && "
+                             "\"$octreel\" play - -o - <octreel.json | cmp - a.html && "
+                             "\"$octreel\" play - <octreel.json >b && cmp a.html octreel.html");
+    command_result result =
+        run_lines(state, "\"$octreel\" audit octreel.json | sed 's/octreel.json/standard input/' >a;"
+                         " \"$octreel\" audit - <octreel.json >b; echo $? >>b; echo 1 >>a; cmp a b");
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void pictures_and_digests_come_from_standard_input(void **state)
+{
+    file_write_text(place_in(*state, "s.json").path, session);
+    assert_lines_done(state, "\"$octreel\" record s.json --size 32x18 -o r >a && \"$octreel\" digest r -o a && "
+                             "\"$octreel\" digest r -o - | cmp - a && \"$octreel\" diff - r <a >b && "
+                             "\"$octreel\" diff r - <a >b && cat r/frame_000001.png | "
+                             "\"$octreel\" diff - r/frame_000001.png >b && "
+                             "cat r/frame_000001.png | \"$octreel\" digest - | sed s/stdin/frame_000001.png/ >b && "
+                             "\"$octreel\" digest r/frame_000001.png | cmp - b && "
+                             "\"$octreel\" accept new.png - <r/frame_000001.png >b && cmp new.png r/frame_000001.png");
+}
+
+static void evidence_holds_the_picture_from_standard_input(void **state)
+{
+    file_write_text(place_in(*state, "s.json").path, session);
+    assert_lines_done(state,
+                      "\"$octreel\" record s.json --size 32x18 -o r >a && "
+                      "{ \"$octreel\" diff r/frame_000000.png - -o e <r/frame_000001.png >b || test $? = 1; } && "
+                      "cmp e/*.actual.png r/frame_000001.png && cmp e/*.expected.png r/frame_000000.png");
+}
+
+static void what_is_neither_is_told_by_a_sentence(void **state)
+{
+    static const char *const rows[][2] = {
+        {"\"$octreel\" inspect - </dev/null", "standard input: holds no points"},
+        {"echo 1 2 x | \"$octreel\" inspect -", "standard input:1: 'x' is not a number"},
+        {"echo 1 2 3 | \"$octreel\" diff - s.json", "standard input: it is no PNG, no folder and no file of digests"},
+        {"\"$octreel\" digest - </dev/null", "standard input: it is no PNG"},
+        {"echo 1 2 3 | \"$octreel\" audit -", "standard input:1: '{' expected near '1'"},
+        {"\"$octreel\" play - <.", "standard input: cannot be read: Is a directory"},
+    };
+    file_write_text(place_in(*state, "s.json").path, "octreel-digests 1\nbackground ffffff\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result result = run_lines(state, rows[i][0]);
+        assert_trouble(&result, rows[i][1]);
+    }
+}
+
+/* ./- has a name that is short for it where a session has no folder. */
+static void a_file_of_that_name_stays_a_file(void **state)
+{
+    file_write_text(place_in(*state, "-").path, cloud);
+    file_write_text(place_in(*state, "s.json").path,
+                    "{\"octreel\":\"session\",\"version\":1,\"points\":{\"file\":\"-\"}}");
+    assert_lines_done(state, "\"$octreel\" record - --no-frames -o a <s.json >b && grep -q '4, 5, 6' a/session.json && "
+                             "\"$octreel\" inspect ./- >b && \"$octreel\" play - -o - <s.json >b && "
+                             "\"$octreel\" digest a -o - 2>b || grep -q 'without frames' b");
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(a_cloud_is_told_by_what_it_holds),
+        IN_FOLDER(a_picture_goes_to_standard_output_alone),
+        IN_FOLDER(a_terminal_is_sent_no_picture),
+        IN_FOLDER(sessions_come_from_standard_input),
+        IN_FOLDER(pictures_and_digests_come_from_standard_input),
+        IN_FOLDER(evidence_holds_the_picture_from_standard_input),
+        IN_FOLDER(what_is_neither_is_told_by_a_sentence),
+        IN_FOLDER(a_file_of_that_name_stays_a_file),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
