@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT */
+/* file_read.c - files are opened and read, and standard input as one of them. */
+#include "array.h"
+#include "file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Standard input, once it is read. */
+static struct {
+    bool read;
+    char *bytes; /* null: who read it has them */
+    size_t size;
+} standard;
+
+/* ---- Read --------------------------------------------------------------------------------------------------- */
+
+static bool refuse(char reason[FILE_REASON], const char *what)
+{
+    snprintf(reason, FILE_REASON, "%s: %s", what, strerror(errno));
+    return false;
+}
+
+/* Opening a pipe would wait for its other end; a device may never end. */
+static FILE *open_regular(const char *path, uint64_t *size, char reason[FILE_REASON])
+{
+    struct stat status;
+    FILE *stream = NULL;
+    if (stat(path, &status) != 0)
+        refuse(reason, "cannot be opened");
+    else if (!S_ISREG(status.st_mode))
+        snprintf(reason, FILE_REASON, "is not a regular file");
+    else if (!(stream = fopen(path, "rb")))
+        refuse(reason, "cannot be opened");
+    *size = stream ? (uint64_t)status.st_size : 0;
+    return stream;
+}
+
+/* What is read of a stream to its end: `total` bytes, as far as anybody knows, or 0. */
+typedef struct reading {
+    FILE *stream;
+    uint64_t total;
+    file_progress *progress;
+    void *context;
+    char *bytes; /* with room for one more than `size` */
+    size_t size, room;
+} reading;
+
+static bool read_block(reading *r, size_t *got)
+{
+    const size_t most = (size_t)1 << 20, wanted = r->size + 2;
+    char *bytes = array_reserve(r->bytes, wanted, &r->room, 1);
+    if (!bytes)
+        return false;
+    r->bytes = bytes;
+    const size_t left = r->room - r->size - 1;
+    *got = fread(r->bytes + r->size, 1, left < most ? left : most, r->stream);
+    r->size += *got;
+    if (r->progress)
+        r->progress(r->size, r->total, r->context);
+    return true;
+}
+
+/* The first room is for all of a regular file, and to find its end. */
+static bool read_stream(reading *r, char reason[FILE_REASON])
+{
+    size_t got = 1;
+    bool there = r->total < SIZE_MAX - 2;
+    r->bytes = there && r->total > 0 ? malloc((size_t)r->total + 2) : NULL;
+    r->room = r->bytes ? (size_t)r->total + 2 : 0;
+    there = there && (r->bytes || r->total == 0);
+    while (there && got > 0)
+        there = read_block(r, &got);
+    if (there && !ferror(r->stream))
+        return true;
+    if (there)
+        refuse(reason, "cannot be read");
+    else
+        snprintf(reason, FILE_REASON, "out of memory for its %ju bytes",
+                 (uintmax_t)(r->total > r->size ? r->total : r->size));
+    free(r->bytes);
+    return false;
+}
+
+/* Its length is known where it is a file. */
+static bool read_standard(file_progress *progress, void *context, char **bytes, size_t *size, char reason[FILE_REASON])
+{
+    struct stat status;
+    const bool regular = fstat(fileno(stdin), &status) == 0 && S_ISREG(status.st_mode);
+    reading r = {stdin, regular ? (uint64_t)status.st_size : 0, progress, context, NULL, 0, 0};
+    if (standard.read) {
+        snprintf(reason, FILE_REASON, "is read already, and can be read once");
+        return false;
+    }
+    standard.read = true;
+    if (!read_stream(&r, reason))
+        return false;
+    *bytes = r.bytes;
+    *size = r.size;
+    return true;
+}
+
+FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
+{
+    uint64_t ignored;
+    if (!file_is_standard(path))
+        return open_regular(path, size ? size : &ignored, reason);
+    if (!standard.bytes && !read_standard(NULL, NULL, &standard.bytes, &standard.size, reason))
+        return NULL;
+    *(size ? size : &ignored) = standard.size;
+    FILE *stream = standard.size > 0 ? fmemopen(standard.bytes, standard.size, "rb") : NULL;
+    if (!stream && standard.size > 0)
+        refuse(reason, "cannot be opened");
+    else if (!stream)
+        snprintf(reason, FILE_REASON, "is empty");
+    return stream;
+}
+
+/* What is kept is copied: it is small, where who opens it first does not read it whole at once. */
+static bool copy_standard(char **bytes, size_t *size, char reason[FILE_REASON])
+{
+    *size = standard.size;
+    *bytes = malloc(standard.size + 1);
+    if (!*bytes) {
+        snprintf(reason, FILE_REASON, "out of memory for its %zu bytes", standard.size);
+        return false;
+    }
+    memcpy(*bytes, standard.bytes, standard.size);
+    return true;
+}
+
+bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
+                       char reason[FILE_REASON])
+{
+    reading r = {.progress = progress, .context = context};
+    *bytes = NULL;
+    *size = 0;
+    if (file_is_standard(path))
+        return standard.bytes ? copy_standard(bytes, size, reason)
+                              : read_standard(progress, context, bytes, size, reason);
+    r.stream = open_regular(path, &r.total, reason);
+    const bool read = r.stream && read_stream(&r, reason);
+    if (r.stream)
+        fclose(r.stream);
+    *bytes = read ? r.bytes : NULL;
+    *size = read ? r.size : 0;
+    return read;
+}
+
+bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON])
+{
+    return file_read_watched(path, NULL, NULL, bytes, size, reason);
+}
