@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* absent.c - what a page does not have, in place of what the rooms are linked with elsewhere: files, compressed clouds
- * and a graphics context. */
+/* absent.c - what a page does not have, in place of what the rooms are linked with elsewhere: files, clouds, which are
+ * files, and a graphics context. */
+#include "cloud.h"
 #include "file.h"
 #include "renderer.h"
 
 #include <errno.h>
-#include <lzf.h>
 #include <stdio.h>
 
 FILE *fopen(const char *path, const char *mode)
@@ -16,44 +16,47 @@ FILE *fopen(const char *path, const char *mode)
     return NULL;
 }
 
-/* In place of file_read.c. */
-static void tell_absent(char reason[FILE_REASON])
-{
-    snprintf(reason, FILE_REASON, "cannot be opened: a page has no files");
-}
+/* In place of file_read.c and of what reads clouds: a page has no files. */
+static const char absent[] = "cannot be opened: a page has no files";
 
 FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
 {
     (void)path;
     (void)size;
-    tell_absent(reason);
+    snprintf(reason, FILE_REASON, "%s", absent);
     return NULL;
-}
-
-bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
-                       char reason[FILE_REASON])
-{
-    (void)path;
-    (void)progress;
-    (void)context;
-    (void)bytes;
-    (void)size;
-    tell_absent(reason);
-    return false;
 }
 
 bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON])
 {
-    return file_read_watched(path, NULL, NULL, bytes, size, reason);
+    (void)bytes;
+    (void)size;
+    return file_open(path, NULL, reason);
 }
 
-unsigned int lzf_decompress(const void *in, unsigned int in_size, void *out, unsigned int out_size)
+bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error)
 {
-    (void)in;
-    (void)in_size;
-    (void)out;
-    (void)out_size;
-    return 0;
+    (void)watch;
+    *out = (cloud){0};
+    return error_set(error, "%s: %s", path, absent);
+}
+
+bool cloud_begins(const unsigned char *bytes, size_t size)
+{
+    (void)bytes;
+    (void)size;
+    return false;
+}
+
+size_t cloud_row(const cloud *c, size_t index)
+{
+    (void)c;
+    return index;
+}
+
+void cloud_release(cloud *c)
+{
+    (void)c;
 }
 
 renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error)

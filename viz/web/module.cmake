@@ -51,7 +51,6 @@ find_path(JANSSON_HEADER jansson.h HINTS ${JANSSON_INCLUDE_DIRS} REQUIRED)
 find_path(JANSSON_CONFIG_HEADER jansson_config.h HINTS ${JANSSON_INCLUDE_DIRS} REQUIRED)
 configure_file(${JANSSON_HEADER}/jansson.h ${wasm_folder}/include/jansson.h COPYONLY)
 configure_file(${JANSSON_CONFIG_HEADER}/jansson_config.h ${wasm_folder}/include/jansson_config.h COPYONLY)
-configure_file(${LZF_INCLUDE}/lzf.h ${wasm_folder}/include/lzf.h COPYONLY)
 
 set(wasm_includes -I${PROJECT_SOURCE_DIR}/lib/include -I${CMAKE_CURRENT_SOURCE_DIR}/include)
 foreach(room exact tree query game)
@@ -65,7 +64,7 @@ list(APPEND wasm_includes -isystem ${wasm_folder}/include)
 # absent.c stands for what a page does not have; of the rest the linker takes what is used.
 file(GLOB wasm_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/src/*/*.c base/*.c image/image.c scene/*.c layers/*.c
      draw/*.c formats/*.c record/playback.c record/picture.c replay/pick.c web/*.c)
-list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read)\\.c$")
+list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read|cloud[a-z_]*)\\.c$")
 list(APPEND wasm_sources ${GLYPHS})
 set(wasm_objects "")
 foreach(source ${wasm_sources})
