@@ -49,15 +49,16 @@ typedef struct reading {
 
 static bool read_block(reading *r, size_t *got)
 {
-    const size_t most = (size_t)1 << 20, wanted = r->size + 2;
-    char *bytes = array_reserve(r->bytes, wanted, &r->room, 1);
+    const size_t most = (size_t)1 << 20;
+    const bool full = r->room < r->size + 2;
+    char *bytes = array_reserve(r->bytes, full ? r->size + most : r->room, &r->room, 1);
     if (!bytes)
         return false;
     r->bytes = bytes;
     const size_t left = r->room - r->size - 1;
     *got = fread(r->bytes + r->size, 1, left < most ? left : most, r->stream);
     r->size += *got;
-    if (r->progress)
+    if (r->progress && *got > 0)
         r->progress(r->size, r->total, r->context);
     return true;
 }

@@ -68,7 +68,7 @@ static void print_line(const progress *p, const char *text)
 void progress_show(progress *p, uint64_t done, uint64_t total)
 {
     const double time = now();
-    if (!p->visible || (done != total && time - p->shown < SECONDS_BETWEEN))
+    if (!p->visible || ((total == 0 || done < total) && time - p->shown < SECONDS_BETWEEN))
         return;
     p->shown = time;
     p->fraction = total > 0 ? (double)done / (double)total : -1;

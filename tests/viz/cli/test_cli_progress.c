@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cli_progress.c - the progress bar on terminals of every width, and on those that cannot write a line over. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "commands.h"
 #include "files.h"
@@ -66,6 +68,26 @@ static void a_dumb_terminal_shows_nothing(void **state)
     }
 }
 
+/* Blocks are large: all of a small text is one. */
+static void a_pipe_is_counted_by_large_blocks(void **state)
+{
+    const place fifo = place_in(*state, "fifo"), cloud = place_in(*state, "cloud");
+    if (!command_has_terminals())
+        skip();
+    file_write_text(cloud.path, "1 2 3\n4 5 6\n");
+    assert_int_equal(mkfifo(fifo.path, 0600), 0);
+    char line[2100];
+    snprintf(line, sizeof line, "cat %s >%s &", cloud.path, fifo.path);
+    assert_int_equal(system(line), 0);
+    command_result result =
+        run_octreel(&(command_setting){.terminal = true, .columns = 80, .input = fifo.path}, "inspect -");
+    assert_int_equal(result.status, 0);
+    const char *first = strstr(result.err, "\r0 kB of the cloud");
+    assert_non_null(first);
+    assert_null(strstr(first + 1, "\r0 kB of the cloud"));
+    command_release(&result);
+}
+
 /* Of what comes from standard input nobody knows how much it is. */
 static void a_stream_is_counted(void **state)
 {
@@ -109,6 +131,7 @@ int main(void)
         IN_FOLDER(the_line_is_narrower_than_the_terminal),
         IN_FOLDER(a_terminal_that_does_not_say_its_width_has_80_columns),
         IN_FOLDER(a_dumb_terminal_shows_nothing),
+        IN_FOLDER(a_pipe_is_counted_by_large_blocks),
         IN_FOLDER(a_stream_is_counted),
         IN_FOLDER(reading_and_building_a_cloud_are_shown),
     };
