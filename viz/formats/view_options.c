@@ -35,6 +35,16 @@ static const char *coloring_words_at(int n)
     return view_coloring_words((view_coloring)n);
 }
 
+static const char *tree_at(int n)
+{
+    return view_tree_name((view_tree)n);
+}
+
+static const char *tree_words_at(int n)
+{
+    return view_tree_words((view_tree)n);
+}
+
 static const char *diagram_at(int n)
 {
     return view_diagram_name((view_diagram)n);
@@ -449,6 +459,8 @@ static const view_option rows[] = {
      MEMBER("shade", &json_later_choice, shade), .member.names = shade_at, .words = shade_words_at},
     {MEMBER("point_scale", JSON_CODEC(read_scale, write_scale, NULL), point_scale.of),
      .member.given = offsetof(view, point_scale.given), .noun = "scale of points"},
+    {"tree", "WHOSE", "tree", "whose nodes are shown, where a session has those of a program (default auto): one of",
+     parse_choice, MEMBER("tree", &json_later_choice, tree), .member.names = tree_at, .words = tree_words_at},
     {"diagram", "WHERE", "diagram", "draw the tree as a tree, its root at the top (default none): one of", parse_choice,
      MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at, .words = diagram_words_at},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",

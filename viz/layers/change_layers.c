@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* change_layers.c - the layers of what happened to the tree's nodes: merges, splits, and what must never happen. */
+#include "foreign_nodes.h"
 #include "layer_type.h"
 #include "text.h"
 #include "node_boxes.h"
@@ -70,13 +71,18 @@ static void describe_change(description *d, const described *element)
     say_node(d, element->id >> 2);
 }
 
-const layer_type layer_MERGES = {.applies = layer_in_games,
+static bool changes_apply(const layer_source *in)
+{
+    return in->game && shows_own_tree(in);
+}
+
+const layer_type layer_MERGES = {.applies = changes_apply,
                                  .add = add_changes,
                                  .legend_place = 110,
                                  .legend = add_change_legend,
                                  .describe = describe_change};
 
-const layer_type layer_SPLITS = {.applies = layer_in_games,
+const layer_type layer_SPLITS = {.applies = changes_apply,
                                  .add = add_changes,
                                  .legend_place = 100,
                                  .legend = add_change_legend,

@@ -14,9 +14,11 @@
 
 typedef struct element_subject {
     bool has_node, has_point;
-    octree_node node;         /* the node that it shows, or its cell when the tree no longer has the node */
-    bool gone;                /* the tree no longer has the node */
-    octree_point point;       /* the point that it shows */
+    octree_node node;   /* the node that it shows, or its cell when the tree no longer has the node */
+    bool gone;          /* the tree no longer has the node */
+    octree_point point; /* the point that it shows */
+    const octree_foreign_place
+        *foreign;             /* the node of the program's tree that it shows, until the next tick; or null */
     char text[ELEMENT_WORDS]; /* such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)" */
 } element_subject;
 

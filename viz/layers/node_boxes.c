@@ -7,6 +7,7 @@ theme_role node_role(const view *v, unsigned depth, size_t points)
     case COLORING_OCCUPANCY:
         return theme_node_role(theme_step(points, 1));
     case COLORING_PLAIN:
+    case COLORING_KIND:
         return ROLE_NODE_PLAIN;
     default:
         return theme_node_role(depth);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* node_layers.c - the layers of a tree's nodes and points, within the view's filter, lod and budget.
  */
+#include "foreign_nodes.h"
 #include "layer_type.h"
 #include "layout.h"
 #include "node_boxes.h"
 #include "point_colors.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,6 +20,8 @@ typedef struct tree_walk {
     scene *scene;
     octree_box world;
     uint8_t point_width;
+    bool shows_nodes;                      /* of Octreel's tree; its points are shown with or without them */
+    view_filter filter;                    /* of points */
     size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* boxes in the scene */
     int deepest;                           /* boxes below are beyond the budget */
     uint64_t sieve;                        /* points whose digest has one of these bits are beyond the budget */
@@ -157,27 +161,31 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 {
     tree_walk *w = context;
     scene *s = w->scene;
-    const view_filter *f = &s->view.filter;
-    if (!filter_enters(f, &w->world, node))
+    if (!filter_enters(&w->filter, &w->world, node))
         return OCTREE_WALK_SKIP;
-    if (view_shows(&s->view, LAYER_NODES))
+    if (w->shows_nodes)
         show_node(w, node);
-    if (node->leaf && node->count && view_shows(&s->view, LAYER_POINTS) && filter_shows_points_of(f, &w->world, node))
+    if (node->leaf && node->count && view_shows(&s->view, LAYER_POINTS) &&
+        filter_shows_points_of(&w->filter, &w->world, node))
         add_points(w, node);
     return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
 /* ---- Labels ------------------------------------------------------------------------------------------------- */
 
-/* Write the path of a node into the middle of its box, if it fits into the box on screen, so that it is clear whose it
- * is, and covers no other. */
+/* Write the path of a node, or the id of a program's, into the middle of its box, if it fits into the box on screen, so
+ * that it is clear whose it is, and covers no other. */
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
     scene_label label = {.id = box->id, .style = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1}};
     char text[OCTREE_ADDRESS_TEXT];
     double middle[3], pixel[2];
     scene_box_middle(&box->box, middle);
-    snprintf(label.text, sizeof label.text, "%s", octree_address_format(box->id, text));
+    if (is_foreign_element(box->id))
+        snprintf(text, sizeof text, "%" PRIu64, foreign_node_of(box->id));
+    else
+        octree_address_format(box->id, text);
+    snprintf(label.text, sizeof label.text, "%s", text);
     const double width = (double)(strlen(label.text) + 1) * s->text.width;
     if (!camera_pixel(&s->camera, middle, pixel) || camera_box_pixels(&s->camera, &box->box) < width ||
         !text_space_take(words, s, label.text, pixel, label.at))
@@ -190,7 +198,11 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
 static void add_labels(scene *s)
 {
     text_space words = {.count = 0};
-    for (unsigned depth = 0; depth <= OCTREE_MAX_DEPTH; depth++)
+    unsigned deepest = 0;
+    for (size_t i = 0; i < s->boxes.count; i++)
+        if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth > deepest)
+            deepest = s->boxes.items[i].depth;
+    for (unsigned depth = 0; depth <= deepest; depth++)
         for (size_t i = 0; i < s->boxes.count; i++)
             if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth == depth)
                 s->tally.labels += add_label(s, &words, &s->boxes.items[i]);
@@ -205,18 +217,36 @@ static void add(scene *s, const layer_source *in, view_layer own)
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
     tree_walk w = {.scene = s, .world = in->world, .deepest = OCTREE_MAX_DEPTH};
     w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
+    w.shows_nodes = view_shows(&s->view, LAYER_NODES) && shows_own_tree(in);
+    w.filter = s->view.filter;
+    if (!shows_own_tree(in))
+        w.filter.by_depth = false; /* which are those of the other tree */
     octree_walk(in->tree, add_node, &w);
     s->tally.deepest = w.deepest;
+    if (shows_foreign_tree(in))
+        add_foreign_nodes(s, in);
     s->tally.one_in = w.sieve + 1;
     s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * sqrt((double)s->tally.one_in) : 0;
     if (s->view.labels && view_shows(&s->view, own))
         add_labels(s);
 }
 
+/* A line for each kind that there is; Octreel's nodes have none. */
+static void add_kinds_legend(legend *l, const layer_source *in)
+{
+    if (shows_own_tree(in))
+        legend_add(l, SIGN_BOLD, "node");
+    for (size_t i = 0; shows_foreign_tree(in) && i < in->tick->foreign.kind_count; i++)
+        legend_add(l, SIGN_BOLD, "node: %s", in->tick->foreign.kinds[i][0] ? in->tick->foreign.kinds[i] : "no kind")
+            ->role = foreign_kind_role((unsigned)i);
+}
+
 static void add_legend(legend *l, const layer_source *in)
 {
-    const size_t depths = octree_definition(in->tree).max_depth + 1;
-    if (l->scene->view.coloring == COLORING_DEPTH)
+    const size_t depths = shows_foreign_tree(in) ? THEME_NODE_DEPTHS : octree_definition(in->tree).max_depth + 1;
+    if (l->scene->view.coloring == COLORING_KIND)
+        add_kinds_legend(l, in);
+    else if (l->scene->view.coloring == COLORING_DEPTH)
         legend_add(l, SIGN_RAMP, "nodes, shallow to deep")->steps =
             depths < THEME_NODE_DEPTHS ? (int)depths : THEME_NODE_DEPTHS;
     else if (l->scene->view.coloring == COLORING_OCCUPANCY)
@@ -231,7 +261,10 @@ static void describe(description *d, const described *element)
         say(d, "the ground of the path on ");
     else if (element->kind == SCENE_LABEL)
         say(d, " on ");
-    say_node(d, element->id);
+    if (is_foreign_element(element->id))
+        say_foreign_node(d, element->id);
+    else
+        say_node(d, element->id);
 }
 
 const layer_type layer_NODES = {.add = add, .legend_place = 50, .legend = add_legend, .describe = describe};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* panel.c - the text layer: the column at the left, which describes the tick. */
+#include "foreign_nodes.h"
 #include "judgement_words.h"
 #include "layer_type.h"
 #include "layout.h"
@@ -73,9 +74,23 @@ static void write_world(pen *p, const octree_box *world)
 
 /* ---- What the tick did -------------------------------------------------------------------------------------- */
 
-static void write_statistics(pen *p, const octree *tree, const octree_stats *stats)
+/* Of a program's own tree. */
+static void write_foreign(pen *p, const octree_foreign_state *foreign)
 {
+    write_row(p, "program nodes", "%zu", foreign->node_count);
+    write_row(p, "program leaves", "%zu", foreign->leaf_count);
+    write_row(p, "program depth", "%u", foreign->depth);
+}
+
+/* Of the trees that are shown. */
+static void write_statistics(pen *p, const layer_source *in, const octree_stats *stats)
+{
+    const octree *tree = in->tree;
     write_row(p, "points", "%zu", stats->points);
+    if (shows_foreign_tree(in))
+        write_foreign(p, &in->tick->foreign);
+    if (!shows_own_tree(in))
+        return;
     write_row(p, "nodes", "%zu", stats->nodes);
     write_row(p, "leaves", "%zu", stats->leaves);
     write_row(p, "depth", "%u of max %zu", stats->depth, octree_definition(tree).max_depth);
@@ -103,24 +118,6 @@ static const char *quiet_word(const layer_source *in)
     if (in->tick->key == 'n')
         return "asked";
     return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
-}
-
-/* The sentence in lines that fit the column, broken at blanks. */
-static void write_wrapped(pen *p, theme_role role, const char *text)
-{
-    const size_t most = (size_t)p->letters;
-    while (*text) {
-        char line[SCENE_TEXT];
-        size_t length = strlen(text);
-        for (size_t i = length > most ? most : 0; i > 0; i--)
-            if (text[i] == ' ') {
-                length = i;
-                break;
-            }
-        snprintf(line, sizeof line, "%.*s", (int)length, text);
-        write_line(p, role, line);
-        text += length + (text[length] == ' ');
-    }
 }
 
 /* What the tick did, in words; the most urgent gives the colour. */
@@ -164,6 +161,18 @@ static void write_wrong(pen *p, const layer_source *in)
     write_detailed_row(p, "wrong", octree_query_name(in->answers[worst].kind), "%zu of %zu", wrong, judged);
     write_row(p, "", "%s", judgement_words(&in->answers[worst].judgement, words));
     p->name = ROLE_FAINT;
+}
+
+/* How much is wrong with the program's nodes, and what is first. */
+static void write_wrong_nodes(pen *p, const layer_source *in)
+{
+    char text[FOREIGN_WORDS];
+    if (!shows_foreign_tree(in) || in->tick->foreign.fault_count == 0)
+        return;
+    p->name = ROLE_WRONG;
+    write_row(p, "wrong in nodes", "%zu", in->tick->foreign.fault_count);
+    p->name = ROLE_FAINT;
+    write_wrapped(p, ROLE_WARNING, foreign_fault_text(&in->tick->foreign, text));
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
@@ -408,13 +417,14 @@ static void write_tick_rows(pen *p, const layer_source *in)
     write_keys(p, in);
     write_rule(p);
     write_player(p, in);
-    write_statistics(p, in->tree, &tick->stats);
+    write_statistics(p, in, &tick->stats);
     write_left_out(p);
     if (tick->has_player || in->answer_count || tick->refusal_count)
         write_rule(p);
     if (tick->has_player)
         write_ids(p, "box hits", tick->hits, tick->hit_count);
     write_wrong(p, in);
+    write_wrong_nodes(p, in);
     write_answers(p, in);
     write_refusals(p, tick);
 }
@@ -423,7 +433,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
 {
     octree_stats stats;
     octree_statistics(in->tree, &stats);
-    write_statistics(p, in->tree, &stats);
+    write_statistics(p, in, &stats);
     write_left_out(p);
     write_rule(p);
     write_world(p, &in->world);
@@ -440,6 +450,7 @@ static void add_lines(scene *s, const layer_source *in, const char *title)
         write_line(&p, ROLE_TEXT, title);
         write_events(&p, in);
         write_wrong(&p, in);
+        write_wrong_nodes(&p, in);
     }
     write_left_out(&p);
     write_broken(&p, in);

@@ -142,3 +142,20 @@ void fill(pen *p, int x, int y, int width, int height, unsigned role)
     scene_add_rectangle(p->scene, p->next_id++, (int[]){p->left + x, p->y + y}, (int[]){width, height}, LAYER_TEXT,
                         role);
 }
+
+void write_wrapped(pen *p, theme_role role, const char *text)
+{
+    const size_t most = (size_t)p->letters;
+    while (*text) {
+        char line[SCENE_TEXT];
+        size_t length = strlen(text);
+        for (size_t i = length > most ? most : 0; i > 0; i--)
+            if (text[i] == ' ') {
+                length = i;
+                break;
+            }
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        write_line(p, role, line);
+        text += length + (text[length] == ' ');
+    }
+}

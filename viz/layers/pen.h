@@ -53,4 +53,7 @@ const char *number_fitting(double value, size_t letters, char text[NUMBER_TEXT])
 /* A rectangle, in pixels from the pen's place. */
 void fill(pen *p, int x, int y, int width, int height, unsigned role);
 
+/* The sentence in lines that fit the column, broken at blanks. */
+void write_wrapped(pen *p, theme_role role, const char *text);
+
 #endif

@@ -5,8 +5,8 @@
 
 #include "scene.h"
 
-/* Give colours to markers of points of one leaf, by the view's point_color and its scale. Under POINTS_BY_DENSITY they have
- * none: draw counts the points of a pixel. */
+/* Give colours to markers of points of one leaf, by the view's point_color and its scale. Under POINTS_BY_DENSITY they
+ * have none: draw counts the points of a pixel. */
 void color_points(const view *v, const octree_node *leaf, scene_marker *markers, size_t count);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* visit_layers.c - the layers of a tick's queries: nodes pruned, nodes visited, leaves with hits. */
+#include "foreign_nodes.h"
 #include "layer_type.h"
 #include "text.h"
 #include "node_boxes.h"
@@ -13,7 +14,7 @@ static bool is_pruned(const octree_visit *visit)
 }
 
 /* A node keeps its colour in the tree. Visited nodes are bold, pruned ones dashed. */
-static void add_met(scene *s, const layer_source *in, view_layer own)
+static void add_own_met(scene *s, const layer_source *in, view_layer own)
 {
     const bool pruned = own == LAYER_PRUNED;
     scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
@@ -27,7 +28,15 @@ static void add_met(scene *s, const layer_source *in, view_layer own)
     }
 }
 
-static void add_hit(scene *s, const layer_source *in, view_layer own)
+static void add_met(scene *s, const layer_source *in, view_layer own)
+{
+    if (shows_own_tree(in))
+        add_own_met(s, in, own);
+    if (shows_foreign_tree(in))
+        add_foreign_met(s, in, own);
+}
+
+static void add_own_hit(scene *s, const layer_source *in, view_layer own)
 {
     octree_node node;
     for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->hit_leaf_count; i++)
@@ -35,17 +44,31 @@ static void add_hit(scene *s, const layer_source *in, view_layer own)
             add_node_box(s, &node, layer_style(own, STROKE_SOLID, 2));
 }
 
+static void add_hit(scene *s, const layer_source *in, view_layer own)
+{
+    if (shows_own_tree(in))
+        add_own_hit(s, in, own);
+    if (shows_foreign_tree(in))
+        add_foreign_met(s, in, own);
+}
+
+/* How many of the nodes that are shown were met so. */
+static size_t count_met(const layer_source *in, size_t own, octree_met met)
+{
+    return (shows_own_tree(in) ? own : 0) + (shows_foreign_tree(in) ? in->tick->foreign.met[met] : 0);
+}
+
 static void add_pruned_legend(legend *l, const layer_source *in)
 {
-    const size_t pruned = in->tick->touched[OCTREE_TOUCH_PRUNED];
+    const size_t pruned = count_met(in, in->tick->touched[OCTREE_TOUCH_PRUNED], OCTREE_MET_PRUNED);
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
 /* Nodes taken whole have a line of their own if both counts do not fit into one. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
-    const size_t taken = in->tick->touched[OCTREE_TOUCH_TAKEN];
-    const size_t visited = in->tick->touched[OCTREE_TOUCH_VISITED];
+    const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TOUCH_TAKEN] : 0;
+    const size_t visited = count_met(in, in->tick->touched[OCTREE_TOUCH_VISITED], OCTREE_MET_VISITED);
     char rest[SCENE_TEXT];
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
     const int length = snprintf(rest, sizeof rest, "%zu taken", taken);
@@ -57,13 +80,18 @@ static void add_visited_legend(legend *l, const layer_source *in)
 
 static void add_hit_legend(legend *l, const layer_source *in)
 {
-    const size_t leaves = in->tick->hit_leaf_count;
+    const size_t leaves = count_met(in, in->tick->hit_leaf_count, OCTREE_MET_HIT);
     legend_add(l, SIGN_FRAME, "%zu %s hit", leaves, leaves == 1 ? "leaf" : "leaves");
 }
 
 static void describe(description *d, const described *element)
 {
     const uint8_t layer = element->style.layer;
+    if (is_foreign_element(element->id)) {
+        say_foreign_node(d, element->id);
+        say(d, "; a query %s", layer == LAYER_PRUNED ? "pruned it" : layer == LAYER_VISITED ? "visited it" : "hit it");
+        return;
+    }
     say_node(d, element->id);
     say(d, layer == LAYER_PRUNED    ? "; the tick's questions left it out by its box"
            : layer == LAYER_VISITED ? "; the tick's questions looked into it"

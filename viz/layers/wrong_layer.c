@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* wrong_layer.c - the layer of a program's answers that are wrong: what it missed, what it named wrongly, and a ring of
  * a fixed size about the place, so that it is found in the picture, however small it is in the world. */
+#include "foreign_nodes.h"
 #include "judgement_words.h"
 #include "layer_type.h"
 #include "layout.h"
@@ -31,7 +32,7 @@ static uint64_t line_id(size_t place, size_t extra)
 
 static bool applies(const layer_source *in)
 {
-    return in->tick && in->tick->judged;
+    return in->tick && (in->tick->judged || shows_foreign_tree(in));
 }
 
 static bool in_session(const octree_session *session)
@@ -39,7 +40,7 @@ static bool in_session(const octree_session *session)
     for (size_t i = 0; i < session->query_count; i++)
         if (session->queries[i].answered)
             return true;
-    return false;
+    return session->foreign_count > 0;
 }
 
 /* Where nothing is missed or extra: the middle of what was asked. */
@@ -119,7 +120,8 @@ static void add(scene *s, const layer_source *in, view_layer own)
     size_t worst;
     const bool few = judgement_count(in->answers, in->answer_count, &worst) <= FEW_RINGS;
     text_space taken = {.count = 0};
-    (void)own;
+    if (shows_foreign_tree(in))
+        add_foreign_faults(s, in, own);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.fault)
             mark_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &taken);
@@ -130,10 +132,13 @@ static void add(scene *s, const layer_source *in, view_layer own)
 
 static void add_legend(legend *l, const layer_source *in)
 {
-    (void)in;
-    legend_add(l, SIGN_RING, "wrong answer");
-    legend_add(l, SIGN_TRIANGLE, "missed by it")->role = ROLE_MISSED;
-    legend_add(l, SIGN_WEDGE, "wrongly in it");
+    if (in->tick->judged) {
+        legend_add(l, SIGN_RING, "wrong answer");
+        legend_add(l, SIGN_TRIANGLE, "missed by it")->role = ROLE_MISSED;
+        legend_add(l, SIGN_WEDGE, "wrongly in it");
+    }
+    if (shows_foreign_tree(in))
+        legend_add(l, SIGN_DASHES, "wrong node");
 }
 
 static bool has_point(const octree_point *points, size_t count, uint64_t id)
@@ -170,7 +175,9 @@ static void say_answer(description *d, size_t place)
 
 static void describe(description *d, const described *element)
 {
-    if (element->kind == SCENE_MARKER && element->shape == SHAPE_RING) {
+    if (is_foreign_element(element->id)) {
+        say_foreign_fault(d, element);
+    } else if (element->kind == SCENE_MARKER && element->shape == SHAPE_RING) {
         say(d, "the ring about ");
         say_answer(d, UINT64_MAX - element->id);
     } else if (element->kind == SCENE_MARKER) {

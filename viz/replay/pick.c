@@ -255,6 +255,28 @@ static void write_node(json_writer *w, const element_subject *subject)
     json_write_end_object(w);
 }
 
+/* Of a program's own tree. */
+static void write_foreign_node(json_writer *w, const octree_foreign_place *place)
+{
+    const octree_foreign_node *node = place->node;
+    json_member_begin_object(w, "program_node");
+    json_member_integer(w, "id", node->id);
+    if (node->has_parent)
+        json_member_integer(w, "parent", node->parent);
+    if (node->kind[0])
+        json_member_text(w, "kind", node->kind);
+    json_member_integer(w, "depth", place->depth);
+    json_member_bool(w, "leaf", place->leaf);
+    json_member_integer(w, "points", place->points);
+    json_member_box(w, "box", &node->box);
+    json_member_begin_array(w, "wrong");
+    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
+        if (place->faults >> kind & 1)
+            json_write_string(w, octree_node_fault_name((octree_node_fault_kind)kind));
+    json_write_end_array(w);
+    json_write_end_object(w);
+}
+
 static void write_point(json_writer *w, const octree_point *point)
 {
     json_member_begin_object(w, "point");
@@ -275,6 +297,8 @@ static void write_element(json_writer *w, const pick_element *e)
     }
     if (e->subject.has_node)
         write_node(w, &e->subject);
+    if (e->subject.foreign)
+        write_foreign_node(w, e->subject.foreign);
     if (e->subject.has_point)
         write_point(w, &e->subject.point);
     json_member_text(w, "text", e->subject.text);

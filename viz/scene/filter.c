@@ -33,6 +33,18 @@ bool filter_shows_node(const view_filter *f, const octree_box *world, const octr
     return filter_enters(f, world, node);
 }
 
+bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf)
+{
+    const int axis = f->slice - 'x';
+    if (f->leaves && !leaf)
+        return false;
+    if (f->by_depth && (depth < f->min_depth || (depth > f->max_depth && f->max_depth < OCTREE_MAX_DEPTH)))
+        return false;
+    if (f->slice && !(box->min[axis] <= f->slice_at && f->slice_at <= box->max[axis]))
+        return false;
+    return !f->by_region || meet(&f->region, box);
+}
+
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf)
 {
     return (!f->by_depth || leaf->depth >= f->min_depth) && filter_enters(f, world, leaf);

@@ -35,6 +35,10 @@ bool filter_shows_node(const view_filter *f, const octree_box *world, const octr
 /* Whether a node or anything below it may be shown: slice and region cut off whole branches. */
 bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node);
 
+/* Whether a box of a program's own tree is shown. The slice's plane is then to meet the closed box, which may be flat;
+ * and a range of depths that ends at OCTREE_MAX_DEPTH has no end. */
+bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf);
+
 /* Whether a leaf's points may be shown, judged by the leaf alone; and then one of its points. */
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);

@@ -21,7 +21,15 @@
 #define VIEW_COLORING_MAP(X)                                                                                           \
     X(DEPTH, "depth", "how deep it lies")                                                                              \
     X(OCCUPANCY, "occupancy", "how many points are in it, on a fixed scale of powers of two")                          \
-    X(PLAIN, "plain", "nothing: all have one colour")
+    X(PLAIN, "plain", "nothing: all have one colour")                                                                  \
+    X(KIND, "kind", "what a node of a program's own tree is, by its word")
+
+/* Whose nodes are shown, where a program's session has nodes of its own tree: the same of each choice. */
+#define VIEW_TREE_MAP(X)                                                                                               \
+    X(AUTO, "auto", "the program's, from the tick on that has any; Octreel's without")                                 \
+    X(OWN, "own", "Octreel's alone")                                                                                   \
+    X(FOREIGN, "foreign", "the program's alone")                                                                       \
+    X(BOTH, "both", "both")
 
 /* What the colour of a point means. */
 #define VIEW_POINT_COLOR_MAP(ROW)                                                                                      \
@@ -60,6 +68,13 @@ typedef enum view_coloring {
 #undef VIEW_COLORING_ENUM
         COLORING_COUNT
 } view_coloring;
+
+typedef enum view_tree {
+#define VIEW_TREE_ENUM(name, ...) TREE_##name,
+    VIEW_TREE_MAP(VIEW_TREE_ENUM)
+#undef VIEW_TREE_ENUM
+        TREE_COUNT
+} view_tree;
 
 typedef enum view_diagram {
 #define VIEW_DIAGRAM_ENUM(name, ...) DIAGRAM_##name,
@@ -115,19 +130,20 @@ typedef struct view {
     } zoom;
     unsigned layers; /* bit 1 << view_layer: layer.h */
     view_coloring coloring;
-    view_diagram diagram;
     view_point_color point_color;
     view_shade shade;
     struct {
         bool given;
         point_scale of;
     } point_scale; /* of painted points */
+    view_tree tree;
+    view_diagram diagram; /* of Octreel's tree, whichever the space view shows */
     view_filter filter;
     bool labels; /* the paths of nodes on their boxes */
     double lod;  /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
     int aa;      /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
-    uint64_t budget; /* the most boxes of nodes, and the most points, of a frame, and 1000 times the most arrows of
-                        moving points; 0: any number */
+    uint64_t budget; /* the most boxes of nodes of each tree, and the most points, of a frame, and 1000 times the most
+                        arrows of moving points; 0: any number */
 } view;
 
 /* The longest side of a picture, samples counted: what llvmpipe draws without clamping it. */
@@ -170,6 +186,7 @@ static inline bool view_is_rgb(const view *v)
 /* The name; null beyond the last. */
 const char *view_camera_name(view_camera camera);
 const char *view_coloring_name(view_coloring coloring);
+const char *view_tree_name(view_tree tree);
 const char *view_diagram_name(view_diagram diagram);
 const char *view_point_color_name(view_point_color color);
 const char *view_shade_name(view_shade shade);
@@ -177,6 +194,7 @@ const char *view_shade_name(view_shade shade);
 /* What a choice is, in some words; null beyond the last. */
 const char *view_camera_words(view_camera camera);
 const char *view_coloring_words(view_coloring coloring);
+const char *view_tree_words(view_tree tree);
 const char *view_diagram_words(view_diagram diagram);
 const char *view_point_color_words(view_point_color color);
 const char *view_shade_words(view_shade shade);

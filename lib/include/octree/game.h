@@ -412,6 +412,9 @@ const octree_tick *octree_game_tick(const octree_game *game);
 /* The tree as it is after that tick. Owned by the game. */
 const octree *octree_game_tree(const octree_game *game);
 
+/* The point that has an id after that tick. False where there is none, and for null. Cost: O(1). */
+bool octree_game_find(const octree_game *game, uint64_t id, octree_point *point);
+
 /* The session as it was given. */
 const octree_session *octree_game_session(const octree_game *game);
 

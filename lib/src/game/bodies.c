@@ -224,6 +224,18 @@ static bool is_players_id(const octree_game *game, uint64_t id)
     return game->session->player.kind == OCTREE_PLAYER_KEYS && id == game->session->player.id;
 }
 
+bool octree_game_find(const octree_game *game, uint64_t id, octree_point *point)
+{
+    if (!game || !point)
+        return false;
+    const bool is_player = is_players_id(game, id);
+    const moving_body *body = is_player ? NULL : bodies_find(&game->bodies, id);
+    point->id = id;
+    if (is_player || body)
+        memcpy(point->position, is_player ? game->tick.player : body->position, sizeof point->position);
+    return is_player || body;
+}
+
 octree_status game_check_body(const octree_game *game, const octree_body *body)
 {
     if (is_players_id(game, body->id) || bodies_find(&game->bodies, body->id))

@@ -107,7 +107,7 @@ static bool check_points(octree_game *game, size_t place)
     for (size_t i = 0; whole && i < node->points.count; i++) {
         octree_point point;
         const uint64_t id = node->points.ids[i];
-        if (!judge_find_point(game, id, &point))
+        if (!octree_game_find(game, id, &point))
             whole = accuse(game, place, (octree_node_fault){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
         else if (!foreign_holds(node, point.position))
             whole = accuse(game, place, (octree_node_fault){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});

@@ -117,17 +117,6 @@ static void accuse(judge_state *s, octree_fault fault, uint64_t id)
     made->fault_id = by_id ? id : 0;
 }
 
-bool judge_find_point(const octree_game *game, uint64_t id, octree_point *point)
-{
-    const octree_player *player = &game->session->player;
-    const bool is_player = player->kind == OCTREE_PLAYER_KEYS && id == player->id;
-    const moving_body *body = is_player ? NULL : bodies_find(&game->bodies, id);
-    point->id = id;
-    if (is_player || body)
-        memcpy(point->position, is_player ? game->tick.player : body->position, sizeof point->position);
-    return is_player || body;
-}
-
 /* List what was named, each point once, and none that the query leaves out; by id. */
 static void list_named(judge_state *s)
 {
@@ -136,7 +125,7 @@ static void list_named(judge_state *s)
     for (size_t i = 0; !s->failed && i < query->answer_count; i++) {
         octree_point point;
         s->failed |= !list_push(&game->memory, &game->given, &query->answer[i], sizeof *query->answer);
-        if (!judge_find_point(game, query->answer[i], &point)) {
+        if (!octree_game_find(game, query->answer[i], &point)) {
             accuse(s, OCTREE_FAULT_UNKNOWN, query->answer[i]);
             continue;
         }

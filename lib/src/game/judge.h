@@ -36,9 +36,6 @@ typedef octree_status point_visit(const octree_point *point, void *context);
  * neighbours is lost that of a ball that has them. */
 octree_status judge_without(const judging *about, point_test *is_lost, point_visit *blame, void *context);
 
-/* The point that has an id at this tick. */
-bool judge_find_point(const octree_game *game, uint64_t id, octree_point *point);
-
 /* After all answers: point each judgement to its part of the lists, which do not grow any more. */
 void judge_assign(octree_game *game);
 

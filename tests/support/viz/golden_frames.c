@@ -4,6 +4,7 @@
 #include "view_options.h"
 #include "broken_tree.h"
 #include "camera.h"
+#include "foreign_session.h"
 #include "layer.h"
 #include "picture.h"
 #include "octree/sample.h"
@@ -55,6 +56,8 @@ const golden_frame golden_frames[] = {
     {"diagram_met", "iso", "default", 216, NULL, 640, 360},
     {"asked", "top", "nodes,asked,points", 0, "clustered", 0, 0},
     {"wrong", "iso", "world,nodes,points,nearest,radius,wrong,text", 0, "answered", 640, 360},
+    {"program_nodes", "iso", "default", 0, "foreign", 640, 360},
+    {"program_nodes_wrong", "iso", "default", 1, "foreign", 640, 360},
     {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
 };
 
@@ -72,6 +75,7 @@ static const struct {
     {"aa", {.aa = 4}},
     {"lod", {.lod = 12}},
     {"budget", {.budget = 100}},
+    {"program_nodes", {.coloring = COLORING_KIND}},
     {"diagram", {.diagram = DIAGRAM_BESIDE}},
     {"diagram_met", {.diagram = DIAGRAM_BESIDE}},
     {"diagram_folded", {.diagram = DIAGRAM_ONLY, .coloring = COLORING_OCCUPANCY}},
@@ -178,6 +182,8 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[G
         return session;
     case 'c': /* 400 clustered points, and a region that some of them are in */
         return sampled_session(OCTREE_SAMPLE_CLUSTERED, around, bodies, GOLDEN_MOST_BODIES);
+    case 'f':
+        return foreign_session();
     case 'k':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
     case 'm':

@@ -15,7 +15,7 @@ typedef struct golden_frame {
     const char *layers;
     uint64_t tick;      /* of the session that `points` says */
     const char *points; /* null: the default session; else "two", "three" or "clustered" points in its world, or what is
-                           asked about sampled ones: "knearest", "radius", "answered"; or "swept" */
+                           asked about sampled ones: "knearest", "radius", "answered"; or "swept", or "foreign" nodes */
     int width, height;  /* 0: 320 x 180 */
 } golden_frame;
 

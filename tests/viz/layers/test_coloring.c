@@ -23,7 +23,7 @@ static unsigned expected_role(view_coloring coloring, unsigned depth, size_t cou
     unsigned step = 0;
     if (coloring == COLORING_DEPTH)
         return theme_node_role(depth);
-    if (coloring == COLORING_PLAIN)
+    if (coloring == COLORING_PLAIN || coloring == COLORING_KIND)
         return ROLE_NODE_PLAIN;
     for (size_t least = 1; least <= count && step < 9; least *= 2) /* 1, 2, 4 ... 256 */
         step++;

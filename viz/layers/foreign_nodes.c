@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: MIT */
+#include "foreign_nodes.h"
+#include "node_boxes.h"
+#include "text.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+bool shows_own_tree(const layer_source *in)
+{
+    const view_tree tree = in->view->tree;
+    return tree == TREE_OWN || tree == TREE_BOTH || (tree == TREE_AUTO && !(in->tick && in->tick->foreign.given));
+}
+
+bool shows_foreign_tree(const layer_source *in)
+{
+    return in->tick && in->tick->foreign.given && in->view->tree != TREE_OWN;
+}
+
+/* ---- Boxes -------------------------------------------------------------------------------------------------- */
+
+theme_role foreign_kind_role(unsigned kind)
+{
+    return theme_node_role((kind * 3 + 1) % THEME_NODE_DEPTHS); /* those of few kinds are far apart */
+}
+
+static theme_role role_of(const view *v, const octree_foreign_place *place)
+{
+    return v->coloring == COLORING_KIND ? foreign_kind_role(place->kind) : node_role(v, place->depth, place->points);
+}
+
+/* A box says depths up to 255. */
+static unsigned level_of(const octree_foreign_place *place)
+{
+    return place->depth < UINT8_MAX ? place->depth : UINT8_MAX;
+}
+
+static void add_box(scene *s, const octree_foreign_place *place, scene_style style)
+{
+    scene_add_box(s, (scene_box){.id = foreign_element(place->node->id),
+                                 .box = place->node->box,
+                                 .style = style,
+                                 .depth = (uint8_t)level_of(place)});
+}
+
+static bool passes(const scene *s, const octree_foreign_place *place)
+{
+    return filter_shows_box(&s->view.filter, &place->node->box, place->depth, place->leaf);
+}
+
+/* Below the view's lod, in an ancestor that is shown. */
+static bool is_small(const scene *s, const octree_foreign_place *place)
+{
+    const view_filter *f = &s->view.filter;
+    return s->view.lod > 0 && place->parent != SIZE_MAX && !f->leaves &&
+           place->depth > (f->by_depth ? f->min_depth : 0) &&
+           camera_box_is_below(&s->camera, &place->node->box, s->view.lod);
+}
+
+/* ---- All nodes ---------------------------------------------------------------------------------------------- */
+
+/* The deepest level that the budget has room for, after the levels above it; -1 where that is none. */
+static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
+{
+    size_t at_level[UINT8_MAX + 1] = {0}, sum = 0;
+    int level = 0;
+    for (size_t i = 0; i < foreign->node_count; i++)
+        if (passes(s, &foreign->nodes[i]) && !is_small(s, &foreign->nodes[i]))
+            at_level[level_of(&foreign->nodes[i])]++;
+    while (level <= UINT8_MAX && (!s->view.budget || (sum += at_level[level]) <= s->view.budget))
+        level++;
+    return level - 1;
+}
+
+void add_foreign_nodes(scene *s, const layer_source *in)
+{
+    const octree_foreign_state *foreign = &in->tick->foreign;
+    if (!view_shows(&s->view, LAYER_NODES))
+        return;
+    const int deepest = deepest_in_budget(s, foreign);
+    const size_t beyond = s->tally.beyond;
+    for (size_t i = 0; i < foreign->node_count; i++) {
+        const octree_foreign_place *place = &foreign->nodes[i];
+        if (!passes(s, place))
+            continue;
+        const bool small = is_small(s, place), out = !small && (int)level_of(place) > deepest;
+        s->tally.small += small;
+        s->tally.beyond += out;
+        if (small || out)
+            continue;
+        add_box(s, place, (scene_style){.layer = LAYER_NODES, .role = (uint8_t)role_of(&s->view, place), .width = 1});
+        s->tally.nodes++;
+    }
+    if (s->tally.beyond > beyond)
+        s->tally.deepest = deepest;
+}
+
+/* ---- What queries met, and what is wrong -------------------------------------------------------------------- */
+
+/* The strongest of how queries met a node: what was looked into was not left out. */
+static bool is_met_so(const octree_foreign_place *place, view_layer layer)
+{
+    const unsigned visited = 1u << OCTREE_MET_VISITED, pruned = 1u << OCTREE_MET_PRUNED, hit = 1u << OCTREE_MET_HIT;
+    if (layer == LAYER_PRUNED)
+        return (place->met & pruned) && !(place->met & visited);
+    return place->met & (layer == LAYER_VISITED ? visited : hit);
+}
+
+void add_foreign_met(scene *s, const layer_source *in, view_layer own)
+{
+    const octree_foreign_state *foreign = &in->tick->foreign;
+    const bool pruned = own == LAYER_PRUNED;
+    scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
+    for (size_t i = 0; view_shows(&s->view, own) && i < foreign->node_count; i++) {
+        const octree_foreign_place *place = &foreign->nodes[i];
+        if (!is_met_so(place, own) || !passes(s, place))
+            continue;
+        const bool small = is_small(s, place);
+        s->tally.small_met += small;
+        if (own != LAYER_HIT)
+            style.role = (uint8_t)role_of(&s->view, place);
+        if (!small)
+            add_box(s, place, style);
+    }
+}
+
+/* The words for a fault beside what it is about. */
+static const char *short_words(octree_node_fault_kind kind)
+{
+    static const char *const words[OCTREE_NODE_FAULTS] = {[OCTREE_NODE_OUTSIDE_PARENT] = " outside parent",
+                                                          [OCTREE_NODE_UNKNOWN_POINT] = " unknown point",
+                                                          [OCTREE_NODE_OUTSIDE_POINT] = " point outside",
+                                                          [OCTREE_NODE_LOST_POINT] = " in no node",
+                                                          [OCTREE_NODE_UNKNOWN_NODE] = "",
+                                                          [OCTREE_NODE_PRUNED_POINT] = " wrongly pruned"};
+    return words[kind];
+}
+
+static void add_fault_label(scene *s, uint64_t id, const double at[3], octree_node_fault_kind kind, view_layer own)
+{
+    scene_label label = {.id = id, .in_world = true, .style = layer_style(own, STROKE_DASHED, 1)};
+    memcpy(label.at, at, sizeof label.at);
+    snprintf(label.text, sizeof label.text, "%s", short_words(kind));
+    scene_add_label(s, label);
+}
+
+/* Of a point that no node holds: no other marker of the layer is the same. */
+#define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
+
+static void add_lost_point(scene *s, const layer_source *in, const octree_node_fault *fault, view_layer own)
+{
+    octree_point point;
+    if (!octree_game_find(in->game, fault->point, &point))
+        return;
+    scene_add_mark(s, LOST_ELEMENT | point.id, point.position, SHAPE_CROSS, layer_style(own, STROKE_SOLID, 6));
+    add_fault_label(s, LOST_ELEMENT | point.id, point.position, fault->kind, own);
+}
+
+/* Each node once, with its first fault. */
+void add_foreign_faults(scene *s, const layer_source *in, view_layer own)
+{
+    const octree_foreign_state *foreign = &in->tick->foreign;
+    const scene_style style = layer_style(own, STROKE_DASHED, 2);
+    for (size_t i = 0, marked = 0; i < foreign->node_count && marked < OCTREE_LISTED_NODE_FAULTS; i++) {
+        const octree_foreign_place *place = &foreign->nodes[i];
+        octree_node_fault_kind kind = 0;
+        if (!place->faults)
+            continue;
+        while (!(place->faults >> kind & 1))
+            kind++;
+        marked++;
+        add_box(s, place, style);
+        add_fault_label(s, foreign_element(place->node->id), place->node->box.max, kind, own);
+    }
+    for (size_t i = 0; i < foreign->listed_count; i++)
+        if (foreign->listed[i].kind == OCTREE_NODE_LOST_POINT)
+            add_lost_point(s, in, &foreign->listed[i], own);
+}
+
+/* ---- In words ----------------------------------------------------------------------------------------------- */
+
+static const octree_foreign_place *find_place(const octree_foreign_state *foreign, uint64_t id)
+{
+    for (size_t i = 0; i < foreign->node_count; i++)
+        if (foreign->nodes[i].node->id == id)
+            return &foreign->nodes[i];
+    return NULL;
+}
+
+void say_foreign_node(description *d, uint64_t element)
+{
+    const octree_foreign_place *place = find_place(&d->tick->foreign, foreign_node_of(element));
+    say(d, "node %" PRIu64 " of the program", foreign_node_of(element));
+    if (!place)
+        return;
+    const octree_foreign_node *node = place->node;
+    d->subject->foreign = place;
+    say(d, ": %s at depth %u", place->leaf ? "leaf" : "inner node", place->depth);
+    if (node->kind[0])
+        say(d, " of kind \"%s\"", node->kind);
+    if (node->has_parent)
+        say(d, " under node %" PRIu64, node->parent);
+    say(d, ", %zu point%s listed, box ", place->points, plural(place->points));
+    say_box(d, &node->box);
+    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
+        if (place->faults >> kind & 1)
+            say(d, "; wrong: %s", octree_node_fault_words((octree_node_fault_kind)kind));
+}
+
+void say_foreign_fault(description *d, const described *element)
+{
+    const uint64_t id = element->id & ~LOST_ELEMENT;
+    octree_point point = {.id = id};
+    if (element->kind == SCENE_LABEL)
+        say(d, " on ");
+    if ((element->id & LOST_ELEMENT) != LOST_ELEMENT) {
+        say_foreign_node(d, element->id);
+        return;
+    }
+    octree_game_find(d->game, id, &point);
+    say_point(d, id, point.position);
+    say(d, ", which is in no node of the program");
+}
+
+const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_WORDS])
+{
+    const octree_node_fault *fault = foreign->listed;
+    char node[32] = "", point[32] = "";
+    *text = 0;
+    if (foreign->listed_count == 0)
+        return text;
+    snprintf(node, sizeof node, "node %" PRIu64 ": ", fault->node);
+    snprintf(point, sizeof point, " (%" PRIu64 ")", fault->point);
+    const bool has_node = fault->kind != OCTREE_NODE_LOST_POINT;
+    const bool has_point = fault->kind != OCTREE_NODE_OUTSIDE_PARENT && fault->kind != OCTREE_NODE_UNKNOWN_NODE;
+    snprintf(text, FOREIGN_WORDS, "%s%s%s", has_node ? node : "", octree_node_fault_words(fault->kind),
+             has_point ? point : "");
+    return text;
+}
