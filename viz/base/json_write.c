@@ -64,12 +64,10 @@ static void write_word(json_writer *writer, const char *word)
 
 /* ---- Strings ------------------------------------------------------------------------------------------------ */
 
-static void write_ascii(FILE *out, unsigned char c)
+static void write_escape(FILE *out, unsigned char c)
 {
     if (c == '"' || c == '\\')
-        putc('\\', out);
-    if (c >= ' ')
-        putc(c, out);
+        fprintf(out, "\\%c", c);
     else if (c == '\n')
         fputs("\\n", out);
     else if (c == '\t')
@@ -78,16 +76,29 @@ static void write_ascii(FILE *out, unsigned char c)
         fprintf(out, "\\u%04x", (unsigned)c);
 }
 
+/* How many characters, from here on, are written as they are. */
+static size_t count_plain(const unsigned char *at)
+{
+    size_t count = 0;
+    while (at[count] >= ' ' && at[count] < 0x80 && at[count] != '"' && at[count] != '\\')
+        count++;
+    return count;
+}
+
 static void write_quoted(FILE *out, const char *text)
 {
     const unsigned char *at = (const unsigned char *)text;
     putc('"', out);
     while (*at) {
+        const size_t plain = count_plain(at);
+        fwrite(at, 1, plain, out);
+        at += plain;
         if (*at < 0x80) {
-            write_ascii(out, *at++);
+            if (*at)
+                write_escape(out, *at++);
             continue;
         }
-        size_t length = utf8_length(at);
+        const size_t length = utf8_length(at);
         if (length > 0)
             fwrite(at, 1, length, out);
         else

@@ -65,11 +65,16 @@ static char *cut_lists(const char *text, size_t size, size_t *left)
     text_stream s;
     bool ok = text_stream_begin(&s);
     cutter c = {.out = s.stream};
+    size_t from = 0; /* of what is not written yet */
     for (size_t i = 0; ok && i < size; i++) {
+        const bool cut = c.cut;
         ok = pass_string(&c, text[i]) || pass_bracket(&c, text[i]);
-        if (!c.cut)
-            putc(text[i], c.out);
+        if (!cut && c.cut)
+            fwrite(text + from, 1, i - from, c.out);
+        from = cut && !c.cut ? i : from;
     }
+    if (ok && !c.cut)
+        fwrite(text + from, 1, size - from, c.out);
     if (text_stream_end(&s, &copy) && ok) {
         *left = s.size;
         return copy;
@@ -80,15 +85,23 @@ static char *cut_lists(const char *text, size_t size, size_t *left)
 
 /* ---- Facts -------------------------------------------------------------------------------------------------- */
 
-/* An object as one line of ASCII that ends nothing in a script element: '<' can only be in a string. */
+/* '<', which ends a script element, can only be in a string. */
+static void put_escaped(FILE *page, const char *text, size_t size)
+{
+    const char *end = text + size, *found;
+    for (; (found = memchr(text, '<', (size_t)(end - text))); text = found + 1) {
+        fwrite(text, 1, (size_t)(found - text), page);
+        fputs("\\u003c", page);
+    }
+    fwrite(text, 1, (size_t)(end - text), page);
+}
+
+/* An object as one line of ASCII. */
 static bool write_object(const json_t *object, FILE *page)
 {
     char *text = json_dumps(object, JSON_COMPACT | JSON_ENSURE_ASCII);
-    for (const char *at = text; at && *at; at++)
-        if (*at == '<')
-            fputs("\\u003c", page);
-        else
-            putc(*at, page);
+    if (text)
+        put_escaped(page, text, strlen(text));
     putc('\n', page);
     free(text);
     return text != NULL;
@@ -105,16 +118,6 @@ static bool write_facts(const char *text, size_t size, FILE *page, const char *p
     json_decref(object);
     free(cut);
     return ok || error_set(error, "%s:%ju: is no JSON object, so index.html cannot be written", path, line);
-}
-
-/* Written to a page that may hold '<' in its strings alone. */
-static void put_escaped(FILE *page, const char *text, size_t size)
-{
-    for (size_t i = 0; i < size; i++)
-        if (text[i] == '<')
-            fputs("\\u003c", page);
-        else
-            putc(text[i], page);
 }
 
 /* ---- A page ------------------------------------------------------------------------------------------------- */
