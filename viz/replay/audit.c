@@ -181,7 +181,8 @@ static bool play_session(const char *path, const octree_session *session, audit_
         if (report->kinds[kind].ratio_count > 1)
             qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_numbers);
     if (done && report->asked == 0 && !report->nodes.given)
-        return error_set(error, "%s: no query has an \"answer\", so there is nothing to judge", file_title(path));
+        return error_set(error, "%s: no query has an \"answer\" in a tick that is played, so there is nothing to judge",
+                         file_title(path));
     return done;
 }
 

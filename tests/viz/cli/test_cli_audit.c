@@ -237,7 +237,7 @@ static void sessions_without_answers_are_trouble(void **state)
 {
     const place session = write_session_text(state, START "{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0]}]}");
     command_result result = run_octreel(NULL, "audit %s", session.path);
-    assert_trouble(&result, "session.json: no query has an \"answer\"");
+    assert_trouble(&result, "session.json: no query has an \"answer\" in a tick that is played");
     result = run_octreel(NULL, "audit %s.none", session.path);
     assert_trouble(&result, "there is no such file");
 }
@@ -286,6 +286,13 @@ static void diff_names_the_answers_that_became_wrong(void **state)
     assert_non_null(strstr(result.out, "1 more wrong answer at tick 2; "));
     assert_non_null(
         strstr(result.out, "another judgement of the program's answer in the nearest query (farther, was none)"));
+    command_release(&result);
+    result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
+    json_t *all = json_read(result.out);
+    const json_t *more = json_object_get(json_object_get(json_object_get(all, "cause"), "wrong_answers"), "more");
+    assert_true(json_number_value(json_object_get(more, "count")) == 1);
+    assert_true(json_number_value(json_object_get(more, "first")) == 2);
+    json_decref(all);
     command_release(&result);
 }
 

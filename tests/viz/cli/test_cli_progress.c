@@ -123,6 +123,20 @@ static void reading_and_building_a_cloud_are_shown(void **state)
     }
 }
 
+/* What takes long without filming has its bar too. */
+static void an_audit_shows_its_ticks(void **state)
+{
+    const place session = place_in(*state, "session.json");
+    if (!command_has_terminals())
+        skip();
+    file_write_text(session.path, "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1]],"
+                                  "\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1]}],\"ticks\":9}\n");
+    command_result result = run_octreel(&(command_setting){.terminal = true}, "audit %s", session.path);
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.err, "10/10 ticks"));
+    command_release(&result);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -134,6 +148,7 @@ int main(void)
         IN_FOLDER(a_pipe_is_counted_by_large_blocks),
         IN_FOLDER(a_stream_is_counted),
         IN_FOLDER(reading_and_building_a_cloud_are_shown),
+        IN_FOLDER(an_audit_shows_its_ticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
