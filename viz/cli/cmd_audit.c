@@ -67,35 +67,25 @@ static void on_progress(uint64_t done, uint64_t total, void *context)
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
-static bool is_stdout(const char *path)
-{
-    return path && file_is_standard(path);
-}
-
-static const char *file_of(const char *path)
-{
-    return is_stdout(path) ? NULL : path;
-}
-
 /* The page's file; a folder holds it under its own name. Null where there is no memory. */
 static char *page_file(const char *html)
 {
     const file_kind kind = file_kind_of(html);
-    const bool folder = !is_stdout(html) && (kind == KIND_FOLDER || kind == KIND_RECORDING);
+    const bool folder = !file_is_standard(html) && (kind == KIND_FOLDER || kind == KIND_RECORDING);
     return folder ? path_join(html, AUDIT_PAGE) : strdup(html);
 }
 
 /* The folder that a file lies in; for standard output the current one. Null where there is no memory. */
 static char *folder_of(const char *file)
 {
-    const char *slash = is_stdout(file) ? NULL : strrchr(file, '/');
+    const char *slash = file_is_standard(file) ? NULL : strrchr(file, '/');
     return slash ? strndup(file, slash == file ? 1 : (size_t)(slash - file)) : strdup(".");
 }
 
 /* None may take the place of what is read, nor of another. */
 static bool check_files(const char *path, const char *page, const char *junit, octreel_error *error)
 {
-    const output_file outputs[] = {{"--html", file_of(page)}, {"--junit", file_of(junit)}};
+    const output_file outputs[] = {{"--html", page}, {"--junit", junit}};
     char *session = path_join(path, "session.json");
     bool ok = session ? outputs_apart(outputs, 2, error) : error_no_memory(error);
     for (int i = 0; ok && i < 2; i++)
@@ -117,7 +107,7 @@ static bool write_file(const char *path, printer *print, const audit_verdict *ve
 {
     file_writer file;
     char *from;
-    if (!path || is_stdout(path))
+    if (!path)
         return true;
     if (!file_writer_open(&file, path, error))
         return false;
@@ -130,13 +120,13 @@ static bool write_file(const char *path, printer *print, const audit_verdict *ve
     return file_writer_abandon(&file);
 }
 
-static bool print_verdict(const arguments *a, const audit_verdict *verdict, octreel_error *error)
+static void print_verdict(const arguments *a, const audit_verdict *verdict)
 {
-    const bool ok = a->json               ? audit_print_json(stdout, verdict)
-                    : is_stdout(a->junit) ? audit_print_junit(stdout, verdict)
-                    : is_stdout(a->html)  ? audit_print_page(stdout, verdict, ".")
-                                          : audit_print_text(stdout, verdict);
-    return ok || error_set(error, "there is no memory to print the verdict");
+    const output_file outputs[] = {{"--html", a->html}, {"--junit", a->junit}};
+    if (a->json)
+        audit_print_json(stdout, verdict);
+    else if (!is_standard_output_taken(outputs, 2))
+        audit_print_text(stdout, verdict);
 }
 
 /* ---- The command -------------------------------------------------------------------------------------------- */
@@ -147,16 +137,20 @@ static bool audit_to(const arguments *a, const char *path, const char *page, aud
     const bool done = check_files(path, page, a->junit, error) && audit_read(path, on_progress, &p, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_title(path), file_kind_of(path) == KIND_RECORDING, report, &a->limits};
-    return done && write_file(page, audit_print_page, &verdict, error) &&
-           write_file(a->junit, print_junit, &verdict, error) && print_verdict(a, &verdict, error);
+    if (!done || !write_file(page, audit_print_page, &verdict, error) ||
+        !write_file(a->junit, print_junit, &verdict, error))
+        return false;
+    print_verdict(a, &verdict);
+    return true;
 }
 
 static int audit_it(const arguments *a, const char *path)
 {
+    const output_file outputs[] = {{"--html", a->html}, {"--junit", a->junit}};
     audit_report report = {0};
     octreel_error error;
-    if (a->json + is_stdout(a->junit) + is_stdout(a->html) > 1)
-        return trouble("standard output has room for one report: give the others a file");
+    if (!check_standard_output(outputs, 2, a->json))
+        return EXIT_TROUBLE;
     char *page = a->html ? page_file(a->html) : NULL;
     if (a->html && !page)
         return trouble("there is no memory");

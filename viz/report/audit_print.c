@@ -135,7 +135,7 @@ void audit_print_nodes(FILE *out, const audit_nodes *nodes)
 
 /* ---- For people --------------------------------------------------------------------------------------------- */
 
-bool audit_print_text(FILE *out, const audit_verdict *v)
+void audit_print_text(FILE *out, const audit_verdict *v)
 {
     write_escaped(out, v->path, escape_nothing);
     fputs(": ", out);
@@ -163,7 +163,6 @@ bool audit_print_text(FILE *out, const audit_verdict *v)
         audit_print_limits(out, v->limits);
         putc('\n', out);
     }
-    return true;
 }
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
@@ -258,7 +257,7 @@ static void write_limits(json_writer *w, const audit_limits *limits)
     json_write_end_object(w);
 }
 
-bool audit_print_json(FILE *out, const audit_verdict *v)
+void audit_print_json(FILE *out, const audit_verdict *v)
 {
     json_writer writer = {.out = out}, *w = &writer;
     const audit_report *report = v->report;
@@ -278,5 +277,4 @@ bool audit_print_json(FILE *out, const audit_verdict *v)
     write_nodes(w, &report->nodes);
     json_write_end_object(w);
     json_write_end_line(w);
-    return true;
 }

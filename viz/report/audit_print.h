@@ -15,18 +15,17 @@ typedef struct audit_verdict {
     const audit_limits *limits;
 } audit_verdict;
 
-/* All write to a stream whose errors stay with it; false where there is no memory. */
+/* A line for the whole and for each kind, and below each kind its worst cases; or one JSON object on one line. Errors
+ * stay with the stream, as below. */
+void audit_print_text(FILE *out, const audit_verdict *verdict);
+void audit_print_json(FILE *out, const audit_verdict *verdict);
 
-/* A line for the whole and for each kind, and below each kind its worst cases; or one JSON object on one line. */
-bool audit_print_text(FILE *out, const audit_verdict *verdict);
-bool audit_print_json(FILE *out, const audit_verdict *verdict);
-
-/* JUnit's XML: a test case for each kind of query, and one for the nodes. */
+/* JUnit's XML: a test case for each kind of query, and one for the nodes. False where there is no memory. */
 bool audit_print_junit(FILE *out, const audit_verdict *verdict);
 
 /* One page of HTML that loads nothing: recall and ratio over the ticks, where each point leads to its frame, and the
  * worst cases. Links go from the folder `from`, in which the page lies, to the recording. Charts have AUDIT_PAGE_POINTS
- * points at most, each the worst of its ticks. */
+ * points at most, each the worst of its ticks. False where there is no memory. */
 #define AUDIT_PAGE "audit.html"
 #define AUDIT_PAGE_POINTS 400
 bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from);
