@@ -24,6 +24,22 @@ static void check_cloud(const cloud *cloud)
                 abort();
 }
 
+/* Each value is a row of the file; intensities are finite; and what a full channel is is said where there are colours.
+ */
+static void check_values(const cloud *cloud)
+{
+    const point_values *v = &cloud->values;
+    const bool known = cloud->color_full == 1 || cloud->color_full == 255 || cloud->color_full == 65535;
+    if (v->ids || v->first != 0 || v->count > cloud->count + cloud->skipped ||
+        (v->count > 0) != (point_values_kinds(v) > 0))
+        abort();
+    if ((v->colors && !known) || (!v->colors && cloud->color_full != 0))
+        abort();
+    for (size_t row = 0; row < v->count; row++)
+        if (point_values_has(v, row, POINT_INTENSITY) && !isfinite(v->intensities[row]))
+            abort();
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const char *const names[] = {"fuzz", "fuzz.ply", "fuzz.pcd", "fuzz.las"};
@@ -31,10 +47,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     octreel_error error = {""};
     if (size == 0)
         return 0;
-    if (cloud_parse(names[data[0] % 4], data + 1, size - 1, &cloud, &error))
+    const bool parsed = cloud_parse(names[data[0] % 4], data + 1, size - 1, &cloud, &error);
+    if (parsed) {
         check_cloud(&cloud);
-    else if (error.text[0] == '\0' || cloud.positions || cloud.count > 0 || cloud.skipped > 0)
+        check_values(&cloud);
+    } else if (error.text[0] == '\0' || cloud.positions || cloud.count > 0 || cloud.skipped > 0) {
         abort();
+    }
     cloud_release(&cloud);
     return 0;
 }

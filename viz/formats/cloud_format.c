@@ -248,6 +248,8 @@ void cloud_note_lines(const cloud_file *file, cloud_lines *lines)
 uint64_t cloud_bits_read(unsigned size, bool big_endian, const unsigned char *bytes)
 {
     uint64_t bits = 0;
+    if (size == 4 && !big_endian) /* most of them: one load */
+        return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
     for (unsigned i = 0; i < size; i++)
         bits = bits << 8 | bytes[big_endian ? i : size - 1 - i];
     return bits;

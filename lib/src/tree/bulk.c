@@ -282,12 +282,24 @@ static bool build_children(bulk *b, const node *old, cell c, morton_item *items,
     return true;
 }
 
+/* Whether no two items can be the same point, as where ids are counted: then they need not be looked up. */
+static bool ids_ascend(const bulk *b, const morton_item *items, size_t count)
+{
+    for (size_t i = 1; i < count; i++)
+        if (point_of(b, &items[i])->id <= point_of(b, &items[i - 1])->id)
+            return false;
+    return true;
+}
+
 /* Keep the first of each pair among items of one code, which are in the caller's order. *kept receives how many are
  * left. False when there is no memory. */
 static bool drop_repeated(bulk *b, morton_item *items, size_t count, size_t *kept)
 {
     store *st = &b->tree->store;
     node seen;
+    *kept = count;
+    if (ids_ascend(b, items, count))
+        return true;
     bool ok = leaf_create(st, &seen, (uint32_t)count);
     for (size_t i = 0; ok && i < count; i++) {
         const octree_point *point = point_of(b, &items[i]);

@@ -220,6 +220,38 @@ static void points_that_were_skipped_are_told_with_the_reason(void **state)
     inspect_release(&made);
 }
 
+static void assert_prints(const inspection *made, bool json, const char *part)
+{
+    char text[8192] = "";
+    FILE *out = fmemopen(text, sizeof text, "w");
+    assert_non_null(out);
+    inspect_print(made, "cloud", json, out);
+    assert_int_equal(fclose(out), 0);
+    if (!strstr(text, part))
+        fail_msg("%s\nhas not %s", text, part);
+}
+
+static void values_of_the_points_are_told(void **state)
+{
+    static const char text[] =
+        "x y z r g b intensity class\n1 2 3 0 0 255 -7.5 6\n4 5 6 1 2 3 none 2\n7 8 9 0 0 0 65535 6\n";
+    const octree_def def = define(cube(-10, 10), 2, 3, OCTREE_GROW);
+    cloud c;
+    inspection made;
+    octreel_error error = {""};
+    (void)state;
+    assert_true(cloud_parse("a.xyz", (const unsigned char *)text, sizeof text - 1, &c, &error));
+    assert_true(inspect_build(&c, &def, &made, &error));
+    assert_int_equal(c.values.count, 0); /* the inspection has them */
+    cloud_release(&c);
+    assert_prints(&made, false, "\n  values    color 0-255; intensity -7.5 to 65535 of 2 points; classes 2, 6\n");
+    assert_prints(&made, true,
+                  "\"values\": {\"color\": {\"points\": 3, \"full\": 255}, \"intensity\": {\"points\": 2, \"min\": "
+                  "-7.5, \"max\": 65535}, \"class\": {\"points\": 3, \"classes\": [{\"class\": 2, \"points\": 1}, "
+                  "{\"class\": 6, \"points\": 2}]}}");
+    inspect_release(&made);
+}
+
 static void definition_that_a_tree_refuses_is_an_error(void **state)
 {
     double positions[1][3] = {{0, 0, 0}};
@@ -246,6 +278,7 @@ int main(void)
         cmocka_unit_test(worlds_of_random_extents_hold_their_points),
         cmocka_unit_test(points_are_stored_refused_or_outside),
         cmocka_unit_test(points_that_were_skipped_are_told_with_the_reason),
+        cmocka_unit_test(values_of_the_points_are_told),
         cmocka_unit_test(definition_that_a_tree_refuses_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
