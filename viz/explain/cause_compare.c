@@ -238,7 +238,7 @@ static void compare_asked(const cause_place *place, const char *where, json_t *a
 static bool is_value(const char *where, const json_t *value)
 {
     const size_t length = strlen(where);
-    return json_object_get(value, "min") || json_object_get(value, "visited") ||
+    return json_object_get(value, "min") || strcmp(where, "visits") == 0 ||
            (length >= 4 && strcmp(where + length - 4, "cost") == 0);
 }
 

@@ -52,6 +52,7 @@ static const phrase phrases[] = {
     {"edits", "edit", PLAIN},
     {"queries", "query", .plural = "queries", EVERY},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
+    {"nodes", "node of the program", .plural = "nodes of the program"},
     /* Views; the nouns of their options are in view_options.c. */
     {"every", "interval of frames", PLAIN},
     /* Trees. */
@@ -82,6 +83,15 @@ static const phrase phrases[] = {
      MINOR},
     {"answers.judged.rank", "first wrong rank", MINOR},
     {"answers.judged.ratio", "ratio of distances", .plural = "ratios of distances", MINOR},
+    {"program_nodes.count", "number of the program's nodes", MINOR},
+    {"program_nodes.leaves", "number of the program's leaves", MINOR},
+    {"program_nodes.depth", "depth of the program's tree", MINOR},
+    {"program_nodes.digest", "tree of the program", MINOR},
+    {"program_nodes.visited", "number of the program's nodes visited", MINOR},
+    {"program_nodes.pruned", "number of the program's nodes pruned", MINOR},
+    {"program_nodes.hit", "number of the program's nodes hit", MINOR},
+    {"program_nodes.wrong.count", "number of faults in the program's nodes", MINOR},
+    {"program_nodes.wrong.first", "fault in the program's nodes", .plural = "faults in the program's nodes"},
     {"refusals", "refusal", PLAIN},
     {"splits", "node", .added = "split at this tick", .gone = "not split at this tick", MINOR},
     {"merges", "node", .added = "merged at this tick", .gone = "not merged at this tick", MINOR},
@@ -91,7 +101,7 @@ static const phrase phrases[] = {
     {"heat", "heat of the ticks before", MINOR},
 };
 
-/* Of answers, members without a row (positions, distances, costs) are minor. */
+/* Of answers, members without a row (positions, distances, costs) are minor, as are the counts of faults of nodes. */
 static phrase phrase_of(const cause_group *group)
 {
     const size_t count = sizeof phrases / sizeof *phrases;
@@ -104,8 +114,10 @@ static phrase phrase_of(const cause_group *group)
             return (phrase){.where = group->where, .noun = option->noun};
     }
     const char *last = strrchr(group->where, '.');
-    const bool answer = *group->query != 0;
-    return (phrase){.where = group->where, .noun = last && answer ? last + 1 : group->where, .minor = answer};
+    const bool answer = *group->query != 0, counted = strncmp(group->where, "program_nodes.wrong.", 20) == 0;
+    return (phrase){.where = group->where,
+                    .noun = last && (answer || counted) ? last + 1 : group->where,
+                    .minor = answer || counted};
 }
 
 static const char *verb_of(const phrase *p, cause_change change)
@@ -337,7 +349,11 @@ static void print_many(FILE *out, const phrase *p, const cause_group *group, boo
     fprintf(out, "%" PRIu64 " %s%s%s", group->found, words[group->change], p->plural ? p->plural : p->noun,
             p->plural ? "" : "s");
     print_query(out, group);
-    fputs(first->id != CAUSE_NO_ID ? " (points " : first->tick != CAUSE_NO_TICK ? " (ticks " : " (", out);
+    const bool of_nodes = strcmp(group->where, "nodes") == 0;
+    fputs(first->id != CAUSE_NO_ID       ? of_nodes ? " (nodes " : " (points "
+          : first->tick != CAUSE_NO_TICK ? " (ticks "
+                                         : " (",
+          out);
     print_subjects(out, group, brief);
     fputc(')', out);
 }

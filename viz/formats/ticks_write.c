@@ -254,12 +254,11 @@ static void write_node_fault(json_writer *w, const octree_node_fault *fault)
     json_write_end_object(w);
 }
 
-/* How many there are of each kind, and the first of them. */
+/* How many there are, of each kind, and the first of them. */
 static void write_node_faults(json_writer *w, const octree_foreign_state *foreign)
 {
-    if (foreign->fault_count == 0)
-        return;
     json_member_begin_object(w, "wrong");
+    json_member_integer(w, "count", foreign->fault_count);
     for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
         if (foreign->faults[kind])
             json_member_integer(w, octree_node_fault_name((octree_node_fault_kind)kind), foreign->faults[kind]);
@@ -316,7 +315,7 @@ static const json_member line_members[] = {
     {"hit_cost", &json_structure, .offset = offsetof(octree_tick, hit_cost), .members = cost_members},
     {"answers", JSON_CODEC(NULL, write_answers, NULL), .offset = 0},
     {"visits", &json_structure, .offset = 0, .members = visit_members},
-    {"nodes", JSON_CODEC(NULL, write_foreign, has_foreign), .offset = 0},
+    {"program_nodes", JSON_CODEC(NULL, write_foreign, has_foreign), .offset = 0},
     {"refusals", JSON_CODEC(NULL, write_refusals, NULL), .offset = 0},
     {"splits", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, splits)},
     {"merges", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, merges)},

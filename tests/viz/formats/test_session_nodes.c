@@ -142,13 +142,13 @@ static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
         ",\"points\":[1,2,3]") "],"
                                "\"queries\":[{\"nearest\":[4,0,0],\"visited\":[9],\"pruned\":[4,5]}]}");
     char *text = write_tick(&file.session);
-    const char *at = strstr(text, "\"nodes\": {\"count\": 2, \"leaves\": 1, \"depth\": 1, \"digest\": \"");
+    const char *at = strstr(text, "\"program_nodes\": {\"count\": 2, \"leaves\": 1, \"depth\": 1, \"digest\": \"");
     assert_non_null(at);
     assert_non_null(strstr(text, "\"events\": [\"wrong\"]"));
     at = strstr(at, "\", \"visited\": 1");
     assert_non_null(at);
     static const char rest[] =
-        "\", \"visited\": 1, \"pruned\": 1, \"hit\": 0, \"wrong\": {\"unknown_point\": 1, \"outside_point\": 1, "
+        "\", \"visited\": 1, \"pruned\": 1, \"hit\": 0, \"wrong\": {\"count\": 4, \"unknown_point\": 1, \"outside_point\": 1, "
         "\"unknown_node\": 1, \"pruned_point\": 1, \"first\": ["
         "{\"fault\": \"outside_point\", \"node\": 4, \"point\": 1}, "
         "{\"fault\": \"unknown_point\", \"node\": 4, \"point\": 3}, "
@@ -159,7 +159,7 @@ static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
     free(text);
     file.session.foreign_count = 0;
     text = write_tick(&file.session);
-    assert_null(strstr(text, "\"nodes\": {\"count\""));
+    assert_null(strstr(text, "\"program_nodes\": {\"count\""));
     file.session.foreign_count = 1;
     free(text);
     session_release(&file);
