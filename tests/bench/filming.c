@@ -126,6 +126,7 @@ static bool film_in_parts(work *w, playback *p)
     w->result->draw_ms = spent[0] / frames;
     w->result->encode_ms = spent[1] / frames;
     w->result->floor_ms = spent[2] / frames;
+    w->result->frame_ms = w->result->draw_ms + w->result->encode_ms;
     free(again);
     return ok;
 }
@@ -238,8 +239,8 @@ static uint64_t count_ticks(const filming_order *order)
 static void do_work(const filming_order *order, double started, int result_end)
 {
     static bool (*const films[FILM_KINDS])(work *) = {
-        [FILM_NAIVE] = film_naive,      [FILM_OCTREEL] = film_octreel, [FILM_ASKED] = film_octreel,
-        [FILM_ANSWERED] = film_octreel, [FILM_PARTS] = film_parts,     [FILM_PAGE] = film_page};
+        [FILM_NAIVE] = film_naive, [FILM_OCTREEL] = film_octreel, [FILM_PARTS] = film_parts,
+        [FILM_ASKED] = film_parts, [FILM_ANSWERED] = film_parts,  [FILM_PAGE] = film_page};
     filming result = {0};
     filmed_session made;
     work w = {.order = order, .result = &result, .started = started, .apart = 1};

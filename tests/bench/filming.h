@@ -8,9 +8,9 @@
 typedef enum filming_who {
     FILM_NAIVE,    /* see naive.h: one process, one thread */
     FILM_OCTREEL,  /* film_session(), by as many processes as asked for */
+    FILM_PARTS,    /* what Octreel does for a frame, part by part: one process */
     FILM_ASKED,    /* the same, with the scene's queries */
     FILM_ANSWERED, /* which a program has answered */
-    FILM_PARTS,    /* what Octreel does for a frame, part by part: one process */
     FILM_PAGE,     /* the page of a recording, see page_timing.h: frames are drawn, and none is written */
     FILM_KINDS
 } filming_who;
@@ -27,7 +27,7 @@ typedef struct filming_order {
 /* Milliseconds; what a kind does not measure is 0. */
 typedef struct filming {
     double first_ms;           /* from the start of the process until its first frame is written */
-    double frame_ms;           /* a frame, by the clock on the wall, start-up apart */
+    double frame_ms;           /* a frame, by the clock on the wall, start-up apart; in parts: of a processor */
     double draw_ms, encode_ms; /* of a processor, the two parts of a frame: all up to its pixels, and its file */
     double floor_ms;           /* of a processor: what the encoder alone takes for these pixels */
     double mib;                /* the most memory of the process, or of the largest where there are several */
