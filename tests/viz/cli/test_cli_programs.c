@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_programs.c - programs in Python and JavaScript are filmed while they print their sessions, and their answers
- * are audited: those of tests/examples. */
+/* test_cli_programs.c - programs in Python, JavaScript and awk are filmed while they print their sessions, and their
+ * answers are audited: those of tests/examples. */
 #include <stdio.h>
 #include <string.h>
 
@@ -88,6 +88,19 @@ static void both_programs_print_the_same_session(void **state)
     assert_same_files(a.path, b.path);
 }
 
+/* The session that viz/demo films: the same from every awk, and nodes split and merge in nearly all of its 240 ticks.
+ */
+static void the_hunt_is_the_same_from_every_awk(void **state)
+{
+    const shell_word path = shell_quote(OCTREEL_EXAMPLES);
+    const place film = place_in(*state, "film");
+    command_result result =
+        run_script("awk -f %1$s/hunt.awk | %2$s record - --no-frames -o %3$s", path.text, octreel_program(), film.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "moved 113, refused 0, collided 127, full 0, split 238, merged 237\n"));
+    command_release(&result);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -95,7 +108,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(answers_of_a_python_program_are_right),     IN_FOLDER(a_stale_index_in_python_is_found),
         IN_FOLDER(answers_of_a_javascript_program_are_right), IN_FOLDER(a_stale_index_in_javascript_is_found),
-        IN_FOLDER(both_programs_print_the_same_session),
+        IN_FOLDER(both_programs_print_the_same_session),      IN_FOLDER(the_hunt_is_the_same_from_every_awk),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
