@@ -69,14 +69,14 @@ static int fan(const polygon *p, const quad *of, quad pieces[CLIP_PIECES])
     return count;
 }
 
-int clip_quad(const quad *q, int32_t limit, quad pieces[CLIP_PIECES])
+int clip_quad(const quad *q, const int32_t limits[2], quad pieces[CLIP_PIECES])
 {
     polygon p = {.count = 0};
     for (int i = 0; i < 4; i++)
         add_corner(&p, q->x[i], q->y[i]);
     for (int axis = 0; axis < 2; axis++) {
         keep_side(&p, axis, 1, 0);
-        keep_side(&p, axis, -1, limit);
+        keep_side(&p, axis, -1, limits[axis]);
     }
     return fan(&p, q, pieces);
 }

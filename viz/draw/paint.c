@@ -17,6 +17,9 @@ void painter_release(painter *p)
     free(p->nearest);
     free(p->places);
     splats_release(&p->splats);
+    if (p->closeup)
+        painter_release(p->closeup);
+    free(p->closeup);
     memset(p, 0, sizeof *p);
 }
 
@@ -54,7 +57,7 @@ static void paint_segments(painter *p, const scene *s, bool in_picture)
 
 static bool paint_boxes(painter *p, const scene *s)
 {
-    if (!edges_merge(&p->tree, s, 0, LAYER_NODES + 1) || !edges_merge(&p->edges, s, LAYER_NODES + 1, LAYER_DIAGRAM + 1))
+    if (!edges_merge(&p->tree, s, 0, LAYER_NODES + 1) || !edges_merge(&p->edges, s, LAYER_NODES + 1, LAYER_ALL))
         return false;
     for (size_t i = 0; i < paint_edge_count(p); i++) {
         const edge *e = paint_edge_at(p, i);
@@ -160,12 +163,34 @@ static bool paint_points(painter *p, const scene *s)
     return true;
 }
 
+/* A close-up is clipped to its part of the picture. */
+static void set_limits(quad_list *list, const scene *s)
+{
+    const int square = clip_square(s->view.width, s->view.height);
+    const bool is_closeup = s->times > 0;
+    list->limits[0] = (is_closeup ? s->view.width : square) * QUAD_SUBPIXELS;
+    list->limits[1] = (is_closeup ? s->view.height : square) * QUAD_SUBPIXELS;
+}
+
+static bool paint_closeup(painter *p, const scene *s)
+{
+    const scene closer = project_samples(s->closeup);
+    const int subpixels = QUAD_SUBPIXELS * view_samples(&closer.view);
+    p->closeup = p->closeup ? p->closeup : calloc(1, sizeof *p->closeup);
+    if (!p->closeup || !paint(p->closeup, s->closeup))
+        return false;
+    if (view_paints_points(&s->view))
+        splats_put_closeup(&p->splats, s, &p->closeup->splats, &closer);
+    return quads_put_closeup(&p->quads, &p->closeup->quads,
+                             (int32_t[]){closer.place[0] * subpixels, closer.place[1] * subpixels});
+}
+
 bool paint(painter *p, const scene *picture)
 {
     const scene fine = project_samples(picture), *s = &fine;
     p->quads.count = 0;
     p->quads.out_of_memory = false;
-    p->quads.limit = clip_square(s->view.width, s->view.height) * QUAD_SUBPIXELS;
+    set_limits(&p->quads, s);
     p->overflowed = 0;
     if (!paint_boxes(p, s) ||
         !(view_paints_points(&s->view) ? splats_paint(&p->splats, &p->quads, s) : paint_points(p, s)))
@@ -187,5 +212,5 @@ bool paint(painter *p, const scene *picture)
         quads_begin(&p->quads, SCENE_LABEL, i);
         letters_add(&p->quads, s, &s->labels.items[i]);
     }
-    return !p->quads.out_of_memory && quads_sort(&p->quads);
+    return !p->quads.out_of_memory && quads_sort(&p->quads) && (!s->has_closeup || paint_closeup(p, s));
 }

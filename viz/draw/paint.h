@@ -16,8 +16,9 @@ typedef struct painter {
     size_t pixels;
     struct point_place *places; /* where each point is drawn */
     size_t place_room;
-    splats splats;     /* points that are painted one by one */
-    size_t overflowed; /* elements of the last scene that are too far away for doubles, and so not drawn */
+    splats splats;           /* points that are painted one by one */
+    size_t overflowed;       /* elements of the last scene that are too far away for doubles, and so not drawn */
+    struct painter *closeup; /* of the scene's close-up; null until there is one */
 } painter;
 
 void painter_release(painter *p);

@@ -3,6 +3,8 @@
  * the picture. For one pixel, the quads that may cover it are drawn one by one. */
 #include "pixel.h"
 #include "array.h"
+#include "edge_boxes.h"
+#include "layer.h"
 #include "paint.h"
 #include "project.h"
 
@@ -10,179 +12,71 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The boxes that lie on a merged edge ---------------------------------------------------------------------
- *
- * An edge is one stroke for all boxes that share it. To find these at a sample, the sample is mapped back to a place on
- * the line. The map from a line to its projection is a quotient of linear functions, and so is its inverse.
- */
+/* ---- The scene and its close-up ------------------------------------------------------------------------------ */
 
-/* One edge of one box. */
-typedef struct box_edge {
-    line_key line;
-    double from, to;
-    uint32_t box;
-    uint8_t depth;
-} box_edge;
+/* A scene that is painted. Its strokes, which are merged edges and all elements but boxes, are numbered from 1 on as
+ * its elements are, and those of a close-up after them. */
+typedef struct source {
+    const scene *scene;
+    const painter *painter;
+    scene fine; /* in samples */
+    edge_boxes boxes;
+    uint64_t strokes;        /* how many there are */
+    uint64_t strokes_before; /* those of the scene, for its close-up */
+    uint32_t elements_before;
+    int left, top; /* where it begins, in samples of the picture */
+} source;
 
-/* The edges of all boxes of a scene, sorted by the lines that they lie on. */
-typedef struct edge_boxes {
-    const scene *scene; /* in samples; must outlive this */
-    box_edge *items;
-    size_t count;
-} edge_boxes;
+/* The second is empty without a close-up. */
+typedef struct sources {
+    source of[2];
+} sources;
 
-static int compare_edges(const void *a, const void *b)
+static void sources_release(sources *s)
 {
-    const box_edge *p = a, *q = b;
-    const int lines = line_key_compare(&p->line, &q->line);
-    if (lines)
-        return lines;
-    const int from = compare_doubles(p->from, q->from);
-    return from ? from : (p->box > q->box) - (p->box < q->box);
+    for (int i = 0; i < 2; i++)
+        edge_boxes_release(&s->of[i].boxes);
 }
 
-static box_edge edge_of(const scene_box *box, size_t index, unsigned axis, unsigned corner)
+/* False when there is no memory. */
+static bool open_source(source *from, const scene *s, const painter *p)
 {
-    return (box_edge){
-        .line = line_key_of(box, axis, corner),
-        .from = box->box.min[axis],
-        .to = box->box.max[axis],
-        .box = (uint32_t)index,
-        .depth = box->depth,
-    };
+    const int samples = view_samples(&s->view);
+    from->scene = s;
+    from->painter = p;
+    from->fine = project_samples(s);
+    from->strokes = paint_edge_count(p) + scene_count(s) - s->boxes.count;
+    from->left = s->place[0] * samples;
+    from->top = s->place[1] * samples;
+    return edge_boxes_make(&from->boxes, &from->fine);
 }
 
-static bool edge_boxes_make(edge_boxes *all, const scene *s)
+/* `all` must stay where it is. */
+static bool sources_open(sources *all, const scene *s, const painter *p)
 {
-    *all = (edge_boxes){.scene = s};
-    const size_t size = 12 * sizeof *all->items;
-    if (s->boxes.count == 0)
-        return true;
-    all->items = s->boxes.count <= SIZE_MAX / size ? malloc(s->boxes.count * size) : NULL;
-    if (!all->items)
+    source *close = &all->of[1];
+    *all = (sources){0};
+    if (!open_source(&all->of[0], s, p) || (s->has_closeup && !open_source(close, s->closeup, p->closeup)))
         return false;
-    for (size_t i = 0; i < s->boxes.count; i++) {
-        const scene_box *box = &s->boxes.items[i];
-        const size_t before = all->count;
-        for (unsigned axis = 0; axis < 3; axis++)
-            for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
-                all->items[all->count++] = edge_of(box, i, axis, corner);
-        if (all->count == before) /* a dot */
-            all->items[all->count++] = edge_of(box, i, 0, 0);
-    }
-    qsort(all->items, all->count, sizeof *all->items, compare_edges);
+    close->strokes_before = all->of[0].strokes;
+    close->elements_before = (uint32_t)scene_count(s);
     return true;
 }
 
-static void edge_boxes_release(edge_boxes *all)
+static source *source_of(sources *all, const quad *q)
 {
-    free(all->items);
-    *all = (edge_boxes){0};
+    return &all->of[q->kind >= QUAD_IN_CLOSEUP];
 }
 
-/* A merged edge as it was painted. */
-typedef struct stroke {
-    const edge *edge;
-    line_key line;
-    double from, to;
-    double seen[2][3]; /* of the ends, in camera coordinates */
-    int across;        /* the picture's axis that the stroke is longer on */
-    bool speck;        /* too small on screen to tell places on the line apart */
-} stroke;
-
-static stroke stroke_of(const scene *s, const edge *e)
+/* What a quad is a part of; of a box, where the index is that of an edge, with this index. */
+static scene_element element_of(const quad *q, size_t index)
 {
-    unsigned axis = 0;
-    while (axis < 2 && e->ends[0][axis] == e->ends[1][axis])
-        axis++;
-    if (e->ends[0][axis] == e->ends[1][axis])
-        axis = 0;
-    stroke k = {
-        .edge = e, .line = line_key_at(e->style, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
-    piece pieces[QUAD_BANDS];
-    bool overflowed;
-    const unsigned count = project_segment(s, e->ends[0], e->ends[1], pieces, &overflowed);
-    if (count == 0) {
-        k.speck = true;
-        return k;
-    }
-    const double dx = fabs(pieces[count - 1].to[0] - pieces[0].from[0]);
-    const double dy = fabs(pieces[count - 1].to[1] - pieces[0].from[1]);
-    k.speck = dx < 1 && dy < 1;
-    k.across = dy > dx;
-    for (int end = 0; end < 2; end++)
-        camera_transform(&s->camera, e->ends[end], k.seen[end]);
-    return k;
+    return (scene_element){(scene_kind)(q->kind % QUAD_IN_CLOSEUP), index, q->kind >= QUAD_IN_CLOSEUP};
 }
 
-/* The place on the line that is seen at a coordinate of the picture, within the edge. */
-static double place_at(const scene *s, const stroke *k, double pixel)
+static bool is_edge(const quad *q)
 {
-    const camera *c = &s->camera;
-    const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
-    double off[2]; /* distance of each end from the plane through the eye and this coordinate */
-    for (int end = 0; end < 2; end++)
-        off[end] = k->seen[end][k->across] - slope * (c->perspective ? k->seen[end][2] : 1);
-    const double part = off[0] / (off[0] - off[1]);
-    if (!(part > 0))
-        return k->from;
-    return part < 1 ? k->from * (1 - part) + k->to * part : k->to;
-}
-
-/* The first edge of a box on a line, or where it would be. */
-static size_t first_on(const edge_boxes *all, const line_key *wanted)
-{
-    size_t low = 0, high = all->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (line_key_compare(&all->items[middle].line, wanted) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static bool is_on(const edge_boxes *all, size_t i, const stroke *k)
-{
-    return i < all->count && line_key_compare(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
-}
-
-static double distance(const box_edge *of, double at)
-{
-    return at < of->from ? of->from - at : at > of->to ? at - of->to : 0;
-}
-
-/* The index of the box that gives an edge of edges_merge() its colour at a sample. */
-static size_t edge_boxes_owner(const edge_boxes *all, const edge *e, int x, int y)
-{
-    const stroke k = stroke_of(all->scene, e);
-    const double at = k.speck ? k.from : place_at(all->scene, &k, (k.across ? y : x) + 0.5);
-    const box_edge *best = NULL;
-    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++) {
-        const box_edge *found = &all->items[i];
-        const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].style.role == e->style.role;
-        if (gives && found->to >= k.from && (!best || distance(found, at) < distance(best, at)))
-            best = found;
-    }
-    return best->box; /* not null: an edge consists of the edges of boxes */
-}
-
-/* All boxes that have an edge where this one passes through a sample, the owner among them; some twice. */
-static void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y,
-                             void (*visit)(size_t box, void *context), void *context)
-{
-    const stroke k = stroke_of(all->scene, e);
-    double low = k.from, high = k.to;
-    if (!k.speck) {
-        const int pixel = k.across ? y : x;
-        const double ends[2] = {place_at(all->scene, &k, pixel), place_at(all->scene, &k, pixel + 1)};
-        low = fmin(ends[0], ends[1]);
-        high = fmax(ends[0], ends[1]);
-    }
-    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++)
-        if (all->items[i].from <= high && all->items[i].to >= low)
-            visit(all->items[i].box, context);
+    return q->kind % QUAD_IN_CLOSEUP == SCENE_BOX;
 }
 
 /* ---- The element at each sample ------------------------------------------------------------------------------ */
@@ -202,26 +96,27 @@ static bool fill_all(renderer *r, const scene *s, const painter *p, uint8_t *sam
 }
 
 /* Quads are numbered as elements are, with the merged edges in the place of the boxes. */
-static uint64_t stroke_number(const scene *s, const painter *p, const quad *q)
+static uint64_t stroke_number(sources *all, const quad *q)
 {
-    if (q->kind == SCENE_BOX)
-        return 1 + (uint64_t)q->index;
-    return (uint64_t)scene_number_of(s, (scene_element){(scene_kind)q->kind, q->index}) - s->boxes.count +
-           paint_edge_count(p);
+    const source *from = source_of(all, q);
+    const scene_kind kind = element_of(q, 0).kind;
+    if (kind == SCENE_BOX)
+        return from->strokes_before + 1 + q->index;
+    return from->strokes_before + scene_number_of(from->scene, (scene_element){.kind = kind, .index = q->index}) -
+           from->scene->boxes.count + paint_edge_count(from->painter);
 }
 
 /* The framebuffer holds one byte a sample: the quads are drawn once for each byte of the largest number. */
-static bool draw_strokes(renderer *r, const scene *s, painter *p, uint32_t *numbers, octreel_error *error)
+static bool draw_strokes(renderer *r, const scene *s, painter *p, sources *all, uint32_t *numbers, octreel_error *error)
 {
     const size_t size = count_samples(s);
-    const uint64_t largest =
-        paint_edge_count(p) + s->segments.count + s->markers.count + s->panels.count + s->labels.count;
+    const uint64_t largest = all->of[0].strokes + all->of[1].strokes;
     uint8_t *bytes = largest <= UINT32_MAX ? malloc(size) : NULL;
     bool ok = bytes || error_no_memory(error);
     memset(numbers, 0, size * sizeof *numbers);
     for (unsigned shift = 0; ok && shift < 32 && largest >> shift; shift += 8) {
         for (size_t i = 0; i < p->quads.count; i++)
-            p->quads.items[i].color = (uint8_t)(stroke_number(s, p, &p->quads.items[i]) >> shift);
+            p->quads.items[i].color = (uint8_t)(stroke_number(all, &p->quads.items[i]) >> shift);
         ok = fill_all(r, s, p, bytes, error);
         for (size_t i = 0; ok && i < size; i++)
             numbers[i] |= (uint32_t)bytes[i] << shift;
@@ -230,24 +125,26 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, uint32_t *numb
     return ok;
 }
 
-/* Replace the numbers of strokes by those of elements. */
-static bool name_boxes(const scene *s, const painter *p, uint32_t *numbers, octreel_error *error)
+/* The number, in its scene, of the element of a stroke at a sample. */
+static uint32_t name_stroke(const source *from, uint32_t stroke, int x, int y)
 {
-    const scene fine = project_samples(s);
-    const size_t width = (size_t)fine.view.width, size = count_samples(s);
-    const uint32_t edges = (uint32_t)paint_edge_count(p);
-    edge_boxes boxes;
-    if (!edge_boxes_make(&boxes, &fine))
-        return error_no_memory(error);
+    const uint32_t edges = (uint32_t)paint_edge_count(from->painter);
+    if (stroke > edges)
+        return stroke - edges + (uint32_t)from->scene->boxes.count;
+    return 1 + (uint32_t)edge_boxes_owner(&from->boxes, paint_edge_at(from->painter, stroke - 1), x - from->left,
+                                          y - from->top);
+}
+
+/* Replace the numbers of strokes by those of elements. */
+static void name_strokes(const scene *s, const sources *all, uint32_t *numbers)
+{
+    const size_t width = (size_t)s->view.width * (size_t)view_samples(&s->view), size = count_samples(s);
     for (size_t i = 0; i < size; i++) {
-        if (numbers[i] > edges)
-            numbers[i] = numbers[i] - edges + (uint32_t)s->boxes.count;
-        else if (numbers[i] > 0)
-            numbers[i] = 1 + (uint32_t)edge_boxes_owner(&boxes, paint_edge_at(p, numbers[i] - 1), (int)(i % width),
-                                                        (int)(i / width));
+        const source *from = &all->of[numbers[i] > all->of[0].strokes];
+        if (numbers[i] > 0)
+            numbers[i] = from->elements_before + name_stroke(from, numbers[i] - (uint32_t)from->strokes_before,
+                                                             (int)(i % width), (int)(i / width));
     }
-    edge_boxes_release(&boxes);
-    return true;
 }
 
 bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error)
@@ -255,18 +152,25 @@ bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error
     if (!renderer_fits(r, s, error))
         return false;
     painter p = {0}; /* the renderer's own may be in use by the next frame */
-    const bool ok = (paint(&p, s) || error_no_memory(error)) && draw_strokes(r, s, &p, numbers, error) &&
-                    name_boxes(s, &p, numbers, error);
+    sources all = {0};
+    const bool ok = ((paint(&p, s) && sources_open(&all, s, &p)) || error_no_memory(error)) &&
+                    draw_strokes(r, s, &p, &all, numbers, error);
+    if (ok)
+        name_strokes(s, &all, numbers);
+    sources_release(&all);
     painter_release(&p);
     return ok;
 }
 
 /* ---- Layers -------------------------------------------------------------------------------------------------- */
 
-static unsigned layer_of(const scene *s, const painter *p, const quad *q)
+/* As bits: its own, and that of the close-up that it is in. */
+static unsigned layers_of(const scene *s, const painter *p, const quad *q)
 {
-    return q->kind == SCENE_BOX ? paint_edge_at(p, q->index)->style.layer
-                                : scene_head_of(s, (scene_element){(scene_kind)q->kind, q->index}).style.layer;
+    const scene_element element = element_of(q, q->index);
+    const painter *of = element.in_closeup ? p->closeup : p;
+    const unsigned own = is_edge(q) ? paint_edge_at(of, q->index)->style.layer : scene_head_of(s, element).style.layer;
+    return 1u << own | (element.in_closeup ? 1u << LAYER_CLOSEUP : 0);
 }
 
 /* A pixel is in the mask where one of its samples is. */
@@ -287,7 +191,7 @@ bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *
     painter p = {0};
     bool ok = (samples && paint(&p, s)) || error_no_memory(error);
     for (size_t i = 0; ok && i < p.quads.count; i++)
-        p.quads.items[i].color = layers >> layer_of(s, &p, &p.quads.items[i]) & 1;
+        p.quads.items[i].color = (layers & layers_of(s, &p, &p.quads.items[i])) != 0;
     ok = ok && fill_all(r, s, &p, samples, error);
     if (ok)
         shrink_mask(&s->view, samples, mask);
@@ -303,9 +207,8 @@ bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *
 /* A query about one pixel. */
 typedef struct probe {
     const scene *picture;
-    scene fine; /* in samples */
     painter painter;
-    edge_boxes boxes;
+    sources sources;
     renderer_part part; /* its samples */
     unsigned taken;     /* bits of those that have an element on top already */
     draw_touches *list;
@@ -327,10 +230,10 @@ static draw_touch *find_touch(draw_touches *list, uint32_t number)
 }
 
 /* The entry of an element, which is appended if it has none; null when there is no memory. */
-static draw_touch *take_touch(probe *p, scene_kind kind, size_t index)
+static draw_touch *take_touch(probe *p, scene_element element)
 {
     draw_touches *list = p->list;
-    const uint32_t number = scene_number_of(p->picture, (scene_element){kind, index});
+    const uint32_t number = scene_number_of(p->picture, element);
     draw_touch *found = find_touch(list, number);
     if (found)
         return found;
@@ -345,9 +248,9 @@ static draw_touch *take_touch(probe *p, scene_kind kind, size_t index)
 }
 
 /* Note that an element covers a sample. Quads come from the last to the first. */
-static void add_paint(probe *p, scene_kind kind, size_t index, uint8_t color, int sample)
+static void add_paint(probe *p, scene_element element, uint8_t color, int sample)
 {
-    draw_touch *touch = take_touch(p, kind, index);
+    draw_touch *touch = take_touch(p, element);
     const bool shown = !(p->taken >> sample & 1);
     if (!touch || touch->at >> sample & 1)
         return;
@@ -358,23 +261,30 @@ static void add_paint(probe *p, scene_kind kind, size_t index, uint8_t color, in
     touch->shown += shown;
 }
 
+/* A quad of a probe. */
+typedef struct probed {
+    probe *probe;
+    const quad *quad;
+} probed;
+
 /* Add a box that shares an edge. */
 static void add_box_too(size_t box, void *context)
 {
-    take_touch(context, SCENE_BOX, box);
+    const probed *at = context;
+    take_touch(at->probe, element_of(at->quad, box));
 }
 
 /* Add the points that share the sample of a point that is drawn. */
-static void add_points_too(probe *p, size_t drawn)
+static void add_points_too(probe *p, const quad *q)
 {
-    const scene *s = &p->fine;
+    const scene *s = &source_of(&p->sources, q)->fine;
     size_t place, other;
     unsigned band;
-    if (!paint_point_pixel(s, &s->markers.items[drawn], &place, &band))
+    if (!paint_point_pixel(s, &s->markers.items[q->index], &place, &band))
         return;
     for (size_t i = 0; i < s->markers.count; i++)
         if (paint_point_pixel(s, &s->markers.items[i], &other, &band) && other == place)
-            take_touch(p, SCENE_MARKER, i);
+            take_touch(p, element_of(q, i));
 }
 
 /* Twice the area of the triangle of two corners and a place, doubled so that the place may lie between pixels. */
@@ -429,29 +339,31 @@ static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, oc
 /* The owner of an edge may differ from sample to sample. Boxes that merely share it come last. */
 static void add_edge(probe *p, const quad *q, unsigned bits)
 {
-    const edge *e = paint_edge_at(&p->painter, q->index);
+    const source *from = source_of(&p->sources, q);
+    const edge *e = paint_edge_at(from->painter, q->index);
+    probed at = {p, q};
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < p->part.width * p->part.height; i++) {
-            const int x = p->part.x + i % p->part.width, y = p->part.y + i / p->part.width;
+            const int x = p->part.x + i % p->part.width - from->left, y = p->part.y + i / p->part.width - from->top;
             if (!(bits >> i & 1))
                 continue;
             if (pass == 0)
-                add_paint(p, SCENE_BOX, edge_boxes_owner(&p->boxes, e, x, y), q->color, i);
+                add_paint(p, element_of(q, edge_boxes_owner(&from->boxes, e, x, y)), q->color, i);
             else
-                edge_boxes_visit(&p->boxes, e, x, y, add_box_too, p);
+                edge_boxes_visit(&from->boxes, e, x, y, add_box_too, &at);
         }
     }
 }
 
 static void add_quad(probe *p, const quad *q, unsigned bits)
 {
-    if (q->kind == SCENE_BOX)
+    if (is_edge(q))
         add_edge(p, q, bits);
-    for (int i = 0; q->kind != SCENE_BOX && i < MOST_SAMPLES; i++)
+    for (int i = 0; !is_edge(q) && i < MOST_SAMPLES; i++)
         if (bits >> i & 1)
-            add_paint(p, (scene_kind)q->kind, q->index, q->color, i);
-    if (q->kind == SCENE_MARKER)
-        add_points_too(p, q->index);
+            add_paint(p, element_of(q, q->index), q->color, i);
+    if (element_of(q, 0).kind == SCENE_MARKER)
+        add_points_too(p, q);
     p->taken |= bits;
 }
 
@@ -470,7 +382,7 @@ static bool probe_quads(renderer *r, probe *p, octreel_error *error)
 bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
-    probe p = {.picture = s, .fine = project_samples(s), .part = {x * samples, y * samples, samples, samples}};
+    probe p = {.picture = s, .part = {x * samples, y * samples, samples, samples}};
     p.list = list;
     list->count = 0;
     if (!renderer_fits(r, s, error))
@@ -478,9 +390,9 @@ bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *lis
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return error_set(error, "pixel (%d, %d) is outside the picture, which has %d x %d pixels", x, y, s->view.width,
                          s->view.height);
-    p.out_of_memory = !paint(&p.painter, s) || !edge_boxes_make(&p.boxes, &p.fine);
+    p.out_of_memory = !paint(&p.painter, s) || !sources_open(&p.sources, s, &p.painter);
     const bool ok = p.out_of_memory || probe_quads(r, &p, error);
-    edge_boxes_release(&p.boxes);
+    sources_release(&p.sources);
     painter_release(&p.painter);
     return p.out_of_memory ? error_no_memory(error) : ok;
 }

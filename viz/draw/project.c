@@ -117,6 +117,9 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
         return 0;
     if (s->camera.perspective && !keep_side(a, b, 2, 1, s->camera.near))
         return 0;
+    if (s->camera.clips_depth &&
+        !(keep_side(a, b, 2, 1, s->camera.near_depth) && keep_side(a, b, 2, -1, s->camera.far_depth)))
+        return 0;
     return cut(s, a, b, pieces);
 }
 
@@ -139,7 +142,9 @@ unsigned project_band(const camera *c, double depth)
 bool project_place(const scene *s, const double position[3], double pixel[2], double *depth)
 {
     double seen[3];
-    if (!see(s, position, seen) || (s->camera.perspective && seen[2] < s->camera.near))
+    const camera *c = &s->camera;
+    if (!see(s, position, seen) || (c->perspective && seen[2] < c->near) ||
+        (c->clips_depth && !(seen[2] >= c->near_depth && seen[2] <= c->far_depth)))
         return false;
     camera_project(&s->camera, seen, pixel);
     *depth = seen[2];

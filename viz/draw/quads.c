@@ -41,24 +41,24 @@ static void append(quad_list *list, const quad *q)
 }
 
 /* As unsigned numbers what is negative is beyond the limit too. */
-static bool is_within(const quad *q, uint32_t limit)
+static bool is_within(const quad *q, const int32_t limits[2])
 {
-    uint32_t most = 0;
+    uint32_t x = 0, y = 0;
     for (int i = 0; i < 4; i++) {
-        most = (uint32_t)q->x[i] > most ? (uint32_t)q->x[i] : most;
-        most = (uint32_t)q->y[i] > most ? (uint32_t)q->y[i] : most;
+        x = (uint32_t)q->x[i] > x ? (uint32_t)q->x[i] : x;
+        y = (uint32_t)q->y[i] > y ? (uint32_t)q->y[i] : y;
     }
-    return most <= limit;
+    return x <= (uint32_t)limits[0] && y <= (uint32_t)limits[1];
 }
 
 void quads_add(quad_list *list, const quad *q)
 {
-    if (list->limit == 0 || is_within(q, (uint32_t)list->limit)) {
+    if (list->limits[0] == 0 || is_within(q, list->limits)) {
         append(list, q);
         return;
     }
     quad pieces[CLIP_PIECES];
-    const int count = clip_quad(q, list->limit, pieces);
+    const int count = clip_quad(q, list->limits, pieces);
     for (int i = 0; i < count; i++)
         append(list, &pieces[i]);
 }
@@ -80,5 +80,30 @@ bool quads_sort(quad_list *list)
         sorted[starts[list->items[i].order]++] = list->items[i];
     free(list->items);
     list->items = sorted;
+    return true;
+}
+
+bool quads_put_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2])
+{
+    const uint16_t after = (uint16_t)(quad_order(LAYER_CLOSEUP, 0, 0) + 1);
+    const size_t count = closeup->count;
+    quad *items = array_reserve(list->items, list->count + count, &list->room, sizeof *items);
+    if (!items)
+        return false;
+    list->items = items;
+    size_t at = list->count;
+    while (at > 0 && items[at - 1].order >= after)
+        at--;
+    memmove(items + at + count, items + at, (list->count - at) * sizeof *items);
+    for (size_t i = 0; i < count; i++) {
+        quad q = closeup->items[i];
+        q.kind += QUAD_IN_CLOSEUP;
+        for (int corner = 0; corner < 4; corner++) {
+            q.x[corner] += by[0];
+            q.y[corner] += by[1];
+        }
+        items[at + i] = q;
+    }
+    list->count += count;
     return true;
 }

@@ -10,11 +10,12 @@
 #include "scene.h"
 
 #define QUAD_SUBPIXELS 256
+#define QUAD_IN_CLOSEUP SCENE_KINDS
 
 typedef struct quad {
     int32_t x[4], y[4];
     uint8_t color;  /* an index of the theme's table */
-    uint8_t kind;   /* scene_kind of the element that it is a part of */
+    uint8_t kind;   /* scene_kind of the element that it is a part of; QUAD_IN_CLOSEUP more in a close-up */
     uint16_t order; /* smaller is painted first */
     uint32_t index; /* of that element; of a box, that of the edge in the painter's list instead */
 } quad;
@@ -23,8 +24,8 @@ typedef struct quad_list {
     quad *items;
     size_t count, room;
     bool out_of_memory;
-    int32_t limit; /* quads are clipped to [0, limit] on both axes; 0: nowhere */
-    uint8_t kind;  /* of the element whose quads are being added */
+    int32_t limits[2]; /* quads are clipped to [0, limits[axis]] on each axis; 0: nowhere */
+    uint8_t kind;      /* of the element whose quads are being added */
     uint32_t index;
 } quad_list;
 
@@ -39,6 +40,10 @@ static inline void quads_begin(quad_list *list, scene_kind kind, size_t index)
 
 /* Convex quads only. */
 void quads_add(quad_list *list, const quad *q);
+
+/* Put the quads of a close-up above the world and its frame, and below what comes after them, moved by subpixels. Both
+ * lists are sorted. False when there is no memory. */
+bool quads_put_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2]);
 
 /* Stable, by order. False when there is no memory. */
 bool quads_sort(quad_list *list);

@@ -323,3 +323,12 @@ void splats_fill(splats *t, const scene *s, const scene_panel *panel)
             if (x >= 0 && y >= 0)
                 set_color(t->colors + ((size_t)y * (size_t)s->view.width + (size_t)x) * 3, panel->color);
 }
+
+void splats_put_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer)
+{
+    const size_t side = (size_t)view_samples(&s->view), width = (size_t)s->view.width;
+    const size_t row = (size_t)closer->view.width, left = (size_t)closer->place[0] * side,
+                 top = (size_t)closer->place[1] * side;
+    for (size_t y = 0; y < (size_t)closer->view.height; y++)
+        memcpy(t->colors + 3 * ((top + y) * width + left), closeup->colors + 3 * y * row, 3 * row);
+}

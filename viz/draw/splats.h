@@ -27,6 +27,9 @@ bool splats_paint(splats *t, quad_list *quads, const scene *s);
 /* Colour a rectangle of the picture in pixels, such as a swatch. Above points alone. */
 void splats_fill(splats *t, const scene *s, const scene_panel *panel);
 
+/* Take over the colours of a close-up, where its part of the picture is; both scenes are in samples. */
+void splats_put_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer);
+
 /* The samples that a point covers where nothing is nearer: left, top and how many to each side. False where it is not a
  * painted point, or outside the picture. */
 typedef struct splat_square {

@@ -130,6 +130,13 @@ static bool parse_switch(const view_option *option, const char *text, view *v, o
     return *(bool *)value_of(option, v) = true;
 }
 
+static bool parse_off(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    (void)text, (void)error;
+    *(bool *)value_of(option, v) = false;
+    return true;
+}
+
 static bool parse_whole(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const char *at = text;
@@ -463,6 +470,8 @@ static const view_option rows[] = {
      parse_choice, MEMBER("tree", &json_later_choice, tree), .member.names = tree_at, .words = tree_words_at},
     {"diagram", "WHERE", "diagram", "draw the tree as a tree, its root at the top (default none): one of", parse_choice,
      MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at, .words = diagram_words_at},
+    {"no-closeup", NULL, NULL, "do not show what is around a player that appears small larger in a part of the picture",
+     parse_off, MEMBER("closeup", &json_bool, closeup), .noun = "close-up"},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",
      "only nodes that cut a plane, as in z=100, and the points of such leaves", parse_slice,
      MEMBER("slice", JSON_CODEC(read_slice, write_slice, has_slice), filter)},

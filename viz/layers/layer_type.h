@@ -63,7 +63,7 @@ typedef struct layer_type {
 LAYER_MAP(LAYER_TYPE_DECLARE)
 #undef LAYER_TYPE_DECLARE
 
-extern const layer_type *const layer_types[LAYER_COUNT + 1];
+extern const layer_type *const layer_types[LAYER_ALL];
 
 /* An applies() for layers that only games have. */
 bool layer_in_games(const layer_source *in);

@@ -5,6 +5,12 @@
 #include <math.h>
 #include <string.h>
 
+#define CLOSEUP_PART 0.32    /* of the space, along its longer side */
+#define CLOSEUP_RATIO 1.3333 /* of its sides, the longer one along the strip */
+#define CLOSEUP_MARGIN 8     /* units around it */
+#define CLOSEUP_NUMBERS 20   /* units at the left of the world */
+#define CLOSEUP_LEAST 90     /* units of a side, for letters in it */
+
 int panel_width(const view *v)
 {
     const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_of_text(v).width;
@@ -18,7 +24,8 @@ static camera_window rest_of(const view *v)
     return (camera_window){column, 0, v->width - column, v->height};
 }
 
-camera_window layout_space(const view *v)
+/* And without the diagram beside the world. */
+static camera_window whole_space(const view *v)
 {
     camera_window w = rest_of(v);
     const camera_window diagram = layout_diagram(v);
@@ -27,6 +34,46 @@ camera_window layout_space(const view *v)
     else if (v->diagram == DIAGRAM_BESIDE)
         w.height -= diagram.height;
     return w;
+}
+
+/* What a close-up takes of the longer side of the space. */
+static double closeup_strip(const camera_window *space)
+{
+    return floor(fmax(space->width, space->height) * CLOSEUP_PART);
+}
+
+camera_window layout_space(const scene *s)
+{
+    camera_window w = whole_space(&s->view);
+    const double strip = closeup_strip(&w);
+    if (s->has_closeup && w.width >= w.height)
+        w.width -= strip;
+    else if (s->has_closeup)
+        w.height -= strip;
+    return w;
+}
+
+camera_window layout_camera(const scene *s)
+{
+    const camera_window space = whole_space(&s->view);
+    const int numbers = s->has_closeup && space.width >= space.height ? CLOSEUP_NUMBERS * s->unit : 0;
+    camera_window w = layout_space(s);
+    w.x += numbers;
+    w.width -= numbers;
+    return w;
+}
+
+camera_window layout_closeup(const view *v)
+{
+    const camera_window space = whole_space(v);
+    const int margin = CLOSEUP_MARGIN * view_unit(v), least = CLOSEUP_LEAST * view_unit(v);
+    const bool beside = space.width >= space.height;
+    const double across = closeup_strip(&space) - 2 * margin; /* of the strip, and along it */
+    const double along = fmin((beside ? space.height : space.width) - 2 * margin, floor(across * CLOSEUP_RATIO));
+    camera_window w = {.width = beside ? across : along, .height = beside ? along : across};
+    w.x = beside ? space.x + space.width - margin - w.width : space.x + floor((space.width - w.width) / 2);
+    w.y = beside ? space.y + floor((space.height - w.height) / 2) : space.y + space.height - margin - w.height;
+    return v->diagram != DIAGRAM_ONLY && w.width >= least && w.height >= least ? w : (camera_window){0};
 }
 
 camera_window layout_diagram(const view *v)
@@ -59,7 +106,7 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
     const double width = (double)strlen(text) * s->text.width, height = s->text.height;
     const double left = floor(middle[0] - width / 2), top = floor(middle[1] - height / 2);
     const double box[4] = {left - s->unit, top - s->unit, left + width + s->unit, top + height};
-    const camera_window w = layout_space(&s->view);
+    const camera_window w = layout_space(s);
     if (!(box[0] >= w.x && box[1] >= w.y && box[2] <= w.x + w.width && box[3] <= w.y + w.height) || !is_free(t, box))
         return false;
     memcpy(t->taken[t->count++], box, sizeof box);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* layout.h - the areas of a picture, in whole pixels: the column of text at the left, the space view, the diagram; and
+/* layout.h - the areas of a picture, in whole pixels: the column of text at the left, the space view, the
+ * close-up, the diagram; and
  * the placement of labels so that none covers another. */
 #ifndef LAYERS_LAYOUT_H
 #define LAYERS_LAYOUT_H
@@ -14,7 +15,14 @@
 int panel_width(const view *v);
 
 /* Where the world is drawn. */
-camera_window layout_space(const view *v);
+camera_window layout_space(const scene *s);
+
+/* The part of it that the camera frames the world in: beside a close-up it leaves room for numbers at the left. */
+camera_window layout_camera(const scene *s);
+
+/* The area of a close-up, in whole pixels, beside the world or, where that is higher than wide, below it; empty in a
+ * picture that is too small for one. */
+camera_window layout_closeup(const view *v);
 
 /* The area of the diagram; empty when the view shows none. Beside the space view it has half of what the column leaves:
  * the right half, or the lower one when that is higher than wide. */

@@ -31,7 +31,7 @@ static unsigned layers_in_frame(const scene *s)
         layers |= 1u << s->segments.items[i].style.layer;
     for (size_t i = 0; i < s->markers.count; i++)
         layers |= 1u << s->markers.items[i].style.layer;
-    return layers;
+    return s->has_closeup ? layers | layers_in_frame(s->closeup) : layers;
 }
 
 /* The diagram uses the colours of nodes too, and marks visited and pruned ones. */
@@ -63,7 +63,7 @@ static void list_layers(legend *l, const layer_source *in)
     for (int last = 0, place; last < INT_MAX; last = place) {
         int next = -1;
         place = INT_MAX;
-        for (int i = 0; i <= LAYER_COUNT; i++)
+        for (int i = 0; i < LAYER_ALL; i++)
             if (layer_types[i]->legend_place > last && layer_types[i]->legend_place < place)
                 place = layer_types[next = i]->legend_place;
         if (next >= 0)

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* tick_scene.c - the table of layers, and scenes made by it. */
 #include "tick_scene.h"
+#include "closeup.h"
 #include "layer_type.h"
 #include "layout.h"
 
 #define LAYER_TYPE(layer, ...) &layer_##layer,
-const layer_type *const layer_types[LAYER_COUNT + 1] = {LAYER_MAP(LAYER_TYPE)};
+const layer_type *const layer_types[LAYER_ALL] = {LAYER_MAP(LAYER_TYPE)};
 
 bool layer_in_games(const layer_source *in)
 {
@@ -52,6 +53,27 @@ static void add_layer(scene *s, const layer_source *in, view_layer layer)
             type->add_answer(s, &in->answers[i], i, layer);
 }
 
+/* The panel counts what the others left out, and so comes last. */
+static void add_layers(scene *s, const layer_source *in)
+{
+    for (int i = 0; i < LAYER_ALL; i++)
+        if (i != LAYER_TEXT)
+            add_layer(s, in, (view_layer)i);
+    add_layer(s, in, LAYER_TEXT);
+}
+
+/* The close-up is a scene of the same layers. */
+static void add_closeup(scene *s, const layer_source *in, double times)
+{
+    layer_source close;
+    if (!closeup_begin(s, in, times, &close)) {
+        s->out_of_memory = true;
+        return;
+    }
+    add_layers(s->closeup, &close);
+    s->out_of_memory |= s->closeup->out_of_memory;
+}
+
 /* Under DIAGRAM_ONLY the panel is the only other layer. */
 static bool build(scene *s, layer_source *in, const double player[3])
 {
@@ -60,13 +82,15 @@ static bool build(scene *s, layer_source *in, const double player[3])
     scene_set_view(s, v);
     if (v->diagram == DIAGRAM_ONLY)
         s->view.layers &= 1u << LAYER_TEXT;
-    s->camera = camera_make(v, layout_space(v), &in->world, player, in->tick ? in->tick->number : 0);
+    const double times = closeup_times(s, in);
+    s->has_closeup = times > 0;
+    s->camera = camera_make(v, layout_camera(s), &in->world, player, in->tick ? in->tick->number : 0);
     if (view_shows(v, LAYER_BROKEN))
         in->broken = octree_check(in->tree, &in->broken_at);
-    for (int i = 0; i <= LAYER_COUNT; i++)
-        if (i != LAYER_TEXT)
-            add_layer(s, in, (view_layer)i);
-    add_layer(s, in, LAYER_TEXT); /* the panel counts what the others left out */
+    if (s->has_closeup)
+        add_closeup(s, in, times);
+    s->has_closeup = s->has_closeup && !s->out_of_memory;
+    add_layers(s, in);
     return !s->out_of_memory;
 }
 

@@ -123,6 +123,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
         p->elements[p->count++] = (pick_element){
             .touch = touches.items[i],
             .kind = element.kind,
+            .in_closeup = element.in_closeup,
             .layer = layer_rows[scene_head_of(s, element).style.layer].name,
             .subject = describe_element(from->game, &from->heat, s, element),
         };
@@ -209,18 +210,24 @@ static void print_heading(FILE *out, const pick *p)
         fprintf(out, ", %s:\n", print_color(p, color));
 }
 
+static const char *in_closeup(const pick_element *e)
+{
+    return e->in_closeup ? " (in the close-up)" : "";
+}
+
 /* What an element has to do with the pixel. */
 static void print_element(FILE *out, const pick *p, const pick_element *e)
 {
     if (e->touch.painted == 0) {
-        fprintf(out, "      %s %s\n",
-                e->kind == SCENE_BOX ? "its edge is also that of" : "on the same pixel:", e->subject.text);
+        fprintf(out, "      %s %s%s\n",
+                e->kind == SCENE_BOX ? "its edge is also that of" : "on the same pixel:", e->subject.text,
+                in_closeup(e));
         return;
     }
     fputs(e->touch.shown ? "  " : "    over ", out);
     if (e->touch.shown && p->samples > 1)
         fprintf(out, "%d of %d samples: ", e->touch.shown, p->samples);
-    fprintf(out, "%s%s\n", e->subject.text, is_gap(e) ? " (between two of its dashes)" : "");
+    fprintf(out, "%s%s%s\n", e->subject.text, is_gap(e) ? " (between two of its dashes)" : "", in_closeup(e));
 }
 
 static void print_people(FILE *out, const pick *p)
@@ -292,9 +299,10 @@ static void write_element(json_writer *w, const pick_element *e)
     json_member_text(w, "layer", e->layer);
     json_member_integer(w, "shown", (uint64_t)e->touch.shown);
     json_member_integer(w, "painted", (uint64_t)e->touch.painted);
-    if (is_gap(e)) {
+    if (is_gap(e))
         json_member_bool(w, "gap", true);
-    }
+    if (e->in_closeup)
+        json_member_bool(w, "closeup", true);
     if (e->subject.has_node)
         write_node(w, &e->subject);
     if (e->subject.foreign)

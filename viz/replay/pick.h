@@ -23,6 +23,7 @@ typedef struct pick_element {
     draw_touch touch;
     scene_kind kind;
     const char *layer;
+    bool in_closeup;
     element_subject subject;
 } pick_element;
 

@@ -150,6 +150,34 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     return c;
 }
 
+/* Pixels a unit at the distance of what the camera looks at. */
+static double zoom_there(const camera *c)
+{
+    return c->perspective ? c->zoom / c->distance : c->zoom;
+}
+
+double camera_pixel_length(const camera *c)
+{
+    return c->size / 2 / c->scale / zoom_there(c);
+}
+
+camera camera_close_up(const camera *c, camera_window window, const double place[3], double times)
+{
+    camera close = *c;
+    double target[3];
+    camera_unit(c, place, target);
+    memcpy(close.center, place, sizeof close.center);
+    close.zoom *= times;
+    stand(&close, target, c->distance);
+    close.middle[0] = window.x + window.width / 2;
+    close.middle[1] = window.y + window.height / 2;
+    const double reach = (window.width > window.height ? window.width : window.height) / 2 / zoom_there(&close);
+    close.near_depth = fmax(c->distance - reach, c->near);
+    close.far_depth = c->distance + reach;
+    close.clips_depth = true;
+    return close;
+}
+
 bool camera_pixel(const camera *c, const double position[3], double pixel[2])
 {
     double seen[3];

@@ -30,11 +30,19 @@ typedef struct camera {
     double distance;              /* from the eye to it */
     double near;                  /* what is nearer than this (along forward, from the eye) is clipped */
     double near_depth, far_depth; /* the box's range of view depth, which is cut into bands */
+    bool clips_depth;             /* what is outside that range is clipped */
 } camera;
 
 /* The camera of a tick, with the view's look, center and zoom in place of its own: it depends on nothing but the view,
  * the world, the player and the number of the tick. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
+
+/* The camera of a close-up: in the direction of c, into another window, of a place in its middle and what is about as
+ * far before and behind it as beside it, so many times as large as c shows what it looks at. */
+camera camera_close_up(const camera *c, camera_window window, const double place[3], double times);
+
+/* How long a pixel is, in world units, at the distance of what the camera looks at. */
+double camera_pixel_length(const camera *c);
 
 static inline double camera_dot(const double a[3], const double b[3])
 {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define LAYER_ROW(layer, name, words, help, role, fades, shown) {name, words, help, role, fades},
-const layer_row layer_rows[LAYER_COUNT + 1] = {LAYER_MAP(LAYER_ROW)};
+const layer_row layer_rows[LAYER_ALL] = {LAYER_MAP(LAYER_ROW)};
 
 /* The bits that a name of this length stands for; false when it is unknown. */
 static bool find_layers(const char *name, size_t length, unsigned *bits)
@@ -18,7 +18,8 @@ static bool find_layers(const char *name, size_t length, unsigned *bits)
         LAYER_MAP(LAYER_CHOICE){"all", VIEW_ALL_LAYERS}, {"default", VIEW_DEFAULT_LAYERS}, {"none", 0}};
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
         *bits = choices[i].bits;
-        if (i != LAYER_DIAGRAM && strlen(choices[i].name) == length && strncmp(name, choices[i].name, length) == 0)
+        if ((i < LAYER_COUNT || i >= LAYER_ALL) && strlen(choices[i].name) == length &&
+            strncmp(name, choices[i].name, length) == 0)
             return true;
     }
     return false;

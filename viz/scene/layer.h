@@ -42,6 +42,8 @@
       ROLE_WRONG, false, true)                                                                                         \
     X(BROKEN, "broken", "the broken node", "where the validator finds an invariant broken", ROLE_WARNING, false, true) \
     X(TEXT, "text", "text", "the panel, the legend and all letters", ROLE_TEXT, false, true)                           \
+    X(CLOSEUP, "closeup", "the close-up", "the frame of the close-up, and the part of the world that it shows",        \
+      ROLE_FAINT, false, false)                                                                                        \
     X(DIAGRAM, "diagram", "the diagram", "the tree as a tree, where view.diagram says so", ROLE_BACKGROUND, false,     \
       false)
 
@@ -49,7 +51,8 @@ typedef enum view_layer {
 #define LAYER_ENUM(layer, ...) LAYER_##layer,
     LAYER_MAP(LAYER_ENUM)
 #undef LAYER_ENUM
-        LAYER_COUNT = LAYER_DIAGRAM /* the layers that a view selects, one bit of view.layers each */
+        LAYER_ALL,
+    LAYER_COUNT = LAYER_CLOSEUP /* the layers that a view selects by view.layers, one bit each */
 } view_layer;
 
 typedef struct layer_row {
@@ -58,7 +61,7 @@ typedef struct layer_row {
     bool fades;
 } layer_row;
 
-extern const layer_row layer_rows[LAYER_COUNT + 1];
+extern const layer_row layer_rows[LAYER_ALL];
 
 #define VIEW_ALL_LAYERS ((1u << LAYER_COUNT) - 1)
 #define VIEW_HEAT_LAYERS (1u << LAYER_VISIT_HEAT | 1u << LAYER_POINT_HEAT)
@@ -72,7 +75,9 @@ bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
 
 static inline bool view_shows(const view *v, view_layer layer)
 {
-    return layer == LAYER_DIAGRAM ? v->diagram != DIAGRAM_NONE : v->layers >> layer & 1;
+    return layer == LAYER_DIAGRAM   ? v->diagram != DIAGRAM_NONE
+           : layer == LAYER_CLOSEUP ? v->closeup
+                                    : v->layers >> layer & 1;
 }
 
 /* How a layer's elements look, in its colour. */

@@ -14,7 +14,8 @@ void scene_clear(scene *s)
     s->tally = (scene_tally){0};
     s->spacing = 0;
     s->refused = 0;
-    s->out_of_memory = false;
+    s->out_of_memory = s->has_closeup = false;
+    s->times = 0;
 }
 
 void scene_release(scene *s)
@@ -24,6 +25,9 @@ void scene_release(scene *s)
     free(s->markers.items);
     free(s->labels.items);
     free(s->panels.items);
+    if (s->closeup)
+        scene_release(s->closeup);
+    free(s->closeup);
     memset(s, 0, sizeof *s);
 }
 
@@ -155,9 +159,16 @@ static size_t count_of(const scene *s, scene_kind kind)
     return counts[kind];
 }
 
+size_t scene_count(const scene *s)
+{
+    return s->boxes.count + s->segments.count + s->markers.count + s->panels.count + s->labels.count;
+}
+
 scene_element scene_element_at(const scene *s, uint32_t number)
 {
-    scene_element element = {SCENE_BOX, number - 1};
+    scene_element element = {SCENE_BOX, number - 1, s->has_closeup && number > scene_count(s)};
+    element.index -= element.in_closeup ? scene_count(s) : 0;
+    s = scene_with(s, element);
     while (element.kind < SCENE_LABEL && element.index >= count_of(s, element.kind))
         element.index -= count_of(s, element.kind++);
     return element;
@@ -165,7 +176,8 @@ scene_element scene_element_at(const scene *s, uint32_t number)
 
 uint32_t scene_number_of(const scene *s, scene_element element)
 {
-    size_t number = element.index + 1;
+    size_t number = element.index + 1 + (element.in_closeup ? scene_count(s) : 0);
+    s = scene_with(s, element);
     for (scene_kind kind = SCENE_BOX; kind < element.kind; kind++)
         number += count_of(s, kind);
     return (uint32_t)number;
@@ -173,6 +185,7 @@ uint32_t scene_number_of(const scene *s, scene_element element)
 
 scene_head scene_head_of(const scene *s, scene_element element)
 {
+    s = scene_with(s, element);
     const void *const arrays[SCENE_KINDS] = {s->boxes.items, s->segments.items, s->markers.items, s->panels.items,
                                              s->labels.items};
     static const size_t sizes[SCENE_KINDS] = {sizeof(scene_box), sizeof(scene_segment), sizeof(scene_marker),
@@ -194,7 +207,7 @@ static uint64_t digest_doubles(uint64_t digest, const double *values, size_t cou
 /* Layers and roles enter a digest as hashes of their names, so that adding one does not change the digests of scenes
  * without it. */
 typedef struct digest_names {
-    uint64_t layers[LAYER_DIAGRAM + 1], roles[ROLE_OWN + 1];
+    uint64_t layers[LAYER_ALL], roles[ROLE_OWN + 1];
 } digest_names;
 
 static uint64_t hash_name(const char *what, const char *name)
@@ -205,7 +218,7 @@ static uint64_t hash_name(const char *what, const char *name)
 static digest_names hash_names(void)
 {
     digest_names n;
-    for (int i = 0; i <= LAYER_DIAGRAM; i++)
+    for (int i = 0; i < LAYER_ALL; i++)
         n.layers[i] = hash_name("layer ", layer_rows[i].name);
     for (int i = 0; i <= ROLE_OWN; i++)
         n.roles[i] = hash_name("role ", theme_role_name((theme_role)i));
@@ -310,5 +323,9 @@ uint64_t scene_digest(const scene *s)
     DIGEST_ALL(digest, s->markers, digest_marker);
     DIGEST_ALL(digest, s->labels, digest_label);
     DIGEST_ALL(digest, s->panels, digest_panel);
-    return digest;
+    if (!s->has_closeup)
+        return digest;
+    digest =
+        octree_digest_word(digest, (uint64_t)(uint32_t)s->closeup->place[0] << 32 | (uint32_t)s->closeup->place[1]);
+    return octree_digest_word(digest, scene_digest(s->closeup));
 }

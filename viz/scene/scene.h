@@ -143,6 +143,10 @@ typedef struct scene {
     SCENE_ARRAY(scene_label) labels;
     SCENE_ARRAY(scene_panel) panels;
     scene_tally tally;
+    struct scene *closeup; /* a scene of its own, drawn into a part of the picture; read where has_closeup */
+    bool has_closeup;
+    int place[2];       /* of a close-up: the picture's pixel that its own top left one is, */
+    double times;       /* and how much larger it shows what is in its middle; 0 in other scenes */
     size_t refused;     /* elements with NaN or infinite geometry: counted, never drawn */
     bool out_of_memory; /* set by scene_add_*: the scene is incomplete */
 } scene;
@@ -186,22 +190,31 @@ static inline void scene_box_middle(const octree_box *box, double middle[3])
 /* The arrays of a scene, in the order in which their elements are numbered. */
 typedef enum scene_kind { SCENE_BOX, SCENE_SEGMENT, SCENE_MARKER, SCENE_PANEL, SCENE_LABEL, SCENE_KINDS } scene_kind;
 
-/* One element: that of this index in the array of its kind. */
+/* One element: that of this index in the array of its kind, of the scene or of its close-up. */
 typedef struct scene_element {
     scene_kind kind;
     size_t index;
+    bool in_closeup;
 } scene_element;
 
 /* "box", "segment", "marker", "panel", "label". */
 const char *scene_kind_name(scene_kind kind);
 
-/* Elements are numbered from 1 on, kind by kind. 0 is the background, which is no element. */
+/* Elements are numbered from 1 on, kind by kind, and then those of the close-up. 0 is the background, which is no
+ * element. */
+size_t scene_count(const scene *s); /* without those of the close-up */
 scene_element scene_element_at(const scene *s, uint32_t number);
 uint32_t scene_number_of(const scene *s, scene_element element);
 
 scene_head scene_head_of(const scene *s, scene_element element);
 
-/* A digest of the whole draw list, camera and size included: the same on every machine. */
+/* The scene that an element's index counts in: this, or its close-up. */
+static inline const scene *scene_with(const scene *s, scene_element element)
+{
+    return element.in_closeup ? s->closeup : s;
+}
+
+/* A digest of the whole draw list, camera, size and close-up included: the same on every machine. */
 uint64_t scene_digest(const scene *s);
 
 #endif

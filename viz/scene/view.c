@@ -10,6 +10,7 @@ view view_default(void)
                   .height = VIEW_DEFAULT_HEIGHT,
                   .camera = CAMERA_ISO,
                   .layers = VIEW_DEFAULT_LAYERS,
+                  .closeup = true,
                   .aa = 1,
                   .lod = VIEW_DEFAULT_LOD,
                   .budget = VIEW_DEFAULT_BUDGET};

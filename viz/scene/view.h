@@ -139,9 +139,10 @@ typedef struct view {
     view_tree tree;
     view_diagram diagram; /* of Octreel's tree, whichever the space view shows */
     view_filter filter;
-    bool labels; /* the paths of nodes on their boxes */
-    double lod;  /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
-    int aa;      /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
+    bool labels;  /* the paths of nodes on their boxes */
+    bool closeup; /* where the player appears small, what is around it is shown larger in a part of the picture */
+    double lod;   /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
+    int aa;       /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
     uint64_t budget; /* the most boxes of nodes of each tree, and the most points, of a frame, and 1000 times the most
                         arrows of moving points; 0: any number */
 } view;
@@ -155,7 +156,7 @@ typedef struct view {
 #define VIEW_DEFAULT_LOD 2         /* smaller boxes are specks: at 100,000 points values up to 4 look the same */
 #define VIEW_DEFAULT_BUDGET 250000 /* some 300 MB and a few seconds a frame at worst */
 
-/* These, the iso camera, the default layers, no anti-aliasing, and nodes coloured by depth. */
+/* These, the iso camera, the default layers, a close-up, no anti-aliasing, and nodes coloured by depth. */
 view view_default(void);
 
 /* The height of a picture, or of its 16:9 part where it is narrower than that. */

@@ -250,27 +250,48 @@ bool web_digest(void)
     return say_text(write_digest);
 }
 
+/* What a camera looks at, at which pixel, and how long a pixel is there. */
+static void write_center(json_writer *w, const camera *c, const int origin[2])
+{
+    json_member_vector(w, "center", c->center);
+    json_member_begin_array(w, "middle");
+    json_write_number(w, c->middle[0] + origin[0]);
+    json_write_number(w, c->middle[1] + origin[1]);
+    json_write_end_array(w);
+    json_member_number(w, "pixel", camera_pixel_length(c));
+}
+
+static void write_closeup(json_writer *w, const scene *closeup)
+{
+    json_member_begin_object(w, "closeup");
+    json_member_begin_array(w, "window");
+    json_write_number(w, closeup->place[0]);
+    json_write_number(w, closeup->place[1]);
+    json_write_number(w, closeup->view.width);
+    json_write_number(w, closeup->view.height);
+    json_write_end_array(w);
+    write_center(w, &closeup->camera, closeup->place);
+    json_write_end_object(w);
+}
+
 static bool write_camera(FILE *out)
 {
-    const camera *c = &page.playback.scene.camera;
+    const scene *s = &page.playback.scene;
+    const camera *c = &s->camera;
     json_writer writer = {.out = out}, *w = &writer;
-    const double zoom = c->perspective ? c->zoom / c->distance : c->zoom;
     json_write_begin_object(w);
     json_member_vector(w, "right", c->right);
     json_member_vector(w, "up", c->up);
     json_member_vector(w, "forward", c->forward);
-    json_member_vector(w, "center", c->center);
-    json_member_begin_array(w, "middle");
-    json_write_number(w, c->middle[0]);
-    json_write_number(w, c->middle[1]);
-    json_write_end_array(w);
-    json_member_number(w, "pixel", c->size / 2 / c->scale / zoom);
+    write_center(w, c, s->place);
+    if (s->has_closeup)
+        write_closeup(w, s->closeup);
     json_write_end_object(w);
     return true;
 }
 
 /* The camera of the picture that was drawn, as JSON: its axes, the place it looks at and at which pixel, and how long a
- * pixel is there, in world units. */
+ * pixel is there, in world units; and those of the close-up, where there is one, with its part of the picture. */
 bool web_camera(void)
 {
     return say_text(write_camera);

@@ -25,9 +25,13 @@ endfunction()
 # compile_wasm(SOURCE OBJECTS): adds the object of a source to a list.
 function(compile_wasm source objects)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
-  set(optimized -Os) # a page is to be small, and what takes its time is elsewhere
-  if(name MATCHES "^(lib|viz/scene|viz/layers|viz/draw|viz/image)/")
+  set(optimized -Oz) # a page is to be small: hot is what is done for each node, point, line and pixel
+  if(name MATCHES "^(lib/src/(exact|tree|query)|viz/draw|viz/image)/" OR
+     name MATCHES "/(game|bodies|player|tree_summary|camera|filter|scene|node_layers|node_boxes|velocity_layer|visit_layers)[.]c$")
     set(optimized -O2)
+  endif()
+  if(name MATCHES "/(bulk|check|tune|pixel|edge_boxes)[.]c$")
+    set(optimized -Oz)
   endif()
   string(REPLACE "/" "_" name ${name})
   set(object ${wasm_folder}/${name}.o)

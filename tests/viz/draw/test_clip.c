@@ -9,6 +9,8 @@
 
 enum { SIDE = 64, LIMIT = SIDE * QUAD_SUBPIXELS };
 
+static const int32_t limits[2] = {LIMIT, LIMIT};
+
 static int32_t some_place(uint64_t *random, int32_t reach)
 {
     return (int32_t)random_below(random, (uint64_t)(LIMIT + 2 * reach + 1)) - reach;
@@ -70,7 +72,7 @@ static void quads_that_cross_a_border_keep_their_pixels(void **state)
     for (int round = 0; round < 20000; round++) {
         const quad q = some_quad(&random, 1 << (round % 20));
         quad pieces[CLIP_PIECES];
-        const int count = clip_quad(&q, LIMIT, pieces);
+        const int count = clip_quad(&q, limits, pieces);
         assert_true(count >= 0 && count <= CLIP_PIECES);
         for (int i = 0; i < count; i++) {
             assert_inside(&pieces[i]);
@@ -86,11 +88,11 @@ static void a_quad_in_the_square_is_itself(void **state)
     uint64_t random = 1;
     const quad whole = {.x = {0, LIMIT, LIMIT, 0}, .y = {0, 0, LIMIT, LIMIT}};
     quad pieces[CLIP_PIECES];
-    assert_int_equal(clip_quad(&whole, LIMIT, pieces), 1);
+    assert_int_equal(clip_quad(&whole, limits, pieces), 1);
     assert_memory_equal(pieces[0].x, whole.x, sizeof whole.x);
     for (int round = 0; round < 1000; round++) {
         const quad q = some_quad(&random, -2000);
-        if (clip_quad(&q, LIMIT, pieces) != 1)
+        if (clip_quad(&q, limits, pieces) != 1)
             fail();
         assert_memory_equal(pieces[0].x, q.x, sizeof q.x);
         assert_memory_equal(pieces[0].y, q.y, sizeof q.y);
@@ -100,7 +102,7 @@ static void a_quad_in_the_square_is_itself(void **state)
 static void fill_clipped(const quad *q, uint8_t *bytes)
 {
     quad pieces[CLIP_PIECES];
-    const int count = clip_quad(q, LIMIT, pieces);
+    const int count = clip_quad(q, limits, pieces);
     memset(bytes, 0, SIDE * SIDE);
     fill_quads(pieces, (size_t)count, (renderer_part){0, 0, SIDE, SIDE}, bytes);
 }
@@ -134,11 +136,11 @@ static void rectangles_of_any_size_are_cut(void **state)
     static uint8_t filled[SIDE * SIDE];
     const quad outside = {.x = {far - 9, far, far, far - 9}, .y = {0, 0, LIMIT, LIMIT}};
     quad pieces[CLIP_PIECES];
-    assert_int_equal(clip_quad(&all, LIMIT, pieces), 1);
+    assert_int_equal(clip_quad(&all, limits, pieces), 1);
     fill_clipped(&all, filled);
     for (int i = 0; i < SIDE * SIDE; i++)
         assert_int_equal(filled[i], 1);
-    assert_int_equal(clip_quad(&outside, LIMIT, pieces), 0);
+    assert_int_equal(clip_quad(&outside, limits, pieces), 0);
 }
 
 static void the_square_is_a_power_of_two_that_holds_the_picture(void **state)

@@ -32,7 +32,7 @@ static draw_touches touches_at(renderer *r, const scene *s, int x, int y)
 static int place_of(const scene *s, const draw_touches *list, scene_kind kind, size_t index)
 {
     for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].number == scene_number_of(s, (scene_element){kind, index}))
+        if (list->items[i].number == scene_number_of(s, (scene_element){.kind = kind, .index = index}))
             return (int)i;
     return -1;
 }

@@ -66,6 +66,7 @@ static view random_view(uint64_t *random)
     v.labels = random_below(random, 2);
     v.aa = 1 << random_below(random, 3);
     v.lod = random_below(random, 2) ? random_between(random, 0, 16384) : 0;
+    v.closeup = random_below(random, 2);
     v.budget = random_below(random, UINT64_C(1) << 53);
     return v;
 }
@@ -74,7 +75,7 @@ static void assert_same_view(const view *a, const view *b)
 {
     assert_true(a->width == b->width && a->height == b->height && a->camera == b->camera && a->layers == b->layers);
     assert_true(a->coloring == b->coloring && a->diagram == b->diagram && a->fit == b->fit);
-    assert_true(a->labels == b->labels && a->lod == b->lod && a->budget == b->budget &&
+    assert_true(a->labels == b->labels && a->closeup == b->closeup && a->lod == b->lod && a->budget == b->budget &&
                 view_samples(a) == view_samples(b));
     assert_true(a->point_color == b->point_color && a->shade == b->shade);
     assert_int_equal(a->point_scale.given, b->point_scale.given);
@@ -143,6 +144,7 @@ static void every_option_of_the_command_line_is_kept(void **state)
         {"zoom", "2.5"},
         {"color-points", "leaf"},
         {"shade", "edl"},
+        {"no-closeup", NULL},
     };
     const temp_folder *folder = *state;
     char unchanged[2048], written[2048], again[2048];

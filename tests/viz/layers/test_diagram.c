@@ -426,7 +426,7 @@ static void the_space_view_beside_has_all_that_it_has_alone(void **state)
 /* Every element of the diagram lies within its part, and the parts do not overlap. */
 static void check_inside(const scene *s)
 {
-    const camera_window w = layout_diagram(&s->view), space = layout_space(&s->view);
+    const camera_window w = layout_diagram(&s->view), space = layout_space(s);
     assert_true(s->view.diagram == DIAGRAM_ONLY || space.x + space.width <= w.x || space.y + space.height <= w.y);
     assert_true(space.width >= 1 && space.height >= 1);
     for (size_t i = 0; i < s->panels.count; i++) {

@@ -232,7 +232,7 @@ static void check_places_of_boxes(const scene *s)
     const size_t samples = (size_t)view_samples(&s->view), width = (size_t)s->view.width * samples;
     size_t boxes = 0;
     for (size_t at = 0; at < frame_samples(s); at++) {
-        const scene_element element = numbers[at] ? scene_element_at(s, numbers[at]) : (scene_element){SCENE_LABEL, 0};
+        const scene_element element = numbers[at] ? scene_element_at(s, numbers[at]) : (scene_element){.kind = SCENE_LABEL, .index = 0};
         if (element.kind != SCENE_BOX)
             continue;
         const double place[2] = {((double)(at % width) + 0.5) / (double)samples,

@@ -314,7 +314,7 @@ class Interaction {
     {
         const {min, max} = this.player.engine.world();
         this.form.setPlace(place, Math.max(...max.map((high, i) => high - min[i])));
-        const root = byId("picked"), texts = elements.map(({text}) => element("li", text));
+        const root = byId("picked"), texts = elements.map(({text, closeup}) => element("li", closeup ? `${text} (in the close-up)` : text));
         const list = element("ol"), rest = texts.splice(FEW);
         list.append(...texts);
         root.hidden = false;

@@ -136,10 +136,16 @@ class Live {
         return this.look({look: [rounded(turned), rounded(clamp(elevation + dy * DEGREES_A_PIXEL, -90, 90))]});
     }
 
-    /* Where the view's center is when what it shows moves by pixels of the picture. */
-    moved(dx, dy)
+    /* That of the close-up, at a pixel in it. */
+    cameraAt([x, y])
     {
-        const {right, up, center, pixel} = this.camera;
+        const {closeup} = this.camera, [left, top, width, height] = closeup?.window ?? [0, 0, 0, 0];
+        return x >= left && y >= top && x < left + width && y < top + height ? {...this.camera, ...closeup} : this.camera;
+    }
+
+    /* Where the center of what a camera shows is when that moves by pixels of the picture. */
+    moved(dx, dy, {right, up, center, pixel} = this.camera)
+    {
         return center.map((at, i) => roundedPlace(at - (right[i] * dx - up[i] * dy) * pixel));
     }
 
@@ -212,7 +218,7 @@ class Live {
 
     wheel(event)
     {
-        const [x, y] = this.pixelAt(event);
+        const at = this.pixelAt(event), [x, y] = this.cameraAt(at) === this.camera ? at : this.camera.middle;
         this.zoom(ZOOM_A_NOTCH ** -(event.deltaY * (event.deltaMode ? 30 : 1)), x, y);
         this.drawNow();
     }
@@ -254,8 +260,8 @@ class Live {
     /* The place that is seen at a pixel, as far away as what the camera looks at. */
     placeAt([x, y])
     {
-        const {middle} = this.camera;
-        return this.moved(middle[0] - x, middle[1] - y);
+        const camera = this.cameraAt([x, y]), {middle} = camera;
+        return this.moved(middle[0] - x, middle[1] - y, camera);
     }
 
     /* Mark what was picked, where it is at this tick. */

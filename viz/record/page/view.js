@@ -16,6 +16,7 @@ const VIEW_ROWS = [
     ["zoom", "zoom", "text", {hint: "1", read: Number, write: String}],
     ["color_by", "nodes by", "choice"],
     ["diagram", "diagram", "choice"],
+    ["closeup", "close-up", "switch"],
     ["labels", "labels", "switch"],
     ["leaves", "only leaves", "switch"],
     ["depths", "depths", "text", {
@@ -127,9 +128,11 @@ function optionsOf(view, recorded)
         region: ({min, max}) => `--region ${[...min, ...max].join(",")}`,
         lod: value => `--lod ${value}`, budget: value => `--budget ${value}`,
         look: value => `--look ${value.join(",")}`, center: value => `--center ${value.join(",")}`,
+        closeup: value => value ? "" : "--no-closeup",
         zoom: value => `--zoom ${value}`, layers: value => `--layers ${value.join(",") || "none"}`,
     };
-    return Object.entries(view)
-        .filter(([name, value]) => written[name] && JSON.stringify(value) !== JSON.stringify(recorded[name]))
+    const of = ({closeup = false, ...others}) => ({closeup, ...others});
+    return Object.entries(of(view))
+        .filter(([name, value]) => written[name] && JSON.stringify(value) !== JSON.stringify(of(recorded)[name]))
         .map(([name, value]) => written[name](value)).join(" ");
 }

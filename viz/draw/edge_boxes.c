@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+#include "edge_boxes.h"
+#include "project.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int compare_edges(const void *a, const void *b)
+{
+    const box_edge *p = a, *q = b;
+    const int lines = line_key_compare(&p->line, &q->line);
+    if (lines)
+        return lines;
+    const int from = compare_doubles(p->from, q->from);
+    return from ? from : (p->box > q->box) - (p->box < q->box);
+}
+
+static box_edge edge_of(const scene_box *box, size_t index, unsigned axis, unsigned corner)
+{
+    return (box_edge){
+        .line = line_key_of(box, axis, corner),
+        .from = box->box.min[axis],
+        .to = box->box.max[axis],
+        .box = (uint32_t)index,
+        .depth = box->depth,
+    };
+}
+
+bool edge_boxes_make(edge_boxes *all, const scene *s)
+{
+    *all = (edge_boxes){.scene = s};
+    const size_t size = 12 * sizeof *all->items;
+    if (s->boxes.count == 0)
+        return true;
+    all->items = s->boxes.count <= SIZE_MAX / size ? malloc(s->boxes.count * size) : NULL;
+    if (!all->items)
+        return false;
+    for (size_t i = 0; i < s->boxes.count; i++) {
+        const scene_box *box = &s->boxes.items[i];
+        const size_t before = all->count;
+        for (unsigned axis = 0; axis < 3; axis++)
+            for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
+                all->items[all->count++] = edge_of(box, i, axis, corner);
+        if (all->count == before) /* a dot */
+            all->items[all->count++] = edge_of(box, i, 0, 0);
+    }
+    qsort(all->items, all->count, sizeof *all->items, compare_edges);
+    return true;
+}
+
+void edge_boxes_release(edge_boxes *all)
+{
+    free(all->items);
+    *all = (edge_boxes){0};
+}
+
+/* A merged edge as it was painted. */
+typedef struct stroke {
+    const edge *edge;
+    line_key line;
+    double from, to;
+    double seen[2][3]; /* of the ends, in camera coordinates */
+    int across;        /* the picture's axis that the stroke is longer on */
+    bool speck;        /* too small on screen to tell places on the line apart */
+} stroke;
+
+static stroke stroke_of(const scene *s, const edge *e)
+{
+    unsigned axis = 0;
+    while (axis < 2 && e->ends[0][axis] == e->ends[1][axis])
+        axis++;
+    if (e->ends[0][axis] == e->ends[1][axis])
+        axis = 0;
+    stroke k = {
+        .edge = e, .line = line_key_at(e->style, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
+    piece pieces[QUAD_BANDS];
+    bool overflowed;
+    const unsigned count = project_segment(s, e->ends[0], e->ends[1], pieces, &overflowed);
+    if (count == 0) {
+        k.speck = true;
+        return k;
+    }
+    const double dx = fabs(pieces[count - 1].to[0] - pieces[0].from[0]);
+    const double dy = fabs(pieces[count - 1].to[1] - pieces[0].from[1]);
+    k.speck = dx < 1 && dy < 1;
+    k.across = dy > dx;
+    for (int end = 0; end < 2; end++)
+        camera_transform(&s->camera, e->ends[end], k.seen[end]);
+    return k;
+}
+
+/* The place on the line that is seen at a coordinate of the picture, within the edge. */
+static double place_at(const scene *s, const stroke *k, double pixel)
+{
+    const camera *c = &s->camera;
+    const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
+    double off[2]; /* distance of each end from the plane through the eye and this coordinate */
+    for (int end = 0; end < 2; end++)
+        off[end] = k->seen[end][k->across] - slope * (c->perspective ? k->seen[end][2] : 1);
+    const double part = off[0] / (off[0] - off[1]);
+    if (!(part > 0))
+        return k->from;
+    return part < 1 ? k->from * (1 - part) + k->to * part : k->to;
+}
+
+/* The first edge of a box on a line, or where it would be. */
+static size_t first_on(const edge_boxes *all, const line_key *wanted)
+{
+    size_t low = 0, high = all->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (line_key_compare(&all->items[middle].line, wanted) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static bool is_on(const edge_boxes *all, size_t i, const stroke *k)
+{
+    return i < all->count && line_key_compare(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
+}
+
+static double distance(const box_edge *of, double at)
+{
+    return at < of->from ? of->from - at : at > of->to ? at - of->to : 0;
+}
+
+size_t edge_boxes_owner(const edge_boxes *all, const edge *e, int x, int y)
+{
+    const stroke k = stroke_of(all->scene, e);
+    const double at = k.speck ? k.from : place_at(all->scene, &k, (k.across ? y : x) + 0.5);
+    const box_edge *best = NULL;
+    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++) {
+        const box_edge *found = &all->items[i];
+        const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].style.role == e->style.role;
+        if (gives && found->to >= k.from && (!best || distance(found, at) < distance(best, at)))
+            best = found;
+    }
+    return best->box; /* not null: an edge consists of the edges of boxes */
+}
+
+void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y, void (*visit)(size_t box, void *context),
+                      void *context)
+{
+    const stroke k = stroke_of(all->scene, e);
+    double low = k.from, high = k.to;
+    if (!k.speck) {
+        const int pixel = k.across ? y : x;
+        const double ends[2] = {place_at(all->scene, &k, pixel), place_at(all->scene, &k, pixel + 1)};
+        low = fmin(ends[0], ends[1]);
+        high = fmax(ends[0], ends[1]);
+    }
+    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++)
+        if (all->items[i].from <= high && all->items[i].to >= low)
+            visit(all->items[i].box, context);
+}
