@@ -50,6 +50,8 @@ typedef struct trial {
     uint64_t seed, random;
     octree_point points[POINT_SET_MOST];
     size_t count;
+    octree_session session; /* which the game borrows, with its bodies */
+    octree_body bodies[POINT_SET_MOST];
     octree_game *game;
     void *index, *sound; /* with the fault, and without, which answers before the fault begins */
     uint64_t begins;     /* the tick in which it does */
@@ -134,18 +136,18 @@ static bool compare(const trial *t, uint64_t tick, tally *sum)
 
 static void begin(trial *t)
 {
-    octree_body bodies[POINT_SET_MOST] = {{0}};
-    octree_session session = {.tree = octree_def_default(), .player.kind = OCTREE_PLAYER_NONE, .bodies = bodies};
+    octree_session *session = &t->session;
+    *session = (octree_session){.tree = octree_def_default(), .player.kind = OCTREE_PLAYER_NONE, .bodies = t->bodies};
     t->random = t->seed;
-    session.body_count = t->count = point_set_fill(t->set, &t->random, t->points);
-    session.tree.world = t->set->world;
-    session.tree.leaf_capacity = 4;
-    session.tree.full_leaf = OCTREE_GROW;
+    session->body_count = t->count = point_set_fill(t->set, &t->random, t->points);
+    session->tree.world = t->set->world;
+    session->tree.leaf_capacity = 4;
+    session->tree.full_leaf = OCTREE_GROW;
     for (size_t i = 0; i < t->count; i++) {
-        bodies[i].id = t->points[i].id;
-        memcpy(bodies[i].position, t->points[i].position, sizeof bodies[i].position);
+        t->bodies[i].id = t->points[i].id;
+        memcpy(t->bodies[i].position, t->points[i].position, sizeof t->bodies[i].position);
     }
-    if (octree_game_create(&session, &t->game) != OCTREE_OK)
+    if (octree_game_create(session, &t->game) != OCTREE_OK)
         stop("a game of the set %s cannot be made", t->set->name);
     t->index = t->peer->create(t->points, t->count, t->fault);
     t->sound = t->peer->create(t->points, t->count, PLANTED_NONE);
