@@ -66,6 +66,7 @@ octreel_recorder_def octreel_recorder_def_default(void)
                                   .camera = view_camera_name(v.camera),
                                   .layers = "default",
                                   .color_by = view_coloring_name(v.coloring),
+                                  .show_tree = view_tree_name(v.tree),
                                   .diagram = view_diagram_name(v.diagram),
                                   .lod = v.lod,
                                   .budget = v.budget,
@@ -122,13 +123,10 @@ static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *
         number_print(def->lod, lod);
     snprintf(budget, sizeof budget, "%" PRIu64, def->budget);
     snprintf(aa, sizeof aa, "%d", def->aa);
-    const char *const options[][2] = {{"camera", def->camera},
-                                      {"layers", def->layers},
-                                      {"color-by", def->color_by},
-                                      {"diagram", def->diagram},
-                                      {"lod", lod},
-                                      {"budget", budget},
-                                      {"aa", aa}};
+    const char *const options[][2] = {{"camera", def->camera},     {"layers", def->layers},
+                                      {"color-by", def->color_by}, {"tree", def->show_tree},
+                                      {"diagram", def->diagram},   {"lod", lod},
+                                      {"budget", budget},          {"aa", aa}};
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
         const view_option *option = view_option_named(options[i][0]);
         if (!option->parse(option, options[i][1], v, &r->error))
@@ -169,7 +167,7 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
     r->settings.film.view = view_default();
     r->never_wait = def->never_wait;
     r->ring.most = def->ring;
-    if (!def->camera || !def->layers || !def->color_by || !def->diagram || !def->context)
+    if (!def->camera || !def->layers || !def->color_by || !def->show_tree || !def->diagram || !def->context)
         return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT,
                              "a name in the definition is null; start from octreel_recorder_def_default()");
     octreel_status status = set_tree(r, &def->tree);

@@ -22,12 +22,13 @@ bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to)
     const size_t count = from->node_count;
     size_t ids = 0;
     for (size_t i = 0; i < count; i++)
-        ids += source[i].points.count;
+        ids += source[i].has_points ? source[i].points.count : 0;
     octree_foreign_node *nodes = make_room(count, ids);
     uint64_t *room = (uint64_t *)(nodes + (nodes ? count : 0));
     *to = (octree_foreign_tree){.tick = from->tick, .nodes = nodes, .node_count = nodes ? count : 0};
     for (size_t i = 0; nodes && i < count; i++) {
         nodes[i] = source[i];
+        nodes[i].points.count = source[i].has_points ? source[i].points.count : 0;
         if (nodes[i].points.count)
             memcpy(room, nodes[i].points.ids, nodes[i].points.count * sizeof *room);
         nodes[i].points.ids = room;

@@ -51,7 +51,7 @@ static octreel_status tick(octreel_recorder *recorder, const octree_foreign_tree
 /* The number of the nodes in force of each tick; '-' where there are none, 'W' where something is wrong. */
 static void note_nodes(const char *line, size_t number, void *context)
 {
-    static const char counted[] = "\"nodes\": {\"count\": ";
+    static const char counted[] = "\"program_nodes\": {\"count\": ";
     const char *nodes = strstr(line, counted);
     char *told = context;
     (void)number;

@@ -121,6 +121,19 @@ static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
                    "s.json:3: queries[0].pruned[1]: expected a whole number from 0 to 9007199254740991, found \"a\"");
 }
 
+/* Ids are read only where the program says that it lists points. */
+static void a_copy_reads_no_points_that_are_not_said(void **state)
+{
+    (void)state;
+    const octree_foreign_node node = {.id = 1, .points = {NULL, 7}};
+    const octree_foreign_tree tree = {.tick = 4, .nodes = &node, .node_count = 1};
+    octree_foreign_tree copy;
+    assert_int_equal(octree_foreign_check(&tree, NULL), OCTREE_OK);
+    assert_true(foreign_tree_copy(&tree, &copy));
+    assert_true(copy.tick == 4 && copy.node_count == 1 && copy.nodes[0].points.count == 0);
+    foreign_tree_release(&copy);
+}
+
 static char *write_tick(const octree_session *session)
 {
     octree_game *game;
@@ -148,7 +161,8 @@ static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
     at = strstr(at, "\", \"visited\": 1");
     assert_non_null(at);
     static const char rest[] =
-        "\", \"visited\": 1, \"pruned\": 1, \"hit\": 0, \"wrong\": {\"count\": 4, \"unknown_point\": 1, \"outside_point\": 1, "
+        "\", \"visited\": 1, \"pruned\": 1, \"hit\": 0, \"wrong\": {\"count\": 4, \"unknown_point\": 1, "
+        "\"outside_point\": 1, "
         "\"unknown_node\": 1, \"pruned_point\": 1, \"first\": ["
         "{\"fault\": \"outside_point\", \"node\": 4, \"point\": 1}, "
         "{\"fault\": \"unknown_point\", \"node\": 4, \"point\": 3}, "
@@ -170,6 +184,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nodes_are_read_with_all_that_is_said_of_them),
         cmocka_unit_test(nodes_and_how_they_were_met_survive_the_round_trip),
+        cmocka_unit_test(a_copy_reads_no_points_that_are_not_said),
         cmocka_unit_test(nodes_that_are_no_tree_are_refused_by_line_and_place),
         cmocka_unit_test(ticks_say_the_nodes_and_what_is_wrong_with_them),
     };

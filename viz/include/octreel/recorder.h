@@ -100,25 +100,27 @@ typedef struct octreel_recorder_def {
     octree_def tree;    /* octree_definition() of the trees to come; their allocator is not used. For lists of points:
                            the world, which is to hold all of them, and the capacity and depth of the tree that shows
                            them; its full leaves grow */
-    octree_player player; /* OCTREE_PLAYER_NONE, or _BODY: the point that collides, by id, box_size and sweep */
-    int width, height;    /* pixels; 1 to 16384 */
-    const char *camera;   /* "iso", "orbit", "follow" ... */
-    const char *layers;   /* "default", "all", "-text", "nodes,points,shapes" ... */
-    const char *color_by; /* "depth", "occupancy", "plain" */
-    const char *diagram;  /* "none", "beside", "only" */
-    bool labels;          /* write paths such as 0/3/7 on nodes, where there is room */
-    double lod;           /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
-    uint64_t budget;      /* the most boxes, and the most points, of a frame; 0: any number */
-    int aa;               /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
-    uint64_t every;       /* film each N-th tick, or none with 0: the page draws. ticks.jsonl has all of them */
-    const char *context;  /* what draws off-screen: "auto", "osmesa", "egl" */
-    bool any_renderer;    /* with "egl": a graphics card will do; frames are then the same on that card alone */
-    size_t queue_ticks;   /* ticks that may wait for the worker, at least 1 */
-    size_t queue_bytes;   /* and what they may take together; one tick alone may take more */
-    bool never_wait;      /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker: such a tick
-                            is a gap; the first frame is waited for all the same */
-    size_t ring;          /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
-                            Beside the points of the first it holds what changed in the others */
+    octree_player player;  /* OCTREE_PLAYER_NONE, or _BODY: the point that collides, by id, box_size and sweep */
+    int width, height;     /* pixels; 1 to 16384 */
+    const char *camera;    /* "iso", "orbit", "follow" ... */
+    const char *layers;    /* "default", "all", "-text", "nodes,points,shapes" ... */
+    const char *color_by;  /* "depth", "occupancy", "plain" */
+    const char *show_tree; /* "auto", "own", "foreign", "both": whose nodes are shown, where octreel_tick_info.foreign
+                              has the program's; by "auto" those instead of Octreel's, once there are any */
+    const char *diagram;   /* "none", "beside", "only" */
+    bool labels;           /* write paths such as 0/3/7 on nodes, where there is room */
+    double lod;            /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
+    uint64_t budget;       /* the most boxes, and the most points, of a frame; 0: any number */
+    int aa;                /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
+    uint64_t every;        /* film each N-th tick, or none with 0: the page draws. ticks.jsonl has all of them */
+    const char *context;   /* what draws off-screen: "auto", "osmesa", "egl" */
+    bool any_renderer;     /* with "egl": a graphics card will do; frames are then the same on that card alone */
+    size_t queue_ticks;    /* ticks that may wait for the worker, at least 1 */
+    size_t queue_bytes;    /* and what they may take together; one tick alone may take more */
+    bool never_wait; /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker: such a tick
+                       is a gap; the first frame is waited for all the same */
+    size_t ring;     /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
+                       Beside the points of the first it holds what changed in the others */
 } octreel_recorder_def;
 
 /* No player, 1280 x 720, "iso", the default layers, 16 ticks or 64 MiB in the queue, no ring. */

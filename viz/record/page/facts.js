@@ -9,6 +9,8 @@ const CURVES = [
     ["tree.depth", "depth"],
     ["tree.points", "points"],
     ["visits.visited", "visits"],
+    ["program_nodes.count", "program's"],
+    ["program_nodes.wrong.count", "wrong in it"],
 ];
 
 /* The events and their signs, in the order of octree_event. One that is rare comes last, has no key, and has a lane only

@@ -15,6 +15,7 @@ const VIEW_ROWS = [
     ["center", "at", "text", {hint: "x,y,z", read: numbersOf, write: center => center.join(",")}],
     ["zoom", "zoom", "text", {hint: "1", read: Number, write: String}],
     ["color_by", "nodes by", "choice"],
+    ["tree", "tree", "choice"],
     ["diagram", "diagram", "choice"],
     ["closeup", "close-up", "switch"],
     ["labels", "labels", "switch"],
@@ -122,7 +123,7 @@ function optionsOf(view, recorded)
 {
     const written = {
         camera: value => `--camera ${value}`, color_by: value => `--color-by ${value}`,
-        diagram: value => `--diagram ${value}`, labels: () => "--labels", leaves: () => "--leaves",
+        tree: value => `--tree ${value}`, diagram: value => `--diagram ${value}`, labels: () => "--labels", leaves: () => "--leaves",
         depths: ([from, to]) => `--depths ${from}:${to}`,
         slice: slice => `--slice ${Object.entries(slice)[0].join("=")}`,
         region: ({min, max}) => `--region ${[...min, ...max].join(",")}`,
