@@ -120,6 +120,18 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     return keep_worst(kind, tick, place, answer);
 }
 
+static void keep_first(audit_nodes *nodes, const octree_tick *tick)
+{
+    for (size_t i = 0; i < tick->foreign.listed_count; i++) {
+        const octree_node_fault *fault = &tick->foreign.listed[i];
+        if (nodes->first[fault->kind].known)
+            continue;
+        nodes->first[fault->kind].known = true;
+        nodes->first[fault->kind].tick = tick->number;
+        nodes->first[fault->kind].fault = *fault;
+    }
+}
+
 static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
 {
     nodes->given |= tick->foreign.given;
@@ -130,6 +142,7 @@ static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
     nodes->faults += tick->foreign.fault_count;
     for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
         nodes->kinds[i] += tick->foreign.faults[i];
+    keep_first(nodes, tick);
 }
 
 /* Of a gap nothing is known. */

@@ -48,6 +48,11 @@ typedef struct audit_nodes {
     bool given;
     uint64_t faults, ticks, first_wrong; /* in so many ticks, from this one on */
     uint64_t kinds[OCTREE_NODE_FAULTS];
+    struct {
+        bool known; /* that of a kind may be among those that a tick counts and does not list */
+        uint64_t tick;
+        octree_node_fault fault;
+    } first[OCTREE_NODE_FAULTS]; /* of each kind */
 } audit_nodes;
 
 typedef struct audit_report {

@@ -121,6 +121,20 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
     print_within(out, v->limits, audit_kind_passes(kind, v->limits));
 }
 
+/* " (tick 2, node 30, point 1)" */
+static void print_first(FILE *out, const audit_nodes *nodes, octree_node_fault_kind kind)
+{
+    const octree_node_fault *fault = &nodes->first[kind].fault;
+    if (!nodes->first[kind].known)
+        return;
+    fprintf(out, " (tick %" PRIu64, nodes->first[kind].tick);
+    if (kind != OCTREE_NODE_LOST_POINT)
+        fprintf(out, ", node %" PRIu64, fault->node);
+    if (kind != OCTREE_NODE_OUTSIDE_PARENT && kind != OCTREE_NODE_UNKNOWN_NODE)
+        fprintf(out, ", point %" PRIu64, fault->point);
+    fputc(')', out);
+}
+
 void audit_print_nodes(FILE *out, const audit_nodes *nodes)
 {
     fprintf(out, "nodes: %" PRIu64 " fault%s", nodes->faults, plural(nodes->faults));
@@ -129,8 +143,10 @@ void audit_print_nodes(FILE *out, const audit_nodes *nodes)
     fprintf(out, " in %" PRIu64 " tick%s, the first is %" PRIu64, nodes->ticks, plural(nodes->ticks),
             nodes->first_wrong);
     for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
-        if (nodes->kinds[i])
+        if (nodes->kinds[i]) {
             fprintf(out, "; %" PRIu64 ": %s", nodes->kinds[i], octree_node_fault_words((octree_node_fault_kind)i));
+            print_first(out, nodes, (octree_node_fault_kind)i);
+        }
 }
 
 /* ---- For people --------------------------------------------------------------------------------------------- */
