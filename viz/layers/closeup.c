@@ -16,9 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALL 16       /* units of the picture: what appears larger needs no close-up, */
-#define WANTED 34      /* and a close-up makes it about so large */
-#define MOST_TIMES 1e6 /* as --zoom */
+#define SMALL (32.0 / 720)  /* of the height of the picture: what appears larger needs no close-up, */
+#define WANTED (68.0 / 720) /* and a close-up makes it about so large */
+#define MOST_TIMES 1e6      /* as --zoom */
 
 /* ---- What it shows ------------------------------------------------------------------------------------------ */
 
@@ -129,8 +129,8 @@ double closeup_times(const scene *s, const layer_source *in)
     if (!v->closeup || !in->game || layout_closeup(v).width == 0)
         return 0;
     const camera c = camera_make(v, layout_camera(&with), &in->world, in->session->player.position, 0);
-    const double units = 2 * reach_of(in->session) / camera_pixel_length(&c) / s->unit;
-    return units > 0 && units < SMALL ? round_down(fmin(WANTED / units, MOST_TIMES)) : 0;
+    const double part = 2 * reach_of(in->session) / camera_pixel_length(&c) / view_height_in_wide(v);
+    return part > 0 && part < SMALL ? round_down(fmin(WANTED / part, MOST_TIMES)) : 0;
 }
 
 /* ---- Its scene ---------------------------------------------------------------------------------------------- */
@@ -248,10 +248,10 @@ static void add_region(scene *s, const rectangle *frame)
     if (!find_region(s, &r))
         return;
     const double *at = r.side, *to = frame->side;
-    add_flat(s, REGION_ID, at[0], at[1], at[2], at[1], ROLE_TEXT);
-    add_flat(s, REGION_ID + 1, at[0], at[3], at[2], at[3], ROLE_TEXT);
-    add_flat(s, REGION_ID + 2, at[0], at[1], at[0], at[3], ROLE_TEXT);
-    add_flat(s, REGION_ID + 3, at[2], at[1], at[2], at[3], ROLE_TEXT);
+    add_flat(s, REGION_ID, at[0], at[1], at[2], at[1], ROLE_FAINT);
+    add_flat(s, REGION_ID + 1, at[0], at[3], at[2], at[3], ROLE_FAINT);
+    add_flat(s, REGION_ID + 2, at[0], at[1], at[0], at[3], ROLE_FAINT);
+    add_flat(s, REGION_ID + 3, at[2], at[1], at[2], at[3], ROLE_FAINT);
     const bool beside = at[2] <= to[0];
     add_flat(s, LEADER_ID, at[beside ? 2 : 0], at[beside ? 1 : 3], to[0], to[1], ROLE_FAINT);
     add_flat(s, LEADER_ID + 1, at[2], at[3], to[beside ? 0 : 2], to[beside ? 3 : 1], ROLE_FAINT);

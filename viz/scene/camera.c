@@ -9,7 +9,7 @@
 
 /* The window divided by the world's picture: room for labels. */
 #define MARGIN 1.1
-#define MARGIN_OF_BALL 1.01
+#define MARGIN_OF_TURN 1.01
 #define THINNEST 1e-3   /* a world that looks thinner, seen end on, is not enlarged to fill the window */
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* of the following camera: focal length in half windows */
@@ -93,16 +93,32 @@ static const struct {
     [CAMERA_ORBIT] = {30.0 / 360, 22.0 / 360, true},
 };
 
-/* Fit the world into the window: by its outline if orthographic, by its bounding sphere under perspective. */
+/* Fit a box that turns round its upright axis, in perspective, into the window: at any tick of an orbit it is within
+ * the upright cylinder around it. Of each rim that is widest where the line of sight touches it, and reaches farthest
+ * up and down where it is nearest and farthest. */
+static double fit_turning(const camera *c, camera_window window, double distance)
+{
+    const double radius = sqrt(c->half[0] * c->half[0] + c->half[1] * c->half[1]), rise = c->up[2];
+    const double fall = -c->forward[2];
+    double across = THINNEST, along = THINNEST; /* half of what is seen, at distance 1 */
+    for (int top = -1; top <= 1; top += 2) {
+        const double height = top * c->half[2], depth = distance - height * fall;
+        across = fmax(across, radius / sqrt(depth * depth - radius * radius * rise * rise));
+        for (int near = -1; near <= 1; near += 2)
+            along = fmax(along, fabs(height * rise - near * radius * fall) / (depth - near * radius * rise));
+    }
+    const double x = window.width / across, y = window.height / along;
+    return (x < y ? x : y) / (2 * MARGIN_OF_TURN);
+}
+
+/* Fit the world into the window: by its outline if orthographic, by all that it turns through under perspective. */
 static double fit(const camera *c, camera_window window, double distance)
 {
     const double across = fmax(half_span(c->right, c->half), THINNEST),
                  along = fmax(half_span(c->up, c->half), THINNEST);
     const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
-    const double smaller = window.width < window.height ? window.width : window.height;
-    const double square = camera_dot(c->half, c->half);
     if (c->perspective)
-        return smaller / (2 * MARGIN_OF_BALL) * sqrt(distance * distance / square - 1);
+        return fit_turning(c, window, distance);
     return x < y ? x : y;
 }
 

@@ -24,12 +24,12 @@
     X(PRUNED, "pruned", "pruned nodes", "nodes that the tick's queries pruned", ROLE_NODE_2, true, true)               \
     X(VISITED, "visited", "visited nodes", "nodes that the tick's queries visited, or took whole", ROLE_NODE_2, false, \
       true)                                                                                                            \
-    X(HIT, "hit", "leaves with hits", "leaves with points that the queries found", ROLE_POINT, false, true)            \
-    X(MERGES, "merges", "merges", "inner nodes that became leaves in the tick", ROLE_POINT, false, true)               \
-    X(SPLITS, "splits", "splits", "leaves that split in the tick", ROLE_POINT, false, true)                            \
+    X(HIT, "hit", "leaves with hits", "leaves with points that the queries found", ROLE_HIT, false, true)              \
+    X(MERGES, "merges", "merges", "inner nodes that became leaves in the tick", ROLE_CHANGE, false, true)              \
+    X(SPLITS, "splits", "splits", "leaves that split in the tick", ROLE_CHANGE, false, true)                           \
     X(ASKED, "asked", "the node asked for", "the node that inspect --node names", ROLE_PLAYER, false, true)            \
     X(POINTS, "points", "points", "the points in the tree", ROLE_POINT, true, true)                                    \
-    X(VELOCITIES, "velocities", "velocities", "arrows to where moving points go next", ROLE_POINT, true, true)         \
+    X(VELOCITIES, "velocities", "velocities", "arrows to where moving points go next", ROLE_FAINT, true, true)         \
     X(RANGE, "range", "range queries", "boxes that are asked for, and the points found", ROLE_RANGE, false, true)      \
     X(RADIUS, "radius", "radius queries", "balls that are asked for, and the points found", ROLE_RADIUS, false, true)  \
     X(KNEAREST, "knearest", "k-nearest queries", "lines to the k nearest points, with their ranks", ROLE_KNEAREST,     \

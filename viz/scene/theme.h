@@ -43,7 +43,9 @@
     X(NODE_9, "node-9", 212, 206, 116)                                                                                 \
     X(SHAPE, "shape", 90, 200, 255)                                                                                    \
     X(WRONG, "wrong", 228, 40, 255) /* a program's answer, and what it named wrongly */                                \
-    X(MISSED, "missed", 0, 216, 174)
+    X(MISSED, "missed", 0, 216, 174)                                                                                   \
+    X(HIT, "hit", 12, 132, 252)        /* leaves that hold what was found */                                           \
+    X(CHANGE, "change", 252, 252, 138) /* of the tree: solid where it splits, dashed where it merges */
 
 #define THEME_NODE_DEPTHS 10 /* deeper nodes share the last */
 

@@ -88,7 +88,7 @@ static void nodes_have_the_looks_of_octreels_own(void **state)
     assert_int_equal(BOXES_OF(LAYER_HIT), 1);
     assert_int_equal(only_box(&shown, LAYER_PRUNED, foreign_element(FOREIGN_LOW))->style.stroke, STROKE_CUT);
     assert_int_equal(only_box(&shown, LAYER_VISITED, foreign_element(FOREIGN_ROOT))->style.width, 2);
-    assert_int_equal(only_box(&shown, LAYER_HIT, foreign_element(FOREIGN_HIGH))->style.role, ROLE_POINT);
+    assert_int_equal(only_box(&shown, LAYER_HIT, foreign_element(FOREIGN_HIGH))->style.role, ROLE_HIT);
     assert_true(says("3 nodes visited") && says("2 nodes pruned") && says("1 leaf hit"));
 }
 

@@ -48,7 +48,7 @@ static void check_arrow(const scene_segment *arrow, const octree_body *body, con
     double part = 1;
     bool on_face = false;
     assert_true(same_position(arrow->ends[0], body->position) && !arrow->in_picture);
-    assert_true(arrow->style.stroke == STROKE_ARROW && arrow->style.role == ROLE_POINT);
+    assert_true(arrow->style.stroke == STROKE_ARROW && arrow->style.role == ROLE_FAINT);
     for (int i = 0; i < 3; i++) {
         const double whole = body->velocity[i] * ticks;
         assert_true(end[i] >= world->min[i] && end[i] <= world->max[i]);

@@ -77,7 +77,7 @@ static void check_visits(const scene *s, const recount *met, const octree *tree)
         [OCTREE_TOUCH_TAKEN] = {LAYER_VISITED, 0, STROKE_SOLID, 2},
         [OCTREE_TOUCH_PRUNED] = {LAYER_PRUNED, 0, STROKE_CUT, 1},
     };
-    static const scene_style hit = {LAYER_HIT, ROLE_POINT, STROKE_SOLID, 2};
+    static const scene_style hit = {LAYER_HIT, ROLE_HIT, STROKE_SOLID, 2};
     dues due = {{0}, 0};
     char text[SCENE_TEXT];
     for (size_t i = 0; i < met->count; i++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_theme.c - what the colours may mean, how they fade, and what is left of them without red, green or any hue. */
 #include "fixture.h"
+#include "layer.h"
 #include "theme.h"
 
 #include <math.h>
@@ -154,8 +155,8 @@ static double apart(theme_role a, theme_role b, const double eye[3][3])
 /* Where a difference of 2 or 3 is just seen side by side. */
 #define CLEARLY_APART 12
 
-static const theme_role meanings[] = {ROLE_POINT,    ROLE_PLAYER,  ROLE_COLLISION, ROLE_RANGE, ROLE_RADIUS,
-                                      ROLE_KNEAREST, ROLE_NEAREST, ROLE_WRONG,     ROLE_MISSED};
+static const theme_role meanings[] = {ROLE_POINT,   ROLE_PLAYER, ROLE_COLLISION, ROLE_RANGE, ROLE_RADIUS, ROLE_KNEAREST,
+                                      ROLE_NEAREST, ROLE_WRONG,  ROLE_MISSED,    ROLE_HIT,   ROLE_CHANGE};
 #define MEANINGS (sizeof meanings / sizeof meanings[0])
 #define EYES (sizeof eyes / sizeof eyes[0])
 
@@ -179,6 +180,20 @@ static void meanings_stay_apart_from_nodes_unless_they_are_dashed(void **state)
         for (size_t i = 0; i < MEANINGS; i++)
             for (unsigned depth = 0; depth < THEME_NODE_DEPTHS && meanings[i] != ROLE_NEAREST; depth++)
                 assert_true(apart(meanings[i], theme_node_role(depth), eyes[eye]) > CLEARLY_APART);
+}
+
+/* Points, leaves that hold what was found, changes of the tree and velocities are told apart by their colours; splits
+ * and merges, which are one thing, by their dashes. */
+static void one_look_has_one_meaning(void **state)
+{
+    (void)state;
+    static const view_layer layers[] = {LAYER_POINTS, LAYER_HIT, LAYER_SPLITS, LAYER_VELOCITIES};
+    for (size_t eye = 0; eye < EYES; eye++)
+        for (int i = 0; i < 4; i++)
+            for (int j = i + 1; j < 4; j++)
+                assert_true(apart((theme_role)layer_rows[layers[i]].role, (theme_role)layer_rows[layers[j]].role,
+                                  eyes[eye]) > CLEARLY_APART);
+    assert_int_equal(layer_rows[LAYER_SPLITS].role, layer_rows[LAYER_MERGES].role);
 }
 
 /* The contrast of WCAG 2.1, of a colour that is lighter than its ground; 4.5 is asked for letters. */
@@ -287,6 +302,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_background_has_no_shades_and_is_index_0),
         cmocka_unit_test(every_index_fits_a_byte_and_is_used_once),
         cmocka_unit_test(meanings_stay_apart_without_red_or_green),
+        cmocka_unit_test(one_look_has_one_meaning),
         cmocka_unit_test(the_ramp_is_even_and_grows_lighter_for_every_eye),
         cmocka_unit_test(the_ramp_ends_where_amounts_do),
         cmocka_unit_test(kinds_stay_apart_without_red_or_green),
