@@ -154,7 +154,7 @@ static bool film_naive_tick(work *w, naive *n, octree_game *game, scene *s)
     const view v = filmed_whole_view(w->order->scene);
     const uint64_t tick = octree_game_tick(game)->number;
     char name[FRAME_NAME];
-    if (!tick_scene_build(s, &v, game, NULL) || !naive_draw(n, s))
+    if (!tick_scene_build(s, &v, game, NULL, NULL) || !naive_draw(n, s))
         return fail(w, "the naive way cannot draw");
     const double drawn = worked();
     char *path = path_join(w->order->folder, frame_name(tick, name));

@@ -51,7 +51,7 @@ void subject_show(const subject *s, const view *v, scene *picture)
 {
     const tree_subject bare = {.title = ""};
     const bool shown =
-        s->game ? tick_scene_build(picture, v, s->game, NULL) : tree_scene_build(picture, v, s->tree, &bare);
+        s->game ? tick_scene_build(picture, v, s->game, NULL, NULL) : tree_scene_build(picture, v, s->tree, &bare);
     if (!shown)
         stop("there is no memory for a scene");
 }

@@ -6,6 +6,7 @@
 #include "film.h"
 #include "inspect.h"
 #include "inspect_answers.h"
+#include "inspect_view.h"
 #include "layer.h"
 #include "number.h"
 #include "point_world.h"
@@ -113,6 +114,8 @@ typedef struct report {
     const inspection *made;
     octree_node node;
     inspect_answers answers;
+    view view;                   /* of the picture */
+    char chosen[INSPECT_CHOICE]; /* a sentence about what of it was not asked for */
 } report;
 
 static bool draw(const report *r, octreel_error *error)
@@ -123,7 +126,7 @@ static bool draw(const report *r, octreel_error *error)
                                 .node = a->node ? r->node.address : 0,
                                 .answers = r->answers.answers,
                                 .answer_count = r->answers.count};
-    const film_options options = {.view = a->view, .values = &r->made->values, .renderer = a->renderer};
+    const film_options options = {.view = r->view, .values = &r->made->values, .renderer = a->renderer};
     if (!film_tree(r->made->tree, &about, &options, a->picture, &drawn, error))
         return false;
     if (drawn.over_budget)
@@ -159,7 +162,8 @@ static void print(const report *r)
     if (!a->node && !a->queries.count)
         inspect_print(r->made, r->name, a->json, out);
     if (a->picture && !a->json)
-        fprintf(out, "wrote %s: %d x %d pixels\n", file_output_title(a->picture), a->view.width, a->view.height);
+        fprintf(out, "wrote %s: %d x %d pixels%s%s\n", file_output_title(a->picture), a->view.width, a->view.height,
+                *r->chosen ? "; " : "", r->chosen);
     if (a->nodes && !a->json)
         fprintf(out, "wrote %s: all nodes\n", file_output_title(a->nodes));
 }
@@ -172,7 +176,12 @@ static bool make_report(report *r, octreel_error *error)
         return false;
     if (!inspect_ask(r->made->tree, a->queries.items, a->queries.count, &r->answers, error))
         return false;
-    const bool ok = (!a->picture || draw(r, error)) && (!a->nodes || inspect_write_nodes(r->made, a->nodes, error));
+    r->view = a->view;
+    const bool ok = (!a->picture ||
+                     (inspect_choose_view(r->made, gives_view_option(&a->view_options, "color-points"),
+                                          gives_view_option(&a->view_options, "shade"), &r->view, r->chosen, error) &&
+                      draw(r, error))) &&
+                    (!a->nodes || inspect_write_nodes(r->made, a->nodes, error));
     if (ok)
         print(r);
     inspect_answers_release(&r->answers);

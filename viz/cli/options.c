@@ -232,6 +232,14 @@ const char *first_view_option(const view_options *given)
     return NULL;
 }
 
+bool gives_view_option(const view_options *given, const char *name)
+{
+    for (size_t i = 0; view_option_at(i); i++)
+        if (given->values[i] && view_option_at(i)->name && strcmp(view_option_at(i)->name, name) == 0)
+            return true;
+    return false;
+}
+
 bool read_view(const view_options *given, view *v)
 {
     octreel_error error;

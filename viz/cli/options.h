@@ -81,6 +81,9 @@ typedef struct view_options {
     const char *values[VIEW_OPTIONS]; /* as they were typed, at the numbers of view_option_at(); null: not given */
 } view_options;
 
+/* Whether one was given. */
+bool gives_view_option(const view_options *given, const char *name);
+
 /* Write them where getopt_long will read them, VIEW_OPTIONS at most; returns their number. */
 size_t list_view_options(struct option *options);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "splats.h"
 #include "layer.h"
+#include "point_scale.h"
 #include "project.h"
 
 #include <math.h>
@@ -13,12 +14,6 @@
  * world, the camera and the picture. */
 #define DEPTH_PARTS 8
 #define MOST_DEPTH (1 << 29)
-
-/* The widest splat that closes gaps between points, in units of the frame. */
-#define WIDEST 7
-
-/* A splat is this much wider than it is from one point to the next: more than the diagonal of a grid. */
-#define OVERLAP 1.5
 
 /* What is nearest at a sample. */
 typedef struct splat {
@@ -46,10 +41,9 @@ static double log2_of(double x)
 
 static splatter splatter_make(const scene *s)
 {
-    const camera *c = &s->camera;
     return (splatter){.scene = s,
-                      .spacing = s->spacing * c->scale / c->size * 2 * c->zoom * OVERLAP,
-                      .most = WIDEST * s->unit * view_samples(&s->view)};
+                      .spacing = point_scale_pixels(&s->camera, s->spacing) * POINT_OVERLAP,
+                      .most = POINT_WIDEST * s->unit * view_samples(&s->view)};
 }
 
 /* Under perspective differences of logarithms, since what is twice as far appears half as large. */

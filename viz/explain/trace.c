@@ -239,7 +239,8 @@ bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const g
     if (a->width != b->width || a->height != b->height || view_samples(a) != view_samples(b) || *t->untraced)
         return true;
     for (int i = 0; i < 2; i++)
-        if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->heats[i]))
+        if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->heats[i],
+                              &sides[i].replay.session.values))
             return error_no_memory(error);
     const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, made, error);
     image_release(&frames[0]);

@@ -227,10 +227,10 @@ static bool read_scale(json_reader *r, json_t *value, const json_place *at, void
 {
     double n[SCALE_NUMBERS];
     if (!json_is_array(value) || json_array_size(value) != SCALE_NUMBERS)
-        return json_expected(r, value, at, "nine numbers");
+        return json_expected(r, value, at, "eleven numbers");
     if (!json_read_numbers(r, value, at, 0, SCALE_NUMBERS, n))
         return false;
-    const point_scale s = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7]}, n[8]};
+    const point_scale s = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7]}, {n[8], n[9]}, n[10]};
     for (int i = 0; i < 3; i++)
         if (s.low[i] > s.high[i])
             return json_fail(r, at, "the lowest place is above the highest");
@@ -243,8 +243,8 @@ static bool read_scale(json_reader *r, json_t *value, const json_place *at, void
 static void write_scale(json_writer *w, const void *from)
 {
     const point_scale *s = from;
-    const double n[SCALE_NUMBERS] = {s->low[0],  s->low[1], s->low[2], s->high[0], s->high[1],
-                                     s->high[2], s->ids[0], s->ids[1], s->spacing};
+    const double n[SCALE_NUMBERS] = {s->low[0], s->low[1], s->low[2],         s->high[0],        s->high[1], s->high[2],
+                                     s->ids[0], s->ids[1], s->intensities[0], s->intensities[1], s->spacing};
     json_write_numbers(w, n, SCALE_NUMBERS);
 }
 

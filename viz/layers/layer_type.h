@@ -9,6 +9,7 @@
 #include "layer.h"
 #include "legend.h"
 #include "pen.h"
+#include "point_values.h"
 
 /* What a scene is built from: a tick of a game, or a tree alone. */
 typedef struct layer_source {
@@ -17,7 +18,8 @@ typedef struct layer_source {
     octree_box world;
     const octree_answer *answers;
     size_t answer_count;
-    const char *broken; /* what the validator found; null when all invariants hold */
+    const point_values *values; /* of its points; null: they have none */
+    const char *broken;         /* what the validator found; null when all invariants hold */
     octree_address broken_at;
 
     const octree_game *game; /* null: a tree alone */

@@ -19,6 +19,7 @@
 typedef struct tree_walk {
     scene *scene;
     octree_box world;
+    const point_values *values;
     uint8_t point_width;
     bool shows_nodes;                      /* of Octreel's tree; its points are shown with or without them */
     view_filter filter;                    /* of points */
@@ -94,7 +95,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
     const size_t before = s->markers.count;
     scene_add_points(s, some, count, SHAPE_SQUARE, style);
     if (style.role == ROLE_OWN)
-        color_points(&s->view, leaf, s->markers.items + before, s->markers.count - before);
+        color_points(&s->view, w->values, leaf, s->markers.items + before, s->markers.count - before);
     s->tally.points += count;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
         thin_points(w);
@@ -215,7 +216,7 @@ static void add_labels(scene *s)
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
-    tree_walk w = {.scene = s, .world = in->world, .deepest = OCTREE_MAX_DEPTH};
+    tree_walk w = {.scene = s, .world = in->world, .values = in->values, .deepest = OCTREE_MAX_DEPTH};
     w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
     w.shows_nodes = view_shows(&s->view, LAYER_NODES) && shows_own_tree(in);
     w.filter = s->view.filter;

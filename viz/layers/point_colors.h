@@ -3,10 +3,16 @@
 #ifndef LAYERS_POINT_COLORS_H
 #define LAYERS_POINT_COLORS_H
 
+#include "point_values.h"
 #include "scene.h"
 
-/* Give colours to markers of points of one leaf, by the view's point_color and its scale. Under POINTS_BY_DENSITY they
- * have none: draw counts the points of a pixel. */
-void color_points(const view *v, const octree_node *leaf, scene_marker *markers, size_t count);
+/* Give colours to markers of points of one leaf, by the view's point_color and its scale; a point that lacks the value
+ * is of the colour of marks. Under POINTS_BY_DENSITY draw counts the points of a pixel. The values may be null. */
+void color_points(const view *v, const point_values *values, const octree_node *leaf, scene_marker *markers,
+                  size_t count);
+
+/* What theme_kind() of a class stands for: those of LAS that are alike share one; beyond them 7, "other". */
+unsigned kind_of_class(unsigned class);
+extern const char *const class_kind_names[THEME_KINDS];
 
 #endif

@@ -94,7 +94,7 @@ static bool build(scene *s, layer_source *in, const double player[3])
     return !s->out_of_memory;
 }
 
-bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h)
+bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h, const point_values *values)
 {
     const octree_tick *tick = octree_game_tick(game);
     layer_source in = {.view = v,
@@ -105,7 +105,8 @@ bool tick_scene_build(scene *s, const view *v, const octree_game *game, const he
                        .game = game,
                        .session = octree_game_session(game),
                        .tick = tick,
-                       .heat = h};
+                       .heat = h,
+                       .values = values};
     return build(s, &in, tick->player);
 }
 
@@ -116,6 +117,7 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .world = octree_definition(tree).world,
                        .answers = about->answers,
                        .answer_count = about->answer_count,
+                       .values = about->values,
                        .title = about->title,
                        .asked = about->node};
     double center[3]; /* what the camera follows without a player */

@@ -103,9 +103,11 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
     scene s = {0};
     view v = options->view;
     *summary = (film_summary){0};
-    if (!picture_fit(&v, tree, error) || !picture_open(&p, &v, &options->renderer, error))
+    if (!picture_fit(&v, tree, options->values, error) || !picture_open(&p, &v, &options->renderer, error))
         return false;
-    bool ok = tree_scene_build(&s, &v, tree, about) || error_no_memory(error);
+    tree_subject shown = *about;
+    shown.values = options->values;
+    bool ok = tree_scene_build(&s, &v, tree, &shown) || error_no_memory(error);
     ok = ok && picture_draw(&p, &s, error) && write_picture(&p, &s, path, error);
     if (ok)
         *summary = (film_summary){.frames = 1,

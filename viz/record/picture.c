@@ -16,12 +16,12 @@ static image_palette theme_palette(void)
     return palette;
 }
 
-bool picture_fit(view *v, const octree *tree, octreel_error *error)
+bool picture_fit(view *v, const octree *tree, const point_values *values, octreel_error *error)
 {
     char reason[FILTER_TEXT];
     const octree_def def = octree_definition(tree);
     camera_fit(v, tree);
-    if (!point_scale_fit(v, tree))
+    if (!point_scale_fit(v, tree, values))
         return error_no_memory(error);
     return !filter_refusal(&v->filter, &def, reason) || error_set(error, "%s", reason);
 }

@@ -6,6 +6,7 @@
 #include "renderer.h"
 #include "folder.h"
 #include "png_write.h"
+#include "point_values.h"
 
 typedef struct picture {
     renderer *renderer;
@@ -14,7 +15,7 @@ typedef struct picture {
 } picture;
 
 /* Fit a view to the tree that it shows first. False with the reason where there is nothing in it to be seen. */
-bool picture_fit(view *v, const octree *tree, octreel_error *error);
+bool picture_fit(view *v, const octree *tree, const point_values *values, octreel_error *error);
 
 /* For scenes of this view's size and anti-aliasing. What is too large is refused before memory is spent. */
 bool picture_open(picture *p, const view *v, const renderer_choice *choice, octreel_error *error);

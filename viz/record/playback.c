@@ -24,7 +24,7 @@ bool playback_open(playback *p, const octree_session *session, const point_value
     const octree_status status = octree_game_create(session, &p->game);
     if (status != OCTREE_OK)
         return error_set(error, "the session cannot be played: %s", octree_status_text(status));
-    return add_heat(p, error) && picture_fit(&p->view, octree_game_tree(p->game), error);
+    return add_heat(p, error) && picture_fit(&p->view, octree_game_tree(p->game), values, error);
 }
 
 void playback_close(playback *p)
@@ -65,7 +65,7 @@ bool playback_film(playback *p, const playback_target *target, octreel_error *er
 
 bool playback_scene(playback *p, octreel_error *error)
 {
-    return tick_scene_build(&p->scene, &p->view, p->game, &p->heat) || error_no_memory(error);
+    return tick_scene_build(&p->scene, &p->view, p->game, &p->heat, p->values) || error_no_memory(error);
 }
 
 static bool draw_frame(playback *p, frame_origin *origin, octreel_error *error)

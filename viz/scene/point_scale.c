@@ -122,18 +122,48 @@ static point_scale measure(const gathering *g, weighted *values)
     return s;
 }
 
-bool point_scale_fit(view *v, const octree *tree)
+static int compare_floats(const void *a, const void *b)
+{
+    const float p = *(const float *)a, q = *(const float *)b;
+    return (p > q) - (p < q);
+}
+
+/* Of all points that have one. */
+static bool measure_intensities(point_scale *s, const point_values *values)
+{
+    size_t count = 0;
+    float *sorted = malloc((values->count + 1) * sizeof *sorted);
+    for (size_t row = 0; sorted && row < values->count; row++)
+        if (point_values_has(values, row, POINT_INTENSITY))
+            sorted[count++] = values->intensities[row];
+    if (count) {
+        qsort(sorted, count, sizeof *sorted, compare_floats);
+        s->intensities[0] = (double)sorted[count / OUTLIERS];
+        s->intensities[1] = (double)sorted[count - 1 - count / OUTLIERS];
+    }
+    free(sorted);
+    return sorted != NULL;
+}
+
+double point_scale_pixels(const camera *c, double length)
+{
+    return length * c->scale / c->size * 2 * c->zoom;
+}
+
+bool point_scale_fit(view *v, const octree *tree, const point_values *values)
 {
     if (!view_paints_points(v) || v->point_scale.given)
         return true;
     gathering g = {.filter = &v->filter, .world = octree_definition(tree).world};
     octree_walk(tree, gather, &g);
-    weighted *values = g.count ? malloc(g.count * sizeof *values) : NULL;
-    const bool measured = !g.out_of_memory && (values || g.count == 0);
+    weighted *sorted = g.count ? malloc(g.count * sizeof *sorted) : NULL;
+    bool measured = !g.out_of_memory && (sorted || g.count == 0);
     v->point_scale.given = measured && g.count > 0;
     if (v->point_scale.given)
-        v->point_scale.of = measure(&g, values);
-    free(values);
+        v->point_scale.of = measure(&g, sorted);
+    if (v->point_scale.given && v->point_color == POINTS_BY_INTENSITY && values)
+        measured = measure_intensities(&v->point_scale.of, values);
+    free(sorted);
     free(g.leaves);
     return measured;
 }

@@ -38,9 +38,12 @@
     ROW(X, "x", "its x")                                                                                               \
     ROW(Y, "y", "its y")                                                                                               \
     ROW(Z, "z", "its z")                                                                                               \
-    ROW(LEAF, "leaf", "its leaf: dark and light by turns, in the colours of height")                                   \
+    ROW(FILE, "file", "its own colour, that its file gives it")                                                        \
+    ROW(LEAF, "leaf", "its leaf: dark and light by turns, in its own colour or that of height")                        \
     ROW(DEPTH, "depth", "how deep its leaf lies in the tree")                                                          \
     ROW(DENSITY, "density", "how many points share its pixel")                                                         \
+    ROW(CLASS, "class", "its class, as of LAS: ground, vegetation, buildings, water")                                  \
+    ROW(INTENSITY, "intensity", "its intensity")                                                                       \
     ROW(ID, "id", "its id: of a cloud, its place in the file")
 
 /* What tells how far away a point is. */
@@ -101,6 +104,7 @@ typedef enum view_shade {
 typedef struct point_scale {
     double low[3], high[3]; /* where nearly all of them are */
     double ids[2];          /* the least and the greatest */
+    double intensities[2];  /* nearly all of them; of POINTS_BY_INTENSITY alone */
     double spacing;         /* from one to the next on a surface, about; 0: not known */
 } point_scale;
 

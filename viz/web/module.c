@@ -161,7 +161,7 @@ bool web_view(size_t recording)
     view v, *now = &page.playback.view;
     uint64_t every;
     if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) ||
-        !picture_fit(&v, octree_game_tree(page.playback.game), &page.error))
+        !picture_fit(&v, octree_game_tree(page.playback.game), &page.session.values, &page.error))
         return fails();
     if (v.width != now->width || v.height != now->height || view_samples(&v) != view_samples(now) ||
         view_is_rgb(&v) != view_is_rgb(now)) {

@@ -235,7 +235,7 @@ static bool build_scene(scene *s, const golden_frame *frame, const view *v, cons
     octree_address asked;
     octree_node node;
     if (strcmp(frame->name, "asked") != 0)
-        return tick_scene_build(s, v, game, h);
+        return tick_scene_build(s, v, game, h, NULL);
     return octree_address_parse("6/0", &asked) && octree_node_at(octree_game_tree(game), asked, &node) == OCTREE_OK &&
            tree_scene_build(s, v, octree_game_tree(game), &(tree_subject){.title = frame->name, .node = asked});
 }

@@ -180,7 +180,7 @@ static void check_session(const octree_session *session, view v, uint64_t step)
     octree_game *game;
     assert_int_equal(octree_game_create(session, &game), OCTREE_OK);
     camera_fit(&v, octree_game_tree(game));
-    assert_true(point_scale_fit(&v, octree_game_tree(game)));
+    assert_true(point_scale_fit(&v, octree_game_tree(game), NULL));
     both b = open_both(&v);
     scene s = {0};
     for (uint64_t tick = 0; tick < 12 * step; tick++) {

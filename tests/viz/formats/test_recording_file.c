@@ -50,6 +50,7 @@ static view random_view(uint64_t *random)
         v.point_scale.of.low[i] = random_between(random, -1e6, 0);
         v.point_scale.of.high[i] = random_between(random, 0, 1e6);
         v.point_scale.of.spacing = random_between(random, 0, 10);
+        v.point_scale.of.intensities[1] = random_between(random, 0, 10);
         v.point_scale.of.ids[1] = random_between(random, 0, 1e15);
     }
     v.filter.slice = "\0xyz"[random_below(random, 4)];

@@ -212,7 +212,7 @@ static void a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn(void *
     session.query_count = 1;
     octree_game *game = start_game(&session);
     scene s = {0};
-    assert_true(tick_scene_build(&s, &v, game, NULL));
+    assert_true(tick_scene_build(&s, &v, game, NULL, NULL));
     const layer_counts found = count_layer(&s, LAYER_RADIUS);
     assert_true(s.refused > 0);
     assert_int_equal(found.segments + s.refused, BALL_CIRCLES * BALL_CHORDS);

@@ -120,7 +120,7 @@ static row digest_tick(const char *session, const octree_game *game, scene *s)
     for (int i = 0; i < CAMERA_COUNT; i++) {
         view v = view_default();
         v.camera = (view_camera)i;
-        assert_true(tick_scene_build(s, &v, game, NULL));
+        assert_true(tick_scene_build(s, &v, game, NULL, NULL));
         for (int column = VIEW; column < COLUMNS; column++)
             digests[column] = octree_digest_word(digests[column], digest_alone(s, column));
     }

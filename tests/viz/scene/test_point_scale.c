@@ -31,9 +31,7 @@ static octree *make_plane(uint64_t step)
         assert_int_equal(octree_insert(tree, (double[]){x, y, 0.1 * x}, 5 + n), OCTREE_OK);
     }
     for (uint64_t i = 0; i < 4; i++)
-        assert_int_equal(
-            octree_insert(tree, (double[]){1, 1, i % 2 ? 900 : -900}, count + 5 + i),
-            OCTREE_OK);
+        assert_int_equal(octree_insert(tree, (double[]){1, 1, i % 2 ? 900 : -900}, count + 5 + i), OCTREE_OK);
     return tree;
 }
 
@@ -42,7 +40,7 @@ static void a_few_outliers_do_not_take_the_colours(void **state)
     (void)state;
     view v = painting_view();
     octree *tree = make_plane(1);
-    assert_true(point_scale_fit(&v, tree));
+    assert_true(point_scale_fit(&v, tree, NULL));
     const point_scale *s = &v.point_scale.of;
     assert_true(v.point_scale.given);
     assert_true(s->low[2] >= 0 && s->low[2] < 0.5 && s->high[2] <= 5.9 && s->high[2] > 5.4);
@@ -57,7 +55,7 @@ static void the_order_of_points_does_not_matter(void **state)
     (void)state;
     view a = painting_view(), b = painting_view();
     octree *one = make_plane(1), *other = make_plane(7);
-    assert_true(point_scale_fit(&a, one) && point_scale_fit(&b, other));
+    assert_true(point_scale_fit(&a, one, NULL) && point_scale_fit(&b, other, NULL));
     assert_memory_equal(&a.point_scale.of, &b.point_scale.of, sizeof a.point_scale.of);
     octree_destroy(one);
     octree_destroy(other);
@@ -69,7 +67,7 @@ static void it_is_made_once_and_only_where_points_are_painted(void **state)
     view plain = view_default(), given = painting_view();
     octree *tree = make_plane(1);
     given.point_scale.given = true;
-    assert_true(point_scale_fit(&plain, tree) && point_scale_fit(&given, tree));
+    assert_true(point_scale_fit(&plain, tree, NULL) && point_scale_fit(&given, tree, NULL));
     assert_false(plain.point_scale.given);
     assert_true(given.point_scale.of.high[0] == 0);
     octree_destroy(tree);
@@ -84,14 +82,14 @@ static void it_is_finite_in_the_largest_world(void **state)
     octree *tree;
     def.world = cube(-1.7e308, 1.7e308);
     assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
-    assert_true(point_scale_fit(&v, tree));
+    assert_true(point_scale_fit(&v, tree, NULL));
     assert_false(v.point_scale.given);
     for (uint64_t i = 0; i < 8; i++) {
         const double at[] = {-1.7e308, 1.7e308};
         const double place[] = {at[i & 1], at[i >> 1 & 1], at[i >> 2 & 1]};
         assert_int_equal(octree_insert(tree, place, i), OCTREE_OK);
     }
-    assert_true(point_scale_fit(&v, tree));
+    assert_true(point_scale_fit(&v, tree, NULL));
     const double *numbers = v.point_scale.of.low;
     for (size_t i = 0; i < sizeof(point_scale) / sizeof(double); i++)
         assert_true(isfinite(numbers[i]));

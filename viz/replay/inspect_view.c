@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+#include "inspect_view.h"
+#include "layer.h"
+#include "layout.h"
+#include "point_scale.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool has_colors(const inspection *made)
+{
+    return point_values_kinds(&made->values) >> POINT_COLOR & 1;
+}
+
+static bool outnumber_pixels(const inspection *made, const view *v)
+{
+    const camera_window w = layout_space(v);
+    return (double)octree_count(made->tree) > w.width * w.height;
+}
+
+/* Whether the points, as they are seen from the camera of tick 0, are near enough to each other. */
+static bool close_surfaces(const inspection *made, const view *v)
+{
+    const octree_box world = octree_definition(made->tree).world;
+    double center[3];
+    scene_box_middle(v->fit == FIT_BOX ? &v->focus : &world, center);
+    const camera c = camera_make(v, layout_space(v), &world, center, 0);
+    const double apart = point_scale_pixels(&c, v->point_scale.of.spacing) / (c.perspective ? c.distance : 1);
+    return v->point_scale.given && apart > 0 && apart <= POINT_WIDEST * view_unit(v);
+}
+
+bool inspect_choose_view(const inspection *made, bool color_given, bool shade_given, view *v, char said[INSPECT_CHOICE],
+                         octreel_error *error)
+{
+    const char *why = "", *lit = "";
+    *said = 0;
+    if (!view_shows(v, LAYER_POINTS) || (color_given && v->point_color == POINTS_BY_PLAIN))
+        return true;
+    if (!color_given && outnumber_pixels(made, v)) {
+        v->point_color = POINTS_BY_LEAF;
+        why = ", since there are more of them than pixels";
+    } else if (!color_given) {
+        v->point_color = has_colors(made) ? POINTS_BY_FILE : POINTS_BY_HEIGHT;
+    }
+    view fitted = *v;
+    camera_fit(&fitted, made->tree);
+    if (!point_scale_fit(&fitted, made->tree, &made->values))
+        return error_no_memory(error);
+    if (!shade_given && close_surfaces(made, &fitted)) {
+        v->shade = SHADE_EDL;
+        lit = ", lit by eye-dome lighting (--shade)";
+    }
+    if (!(color_given && shade_given))
+        snprintf(said, INSPECT_CHOICE, "points by %s (--color-points)%s%s", view_point_color_name(v->point_color), why,
+                 lit);
+    return true;
+}
