@@ -40,4 +40,7 @@ size_t number_print(double value, char text[NUMBER_TEXT]);
 /* Write a double with at most so many significant digits, as people read it. Returns `text`. */
 const char *number_text(double value, int digits, char text[NUMBER_TEXT]);
 
+/* The smallest of 1, 2 and 5 times a power of ten that is at least `limit`; 0 where doubles end, at either side. */
+double number_round_up(double limit);
+
 #endif

@@ -181,3 +181,17 @@ const char *number_text(double value, int digits, char text[NUMBER_TEXT])
     restore_point(text);
     return text;
 }
+
+double number_round_up(double limit)
+{
+    double power = 1;
+    while (power > limit)
+        power /= 10;
+    while (power > 0 && isfinite(power) && power * 10 <= limit)
+        power *= 10;
+    const double steps[] = {power, 2 * power, 5 * power, 10 * power};
+    for (int i = 0; i < 4; i++)
+        if (steps[i] >= limit && isfinite(steps[i]))
+            return steps[i];
+    return 0;
+}

@@ -195,16 +195,17 @@ static int light_at(const splats *t, const scene *s, int x, int y)
 
 /* ---- Colours ------------------------------------------------------------------------------------------------- */
 
-/* The shades of a density: 1 to 2^6 points of a pixel. */
-#define DOUBLINGS 6
-
+/* The same step for each doubling, from one point of a pixel on. */
 static theme_color color_of_density(uint32_t count)
 {
     unsigned whole = 0;
-    while (whole < DOUBLINGS && count >> (whole + 1))
+    double doublings = 0;
+    while (UINT32_C(1) << whole < THEME_MOST_DENSITY && count >> (whole + 1))
         whole++;
+    for (unsigned most = THEME_MOST_DENSITY; most > 1; most >>= 1)
+        doublings++;
     const double rest = (double)count / (double)(UINT64_C(1) << whole) - 1;
-    return theme_ramp((whole + rest) / DOUBLINGS);
+    return theme_ramp((whole + rest) / doublings);
 }
 
 static theme_color color_of(const splats *t, const scene *s, const splatter *with, uint32_t index)

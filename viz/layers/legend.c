@@ -71,11 +71,17 @@ static void list_layers(legend *l, const layer_source *in)
     }
 }
 
+/* Whether a line belongs to the one before. */
+static bool continues(const legend_line *line)
+{
+    return line->sign == SIGN_NONE || line->sign == SIGN_SCALE;
+}
+
 /* Leave out a line, with those that belong to it. */
 static void leave_out(legend *l, size_t place)
 {
     size_t end = place + 1;
-    while (end < l->count && l->lines[end].sign == SIGN_NONE)
+    while (end < l->count && continues(&l->lines[end]))
         end++;
     memmove(&l->lines[place], &l->lines[end], (l->count - end) * sizeof *l->lines);
     l->count -= end - place;
@@ -94,7 +100,7 @@ static size_t make_fit(legend *l, size_t room)
     if (needed <= room)
         return 0;
     l->count = room ? room - 1 : 0;
-    while (l->count && l->lines[l->count].sign == SIGN_NONE)
+    while (l->count && continues(&l->lines[l->count]))
         l->count--;
     return needed - l->count;
 }
@@ -154,9 +160,23 @@ static void fill_triangle(pen *p, theme_role role, bool on_side)
     }
 }
 
+/* Four cells of a chessboard, in the layer's colour. */
+static void fill_checks(pen *p)
+{
+    for (int i = 0; i < 4; i++)
+        fill_dots(p, 5 + i % 2 * 4, i / 2 * 4, 4, 4, i % 3 ? ROLE_WORLD : ROLE_POINT);
+}
+
 static void fill_sign(pen *p, const legend_line *line)
 {
-    if (line->sign == SIGN_TRIANGLE || line->sign == SIGN_WEDGE) {
+    if (line->sign == SIGN_SCALE) {
+        write_scale(p, &line->scale);
+    } else if (line->sign == SIGN_CHECKS) {
+        fill_checks(p);
+    } else if (line->sign == SIGN_SWATCH) {
+        const int side = p->scene->text.height / 2;
+        fill_own(p, SWATCH * side / 12 - side / 2, p->scene->text.height / 4, side, side, line->color);
+    } else if (line->sign == SIGN_TRIANGLE || line->sign == SIGN_WEDGE) {
         fill_triangle(p, line->role, line->sign == SIGN_TRIANGLE);
     } else if (line->sign == SIGN_CROSS) {
         for (int i = -4; i <= 4; i++)
@@ -177,6 +197,12 @@ static void fill_sign(pen *p, const legend_line *line)
     }
 }
 
+void legend_add_scale(legend *l, legend_scale scale)
+{
+    legend_add(l, SIGN_SCALE, "")->scale = scale;
+    legend_add(l, SIGN_NONE, "");
+}
+
 void write_legend(pen *p, const layer_source *in)
 {
     const scene *s = p->scene;
@@ -191,7 +217,8 @@ void write_legend(pen *p, const layer_source *in)
     write_rule(p);
     for (size_t i = 0; i < l.count; i++) {
         fill_sign(p, &l.lines[i]);
-        write_text(p, LEGEND_WORDS, ROLE_FAINT, l.lines[i].text);
+        if (*l.lines[i].text)
+            write_text(p, LEGEND_WORDS, ROLE_FAINT, l.lines[i].text);
         p->y += line;
     }
     if (left_out) {

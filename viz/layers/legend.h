@@ -29,7 +29,16 @@ typedef enum legend_sign {
     SIGN_NODES, /* of the diagram */
     SIGN_BARS,
     SIGN_NODE,
+    SIGN_SWATCH, /* of the line's own colour */
+    SIGN_CHECKS,
+    SIGN_SCALE, /* the colours of amounts, across the column, with numbers in the line below: `scale`. Continues */
 } legend_sign;
+
+/* Amounts from one end of the colours to the other. */
+typedef struct legend_scale {
+    double low, high;
+    bool doubling; /* low and high are powers of two, and the colours go by the power */
+} legend_scale;
 
 /* When lines do not fit, those with the greatest value are dropped first. */
 typedef enum legend_worth {
@@ -45,6 +54,8 @@ typedef struct legend_line {
     legend_sign sign;
     theme_role role;
     int steps;
+    theme_color color;
+    legend_scale scale;
     char text[SCENE_TEXT];
 } legend_line;
 
@@ -64,6 +75,12 @@ typedef struct legend {
 
 /* Add a line in the layer's colour. The result may be changed. */
 legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...);
+
+/* Add the colours of amounts: two lines, which belong to the one before. */
+void legend_add_scale(legend *l, legend_scale scale);
+
+/* Draw them. */
+void write_scale(pen *p, const legend_scale *scale);
 
 /* Write the lines of the view's layers below the pen. When they do not fit, lines are dropped by their worth, and then
  * from the end, with a final line that counts these. */

@@ -270,4 +270,4 @@ static void describe(description *d, const described *element)
 
 const layer_type layer_NODES = {.add = add, .legend_place = 50, .legend = add_legend, .describe = describe};
 
-const layer_type layer_POINTS = {.legend_place = 30, .sign = SIGN_DOT, .text = "point", .worth = WORTH_PLAIN};
+const layer_type layer_POINTS = {.legend_place = 30, .legend = add_point_legend, .worth = WORTH_PLAIN};

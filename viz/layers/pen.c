@@ -40,6 +40,11 @@ void write_text(pen *p, int at, theme_role role, const char *text)
     add_text(p, at * p->scene->text.width, role, 1, at < p->letters ? (size_t)(p->letters - at) : 1, text);
 }
 
+void write_at(pen *p, int x, theme_role role, const char *text)
+{
+    add_text(p, x, role, 1, SCENE_TEXT - 1, text);
+}
+
 void write_right(pen *p, theme_role role, const char *text)
 {
     const int length = (int)strlen(text);
@@ -158,4 +163,15 @@ void write_wrapped(pen *p, theme_role role, const char *text)
         write_line(p, role, line);
         text += length + (text[length] == ' ');
     }
+}
+
+void fill_own(pen *p, int x, int y, int width, int height, theme_color color)
+{
+    scene_add_panel(p->scene, (scene_panel){.id = p->next_id++,
+                                            .x = p->left + x,
+                                            .y = p->y + y,
+                                            .width = width,
+                                            .height = height,
+                                            .color = color,
+                                            .style = {.layer = LAYER_TEXT, .role = ROLE_OWN}});
 }

@@ -50,8 +50,12 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
 /* A number with as many significant digits as fit into so many letters, 9 at most. Returns `text`. */
 const char *number_fitting(double value, size_t letters, char text[NUMBER_TEXT]);
 
-/* A rectangle, in pixels from the pen's place. */
+/* Write a text so many pixels from the pen's place. */
+void write_at(pen *p, int x, theme_role role, const char *text);
+
+/* A rectangle, in pixels from the pen's place; and one of its own colour, where the view paints points. */
 void fill(pen *p, int x, int y, int width, int height, unsigned role);
+void fill_own(pen *p, int x, int y, int width, int height, theme_color color);
 
 /* The sentence in lines that fit the column, broken at blanks. */
 void write_wrapped(pen *p, theme_role role, const char *text);

@@ -91,3 +91,89 @@ void color_points(const view *v, const point_values *values, const octree_node *
     for (size_t i = 0; i < count; i++)
         markers[i].color = theme_fade(color_of(&p, &markers[i]), light);
 }
+
+/* ---- The legend --------------------------------------------------------------------------------------------- */
+
+/* The kinds of classes that any point has, as bits. */
+static unsigned kinds_in(const point_values *values)
+{
+    unsigned kinds = 0;
+    for (size_t row = 0; values && row < values->count; row++)
+        if (point_values_has(values, row, POINT_CLASS))
+            kinds |= 1u << kind_of_class(values->classes[row]);
+    return kinds;
+}
+
+static void add_class_legend(legend *l, const point_values *values)
+{
+    const unsigned kinds = kinds_in(values);
+    for (unsigned kind = 0; kind < THEME_KINDS; kind++)
+        if (kinds >> kind & 1)
+            legend_add(l, SIGN_SWATCH, "%s", class_kind_names[kind])->color = theme_kind(kind);
+}
+
+static legend_scale scale_of(const point_scale *s, view_point_color color)
+{
+    switch (color) {
+    case POINTS_BY_X:
+        return (legend_scale){s->low[0], s->high[0], false};
+    case POINTS_BY_Y:
+        return (legend_scale){s->low[1], s->high[1], false};
+    case POINTS_BY_ID:
+        return (legend_scale){s->ids[0], s->ids[1], false};
+    case POINTS_BY_INTENSITY:
+        return (legend_scale){s->intensities[0], s->intensities[1], false};
+    case POINTS_BY_DENSITY:
+        return (legend_scale){1, THEME_MOST_DENSITY, true};
+    default:
+        return (legend_scale){s->low[2], s->high[2], false};
+    }
+}
+
+static void add_leaf_legend(legend *l, const layer_source *in)
+{
+    legend_add(l, SIGN_CHECKS, "leaves of points");
+    if (point_values_kinds(in->values) >> POINT_COLOR & 1)
+        legend_add(l, SIGN_DOT, "points, as in the file");
+    else
+        legend_add(l, SIGN_DOT, "points, by height");
+}
+
+void add_point_legend(legend *l, const layer_source *in)
+{
+    const view *v = &l->scene->view;
+    const unsigned has = point_values_kinds(in->values);
+    const bool colored = has >> POINT_COLOR & 1;
+    switch (v->point_color) {
+    case POINTS_BY_PLAIN:
+        legend_add(l, SIGN_DOT, "point");
+        return;
+    case POINTS_BY_FILE:
+        legend_add(l, SIGN_DOT, colored ? "points, as in the file" : "points, without colours");
+        return;
+    case POINTS_BY_CLASS:
+        if (has >> POINT_CLASS & 1)
+            add_class_legend(l, in->values);
+        else
+            legend_add(l, SIGN_DOT, "points, without classes");
+        return;
+    case POINTS_BY_DEPTH:
+        legend_add(l, SIGN_RAMP, "points, by leaf's depth")->steps = THEME_NODE_DEPTHS;
+        return;
+    case POINTS_BY_LEAF:
+        add_leaf_legend(l, in);
+        if (colored)
+            return;
+        break;
+    case POINTS_BY_DENSITY:
+        legend_add(l, SIGN_DOT, "points in a pixel");
+        break;
+    default:
+        if (v->point_color == POINTS_BY_INTENSITY && !(has >> POINT_INTENSITY & 1)) {
+            legend_add(l, SIGN_DOT, "points, no intensities");
+            return;
+        }
+        legend_add(l, SIGN_DOT, "points, by %s", view_point_color_name(v->point_color));
+    }
+    legend_add_scale(l, scale_of(&v->point_scale.of, v->point_color));
+}

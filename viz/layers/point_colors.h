@@ -3,6 +3,7 @@
 #ifndef LAYERS_POINT_COLORS_H
 #define LAYERS_POINT_COLORS_H
 
+#include "legend.h"
 #include "point_values.h"
 #include "scene.h"
 
@@ -10,6 +11,9 @@
  * is of the colour of marks. Under POINTS_BY_DENSITY draw counts the points of a pixel. The values may be null. */
 void color_points(const view *v, const point_values *values, const octree_node *leaf, scene_marker *markers,
                   size_t count);
+
+/* The lines of the legend about points. */
+void add_point_legend(legend *l, const layer_source *in);
 
 /* What theme_kind() of a class stands for: those of LAS that are alike share one; beyond them 7, "other". */
 unsigned kind_of_class(unsigned class);

@@ -26,21 +26,6 @@ typedef struct axes {
 
 static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
 
-/* The smallest of 1, 2 and 5 times a power of ten that is at least `limit`; 0 where doubles end, at either side. */
-static double round_up(double limit)
-{
-    double power = 1;
-    while (power > limit)
-        power /= 10;
-    while (power > 0 && isfinite(power) && power * 10 <= limit)
-        power *= 10;
-    const double steps[] = {power, 2 * power, 5 * power, 10 * power};
-    for (int i = 0; i < 4; i++)
-        if (steps[i] >= limit && isfinite(steps[i]))
-            return steps[i];
-    return 0;
-}
-
 /* Pixels of an axis as seen from its side at the middle of the box: the same wherever an orbit has come to. */
 static double side_length(const camera *c, int axis)
 {
@@ -58,7 +43,7 @@ static double step_of(const axes *a, int axis)
     const double count = fmin(floor(length / (TICK_SPACE * a->scene->unit)), MOST_TICKS);
     if (!(extent > 0) || !isfinite(extent) || count < 1)
         return 0;
-    const double step = round_up(extent / count);
+    const double step = number_round_up(extent / count);
     const double largest = fmax(fabs(a->box->min[axis]), fabs(a->box->max[axis]));
     return step > 0 && largest / step < 1e8 ? step : 0; /* numbers must be told apart by their digits */
 }

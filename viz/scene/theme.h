@@ -91,6 +91,9 @@ theme_color theme_fade(theme_color full, int parts);
  * darkest sixth, which would be lost on the background; in equal steps to the eye, and lighter with each. */
 theme_color theme_ramp(double part);
 
+/* The most points of a pixel that have a colour of their own: a power of two. */
+#define THEME_MOST_DENSITY 64
+
 /* Colours that any eye tells apart: those of Okabe and Ito without their red, and two greys. */
 #define THEME_KINDS 8
 theme_color theme_kind(unsigned kind);

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/* legend_scale.c - the colours of amounts in a legend: a bar across the column, with round numbers below it. */
+#include "legend.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MOST_NUMBERS 5
+#define DIGITS 9 /* of a number */
+
+/* A number below the bar. */
+typedef struct mark {
+    double part; /* of the way along the bar */
+    char text[NUMBER_TEXT];
+} mark;
+
+typedef struct marks {
+    mark items[MOST_NUMBERS + 2];
+    int count;
+} marks;
+
+static void add_mark(marks *m, double part, double value)
+{
+    char text[NUMBER_TEXT];
+    if (m->count < MOST_NUMBERS + 2) {
+        mark *it = &m->items[m->count++];
+        it->part = part;
+        snprintf(it->text, sizeof it->text, "%s", number_text(value, DIGITS, text));
+    }
+}
+
+/* 1, 4, 16 ...; the last stands for all beyond. */
+static marks mark_powers(const legend_scale *scale)
+{
+    marks m = {.count = 0};
+    int powers = 0;
+    for (double at = scale->low; at < scale->high; at *= 2)
+        powers++;
+    for (int power = 0; power <= powers; power += 2)
+        add_mark(&m, (double)power / powers, ldexp(scale->low, power));
+    if (m.count)
+        strcat(m.items[m.count - 1].text, "+");
+    return m;
+}
+
+static marks mark_round_numbers(const legend_scale *scale, int count)
+{
+    marks m = {.count = 0};
+    const double extent = scale->high - scale->low, step = number_round_up(extent / count);
+    const double first = step > 0 ? ceil(scale->low / step) : 0, last = step > 0 ? floor(scale->high / step) : -1;
+    for (double i = first; i <= last && i < first + MOST_NUMBERS + 1; i++) /* + 0.0: no minus zero */
+        add_mark(&m, (i * step - scale->low) / extent, i * step + 0.0);
+    return m;
+}
+
+/* The pixels of a number's left end, under its mark and within the bar. */
+static int left_of(const pen *p, const mark *m, int width)
+{
+    const int size = (int)strlen(m->text) * p->scene->text.width, left = (int)(m->part * width) - size / 2;
+    return left < 0 ? 0 : left + size > width ? width - size : left;
+}
+
+/* Whether all have room, with a letter between them. */
+static bool fit(const pen *p, const marks *m, int width)
+{
+    for (int i = 0; i < m->count; i++) {
+        const int left = left_of(p, &m->items[i], width), letter = p->scene->text.width;
+        if (left < 0 ||
+            (i > 0 && left < left_of(p, &m->items[i - 1], width) + ((int)strlen(m->items[i - 1].text) + 1) * letter))
+            return false;
+    }
+    return true;
+}
+
+static marks choose_marks(const pen *p, const legend_scale *scale, int width)
+{
+    marks m = {.count = 0};
+    if (scale->doubling)
+        return mark_powers(scale);
+    if (!(scale->low < scale->high) || !isfinite(scale->high - scale->low)) {
+        add_mark(&m, 0.5, scale->low / 2 + scale->high / 2);
+        return m;
+    }
+    for (int count = MOST_NUMBERS; count > 0; count--) {
+        m = mark_round_numbers(scale, count);
+        if (m.count > 0 && fit(p, &m, width))
+            return m;
+    }
+    m.count = 0;
+    return m;
+}
+
+void write_scale(pen *p, const legend_scale *scale)
+{
+    const lettering *text = &p->scene->text;
+    const int width = p->letters * text->width, high = text->height / 2,
+              dot = text->height < 24 ? 1 : text->height / 12;
+    const marks m = choose_marks(p, scale, width);
+    for (int x = 0; x < width; x += dot)
+        fill_own(p, x, text->height / 4, dot, high, theme_ramp((x + 0.5 * dot) / width));
+    for (int i = 0; i < m.count; i++) {
+        int x = (int)(m.items[i].part * width);
+        x = x > width - dot ? width - dot : x;
+        fill(p, x, text->height / 4 + high, dot, text->height / 4, ROLE_FAINT);
+        p->y += text->line;
+        write_at(p, left_of(p, &m.items[i], width), ROLE_FAINT, m.items[i].text);
+        p->y -= text->line;
+    }
+}
