@@ -12,9 +12,17 @@ static bool has_colors(const inspection *made)
     return point_values_kinds(&made->values) >> POINT_COLOR & 1;
 }
 
+/* Where the tree is drawn. */
+static camera_window space_of(const view *v)
+{
+    scene empty = {0};
+    scene_set_view(&empty, v);
+    return layout_camera(&empty);
+}
+
 static bool outnumber_pixels(const inspection *made, const view *v)
 {
-    const camera_window w = layout_space(v);
+    const camera_window w = space_of(v);
     return (double)octree_count(made->tree) > w.width * w.height;
 }
 
@@ -24,7 +32,7 @@ static bool close_surfaces(const inspection *made, const view *v)
     const octree_box world = octree_definition(made->tree).world;
     double center[3];
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &world, center);
-    const camera c = camera_make(v, layout_space(v), &world, center, 0);
+    const camera c = camera_make(v, space_of(v), &world, center, 0);
     const double apart = point_scale_pixels(&c, v->point_scale.of.spacing) / (c.perspective ? c.distance : 1);
     return v->point_scale.given && apart > 0 && apart <= POINT_WIDEST * view_unit(v);
 }

@@ -15,6 +15,7 @@
 #include "tick_lines.h"
 #include "ticks_write.h"
 #include "view.h"
+#include "png_by_hand.h"
 #include "png_chunks.h"
 #include "image_digest.h"
 
@@ -290,7 +291,8 @@ static void picture_is_whole_and_traced(void **state)
 {
     const place points = write_points(state, "points.txt", ""), picture = place_in(*state, "tree.png");
     char text[64], digest[DIGEST_TEXT];
-    command_result result = run_octreel(NULL, "inspect %s --size 320x180 -o %s", points.path, picture.path);
+    command_result result =
+        run_octreel(NULL, "inspect %s --size 320x180 --color-points plain -o %s", points.path, picture.path);
     assert_done(&result);
     command_release(&result);
     image frame = assert_whole_frame(picture.path, 320, 180);
@@ -300,6 +302,34 @@ static void picture_is_whole_and_traced(void **state)
     assert_int_equal(strlen(text), 16);
     assert_false(image_read_text(picture.path, "octreel-tick", text, sizeof text));
     image_release(&frame);
+}
+
+/* What is chosen is said, and what is asked for is done. The 500 points are far apart in the largest picture, close
+ * surfaces in a smaller one, and outnumber the pixels of the smallest. */
+static void the_picture_says_what_it_chose_for_the_points(void **state)
+{
+    static const struct {
+        const char *options, *said;
+        int color_type; /* of the PNG: 2 is RGB, 3 indexed */
+    } rows[] = {{"--size 1280x720 --zoom 20", "pixels; points by height (--color-points)\n", 2},
+                {"--size 320x180", "points by height (--color-points), lit by eye-dome lighting (--shade)\n", 2},
+                {"--size 16x9", "points by leaf (--color-points), since there are more of them than pixels", 2},
+                {"--size 16x9 --color-points id", "points by id (--color-points), lit by", 2},
+                {"--size 320x180 --shade none", "points by height (--color-points)\n", 2},
+                {"--size 320x180 --color-points id --shade none", "180 pixels\n", 2},
+                {"--size 320x180 --layers -points", "180 pixels\n", 3},
+                {"--size 320x180 --color-points plain", "180 pixels\n", 3}};
+    const place points = write_points(state, "points.txt", ""), picture = place_in(*state, "tree.png");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        static png_bytes file;
+        command_result result = run_octreel(NULL, "inspect %s %s -o %s", points.path, rows[i].options, picture.path);
+        assert_done(&result);
+        if (!strstr(result.out, rows[i].said))
+            fail_msg("%s: %s", rows[i].options, result.out);
+        png_bytes_load(&file, picture.path);
+        assert_int_equal(png_chunk_of(&file, "IHDR").data[9], rows[i].color_type);
+        command_release(&result);
+    }
 }
 
 static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
@@ -432,6 +462,7 @@ int main(void)
         IN_FOLDER(formats_of_the_same_points_say_the_same),
         IN_FOLDER(a_million_equal_points_are_refused_or_one_leaf),
         IN_FOLDER(picture_is_whole_and_traced),
+        IN_FOLDER(the_picture_says_what_it_chose_for_the_points),
         IN_FOLDER(options_that_do_not_fit_are_refused_in_one_sentence),
         IN_FOLDER(what_is_said_of_a_picture_is_refused_without_one),
         IN_FOLDER(clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures),

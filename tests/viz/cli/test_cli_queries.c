@@ -188,7 +188,7 @@ static void long_answers_end_after_ten_lines_for_people(void **state)
     assert_non_null(strstr(more + 1, "\n  ... and 590 more; --json lists all\n")); /* of the node, and of the ball */
     assert_in_range(count_lines(result.out), 26, 32);
     assert_non_null(strstr(result.out, "\nwrote "));
-    assert_non_null(strstr(result.out, "q.png: 64 x 36 pixels\n"));
+    assert_non_null(strstr(result.out, "q.png: 64 x 36 pixels; points by "));
     assert_non_null(strstr(result.out, "n.csv: all nodes\n"));
     command_release(&result);
     result = run_octreel(NULL, "inspect %s --radius 0,0,0,500 --json -o %s", points.path, picture.path);

@@ -26,7 +26,7 @@ static painted paint_points(view_point_color color, const point_values *values)
     p.view.point_color = color;
     assert_true(point_scale_fit(&p.view, p.tree, values));
     assert_true(tree_scene_build(&p.scene, &p.view, p.tree, &(tree_subject){.title = "points", .values = values}));
-    brute_release(&points);
+    brute_free(&points);
     return p;
 }
 
