@@ -267,7 +267,7 @@ static void every_world_has_a_close_up_of_finite_numbers(void **state)
         scene s = {.refused = 0};
         if (octree_game_create(&session, &game) != OCTREE_OK)
             continue;
-        assert_true(tick_scene_build(&s, &v, game, NULL));
+        assert_true(tick_scene_build(&s, &v, game, NULL, NULL));
         if (s.has_closeup)
             assert_true(s.closeup->refused <= s.refused);
         scene_release(&s);
