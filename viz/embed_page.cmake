@@ -7,7 +7,8 @@ get_filename_component(name ${OUTPUT} NAME_WE)
 get_filename_component(folder ${SOURCE} DIRECTORY)
 file(READ ${SOURCE} page)
 
-# inline(ELEMENT REGEX): each tag that the expression finds becomes an <ELEMENT> with the text of the file it names.
+# inline(ELEMENT REGEX): each tag that the expression finds becomes an <ELEMENT> with the text of the file it names. What
+# lines are indented by is left out: no text in these files goes on over lines.
 macro(inline element regex)
   string(REGEX MATCHALL "${regex}" tags "${page}")
   foreach(tag ${tags})
@@ -16,6 +17,7 @@ macro(inline element regex)
     if(text MATCHES "</${element}")
       message(FATAL_ERROR "${part}: \"</${element}\" would end the element that it is put into")
     endif()
+    string(REGEX REPLACE "\n +" "\n" text "${text}")
     string(REPLACE "${tag}" "<${element}>\n${text}</${element}>" page "${page}")
   endforeach()
 endmacro()

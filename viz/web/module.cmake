@@ -25,12 +25,13 @@ endfunction()
 # compile_wasm(SOURCE OBJECTS): adds the object of a source to a list.
 function(compile_wasm source objects)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
-  set(optimized -Oz) # a page is to be small: hot is what is done for each node, point, line and pixel
-  if(name MATCHES "^(lib/src/(exact|tree|query)|viz/draw|viz/image)/" OR
-     name MATCHES "/(game|bodies|player|tree_summary|camera|filter|scene|node_layers|node_boxes|velocity_layer|visit_layers)[.]c$")
+  # A page is to be small: fast is what is done for each node, point, line and pixel.
+  set(optimized -Oz)
+  if(name MATCHES "/src/(tree/|query/(region|search)|game/(game|bodies)[.])" OR
+     name MATCHES "/(camera|filter|node_layers|node_boxes|fill|edges|box_lines|quads|stroke|project|splats|canvas)[.]c$")
     set(optimized -O2)
   endif()
-  if(name MATCHES "/(bulk|check|tune|pixel|edge_boxes)[.]c$")
+  if(name MATCHES "/(bulk|tune|change|plane)[.]c$")
     set(optimized -Oz)
   endif()
   string(REPLACE "/" "_" name ${name})
