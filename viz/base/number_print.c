@@ -195,3 +195,17 @@ double number_round_up(double limit)
             return steps[i];
     return 0;
 }
+
+double number_of_float(float value)
+{
+    for (int digits = FLT_DIG; digits < FLT_DECIMAL_DIG; digits++) {
+        char text[NUMBER_TEXT];
+        const char *end;
+        double shorter;
+        number_text((double)value, digits, text);
+        if (number_parse(text, text + strlen(text), &end, &shorter) && fabs(shorter) <= FLT_MAX &&
+            (float)shorter == value)
+            return shorter;
+    }
+    return (double)value;
+}

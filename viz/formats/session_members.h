@@ -38,7 +38,10 @@ typedef struct session_values {
     point_values made;   /* of a file of points; at the end of all */
     point_entry *listed; /* of points in the session itself, in its order */
     size_t room;
-    hash_map ids;                   /* of those */
+    hash_map ids;    /* of those */
+    uint64_t *plain; /* of points that edits inserted without values */
+    size_t plain_room;
+    hash_map plain_ids, body_ids;   /* of those; of the bodies, which are looked up when an edit gives values */
     int columns[POINT_VALUE_KINDS]; /* a point_value_kind each: what rows of points have after the id */
     size_t column_count;
 } session_values;

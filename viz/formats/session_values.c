@@ -54,24 +54,9 @@ static bool read_intensity(json_reader *r, json_t *value, const json_place *at, 
     return true;
 }
 
-/* As the double of the fewest digits that reads back to the same float. */
 static void write_intensity(json_writer *w, const void *from)
 {
-    enum { FEWEST = 6, MOST = 9 };
-    char text[NUMBER_TEXT];
-    const float intensity = *(const float *)from;
-    double number = (double)intensity;
-    for (int digits = FEWEST; digits < MOST; digits++) {
-        double shorter;
-        const char *end;
-        number_text((double)intensity, digits, text);
-        if (number_parse(text, text + strlen(text), &end, &shorter) && fabs(shorter) <= FLT_MAX &&
-            (float)shorter == intensity) {
-            number = shorter;
-            break;
-        }
-    }
-    json_write_number(w, number);
+    json_write_number(w, number_of_float(*(const float *)from));
 }
 
 static bool read_class(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -87,6 +72,111 @@ static bool read_class(json_reader *r, json_t *value, const json_place *at, void
 static void write_class(json_writer *w, const void *from)
 {
     json_write_integer(w, *(const uint16_t *)from);
+}
+
+/* ---- By id -------------------------------------------------------------------------------------------------- */
+
+static const hash_map_keys listed_by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_same_id};
+static const hash_map_keys plain_by_id = {sizeof(uint64_t), hash_map_hash_id, hash_map_same_id};
+static const hash_map_keys bodies_by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
+
+static point_value value_of(const session_values *s, uint64_t id)
+{
+    const uint32_t listed = hash_map_find(&s->ids, &listed_by_id, s->listed, &id);
+    return listed == HASH_MAP_NONE ? point_values_get(&s->made, id) : s->listed[listed].value;
+}
+
+static bool append(session_values *s, uint64_t id, const point_value *value)
+{
+    point_entry *listed = array_reserve(s->listed, s->ids.count + 1, &s->room, sizeof *listed);
+    if (!listed)
+        return false;
+    s->listed = listed;
+    listed[s->ids.count] = (point_entry){id, *value};
+    return hash_map_add(&s->ids, &listed_by_id, listed);
+}
+
+bool session_keep_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
+{
+    session_values *s = &((session_loader *)r->context)->values;
+    if (!point_value_is_set(value))
+        return true;
+    const point_value before = value_of(s, id);
+    if (!point_value_is_set(&before))
+        return append(s, id, value) || json_fail(r, at, "out of memory");
+    return point_value_same(&before, value) ||
+           json_fail(r, at,
+                     "the point with the id %" PRIu64 " had another color, intensity or class before, and an id keeps "
+                     "its own through a session",
+                     id);
+}
+
+/* Keep the id of a point without values. */
+static bool keep_plain(session_values *s, uint64_t id)
+{
+    if (hash_map_find(&s->plain_ids, &plain_by_id, s->plain, &id) != HASH_MAP_NONE)
+        return true;
+    uint64_t *plain = array_reserve(s->plain, s->plain_ids.count + 1, &s->plain_room, sizeof *plain);
+    if (!plain)
+        return false;
+    s->plain = plain;
+    plain[s->plain_ids.count] = id;
+    return hash_map_add(&s->plain_ids, &plain_by_id, plain);
+}
+
+static bool map_bodies(session_loader *s)
+{
+    hash_map *map = &s->values.body_ids;
+    const size_t count = s->header.session.body_count;
+    if (map->count == count)
+        return true;
+    if (!hash_map_reserve(map, &bodies_by_id, s->bodies, count))
+        return false;
+    while (map->count < count)
+        hash_map_add(map, &bodies_by_id, s->bodies); /* there is room */
+    return true;
+}
+
+/* A point that was there without values keeps none: who films a session while it is written shows each tick before the
+ * next is known, and what is read later must not change it. */
+static bool keep_inserted(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
+{
+    session_loader *s = r->context;
+    session_values *values = &s->values;
+    const point_value before = value_of(values, id);
+    if (point_value_is_set(&before))
+        return session_keep_value(r, at, id, value);
+    if (!point_value_is_set(value))
+        return keep_plain(values, id) || json_fail(r, at, "out of memory");
+    if (!map_bodies(s))
+        return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
+    if (hash_map_find(&values->body_ids, &bodies_by_id, s->bodies, &id) != HASH_MAP_NONE ||
+        hash_map_find(&values->plain_ids, &plain_by_id, values->plain, &id) != HASH_MAP_NONE)
+        return json_fail(r, at,
+                         "the point with the id %" PRIu64 " had no color, intensity or class before, and an id keeps "
+                         "none through a session; insert it with another id",
+                         id);
+    return session_keep_value(r, at, id, value);
+}
+
+bool session_end_values(json_reader *r)
+{
+    session_values *s = &((session_loader *)r->context)->values;
+    if (s->ids.count == 0)
+        return true;
+    if (!point_values_add(&s->made, s->listed, s->ids.count))
+        return json_fail(r, NULL, "out of memory for the values");
+    hash_map_clear(&s->ids);
+    return true;
+}
+
+void session_release_listed(session_values *values)
+{
+    free(values->listed);
+    free(values->plain);
+    hash_map_release(&values->ids);
+    hash_map_release(&values->plain_ids);
+    hash_map_release(&values->body_ids);
 }
 
 /* ---- Points that are objects -------------------------------------------------------------------------------- */
@@ -111,24 +201,24 @@ const json_member session_body_members[] = {{ID}, {POSITION}, {VELOCITY}, {COLOR
 static const json_member insert_members[] = {
     {ID, .required = true}, {POSITION}, {VELOCITY}, {COLOR}, {INTENSITY}, {CLASS}, {0}};
 
-static bool read_valued(json_reader *r, json_t *value, const json_place *at, const json_member *members,
-                        octree_body *body)
+static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
+    octree_body *body = into;
     valued_body valued = {.body = *body};
-    if (!json_read_members(r, value, at, members, &valued))
+    if (!json_read_members(r, value, at, session_body_members, &valued))
         return false;
     *body = valued.body;
     return session_keep_value(r, at, body->id, &valued.value);
 }
 
-static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    return read_valued(r, value, at, session_body_members, into);
-}
-
 static bool read_insert(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return read_valued(r, value, at, insert_members, into);
+    octree_body *body = into;
+    valued_body valued = {.body = *body};
+    if (!json_read_members(r, value, at, insert_members, &valued))
+        return false;
+    *body = valued.body;
+    return keep_inserted(r, at, body->id, &valued.value);
 }
 
 static void write_body(json_writer *w, const void *from)
@@ -222,49 +312,4 @@ void session_write_columns(json_writer *w, uint64_t id)
         else
             write_class(w, &value.class);
     }
-}
-
-/* ---- By id -------------------------------------------------------------------------------------------------- */
-
-static const hash_map_keys by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_same_id};
-
-static bool append(session_values *s, uint64_t id, const point_value *value)
-{
-    point_entry *listed = array_reserve(s->listed, s->ids.count + 1, &s->room, sizeof *listed);
-    if (!listed)
-        return false;
-    s->listed = listed;
-    listed[s->ids.count] = (point_entry){id, *value};
-    return hash_map_add(&s->ids, &by_id, listed);
-}
-
-bool session_keep_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
-{
-    session_values *s = &((session_loader *)r->context)->values;
-    if (!point_value_is_set(value))
-        return true;
-    const uint32_t listed = hash_map_find(&s->ids, &by_id, s->listed, &id);
-    const point_value before = listed == HASH_MAP_NONE ? point_values_get(&s->made, id) : s->listed[listed].value;
-    if (!point_value_is_set(&before))
-        return append(s, id, value) || json_fail(r, at, "out of memory");
-    return point_value_same(&before, value) ||
-           json_fail(r, at,
-                     "the point with the id %" PRIu64 " had another color, intensity or class before, and an id keeps "
-                     "its own through a session",
-                     id);
-}
-
-bool session_end_values(json_reader *r)
-{
-    session_values *s = &((session_loader *)r->context)->values;
-    if (!point_values_add(&s->made, s->listed, s->ids.count))
-        return json_fail(r, NULL, "out of memory for the values");
-    hash_map_clear(&s->ids);
-    return true;
-}
-
-void session_release_listed(session_values *values)
-{
-    free(values->listed);
-    hash_map_release(&values->ids);
 }

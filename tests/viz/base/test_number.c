@@ -334,6 +334,24 @@ static void print_takes_the_shortest_of_three_precisions(void **state)
     assert_prints(485032.26806640625, "485032.26806640625");
 }
 
+static void floats_become_doubles_of_few_digits(void **state)
+{
+    static const struct {
+        float value;
+        double expected;
+    } rows[] = {{0.1F, 0.1},
+                {-0.0F, -0.0},
+                {16777217.0F, 16777216.0},
+                {1.1754944e-38F, 1.1754944e-38},
+                {FLT_MAX, (double)FLT_MAX}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const double found = number_of_float(rows[i].value);
+        assert_memory_equal(&found, &rows[i].expected, sizeof found);
+        assert_true((float)found == rows[i].value);
+    }
+}
+
 static void a_locale_with_another_point_changes_nothing(void **state)
 {
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "ps_AF.UTF-8"};
@@ -367,6 +385,7 @@ int main(void)
         cmocka_unit_test(very_long_numbers_are_read),
         cmocka_unit_test(non_finite_words_are_told_apart),
         cmocka_unit_test(print_takes_the_shortest_of_three_precisions),
+        cmocka_unit_test(floats_become_doubles_of_few_digits),
         cmocka_unit_test(a_locale_with_another_point_changes_nothing),
     };
     return cmocka_run_group_tests_name("number", tests, NULL, NULL);

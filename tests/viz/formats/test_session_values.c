@@ -141,8 +141,17 @@ static void values_that_are_none_are_refused(void **state)
         {"\"points\": [{\"id\": 1, \"position\": [1,2,3], \"class\": 3}]}\n"
          "{\"tick\": 1, \"edits\": [{\"remove\": 1}, {\"insert\": {\"id\": 1, \"position\": [1,2,3], \"class\": 4}}]}",
          "edits[1].insert: the point with the id 1 had another color, intensity or class before, and an id keeps its "
-         "own "
-         "through a session"},
+         "own through a session"},
+        {"\"points\": [[1,2,3,7]]}\n"
+         "{\"tick\": 1, \"edits\": [{\"remove\": 7}]}\n"
+         "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 7, \"position\": [1,2,3], \"class\": 4}}]}",
+         "s.json:3: edits[0].insert: the point with the id 7 had no color, intensity or class before, and an id keeps "
+         "none through a session; insert it with another id"},
+        {"\"points\": []}\n"
+         "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 7, \"position\": [1,2,3]}}]}\n"
+         "{\"tick\": 2, \"edits\": [{\"remove\": 7}, "
+         "{\"insert\": {\"id\": 7, \"position\": [1,2,3], \"class\": 4}}]}",
+         "s.json:3: edits[1].insert: the point with the id 7 had no color"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -154,6 +163,21 @@ static void values_that_are_none_are_refused(void **state)
         if (!strstr(error.text, rows[i].reason))
             fail_msg("%s\nis not\n%s", error.text, rows[i].reason);
     }
+}
+
+/* An id that had values before may be inserted without them, and keeps its own; and one that is new may have some. */
+static void inserted_points_keep_the_values_of_their_id(void **state)
+{
+    session_file file =
+        parse(HEADER "\"points\": [{\"id\": 7, \"position\": [1,2,3], \"class\": 4}, [1,2,3,8]]}\n"
+                     "{\"tick\": 1, \"edits\": [{\"remove\": 7}, {\"insert\": {\"id\": 7, \"position\": [1,1,1]}}]}\n"
+                     "{\"tick\": 2, \"edits\": [{\"remove\": 7}, "
+                     "{\"insert\": {\"id\": 7, \"position\": [1,2,3], \"class\": 4}}, "
+                     "{\"insert\": {\"id\": 9, \"position\": [1,2,3], \"class\": 5}}]}");
+    (void)state;
+    assert_int_equal(point_values_get(&file.values, 7).class, 4);
+    assert_int_equal(point_values_get(&file.values, 9).class, 5);
+    session_release(&file);
 }
 
 /* ---- A file of points --------------------------------------------------------------------------------------- */
@@ -204,6 +228,7 @@ int main(void)
         cmocka_unit_test(intensities_are_floats_in_few_digits),
         cmocka_unit_test(sessions_without_values_say_nothing_of_them),
         cmocka_unit_test(values_that_are_none_are_refused),
+        cmocka_unit_test(inserted_points_keep_the_values_of_their_id),
         cmocka_unit_test_setup_teardown(a_file_keeps_its_values, temp_folder_make, temp_folder_remove),
         cmocka_unit_test_setup_teardown(values_of_a_file_follow_the_ids, temp_folder_make, temp_folder_remove),
     };
