@@ -178,18 +178,18 @@ static void compare_views(const octree_session *a, const octree_session *b, cons
     cause_compare_views(&shown[0], &shown[1], facts);
 }
 
-bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2],
-                const cause_watcher *watcher, cause *c, octreel_error *error)
+bool cause_find(const session_file *a, const session_file *b, const cause_view views[2], const cause_watcher *watcher,
+                cause *c, octreel_error *error)
 {
     playing p = {.watcher = watcher, .found = c};
     *c = (cause){.drawn = CAUSE_NO_TICK};
     cause_compare_sessions(a, b, &c->session);
     p.same_session = c->session.count == 0;
     if (views)
-        compare_views(a, b, views, &c->view);
+        compare_views(&a->session, &b->session, views, &c->view);
     p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
     bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) || error_no_memory(error);
-    ok = ok && open_game(&p, 0, a, error) && open_game(&p, 1, b, error);
+    ok = ok && open_game(&p, 0, &a->session, error) && open_game(&p, 1, &b->session, error);
     p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
     for (bool over = false; ok && !over;) {
         ok = look_at(&p, error);

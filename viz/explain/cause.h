@@ -52,8 +52,8 @@ typedef struct cause_watcher {
 
 /* Compare two sessions and play them side by side. `views`, which may be null, add what shows in pictures alone. False
  * with an error when one cannot be played; *c is to be released in any case. */
-bool cause_find(const octree_session *a, const octree_session *b, const cause_view views[2],
-                const cause_watcher *watcher, cause *c, octreel_error *error);
+bool cause_find(const session_file *a, const session_file *b, const cause_view views[2], const cause_watcher *watcher,
+                cause *c, octreel_error *error);
 void cause_release(cause *c);
 
 /* A tick that is reported in detail, or null. */

@@ -8,6 +8,7 @@
 
 #include "cause_facts.h"
 #include "octree/game.h"
+#include "session_file.h"
 #include "view.h"
 
 /* How two values are compared, and where they are. */
@@ -29,7 +30,10 @@ bool cause_same(const json_t *a, const json_t *b, bool exact);
 void cause_compare_members(const cause_place *place, json_t *a, json_t *b);
 
 /* All that a session holds and its kind of player reads. Cost: that of writing both, and a sort of the points. */
-void cause_compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts);
+void cause_compare_sessions(const session_file *a, const session_file *b, cause_facts *facts);
+
+/* The part of that in cause_values.c: the values of the points that both ever have. */
+void cause_compare_values(const session_file *a, const session_file *b, cause_facts *facts);
 
 /* Points in ascending order of their ids, which are unique. */
 typedef struct cause_points {

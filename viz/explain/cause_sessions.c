@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_sessions.c - sessions and views, compared as the files that are written of them. See cause_compare.h. */
 #include "cause_compare.h"
-#include "session_file.h"
 #include "text.h"
 #include "recording_file.h"
 #include "view_options.h"
@@ -256,7 +255,7 @@ static void compare_texts(const cause_place *place, const char *x, const char *y
     json_decref(b);
 }
 
-void cause_compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts)
+static void compare_sessions(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const cause_place place = {facts, "", "", CAUSE_NO_TICK, true};
     const bool sampled = both_sampled(a, b);
@@ -269,6 +268,12 @@ void cause_compare_sessions(const octree_session *a, const octree_session *b, ca
     free(texts[1]);
     compare_keys(a, b, facts);
     compare_bodies(a, b, facts);
+}
+
+void cause_compare_sessions(const session_file *a, const session_file *b, cause_facts *facts)
+{
+    compare_sessions(&a->session, &b->session, facts);
+    cause_compare_values(a, b, facts);
     cause_facts_sort(facts);
 }
 

@@ -122,10 +122,9 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
     const cause_view views[2] = {e->sides[0].view, e->sides[1].view};
     watching w = {.e = e, .options = &result->options};
     const cause_watcher watcher = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, is_wanted, watch, &w};
-    const bool ok = list_pairs(&w, result, most)
-                        ? cause_find(&e->sides[0].replay.session.session, &e->sides[1].replay.session.session, views,
-                                     &watcher, &e->cause, error)
-                        : error_no_memory(error);
+    const bool ok = list_pairs(&w, result, most) ? cause_find(&e->sides[0].replay.session, &e->sides[1].replay.session,
+                                                              views, &watcher, &e->cause, error)
+                                                 : error_no_memory(error);
     e->cause.drawn = first_drawn(result);
     free(w.pairs);
     return ok;

@@ -49,7 +49,8 @@ static char *headline_of(const variant *a, const variant *b)
     char *text;
     cause c;
     text_stream s;
-    if (!cause_find(&a->session, &b->session, NULL, &first, &c, &error))
+    if (!cause_find(&(session_file){.session = a->session, .values = a->values},
+                    &(session_file){.session = b->session, .values = b->values}, NULL, &first, &c, &error))
         fail_msg("%s", error.text);
     assert_true(text_stream_begin(&s));
     cause_print_headline(s.stream, &c);
@@ -72,6 +73,8 @@ void assert_says_of(void prepare(variant *v), void change(variant *v), const cha
     if (strcmp(text ? text : "", expected) != 0)
         fail_msg("it says \"%s\" and not \"%s\"", text ? text : "", expected);
     free(text);
+    point_values_release(&a.values);
+    point_values_release(&b.values);
 }
 
 void assert_says(void change(variant *v), const char *expected)

@@ -4,6 +4,7 @@
 #define SESSION_VARIANT_H
 
 #include "octree/game.h"
+#include "point_values.h"
 
 /* Where nothing that happens differs. */
 #define SAME_TICKS "the same happens in all ticks that both have"
@@ -15,6 +16,7 @@ typedef struct variant {
     octree_edit edits[8];
     octree_query queries[4];
     octree_shape shapes[8];
+    point_values values; /* released when they have been compared */
 } variant;
 
 /* The headline of the causes of a session and the same with one change is this. */

@@ -282,7 +282,8 @@ static void assert_named(const changed_session *t, uint64_t seed)
     const cause_watcher all = {.first = SIZE_MAX};
     octreel_error error = {""};
     cause c;
-    if (!cause_find(&t->made.session, &t->changed, NULL, &all, &c, &error))
+    if (!cause_find(&(session_file){.session = t->made.session}, &(session_file){.session = t->changed}, NULL, &all, &c,
+                    &error))
         fail_msg("%s", error.text);
     char *headline;
     text_stream s;

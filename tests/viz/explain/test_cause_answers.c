@@ -53,7 +53,8 @@ static char *headline_of(const char *before, const char *now, cause *c)
     char *text;
     tell(&a, before);
     tell(&b, now);
-    assert_true(cause_find(&a.session, &b.session, NULL, &watcher, c, &error));
+    assert_true(cause_find(&(session_file){.session = a.session}, &(session_file){.session = b.session}, NULL, &watcher,
+                           c, &error));
     assert_true(text_stream_begin(&s));
     cause_print_headline(s.stream, c);
     assert_true(text_stream_end(&s, &text));
@@ -111,7 +112,8 @@ static size_t view_groups(const char *answers)
     cause_view views[2] = {{view_default(), 1}, {view_default(), 1}};
     views[0].view.layers &= ~(1u << LAYER_WRONG);
     tell(&t, answers);
-    assert_true(cause_find(&t.session, &t.session, views, &(cause_watcher){.first = 0}, &c, &error));
+    assert_true(cause_find(&(session_file){.session = t.session}, &(session_file){.session = t.session}, views,
+                           &(cause_watcher){.first = 0}, &c, &error));
     const size_t groups = c.view.count;
     cause_release(&c);
     return groups;

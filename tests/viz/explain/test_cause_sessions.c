@@ -204,6 +204,70 @@ static void points_at_the_start_are_named(void **state)
     assert_says(move_all, "4 other points at the start (points 1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
 }
 
+/* ---- Values of points ----------------------------------------------------------------------------------------- */
+
+static void give(variant *v, uint64_t id, point_value value)
+{
+    assert_true(point_values_add(&v->values, &(point_entry){id, value}, 1));
+}
+
+static void give_color(variant *v)
+{
+    give(v, 3, (point_value){.color = {255, 0, 16}, .has[POINT_COLOR] = true});
+}
+
+static void give_some(variant *v)
+{
+    give(v, 1, (point_value){.intensity = 0.5F, .has[POINT_INTENSITY] = true});
+    give(v, 9, (point_value){.class = 2, .has[POINT_CLASS] = true});
+}
+
+static void change_intensity(variant *v)
+{
+    v->values.intensities[0] = 0.1F;
+}
+
+static void change_class(variant *v)
+{
+    v->values.classes[point_values_row(&v->values, 9)] = 6;
+}
+
+static void drop_values(variant *v)
+{
+    point_values_release(&v->values);
+}
+
+static void give_classes(variant *v)
+{
+    for (uint64_t id = 1; id <= 4; id++)
+        give(v, id, (point_value){.class = 7, .has[POINT_CLASS] = true});
+}
+
+static void add_body_with_class(variant *v)
+{
+    add_body(v);
+    give(v, v->bodies[v->session.body_count - 1].id, (point_value){.class = 7, .has[POINT_CLASS] = true});
+}
+
+static void values_of_points_are_named(void **state)
+{
+    (void)state;
+    assert_says(give_color, "another colour of a point (point 3: #ff0010, was none); " SAME_TICKS);
+    assert_says_of(give_some, change_intensity, "another intensity of a point (point 1: 0.1, was 0.5); " SAME_TICKS);
+    assert_says_of(give_some, change_class, "another class of a point (point 9: 6, was 2); " SAME_TICKS);
+    assert_says_of(give_some, drop_values,
+                   "another intensity of a point (point 1: none, was 0.5), another class of a point (point 9: none, "
+                   "was 2); " SAME_TICKS);
+    assert_says(give_classes, "4 other classes of points (points 1, 2, 3 and 4); " SAME_TICKS);
+}
+
+static void values_of_a_point_that_one_side_lacks_are_not_named(void **state)
+{
+    (void)state;
+    assert_says(add_body_with_class,
+                "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 born, point 5 added");
+}
+
 /* ---- Keys ---------------------------------------------------------------------------------------------------- */
 
 static void other_key(variant *v)
@@ -368,6 +432,8 @@ int main(void)
         cmocka_unit_test(what_a_kind_of_player_does_not_read_is_not_named),
         cmocka_unit_test(points_at_the_start_are_named),
         cmocka_unit_test(points_are_named_where_nobody_plays),
+        cmocka_unit_test(values_of_points_are_named),
+        cmocka_unit_test(values_of_a_point_that_one_side_lacks_are_not_named),
         cmocka_unit_test(keys_are_named_by_their_ticks),
         cmocka_unit_test(the_first_tick_comes_first),
         cmocka_unit_test(edits_are_named_by_tick_and_point),

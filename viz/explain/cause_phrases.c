@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+#include "cause_phrases.h"
+#include "view_options.h"
+
+#include <string.h>
+
+#define PLAIN .option = false
+#define OPTION .option = true
+#define EVERY .every = true
+#define MINOR .minor = true
+
+/* A place without a row is printed as its path. */
+static const phrase phrases[] = {
+    /* Sessions. */
+    {"world", "world", OPTION},
+    {"tree.capacity", "leaf capacity", OPTION},
+    {"tree.depth", "depth", OPTION},
+    {"tree.full", "rule for full leaves", OPTION},
+    {"player.kind", "kind of player", OPTION},
+    {"player.id", "player's id", OPTION},
+    {"player.position", "start of the player", OPTION},
+    {"player.step", "step of the player", OPTION},
+    {"player.box_size", "collision box", OPTION},
+    {"player.sweep", "swept collision test", OPTION},
+    {"ticks", "last tick", PLAIN},
+    {"keys", "key", PLAIN},
+    {"points", "point at the start", .plural = "points at the start"},
+    {"points.velocity", "velocity of a point", .plural = "velocities of points"},
+    {"points.color", "colour of a point", .plural = "colours of points"},
+    {"points.intensity", "intensity of a point", .plural = "intensities of points"},
+    {"points.class", "class of a point", .plural = "classes of points"},
+    {"sampled.points", "sample of points", OPTION},
+    {"sampled.points.sample", "kind of sample", OPTION},
+    {"sampled.points.count", "number of points in the sample", OPTION},
+    {"sampled.points.seed", "seed of the points", OPTION},
+    {"sampled.velocities", "sample of velocities", OPTION},
+    {"sampled.velocities.speed", "speed of the velocities", OPTION},
+    {"sampled.velocities.seed", "seed of the velocities", OPTION},
+    {"edits", "edit", PLAIN},
+    {"queries", "query", .plural = "queries", EVERY},
+    {"shapes", "shape shown", .plural = "shapes shown", EVERY},
+    {"nodes", "node of the program", .plural = "nodes of the program"},
+    /* Views; the nouns of their options are in view_options.c. */
+    {"every", "interval of frames", PLAIN},
+    /* Trees. */
+    {"nodes.split", "node", .added = "split"},
+    {"nodes.merged", "node", .added = "merged"},
+    {"nodes.born", "node", .added = "born"},
+    {"nodes.gone", "node", .added = "gone"},
+    {"tree.points", "point", .moved = "moved", .added = "added", .gone = "removed"},
+    /* Ticks. */
+    {"player", "place of the player", PLAIN},
+    {"key", "key", MINOR},
+    {"from", "way to there", MINOR},
+    {"attempt", "attempt of the player", MINOR},
+    {"hit_from", "way of what was hit", MINOR},
+    {"events", "event", MINOR},
+    {"hits", "hit of the player", .plural = "hits of the player"},
+    {"answers", "query", .plural = "queries"},
+    {"answers.ids", "hit", PLAIN},
+    {"answers.neighbors", "neighbour", PLAIN},
+    {"answers.id", "nearest point", PLAIN},
+    {"answers.position", "position of the nearest point", MINOR},
+    {"answers.distance", "distance of the nearest point", MINOR},
+    {"answers.judged.answer", "answer of the program", .plural = "answers of the program"},
+    {"answers.judged.wrong", "judgement of the program's answer", .plural = "judgements of the program's answers"},
+    {"answers.judged.wrong_id", "id that is wrong", .plural = "ids that are wrong", MINOR},
+    {"answers.judged.missed", "point that the program missed", .plural = "points that the program missed", MINOR},
+    {"answers.judged.extra", "point that the program named wrongly", .plural = "points that the program named wrongly",
+     MINOR},
+    {"answers.judged.rank", "first wrong rank", MINOR},
+    {"answers.judged.ratio", "ratio of distances", .plural = "ratios of distances", MINOR},
+    {"program_nodes.count", "number of the program's nodes", MINOR},
+    {"program_nodes.leaves", "number of the program's leaves", MINOR},
+    {"program_nodes.depth", "depth of the program's tree", MINOR},
+    {"program_nodes.digest", "tree of the program", MINOR},
+    {"program_nodes.visited", "number of the program's nodes visited", MINOR},
+    {"program_nodes.pruned", "number of the program's nodes pruned", MINOR},
+    {"program_nodes.hit", "number of the program's nodes hit", MINOR},
+    {"program_nodes.wrong.count", "number of faults in the program's nodes", MINOR},
+    {"program_nodes.wrong.first", "fault in the program's nodes", .plural = "faults in the program's nodes"},
+    {"refusals", "refusal", PLAIN},
+    {"splits", "node", .added = "split at this tick", .gone = "not split at this tick", MINOR},
+    {"merges", "node", .added = "merged at this tick", .gone = "not merged at this tick", MINOR},
+    {"hit_cost", "cost of the collision test", MINOR},
+    {"visits", "number of nodes met", MINOR},
+    {"visited", "list of nodes met", MINOR},
+    {"heat", "heat of the ticks before", MINOR},
+};
+
+/* Of answers, members without a row (positions, distances, costs) are minor, as are the counts of faults of nodes. */
+phrase cause_phrase(const cause_group *group)
+{
+    const size_t count = sizeof phrases / sizeof *phrases;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(phrases[i].where, group->where) == 0)
+            return phrases[i];
+    for (size_t i = 0; view_option_at(i); i++) {
+        const view_option *option = view_option_at(i);
+        if (option->noun && strcmp(option->member.name, group->where) == 0)
+            return (phrase){.where = group->where, .noun = option->noun};
+    }
+    const char *last = strrchr(group->where, '.');
+    const bool answer = *group->query != 0, counted = strncmp(group->where, "program_nodes.wrong.", 20) == 0;
+    return (phrase){.where = group->where,
+                    .noun = last && (answer || counted) ? last + 1 : group->where,
+                    .minor = answer || counted};
+}
