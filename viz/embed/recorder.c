@@ -67,6 +67,8 @@ octreel_recorder_def octreel_recorder_def_default(void)
                                   .layers = "default",
                                   .color_by = view_coloring_name(v.coloring),
                                   .show_tree = view_tree_name(v.tree),
+                                  .color_points = view_point_color_name(v.point_color),
+                                  .shade = view_shade_name(v.shade),
                                   .diagram = view_diagram_name(v.diagram),
                                   .lod = v.lod,
                                   .budget = v.budget,
@@ -123,10 +125,16 @@ static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *
         number_print(def->lod, lod);
     snprintf(budget, sizeof budget, "%" PRIu64, def->budget);
     snprintf(aa, sizeof aa, "%d", def->aa);
-    const char *const options[][2] = {{"camera", def->camera},     {"layers", def->layers},
-                                      {"color-by", def->color_by}, {"tree", def->show_tree},
-                                      {"diagram", def->diagram},   {"lod", lod},
-                                      {"budget", budget},          {"aa", aa}};
+    const char *const options[][2] = {{"camera", def->camera},
+                                      {"layers", def->layers},
+                                      {"color-by", def->color_by},
+                                      {"tree", def->show_tree},
+                                      {"color-points", def->color_points},
+                                      {"shade", def->shade},
+                                      {"diagram", def->diagram},
+                                      {"lod", lod},
+                                      {"budget", budget},
+                                      {"aa", aa}};
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
         const view_option *option = view_option_named(options[i][0]);
         if (!option->parse(option, options[i][1], v, &r->error))
@@ -167,7 +175,8 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
     r->settings.film.view = view_default();
     r->never_wait = def->never_wait;
     r->ring.most = def->ring;
-    if (!def->camera || !def->layers || !def->color_by || !def->show_tree || !def->diagram || !def->context)
+    if (!def->camera || !def->layers || !def->color_by || !def->show_tree || !def->color_points || !def->shade ||
+        !def->diagram || !def->context)
         return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT,
                              "a name in the definition is null; start from octreel_recorder_def_default()");
     octreel_status status = set_tree(r, &def->tree);

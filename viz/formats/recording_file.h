@@ -7,7 +7,8 @@
  *   "width": 1280, "height": 720, "camera": "iso", "layers": ["world", "nodes", ...], "color_by": "depth",
  *   "lod": 2, "budget": 250000, "aa": 1, and, where they are not off,
  *   "fit": {"min": [x, y, z], "max": [x, y, z]}, "look": [30, 22], "center": [x, y, z], "zoom": 2, "diagram": "beside",
- * "labels": true, "slice": {"z": 100}, "depths": [2, 5], "leaves": true, "region": {"min": [x, y, z], "max": [x, y, z]}
+ *   "color_points": "height", "shade": "edl", "point_scale": [lowest place, highest place, ids, intensities, spacing],
+ *   "labels": true, "slice": {"z": 100}, "depths": [2, 5], "leaves": true, "region": {"min": [x, y, z], "max": [x, y, z]}
  */
 #ifndef FORMATS_RECORDING_FILE_H
 #define FORMATS_RECORDING_FILE_H

@@ -221,6 +221,13 @@ static bool fits_box(const void *from)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
+/* Other colours have another scale than those of --camera-from. */
+static bool parse_point_color(const view_option *option, const char *text, view *v, octreel_error *error)
+{
+    v->point_scale.given = false;
+    return parse_choice(option, text, v, error);
+}
+
 #define SCALE_NUMBERS (sizeof(point_scale) / sizeof(double))
 
 static bool read_scale(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -459,7 +466,7 @@ static const view_option rows[] = {
      MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at, .words = coloring_words_at,
      .noun = "colouring"},
     {"color-points", "MODE", "point colour",
-     "what the colour of a point tells (default plain; inspect: height): one of", parse_choice,
+     "what the colour of a point tells (default plain; inspect: height): one of", parse_point_color,
      MEMBER("color_points", &json_later_choice, point_color), .member.names = point_color_at,
      .words = point_color_words_at, .noun = "colouring of points"},
     {"shade", "MODE", "shade", "what tells how far off points are (default bands): one of", parse_choice,

@@ -55,6 +55,9 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(camera, "drone", OCTREEL_BAD_OPTION, "no camera \"drone\"");
     REFUSE(layers, "nodes,walls", OCTREEL_BAD_OPTION, "\"walls\"");
     REFUSE(color_by, "mood", OCTREEL_BAD_OPTION, "\"mood\"");
+    REFUSE(color_points, "mood", OCTREEL_BAD_OPTION, "\"mood\"");
+    REFUSE(shade, "mood", OCTREEL_BAD_OPTION, "\"mood\"");
+    REFUSE(shade, NULL, OCTREEL_NULL_ARGUMENT, "octreel_recorder_def_default()");
     REFUSE(show_tree, "mine", OCTREEL_BAD_OPTION, "no tree \"mine\"");
     REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "no diagram \"above\"");
     REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: there is no \"glx\"");

@@ -107,16 +107,18 @@ typedef struct octreel_recorder_def {
     const char *color_by;  /* "depth", "occupancy", "plain" */
     const char *show_tree; /* "auto", "own", "foreign", "both": whose nodes are shown, where octreel_tick_info.foreign
                               has the program's; by "auto" those instead of Octreel's, once there are any */
-    const char *diagram;   /* "none", "beside", "only" */
-    bool labels;           /* write paths such as 0/3/7 on nodes, where there is room */
-    double lod;            /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
-    uint64_t budget;       /* the most boxes, and the most points, of a frame; 0: any number */
-    int aa;                /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
-    uint64_t every;        /* film each N-th tick, or none with 0: the page draws. ticks.jsonl has all of them */
-    const char *context;   /* what draws off-screen: "auto", "osmesa", "egl" */
-    bool any_renderer;     /* with "egl": a graphics card will do; frames are then the same on that card alone */
-    size_t queue_ticks;    /* ticks that may wait for the worker, at least 1 */
-    size_t queue_bytes;    /* and what they may take together; one tick alone may take more */
+    const char *color_points; /* "plain", "height", "leaf" ... */
+    const char *shade;        /* of points: "bands", "edl", "none" */
+    const char *diagram;      /* "none", "beside", "only" */
+    bool labels;              /* write paths such as 0/3/7 on nodes, where there is room */
+    double lod;               /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
+    uint64_t budget;          /* the most boxes, and the most points, of a frame; 0: any number */
+    int aa;                   /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
+    uint64_t every;           /* film each N-th tick, or none with 0: the page draws. ticks.jsonl has all of them */
+    const char *context;      /* what draws off-screen: "auto", "osmesa", "egl" */
+    bool any_renderer;        /* with "egl": a graphics card will do; frames are then the same on that card alone */
+    size_t queue_ticks;       /* ticks that may wait for the worker, at least 1 */
+    size_t queue_bytes;       /* and what they may take together; one tick alone may take more */
     bool never_wait; /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker: such a tick
                        is a gap; the first frame is waited for all the same */
     size_t ring;     /* keep this many of the last ticks, and film them when asked to; 0: film every tick.

@@ -15,6 +15,8 @@ const VIEW_ROWS = [
     ["center", "at", "text", {hint: "x,y,z", read: numbersOf, write: center => center.join(",")}],
     ["zoom", "zoom", "text", {hint: "1", read: Number, write: String}],
     ["color_by", "nodes by", "choice"],
+    ["color_points", "points by", "choice"],
+    ["shade", "shade", "choice"],
     ["tree", "tree", "choice"],
     ["diagram", "diagram", "choice"],
     ["closeup", "close-up", "switch"],
@@ -67,9 +69,10 @@ class ViewControls {
         for (const name of this.choices[member] ?? [])
             select.append(new Option(name, name));
         select.addEventListener("change", () => {
-            /* Another camera is to be seen from where it stands. */
-            const own = member === "camera" ? {look: undefined, center: undefined, zoom: undefined} : {};
-            this.change({[member]: select.value, ...own});
+            /* Another camera is to be seen from where it stands; other colours have another scale. */
+            const own = {camera: {look: undefined, center: undefined, zoom: undefined},
+                         color_points: {point_scale: undefined}};
+            this.change({[member]: select.value, ...own[member]});
             select.blur();
         });
         return {element: select, show: value => select.value = value ?? this.choices[member][0]};
@@ -123,6 +126,7 @@ function optionsOf(view, recorded)
 {
     const written = {
         camera: value => `--camera ${value}`, color_by: value => `--color-by ${value}`,
+        color_points: value => `--color-points ${value}`, shade: value => `--shade ${value}`,
         tree: value => `--tree ${value}`, diagram: value => `--diagram ${value}`, labels: () => "--labels", leaves: () => "--leaves",
         depths: ([from, to]) => `--depths ${from}:${to}`,
         slice: slice => `--slice ${Object.entries(slice)[0].join("=")}`,
