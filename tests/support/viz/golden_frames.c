@@ -4,12 +4,14 @@
 #include "view_options.h"
 #include "broken_tree.h"
 #include "camera.h"
+#include "point_scale.h"
 #include "foreign_session.h"
 #include "layer.h"
 #include "picture.h"
 #include "octree/sample.h"
 #include "tick_scene.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,6 +61,8 @@ const golden_frame golden_frames[] = {
     {"program_nodes", "iso", "default", 0, "foreign", 640, 360},
     {"program_nodes_wrong", "iso", "default", 1, "foreign", 640, 360},
     {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
+    {"painted", "iso", "nodes,points,text", 0, "painted", 640, 360},
+    {"painted_leaves", "orbit", "world,points,text", 0, "painted", 480, 270},
 };
 
 const size_t golden_frame_count = sizeof golden_frames / sizeof golden_frames[0];
@@ -80,6 +84,8 @@ static const struct {
     {"diagram", {.diagram = DIAGRAM_BESIDE}},
     {"diagram_met", {.diagram = DIAGRAM_BESIDE}},
     {"diagram_folded", {.diagram = DIAGRAM_ONLY, .coloring = COLORING_OCCUPANCY}},
+    {"painted", {.point_color = POINTS_BY_HEIGHT, .shade = SHADE_EDL}},
+    {"painted_leaves", {.point_color = POINTS_BY_LEAF, .shade = SHADE_EDL}},
     {"left_out",
      {.coloring = COLORING_OCCUPANCY, .filter = {.leaves = true, .by_depth = true, .min_depth = 2, .max_depth = 4}}},
 };
@@ -171,6 +177,22 @@ static octree_session swept_session(void)
     return session;
 }
 
+/* A saddle of 400 points, and a part of it raised. */
+static octree_session saddle_session(octree_body bodies[GOLDEN_MOST_BODIES])
+{
+    octree_session session = octree_session_default();
+    for (uint64_t i = 0; i < GOLDEN_MOST_BODIES; i++) {
+        const double x = (double)(i % 20) * 80 - 760, y = (double)(i / 20) * 80 - 760;
+        const bool raised = fabs(x) < 250 && fabs(y) < 250;
+        bodies[i] = (octree_body){.id = 100 + i, .position = {x, y, (x * x - y * y) / 1900 + (raised ? 450 : 0)}};
+    }
+    session.tree.leaf_capacity = 16;
+    session.bodies = bodies;
+    session.body_count = GOLDEN_MOST_BODIES;
+    session.query_count = 0;
+    return session;
+}
+
 static octree_session session_of(const golden_frame *frame, octree_body bodies[GOLDEN_MOST_BODIES])
 {
     octree_session session = octree_session_default();
@@ -189,6 +211,8 @@ static octree_session session_of(const golden_frame *frame, octree_body bodies[G
         return sampled_session(OCTREE_SAMPLE_UNIFORM, neighbors, bodies, 60);
     case 'm':
         return moving_session(bodies);
+    case 'p':
+        return saddle_session(bodies);
     case 'r':
         return sampled_session(OCTREE_SAMPLE_UNIFORM, ball, bodies, 60);
     case 's':
@@ -219,7 +243,7 @@ bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *er
     if (octree_game_create(&play->session, &play->game) != OCTREE_OK)
         return error_set(error, "%s: the session cannot be played", frame->name);
     camera_fit(&play->view, octree_game_tree(play->game));
-    return true;
+    return point_scale_fit(&play->view, octree_game_tree(play->game), NULL) || error_no_memory(error);
 }
 
 /* One point is written into another's cell. */
