@@ -306,6 +306,45 @@ static void help_teaches(void **state)
     command_release(&result);
 }
 
+/* The player is in the middle of the close-up; its frame has a name, too. Without one nothing is drawn there. */
+static void elements_of_the_close_up_are_named(void **state)
+{
+    shown what;
+    show(&what, *state, "--size 640x360", 3);
+    const scene *close = what.scene->closeup;
+    assert_true(what.scene->has_closeup);
+    const int x = close->place[0] + close->view.width / 2, y = close->place[1] + close->view.height / 2;
+    json_t *said = pick_json(&what, x, y, 0);
+    const json_t *top = json_array_get(json_member(said, "elements"), 0);
+    assert_string_equal(json_string_value(json_object_get(top, "layer")), "player");
+    assert_true(json_is_true(json_object_get(top, "closeup")));
+    json_decref(said);
+    command_result result = run_octreel(NULL, "pick %s %d %d", what.frame.path, x, y);
+    assert_non_null(strstr(result.out, "the player, point 6 at "));
+    assert_non_null(strstr(result.out, " (in the close-up)\n"));
+    assert_non_null(strstr(result.out, "over the close-up's frame\n"));
+    command_release(&result);
+    replay_close(&what.replay);
+    result = run_octreel(NULL, "verify %s", what.folder.path);
+    assert_done(&result);
+    command_release(&result);
+}
+
+/* A recording that says nothing of a close-up, as those of before have none, has none, and verifies. */
+static void a_recording_without_the_member_has_no_close_up(void **state)
+{
+    shown what;
+    show(&what, *state, "--size 640x360 --no-closeup", 0);
+    char *view = file_read(place_below(what.folder.path, "recording.json").path, NULL);
+    assert_null(strstr(view, "closeup"));
+    assert_false(what.scene->has_closeup);
+    free(view);
+    replay_close(&what.replay);
+    command_result result = run_octreel(NULL, "verify %s", what.folder.path);
+    assert_done(&result);
+    command_release(&result);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -313,6 +352,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(every_point_is_named_at_its_pixel),
         IN_FOLDER(nodes_are_named_at_their_edges),
+        IN_FOLDER(elements_of_the_close_up_are_named),
+        IN_FOLDER(a_recording_without_the_member_has_no_close_up),
         IN_FOLDER(the_panel_is_beneath_its_text),
         IN_FOLDER(samples_of_a_pixel_add_up),
         IN_FOLDER(the_nearest_is_told_where_nothing_is),
