@@ -221,7 +221,8 @@ static void add_flat(scene *s, uint64_t id, double x0, double y0, double x1, dou
                                          .style = {.layer = LAYER_CLOSEUP, .role = (uint8_t)role, .width = 1}});
 }
 
-/* What the close-up shows, in the picture, as far as it is in the space of the world; false where it is not. */
+/* What the close-up shows, in the picture, as far as it is in the space of the world, and never too small to be seen;
+ * false where it is not. */
 static bool find_region(const scene *s, rectangle *r)
 {
     const camera *c = &s->closeup->camera;
@@ -232,7 +233,7 @@ static bool find_region(const scene *s, rectangle *r)
     if (!camera_pixel(&s->camera, c->center, pixel))
         return false;
     const double smaller = s->closeup->times * (c->perspective ? seen[2] / c->distance : 1);
-    const double half[2] = {v->width / smaller / 2, v->height / smaller / 2};
+    const double half[2] = {fmax(v->width / smaller / 2, 2 * s->unit), fmax(v->height / smaller / 2, 2 * s->unit)};
     const double low[2] = {w.x, w.y}, high[2] = {w.x + w.width - 1, w.y + w.height - 1};
     for (int i = 0; i < 2; i++) {
         r->side[i] = fmax(floor(pixel[i] - half[i]), low[i]) + 0.5;

@@ -231,6 +231,27 @@ static void without_a_player_it_shows_what_is_asked(void **state)
     assert_false(has_closeup(&session, &v));
 }
 
+/* The rectangle of what it shows is seen in the picture at any scale. */
+static void what_it_shows_is_outlined_however_small(void **state)
+{
+    (void)state;
+    octree_session session = octree_session_default();
+    session.player.step = session.player.box_size = 1e-5;
+    octree_game *game = open_game(&session);
+    scene s = {.refused = 0};
+    const view v = view_default();
+    build_tick(&s, &v, game);
+    size_t lines = 0;
+    for (size_t i = 0; i < s.segments.count; i++) {
+        const scene_segment *line = &s.segments.items[i];
+        const double x = fabs(line->ends[0][0] - line->ends[1][0]), y = fabs(line->ends[0][1] - line->ends[1][1]);
+        lines += line->style.layer == LAYER_CLOSEUP && x + y >= 4;
+    }
+    assert_int_equal(lines, 6); /* and two that join it to the close-up */
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
 /* At the edges of doubles too. */
 static void it_is_the_same_at_every_scale(void **state)
 {
@@ -325,6 +346,7 @@ int main(void)
         cmocka_unit_test(it_has_a_place_of_its_own),
         cmocka_unit_test(it_has_what_is_around_the_player_and_nothing_else),
         cmocka_unit_test(without_a_player_it_shows_what_is_asked),
+        cmocka_unit_test(what_it_shows_is_outlined_however_small),
         cmocka_unit_test(it_is_the_same_at_every_scale),
         cmocka_unit_test(every_world_has_a_close_up_of_finite_numbers),
         cmocka_unit_test(the_digest_counts_it),
