@@ -8,7 +8,8 @@ get_filename_component(folder ${SOURCE} DIRECTORY)
 file(READ ${SOURCE} page)
 
 # inline(ELEMENT REGEX): each tag that the expression finds becomes an <ELEMENT> with the text of the file it names. What
-# lines are indented by is left out: no text in these files goes on over lines.
+# lines are indented by is left out, as are blank lines and comments that begin a line: no text in these files goes on
+# over lines.
 macro(inline element regex)
   string(REGEX MATCHALL "${regex}" tags "${page}")
   foreach(tag ${tags})
@@ -17,8 +18,10 @@ macro(inline element regex)
     if(text MATCHES "</${element}")
       message(FATAL_ERROR "${part}: \"</${element}\" would end the element that it is put into")
     endif()
-    string(REGEX REPLACE "\n +" "\n" text "${text}")
-    string(REPLACE "${tag}" "<${element}>\n${text}</${element}>" page "${page}")
+    string(REGEX REPLACE "\n +" "\n" text "\n${text}")
+    string(REGEX REPLACE "\n/[*][^*]*([*]+[^*/][^*]*)*[*]+/" "" text "${text}")
+    string(REGEX REPLACE "\n\n+" "\n" text "${text}")
+    string(REPLACE "${tag}" "<${element}>${text}</${element}>" page "${page}")
   endforeach()
 endmacro()
 inline(style "<link rel=\"stylesheet\" href=\"([^\"]*)\">")

@@ -5,7 +5,8 @@ option(OCTREEL_PAGE_PLAYS "Put the program into the pages of recordings, where c
 set(OCTREEL_WASI_SYSROOT /usr CACHE PATH "Where wasi-libc is: Debian's package wasi-libc")
 find_program(WASM_CLANG NAMES clang)
 set(PAGE_MODULE "")
-set(wasm_target --target=wasm32-wasi --sysroot=${OCTREEL_WASI_SYSROOT})
+set(wasm_target --target=wasm32-wasi --sysroot=${OCTREEL_WASI_SYSROOT}
+    -msign-ext -mnontrapping-fptoint) # older than DecompressionStream, which pages use
 set(wasm_folder ${CMAKE_CURRENT_BINARY_DIR}/wasm)
 
 # Whether clang has all it takes: wasi-libc, lld, and its own runtime for the target.
