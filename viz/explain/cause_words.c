@@ -185,7 +185,7 @@ static void print_fact(FILE *out, const phrase *p, const cause_group *group, con
 
 /* ---- Many of a group ----------------------------------------------------------------------------------------- */
 
-enum { BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
+enum { MINOR_SUBJECTS = 2, BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
 /* How many subjects are named. "and 1 more" is never printed: naming it is as short. */
 static size_t count_told(const cause_group *group, bool brief)
@@ -210,7 +210,7 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
 static void print_verb(FILE *out, const phrase *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
-    if (group->found > count_told(group, brief)) {
+    if (group->found > (p->minor ? MINOR_SUBJECTS : count_told(group, brief))) {
         fprintf(out, "%" PRIu64 " %ss %s (such as ", group->found, p->noun, verb_of(p, group->change));
         print_subject(out, fact);
         fputc(')', out);

@@ -35,7 +35,7 @@ const golden_frame golden_frames[] = {
     {"knearest", "follow", SHAPES, 0, "knearest", 0, 0},
     {"radius", "follow", SHAPES, 0, "radius", 0, 0},
     {"swept", "front", SHAPES, 1, "swept", 0, 0},
-    {"readme", "iso", "default", 219, NULL, 960, 540}, /* the one that the README shows */
+    {"closeup", "iso", "default", 219, NULL, 960, 540},
     {"slice", "iso", TREE, 0, "clustered", 0, 0},
     {"region", "iso", TREE, 0, "clustered", 0, 0},
     {"fit", "iso", TREE, 0, "clustered", 0, 0},
@@ -77,7 +77,7 @@ static const struct {
     {"fit", {.fit = FIT_POINTS, .filter = {.by_region = true, .region = {{-900, -900, -900}, {0, 0, 0}}}}},
     {"labels", {.labels = true}},
     {"aa", {.aa = 4}},
-    {"readme", {.closeup = true}},
+    {"closeup", {.closeup = true}},
     {"lod", {.lod = 12}},
     {"budget", {.budget = 100}},
     {"program_nodes", {.coloring = COLORING_KIND}},

@@ -118,7 +118,7 @@ static void job_passes_where_nothing_differs(void **state)
 static void job_fails_where_a_frame_differs_and_keeps_the_evidence(void **state)
 {
     const job *j = *state;
-    static const char path[] = "name: evidence, path: ";
+    static const char path[] = "name: why, path: ";
     change_session(j);
     file_write_text(place_in(j->folder, "summary").path, "Of an earlier step.\n");
     assert_int_equal(run_steps(j), 1);
@@ -145,7 +145,7 @@ static void job_is_yaml(void **state)
                         "[\"steps\"]\nprint(len(steps), steps[-1][\"if\"], steps[-1][\"with\"][\"path\"])' %s",
                         place_in(j->folder, "job.yml").path);
     assert_done(&result);
-    assert_string_equal(result.out, "7 failure() evidence\n");
+    assert_string_equal(result.out, "7 failure() why\n");
     command_release(&result);
 }
 
