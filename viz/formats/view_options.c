@@ -15,65 +15,22 @@
 
 /* ---- Names to choose from ----------------------------------------------------------------------------------- */
 
-static const char *camera_at(int n)
-{
-    return view_camera_name((view_camera)n);
-}
-
-static const char *camera_words_at(int n)
-{
-    return view_camera_words((view_camera)n);
-}
-
-static const char *coloring_at(int n)
-{
-    return view_coloring_name((view_coloring)n);
-}
-
-static const char *coloring_words_at(int n)
-{
-    return view_coloring_words((view_coloring)n);
-}
-
-static const char *tree_at(int n)
-{
-    return view_tree_name((view_tree)n);
-}
-
-static const char *tree_words_at(int n)
-{
-    return view_tree_words((view_tree)n);
-}
-
-static const char *diagram_at(int n)
-{
-    return view_diagram_name((view_diagram)n);
-}
-
-static const char *diagram_words_at(int n)
-{
-    return view_diagram_words((view_diagram)n);
-}
-
-static const char *point_color_at(int n)
-{
-    return view_point_color_name((view_point_color)n);
-}
-
-static const char *point_color_words_at(int n)
-{
-    return view_point_color_words((view_point_color)n);
-}
-
-static const char *shade_at(int n)
-{
-    return view_shade_name((view_shade)n);
-}
-
-static const char *shade_words_at(int n)
-{
-    return view_shade_words((view_shade)n);
-}
+/* camera_at() and camera_words_at() of view_camera, and so on: the n-th name, and what it is. */
+#define NAMES(choice)                                                                                                  \
+    static const char *choice##_at(int n)                                                                              \
+    {                                                                                                                  \
+        return view_##choice##_name((view_##choice)n);                                                                 \
+    }                                                                                                                  \
+    static const char *choice##_words_at(int n)                                                                        \
+    {                                                                                                                  \
+        return view_##choice##_words((view_##choice)n);                                                                \
+    }
+NAMES(camera)
+NAMES(coloring)
+NAMES(tree)
+NAMES(diagram)
+NAMES(point_color)
+NAMES(shade)
 
 const char *view_layer_at(int n)
 {
