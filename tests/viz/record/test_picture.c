@@ -132,11 +132,14 @@ static uint64_t roles_of(unsigned layer)
     case LAYER_POINT_HEAT:
         return ALL_NODE_ROLES;
     case LAYER_POINTS:
+        return one << ROLE_POINT;
     case LAYER_VELOCITIES:
+        return one << ROLE_FAINT;
     case LAYER_HIT:
+        return one << ROLE_HIT;
     case LAYER_SPLITS:
     case LAYER_MERGES:
-        return one << ROLE_POINT;
+        return one << ROLE_CHANGE;
     case LAYER_RANGE:
         return one << ROLE_RANGE;
     case LAYER_RADIUS:
