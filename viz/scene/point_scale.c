@@ -23,6 +23,9 @@ typedef struct gathering {
     leaf_extent *leaves;
     size_t count, room, points;
     double ids[2];
+    const point_values *values; /* null: intensities are not asked for */
+    float *intensities;         /* of the points that have one */
+    size_t intensity_count, intensity_room;
     bool out_of_memory;
 } gathering;
 
@@ -45,6 +48,19 @@ static double spacing_of(const leaf_extent *e)
     return e->count >= FEWEST ? sqrt(longest) * sqrt(middle) / (sqrt((double)e->count) - 1) : 0;
 }
 
+static void add_intensity(gathering *g, uint64_t id)
+{
+    const size_t row = point_values_row(g->values, id);
+    if (!point_values_has(g->values, row, POINT_INTENSITY))
+        return;
+    float *all = array_reserve(g->intensities, g->intensity_count + 1, &g->intensity_room, sizeof *all);
+    g->out_of_memory |= !all;
+    if (!all)
+        return;
+    g->intensities = all;
+    all[g->intensity_count++] = g->values->intensities[row];
+}
+
 static void add_leaf(gathering *g, const octree_node *leaf)
 {
     leaf_extent e = {.count = 0};
@@ -60,6 +76,7 @@ static void add_leaf(gathering *g, const octree_node *leaf)
         }
         g->ids[0] = g->points ? least(g->ids[0], id) : id;
         g->ids[1] = g->points ? most(g->ids[1], id) : id;
+        add_intensity(g, point->id);
         e.count++;
         g->points++;
     }
@@ -128,21 +145,14 @@ static int compare_floats(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Of all points that have one. */
-static bool measure_intensities(point_scale *s, const point_values *values)
+static void measure_intensities(const gathering *g, double ends[2])
 {
-    size_t count = 0;
-    float *sorted = malloc((values->count + 1) * sizeof *sorted);
-    for (size_t row = 0; sorted && row < values->count; row++)
-        if (point_values_has(values, row, POINT_INTENSITY))
-            sorted[count++] = values->intensities[row];
-    if (count) {
-        qsort(sorted, count, sizeof *sorted, compare_floats);
-        s->intensities[0] = (double)sorted[count / OUTLIERS];
-        s->intensities[1] = (double)sorted[count - 1 - count / OUTLIERS];
-    }
-    free(sorted);
-    return sorted != NULL;
+    const size_t count = g->intensity_count, few = count / OUTLIERS;
+    if (count == 0)
+        return;
+    qsort(g->intensities, count, sizeof *g->intensities, compare_floats);
+    ends[0] = (double)g->intensities[few];
+    ends[1] = (double)g->intensities[count - 1 - few];
 }
 
 double point_scale_pixels(const camera *c, double length)
@@ -154,16 +164,19 @@ bool point_scale_fit(view *v, const octree *tree, const point_values *values)
 {
     if (!view_paints_points(v) || v->point_scale.given)
         return true;
-    gathering g = {.filter = &v->filter, .world = octree_definition(tree).world};
+    gathering g = {.filter = &v->filter,
+                   .world = octree_definition(tree).world,
+                   .values = v->point_color == POINTS_BY_INTENSITY ? values : NULL};
     octree_walk(tree, gather, &g);
     weighted *sorted = g.count ? malloc(g.count * sizeof *sorted) : NULL;
-    bool measured = !g.out_of_memory && (sorted || g.count == 0);
+    const bool measured = !g.out_of_memory && (sorted || g.count == 0);
     v->point_scale.given = measured && g.count > 0;
-    if (v->point_scale.given)
+    if (v->point_scale.given) {
         v->point_scale.of = measure(&g, sorted);
-    if (v->point_scale.given && v->point_color == POINTS_BY_INTENSITY && values)
-        measured = measure_intensities(&v->point_scale.of, values);
+        measure_intensities(&g, v->point_scale.of.intensities);
+    }
     free(sorted);
     free(g.leaves);
+    free(g.intensities);
     return measured;
 }

@@ -11,8 +11,9 @@
 
 /* Where the view paints points and has no scale yet, give it that of the points that it shows of the tree of tick 0. A
  * few outliers on either side are left out, so that they do not take the colours from all others. The spacing is the
- * median of the leaves', by the extent of the points in each. The values
- * of the points may be null. False when there is no memory. Cost: O(n). */
+ * median of the leaves', by the extent of the points in each. The values of the points may be null; of those that no
+ * point of the tree has none counts: a session that is filmed while it is written has them later. False when there is
+ * no memory. Cost: O(n). */
 bool point_scale_fit(view *v, const octree *tree, const point_values *values);
 
 /* A painted point is this much wider than it is from one point to the next: more than the diagonal of a grid, so that

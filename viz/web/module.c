@@ -24,6 +24,7 @@ typedef struct web {
     session_file session;
     playback playback;
     bool open, drawn; /* there is a playback; its last tick has been drawn */
+    bool scaled;      /* its view had no scale of points of its own */
     unsigned counted; /* layers that show sums over all ticks, where those are made */
     char *room, *text;
     size_t room_size, text_size;
@@ -87,7 +88,7 @@ static void close_all(void)
     session_release(&page.session);
     free(page.rgba);
     page.rgba = NULL;
-    page.open = page.drawn = false;
+    page.open = page.drawn = page.scaled = false;
 }
 
 /* Open a session and play its tick 0: in the room there is its text, of `session` bytes, and after it that of a
@@ -154,13 +155,39 @@ bool web_facts(void)
 
 /* ---- The picture -------------------------------------------------------------------------------------------- */
 
+/* By the points of tick 0, as when the session was opened. */
+static bool fit_to_start(view *v)
+{
+    octree_game *start;
+    const octree_status status = octree_game_create(&page.session.session, &start);
+    if (status != OCTREE_OK)
+        return error_set(&page.error, "%s", octree_status_text(status));
+    const bool fitted = picture_fit(v, octree_game_tree(start), &page.session.values, &page.error);
+    octree_game_destroy(start);
+    return fitted;
+}
+
+/* A scale of points that was fitted stays until a view shows others, or in other colours: views follow each other as
+ * fast as frames. */
+static bool fit(view *v)
+{
+    const view *now = &page.playback.view;
+    const bool scales = view_paints_points(v) && !v->point_scale.given;
+    if (scales && page.scaled && v->point_color == now->point_color &&
+        memcmp(&v->filter, &now->filter, sizeof v->filter) == 0)
+        v->point_scale = now->point_scale;
+    page.scaled = scales;
+    if (scales && !v->point_scale.given && web_tick() > 0)
+        return fit_to_start(v);
+    return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
+}
+
 /* View the session by the recording.json in the room from now on. */
 bool web_view(size_t recording)
 {
     view v, *now = &page.playback.view;
     uint64_t every;
-    if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) ||
-        !picture_fit(&v, octree_game_tree(page.playback.game), &page.session.values, &page.error))
+    if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) || !fit(&v))
         return fails();
     if (v.width != now->width || v.height != now->height || view_samples(&v) != view_samples(now) ||
         view_is_rgb(&v) != view_is_rgb(now)) {

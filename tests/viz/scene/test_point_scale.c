@@ -73,6 +73,26 @@ static void it_is_made_once_and_only_where_points_are_painted(void **state)
     octree_destroy(tree);
 }
 
+/* A session that is filmed while it is written has them later. */
+static void values_of_points_that_are_not_in_the_tree_do_not_count(void **state)
+{
+    (void)state;
+    view v = painting_view();
+    octree *tree = make_plane(1);
+    point_values values = {0};
+    const double ends[2] = {1, 2};
+    v.point_color = POINTS_BY_INTENSITY;
+    assert_true(point_values_add(&values,
+                                 (point_entry[]){{5, {.intensity = 1, .has[POINT_INTENSITY] = true}},
+                                                 {6, {.intensity = 2, .has[POINT_INTENSITY] = true}},
+                                                 {1000000, {.intensity = 9, .has[POINT_INTENSITY] = true}}},
+                                 3));
+    assert_true(point_scale_fit(&v, tree, &values));
+    assert_memory_equal(v.point_scale.of.intensities, ends, sizeof ends);
+    point_values_release(&values);
+    octree_destroy(tree);
+}
+
 /* Its numbers are written as JSON. */
 static void it_is_finite_in_the_largest_world(void **state)
 {
@@ -102,6 +122,7 @@ int main(void)
         cmocka_unit_test(a_few_outliers_do_not_take_the_colours),
         cmocka_unit_test(the_order_of_points_does_not_matter),
         cmocka_unit_test(it_is_made_once_and_only_where_points_are_painted),
+        cmocka_unit_test(values_of_points_that_are_not_in_the_tree_do_not_count),
         cmocka_unit_test(it_is_finite_in_the_largest_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
