@@ -2,6 +2,7 @@
 /* error.c - sentences about what could not be done. */
 #include "error.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -26,4 +27,9 @@ bool error_set(octreel_error *error, const char *format, ...)
 bool error_no_memory(octreel_error *error)
 {
     return error_set(error, "there is no memory");
+}
+
+bool memory_sufficed(octreel_error *error)
+{
+    return errno != ENOMEM || error_no_memory(error);
 }

@@ -13,4 +13,8 @@ bool error_set(octreel_error *error, const char *format, ...);
 /* The same for lack of memory. */
 bool error_no_memory(octreel_error *error);
 
+/* False, with that sentence, where the last call that failed had no memory, be it ours, libpng's, jansson's or the C
+ * library's: then what was found wrong may be right. Set errno to 0 before what is asked about. */
+bool memory_sufficed(octreel_error *error);
+
 #endif

@@ -15,10 +15,11 @@ bool text_stream_begin(text_stream *s)
     return s->stream != NULL;
 }
 
+/* Closing gives the text a block of its size: without memory for that there is no text, and no error of the stream. */
 bool text_stream_end(text_stream *s, char **text)
 {
     const bool whole = s->stream && !ferror(s->stream);
-    const bool ok = s->stream && fclose(s->stream) == 0 && whole;
+    const bool ok = s->stream && fclose(s->stream) == 0 && whole && s->text;
     *text = ok && s->size ? s->text : NULL;
     if (!*text)
         free(s->text);

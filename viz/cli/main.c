@@ -140,10 +140,16 @@ static int run(int argc, char **argv)
     return found ? found->run(argc - 1, argv + 1) : refuse_word(argv[1], false);
 }
 
+static void say_context(const char *name, const char *instead_of, const char *why)
+{
+    fprintf(stderr, "octreel: %s draws, since %s does not: %s\n", name, instead_of, why);
+}
+
 /* Output that could not be written is a failure, whatever the command returned. */
 int main(int argc, char **argv)
 {
     hint_set_program(argc > 0 ? argv[0] : NULL);
+    draw_context_tell(say_context);
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return status;

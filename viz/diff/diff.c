@@ -7,6 +7,7 @@
 #include "png_chunks.h"
 #include "png_read.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -160,6 +161,8 @@ static bool compare_bytes(diff_pair *pair)
 
 static void find_unreadable(diff_pair *pair, const octreel_error *error)
 {
+    octreel_error ignored;
+    pair->no_memory = !memory_sufficed(&ignored);
     pair->finding = FOUND_UNREADABLE;
     pair->trouble = strdup(error->text); /* null without memory: reports say so */
 }
@@ -298,6 +301,7 @@ static void try_bytes(size_t i, void *context)
 static void find_pixels(size_t i, void *context)
 {
     const pending *p = context;
+    errno = 0;
     compare_pixels(p->pairs[i], p->options);
 }
 
@@ -323,9 +327,11 @@ static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octr
 static bool compare_ticks(const diff_side *a, const diff_side *b, diff_result *result, octreel_error *error)
 {
     char *paths[2] = {path_join(a->path, "ticks.jsonl"), path_join(b->path, "ticks.jsonl")};
-    const bool ok = (paths[0] && paths[1]) || error_no_memory(error);
+    bool ok = (paths[0] && paths[1]) || error_no_memory(error);
+    errno = 0;
     result->by_ticks = true;
     result->verdict = ok && same_bytes(paths[0], paths[1]) ? DIFF_SAME : DIFF_DIFFERENT;
+    ok = ok && (result->verdict == DIFF_SAME || memory_sufficed(error));
     free(paths[0]);
     free(paths[1]);
     return ok;

@@ -60,6 +60,7 @@ typedef struct diff_pair {
     image_difference difference; /* where both were decoded */
     pixel_mask mask;             /* what the layers that are left out cover */
     char *trouble;               /* the error of what is unreadable; owned */
+    bool no_memory;              /* it may be readable */
 } diff_pair;
 
 typedef struct diff_result {

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "context.h"
 
+#include "cores.h"
+
 #include <dlfcn.h>
+#include <errno.h>
+#include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct {
@@ -42,16 +47,35 @@ bool draw_context_built(draw_context kind)
     return (unsigned)kind < DRAW_CONTEXTS && kinds[kind].open;
 }
 
+static draw_context_told *tell;
+
+void draw_context_tell(draw_context_told *told)
+{
+    tell = told;
+}
+
+/* What is not installed is not missed. */
+static void tell_other(int kind, int first, const octreel_error *why)
+{
+    if (tell && kind != first && !strstr(why->text, strerror(ENOENT)))
+        tell(kinds[kind].name, kinds[first].name, why->text);
+}
+
 /* When none opens, the first one's error is reported. */
 static context *open_any(const renderer_choice *choice, octreel_error *error)
 {
     octreel_error *reason = error, later;
+    int first = DRAW_AUTO;
     for (int i = DRAW_AUTO + 1; i < DRAW_CONTEXTS; i++) {
-        context *c = kinds[i].open ? kinds[i].open(choice, reason) : NULL;
-        if (c)
+        if (!kinds[i].open)
+            continue;
+        first = first ? first : i;
+        context *c = kinds[i].open(choice, reason);
+        if (c) {
+            tell_other(i, first, error);
             return c;
-        if (kinds[i].open)
-            reason = &later;
+        }
+        reason = &later;
     }
     return NULL;
 }
@@ -81,4 +105,37 @@ bool context_symbol(void *library, const char *name, void *function, size_t size
     void *symbol = dlsym(library, name);
     memcpy(function, &symbol, size);
     return symbol != NULL;
+}
+
+/* ---- Threads -------------------------------------------------------------------------------------------------- */
+
+static void *wait_for_all(void *lock)
+{
+    pthread_mutex_lock(lock);
+    pthread_mutex_unlock(lock);
+    return NULL;
+}
+
+/* Whether so many run at the same time. */
+static bool threads_start(unsigned wanted)
+{
+    enum { MOST = 34 };
+    pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    pthread_t threads[MOST];
+    unsigned count = 0;
+    wanted = wanted < MOST ? wanted : MOST;
+    pthread_mutex_lock(&lock);
+    while (count < wanted && pthread_create(&threads[count], NULL, wait_for_all, &lock) == 0)
+        count++;
+    pthread_mutex_unlock(&lock);
+    for (unsigned i = 0; i < count; i++)
+        pthread_join(threads[i], NULL);
+    return count == wanted;
+}
+
+/* It starts one a core, up to 32, and Mesa two for what it keeps on disk. */
+void context_limit_threads(void)
+{
+    if (!threads_start(count_cores() + 2))
+        setenv("LP_NUM_THREADS", "0", 0);
 }

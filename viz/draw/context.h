@@ -28,6 +28,11 @@ typedef struct renderer_choice {
     bool any_renderer; /* accept drivers other than llvmpipe: a graphics card, say */
 } renderer_choice;
 
+/* Called where DRAW_AUTO takes a context in place of one that is installed and does not open: which, instead of which,
+ * and why that did not. A process has one such function; null, as at first: nothing is told. */
+typedef void draw_context_told(const char *name, const char *instead_of, const char *why);
+void draw_context_tell(draw_context_told *told);
+
 /* ---- For this folder ---------------------------------------------------------------------------------------- */
 
 typedef void (*context_function)(void);
@@ -47,6 +52,10 @@ struct context {
 
     void (*close)(context *c);
 };
+
+/* llvmpipe waits for ever for threads that it could not start: where as many as it takes cannot be started, it is told
+ * to draw without. The pixels are the same. */
+void context_limit_threads(void);
 
 /* Open a context and make it current. Null, with an error, when that fails. */
 typedef context *context_opener(const renderer_choice *choice, octreel_error *error);

@@ -203,6 +203,8 @@ static surface *open_surface(int width, int height, const renderer_choice *choic
     s->width = width;
     s->height = height;
     s->side = clip_square(width, height);
+    if (choice->fill == DRAW_FILL_GL || choice->any_renderer)
+        context_limit_threads(); /* GL that fills nothing waits for none */
     s->context = context_open(choice, error);
     if (!s->context || !gl_load(&s->gl, s->context, error) || !check_driver(s, choice->any_renderer, error) ||
         !make_framebuffer(s, error)) {

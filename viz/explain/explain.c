@@ -8,6 +8,7 @@
 #include "png_read.h"
 #include "text.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -158,7 +159,10 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     octreel_error ignored;
     image about;
     uint64_t pixels;
-    return image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored) && pixels == origin->pixels;
+    errno = 0;
+    if (!image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
+        return !memory_sufficed(&ignored); /* nothing is said of what is not known */
+    return pixels == origin->pixels;
 }
 
 /* What a frame is that is not the one which its recording made for this tick; "" where it is. */

@@ -87,6 +87,7 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
 {
     octreel_error error;
     setenv("LP_NUM_THREADS", "0", 0); /* the other cores have jobs of their own */
+    draw_context_tell(NULL);          /* the process that started it does */
     bool ok = recording_film(r, p, &error);
     if (ok && !pipe_read(self->pipe, &p->session_digest, sizeof p->session_digest))
         _exit(EXIT_SUCCESS);

@@ -89,12 +89,13 @@ static bool check_first_frame(verifying *v, octreel_error *error)
     char name[FRAME_NAME], *path = path_join(v->folder, frame_name(0, name));
     if (!path)
         return error_no_memory(error);
+    errno = 0;
     if (is_file(path)) {
         check_session(v);
         check_size(v, path);
     }
     free(path);
-    return true;
+    return memory_sufficed(error);
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
@@ -188,9 +189,13 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
 static bool check_tick(void *context, const film_step *step, octreel_error *error)
 {
     verifying *v = context;
-    if (!check_line(v, step, error) || v->stopped)
-        return false;
-    if (step->filmed && (!check_frame(v, step, error) || v->stopped))
+    errno = 0;
+    bool ok = check_line(v, step, error);
+    if (ok && !v->stopped && step->filmed)
+        ok = check_frame(v, step, error);
+    if (ok && v->stopped && !memory_sufficed(error))
+        v->stopped = ok = false;
+    if (!ok || v->stopped)
         return false;
     v->report->ticks++;
     v->report->frames += step->filmed;

@@ -30,6 +30,12 @@ bool file_exists(const char *path)
     return lstat(path, &status) == 0;
 }
 
+bool folder_is(const char *path)
+{
+    struct stat status;
+    return lstat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
 char *file_read(const char *path, size_t *size)
 {
     FILE *file = fopen(path, "rb");
@@ -100,8 +106,7 @@ void listing_release(listing *names)
 
 static void remove_tree(const char *path)
 {
-    struct stat status;
-    if (lstat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
+    if (folder_is(path)) {
         listing inside = folder_list(path);
         for (size_t i = 0; i < inside.count; i++)
             remove_tree(place_below(path, inside.names[i]).path);

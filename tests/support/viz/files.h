@@ -25,6 +25,9 @@ int nested_folder_remove(void **state);
 /* Whether there is anything of this name. */
 bool file_exists(const char *path);
 
+/* Whether it is a folder, and no link to one. */
+bool folder_is(const char *path);
+
 /* The bytes of a file, with a zero behind them; the caller frees them. `size` may be null. */
 char *file_read(const char *path, size_t *size);
 void file_write(const char *path, const void *bytes, size_t size);

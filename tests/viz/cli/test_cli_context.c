@@ -21,13 +21,9 @@ static void need_contexts(bool osmesa, bool egl)
     skip();
 }
 
-/* Film, and compare a member of renderer.json from its beginning on. */
-static void assert_drawn_by(const command_setting *setting, const char *options, const place *folder,
-                            const char *member, const char *expected)
+/* A member of renderer.json from its beginning on. */
+static void assert_renderer(const place *folder, const char *member, const char *expected)
 {
-    command_result result = run_octreel(setting, FILM " %s -o %s", options, folder->path);
-    assert_done(&result);
-    command_release(&result);
     char *text = file_read(place_below(folder->path, "renderer.json").path, NULL);
     json_t *object = json_read(text);
     const char *found = json_string_value(json_member(object, member));
@@ -35,6 +31,16 @@ static void assert_drawn_by(const command_setting *setting, const char *options,
         fail_msg("renderer.json says \"%s\"", found);
     json_decref(object);
     free(text);
+}
+
+/* Film, and compare that. */
+static void assert_drawn_by(const command_setting *setting, const char *options, const place *folder,
+                            const char *member, const char *expected)
+{
+    command_result result = run_octreel(setting, FILM " %s -o %s", options, folder->path);
+    assert_done(&result);
+    command_release(&result);
+    assert_renderer(folder, member, expected);
 }
 
 static void assert_not_drawn(const command_setting *setting, const char *options, const place *folder, const char *part)
@@ -110,8 +116,16 @@ static void egl_draws_where_osmesa_cannot_be_loaded(void **state)
     need_contexts(true, true);
     char path[96];
     const command_setting without = {.environment = {hide_libraries(*state, names, path)}};
-    const place folder = place_in(*state, "film"), other = place_in(*state, "other");
-    assert_drawn_by(&without, "--fill gl", &folder, "context", "egl");
+    const place other = place_in(*state, "other");
+    for (int jobs = 1; jobs <= 2; jobs++) {
+        const place folder = place_in(*state, jobs == 1 ? "film" : "film2");
+        command_result result = run_octreel(&without, FILM " --fill gl --jobs %d -o %s", jobs, folder.path);
+        assert_int_equal(result.status, 0);
+        assert_ptr_equal(strstr(result.err, "octreel: egl draws, since osmesa does not: OSMesa, "), result.err);
+        assert_string_equal(strchr(result.err, '\n'), "\n"); /* once */
+        command_release(&result);
+        assert_renderer(&folder, "context", "egl");
+    }
     assert_not_drawn(&without, "--context osmesa", &other, "libosmesa6");
 }
 

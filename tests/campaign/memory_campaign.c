@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: MIT */
+/* memory_campaign.c - each allocation of each command failed in turn, of those that are not Mesa's own.
+ *
+ * A command that has no memory ends with status 2 and one sentence, or, where it can do without, as if it had had it.
+ * Where frames differ the verdict stands, and why they do may be told in less detail.
+ * It is ended by no signal, does not hang, and leaves under their final names only files that were there before or
+ * that it writes when it has memory. */
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "program.h"
+
+const char program_name[] = "octreel-memory-campaign";
+
+enum { MOST = 100000, MOST_FINDINGS = 10, VERDICT = 20 /* bytes that hold it, of what diff says */ };
+
+#define SMALL "--size 64x36"
+
+/* What each command works on, made in a folder that every run begins with a copy of. */
+static const char PREPARE[] =
+    "mkdir given && cd given && "
+    "printf '0 0 0\\n1 2 3\\n4 5 6\\n7 1 2\\n' >points.xyz && "
+    "$octreel record --keys wdn " SMALL " --jobs 1 -o film && "
+    "$octreel record --keys wds " SMALL " --jobs 1 -o other && "
+    "$octreel record --keys wdn " SMALL " --jobs 1 --ticks 0:2 -o chunks && "
+    "$octreel record --keys wdn " SMALL " --jobs 1 --ticks 2: -o chunks && "
+    "cp -r film half && rm half/frame_000002.png half/index.html && "
+    "head -n 2 film/ticks.jsonl >half/ticks.jsonl && "
+    "cp film/session.json session.json && "
+    "$octreel digest film -o film.digests && "
+    "printf '{\"octreel\": \"session\", \"version\": 1, \"points\": [[10, 0, 0], [0, 20, 0]], "
+    "\"ticks\": 2}\\n{\"tick\": 1, \"queries\": [{\"knearest\": 2, \"at\": [0, 0, 0], "
+    "\"answer\": [0]}]}\\n' >answers.json";
+
+/* Each is run in a copy of that folder. */
+static const struct {
+    const char *name, *line;
+} commands[] = {
+    {"record", "record session.json " SMALL " --jobs 1 -o new >times"},
+    {"record-jobs", "record session.json " SMALL " --jobs 2 -o new >times"},
+    {"record-aa", "record session.json " SMALL " --aa 2 --jobs 1 -o new >times"},
+    {"record-replace", "record session.json --keys s " SMALL " --replace --jobs 1 -o film >times"},
+    {"record-resume", "record --resume --jobs 1 -o half >times"},
+    {"record-no-frames", "record session.json --no-frames -o new >times"},
+    {"record-stream", "record - " SMALL " -o new <session.json >times"},
+    {"verify", "verify film"},
+    {"verify-json", "verify --json film"},
+    {"inspect", "inspect points.xyz " SMALL " -o tree.png"},
+    {"inspect-json", "inspect points.xyz " SMALL " --json -o tree.png"},
+    {"diff", "diff film other"},
+    {"diff-reports", "diff film other --json --junit diff.xml --markdown diff.md -o evidence"},
+    {"digest", "digest other -o new.digests"},
+    {"audit", "audit answers.json"},
+    {"join", "join chunks >times"},
+    {"pick", "pick film/frame_000001.png 32 18"},
+    {"play", "play session.json -o page.html"},
+    {"accept", "accept film other"},
+    {"accept-new", "accept new film"},
+    {"accept-digests", "accept film.digests other"},
+};
+
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+/* Of the command line: of all allocations, from the first on every so many-th. */
+static struct {
+    uint64_t first, every;
+    const char *only; /* command; null: all */
+} asked = {1, 1, NULL};
+
+static void read_options(int argc, char **argv)
+{
+    static const struct option known[] = {{"first", required_argument, NULL, 'f'},
+                                          {"every", required_argument, NULL, 'e'},
+                                          {"command", required_argument, NULL, 'c'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+    for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
+        switch (option) {
+        case 'f':
+            asked.first = (uint64_t)take_whole("--first", optarg, 1, MOST);
+            break;
+        case 'e':
+            asked.every = (uint64_t)take_whole("--every", optarg, 1, MOST);
+            break;
+        case 'c':
+            asked.only = optarg;
+            break;
+        case 'h':
+            puts("usage: octreel-memory-campaign [--first N] [--every N] [--command NAME]\n"
+                 "Fail the first, or N-th, allocation of octreel's commands in turn, and of those behind it each, or\n"
+                 "each N-th. Exit status: 0 no findings, 1 findings, 2 trouble.");
+            for (size_t i = 0; i < COMMANDS; i++)
+                printf("  %-17s octreel %s\n", commands[i].name, commands[i].line);
+            finish(EXIT_DONE);
+        default:
+            exit(EXIT_TROUBLE); /* getopt has said why */
+        }
+    if (optind < argc)
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
+}
+
+/* ---- One run --------------------------------------------------------------------------------------------------- */
+
+/* In "<folder>/run", a new copy of "<folder>/given", with `what` failing from n on; 0: nothing fails. */
+static command_result run_one(const char *folder, const char *line, const char *what, uint64_t n)
+{
+    return run_script("cd %s && rm -rf run failed && cp -r given run && cd run && FAILED=../failed %s=%" PRIu64
+                      " LD_PRELOAD='%s' %s %s",
+                      folder, what, n, OCTREEL_FAILING_MEMORY, octreel_program(), line);
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), part = strlen(end);
+    return length >= part && strcmp(text + length - part, end) == 0;
+}
+
+/* Names that say that a file is not finished, or that the next command removes it; who drew, and how long it took,
+ * which may differ. */
+static bool may_be_anything(const char *name)
+{
+    return *name == '.' || strcmp(name, "times") == 0 || strcmp(name, "octreel-replaced") == 0 ||
+           ends_with(name, ".part") || ends_with(name, ".live") || strstr(name, ".part.") ||
+           strcmp(name, "renderer.json") == 0;
+}
+
+/* `whole` is null where there is none with memory. Lines are added to a log, and pages and reports tell what there is:
+ * each may be shorter than with memory. So may be the session of a stream, which frames name. */
+static bool is_whole_so_far(const char *name, const char *bytes, size_t size, const char *whole)
+{
+    if (ends_with(name, ".png"))
+        return size > 12 && memcmp(bytes + size - 8, "IEND", 4) == 0;
+    if (ends_with(name, ".xml"))
+        return ends_with(bytes, "</testsuites>\n");
+    if (ends_with(name, ".md"))
+        return ends_with(bytes, "\n");
+    if (strcmp(name, "session.json") == 0)
+        return ends_with(bytes, "}\n");
+    if (ends_with(name, ".jsonl"))
+        return *bytes == 0 || (whole && ends_with(bytes, "\n") && strncmp(bytes, whole, strlen(bytes)) == 0);
+    return ends_with(name, ".html") && ends_with(bytes, "</html>\n");
+}
+
+static bool is_same(const char *path, const char *bytes, size_t size)
+{
+    size_t there = 0;
+    char *other = file_exists(path) ? file_read(path, &there) : NULL;
+    const bool same = other && there == size && memcmp(other, bytes, size) == 0;
+    free(other);
+    return same;
+}
+
+/* Each final file is as before or as with memory. Returns the first that is not, below the folder; or an empty text. */
+static place find_torn(const char *folder, const char *below)
+{
+    place torn = {""};
+    char run[600], given[600], whole[600];
+    snprintf(run, sizeof run, "%s/run%s", folder, below);
+    snprintf(given, sizeof given, "%s/given%s", folder, below);
+    snprintf(whole, sizeof whole, "%s/whole%s", folder, below);
+    listing names = folder_list(run);
+    for (size_t i = 0; i < names.count && !*torn.path; i++) {
+        const char *name = names.names[i];
+        const place file = place_below(run, name), done = place_below(whole, name);
+        char deeper[600];
+        snprintf(deeper, sizeof deeper, "%s/%s", below, name);
+        if (may_be_anything(name))
+            continue;
+        if (folder_is(file.path)) {
+            torn = find_torn(folder, deeper);
+            continue;
+        }
+        size_t size;
+        char *bytes = file_read(file.path, &size);
+        char *expected = file_exists(done.path) ? file_read(done.path, NULL) : NULL;
+        if (!is_same(place_below(given, name).path, bytes, size) && !is_same(done.path, bytes, size) &&
+            !is_whole_so_far(name, bytes, size, expected))
+            snprintf(torn.path, sizeof torn.path, "%s", deeper + 1);
+        free(bytes);
+        free(expected);
+    }
+    listing_release(&names);
+    return torn;
+}
+
+/* ---- Judged ---------------------------------------------------------------------------------------------------- */
+
+static bool is_one_sentence(const char *said)
+{
+    const char *end = strchr(said, '\n');
+    return strncmp(said, "octreel: ", 9) == 0 && end && end[1] == 0;
+}
+
+/* Why a run is wrong; null where it is not. `without` had all memory. */
+static const char *judge(const command_result *run, const command_result *without, const char *torn)
+{
+    if (run->status >= 128)
+        return "was ended by a signal";
+    if (*torn)
+        return "left a file that is neither the old one nor a whole new one";
+    if (run->status == EXIT_FINDING && without->status == EXIT_FINDING)
+        return strncmp(run->out, without->out, VERDICT) == 0 ? NULL : "gave another verdict";
+    if (run->status == without->status)
+        return ends_with(run->err, without->err) && strcmp(run->out, without->out) == 0 ? NULL : "said something else";
+    if (run->status != EXIT_TROUBLE)
+        return "found what it had no memory to find";
+    return is_one_sentence(run->err) ? NULL : "did not say one sentence";
+}
+
+/* What was done there, and said. */
+static void tell(const char *folder, const char *name, uint64_t n, const command_result *run, const char *why)
+{
+    char path[600];
+    snprintf(path, sizeof path, "%s/failed", folder);
+    char *calls = file_read(path, NULL);
+    printf("%s: without its allocation %" PRIu64 " it %s: status %d, \"%s\"\n%s", name, n, why, run->status, run->err,
+           calls);
+    fflush(stdout);
+    free(calls);
+}
+
+/* Returns how many were wrong. */
+static size_t fail_each(const char *folder, const char *name, const char *line)
+{
+    size_t findings = 0, runs = 0;
+    command_result without = run_one(folder, line, "FAIL_MEMORY", 0);
+    const command_result kept = run_script("cd %s && rm -rf whole && mv run whole", folder);
+    assert_int_equal(kept.status, 0);
+    assert_true(without.status <= 1);
+    for (uint64_t n = asked.first; n <= MOST; n += asked.every, runs++) {
+        char failed[600];
+        command_result run = run_one(folder, line, "FAIL_MEMORY", n);
+        snprintf(failed, sizeof failed, "%s/failed", folder);
+        const bool there = file_exists(failed);
+        const place torn = there ? find_torn(folder, "") : (place){""};
+        const char *why = there ? judge(&run, &without, torn.path) : NULL;
+        if (why && findings++ < MOST_FINDINGS)
+            tell(folder, *torn.path ? torn.path : name, n, &run, why);
+        command_release(&run);
+        if (!there)
+            break;
+    }
+    printf("%-17s %zu allocations failed, %zu findings\n", name, runs, findings);
+    fflush(stdout);
+    command_release(&without);
+    return findings;
+}
+
+static void prepare(const temp_folder *own)
+{
+    command_result made = run_script("octreel=%s; cd %s && %s", octreel_program(), own->name, PREPARE);
+    if (made.status != 0)
+        fail_msg("%s", made.err);
+    command_release(&made);
+}
+
+static void no_memory_is_trouble_and_leaves_nothing_torn(void **state)
+{
+    const temp_folder *own = *state;
+    size_t findings = 0;
+    prepare(own);
+    for (size_t i = 0; i < COMMANDS; i++)
+        if (!asked.only || strcmp(asked.only, commands[i].name) == 0)
+            findings += fail_each(own->name, commands[i].name, commands[i].line);
+    assert_int_equal(findings, 0);
+}
+
+/* llvmpipe would wait for ever for the first that is missing. */
+static void threads_that_cannot_be_started_are_done_without(void **state)
+{
+    static const char *const lines[] = {"verify film", "inspect points.xyz " SMALL " --fill gl -o tree.png",
+                                        "diff film film"};
+    const temp_folder *own = *state;
+    prepare(own);
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        command_result with = run_one(own->name, lines[i], "FAIL_THREAD", 0);
+        for (uint64_t n = 1; n <= 2; n++) {
+            command_result without = run_one(own->name, lines[i], "FAIL_THREAD", n);
+            assert_true(file_exists(place_in(own, "failed").path) || n > 1 || i == 2);
+            assert_int_equal(without.status, 0);
+            assert_string_equal(without.out, with.out);
+            command_release(&without);
+        }
+        command_release(&with);
+    }
+}
+
+static int make_folder(void **state)
+{
+    return temp_folder_make(state);
+}
+
+int main(int argc, char **argv)
+{
+    read_options(argc, argv);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(no_memory_is_trouble_and_leaves_nothing_torn, make_folder,
+                                        nested_folder_remove),
+        cmocka_unit_test_setup_teardown(threads_that_cannot_be_started_are_done_without, make_folder,
+                                        nested_folder_remove),
+    };
+    finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
+}
