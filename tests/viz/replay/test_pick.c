@@ -232,14 +232,17 @@ static void check_places_of_boxes(const scene *s)
     const size_t samples = (size_t)view_samples(&s->view), width = (size_t)s->view.width * samples;
     size_t boxes = 0;
     for (size_t at = 0; at < frame_samples(s); at++) {
-        const scene_element element = numbers[at] ? scene_element_at(s, numbers[at]) : (scene_element){.kind = SCENE_LABEL, .index = 0};
+        const scene_element element =
+            numbers[at] ? scene_element_at(s, numbers[at]) : (scene_element){.kind = SCENE_LABEL};
         if (element.kind != SCENE_BOX)
             continue;
-        const double place[2] = {((double)(at % width) + 0.5) / (double)samples,
-                                 ((double)(at / width) + 0.5) / (double)samples};
-        const scene_box *box = &s->boxes.items[element.index];
-        const double off = distance_to_box(s, &box->box, place);
-        if (off > 0.5 * box->style.width * s->unit + 1)
+        const scene *own = scene_with(s, element);
+        const int *corner = element.in_closeup ? own->place : (const int[2]){0, 0};
+        const double place[2] = {((double)(at % width) + 0.5) / (double)samples - corner[0],
+                                 ((double)(at / width) + 0.5) / (double)samples - corner[1]};
+        const scene_box *box = &own->boxes.items[element.index];
+        const double off = distance_to_box(own, &box->box, place);
+        if (off > 0.5 * box->style.width * own->unit + 1)
             fail_msg("box %zu is %g pixels from (%g, %g)", element.index, off, place[0], place[1]);
         boxes++;
     }
