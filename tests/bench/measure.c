@@ -23,8 +23,8 @@ static bool alike(const peer_answer *a, const peer_answer *b)
            fabs(a->distance - b->distance) <= 1e-12 * fmax(a->distance, b->distance);
 }
 
-static outcome compare(const lineup *l, int i, const char *op, const workload *w, size_t count,
-                       const peer_answer *expected, const peer_answer *given)
+outcome measure_compare(const lineup *l, int i, const char *op, const workload *w, size_t count,
+                        const peer_answer *expected, const peer_answer *given)
 {
     for (size_t q = 0; q < count; q++) {
         const peer_answer *a = &expected[q], *b = &given[q];
@@ -45,7 +45,7 @@ static outcome probe(const lineup *l, int i, const char *op, const workload *w, 
     const size_t count = w->query_count < PROBES ? w->query_count : PROBES;
     const contender *c = &l->of[i];
     c->peer->ask[PEER_RADIUS](c->self, w->targets, count, answers[i]);
-    return compare(l, i, op, w, count, answers[0], answers[i]);
+    return measure_compare(l, i, op, w, count, answers[0], answers[i]);
 }
 
 static outcome check_done(const contender *c, const char *op, size_t done, size_t asked)
@@ -109,7 +109,7 @@ static outcome ask_in_rounds(lineup *l, const workload *w, const questions *aske
             const double start = processor_time();
             c->ask(c->self, asked->queries, asked->count, answers);
             c->round_ns[round] = (processor_time() - start) / (double)asked->count;
-            if (compare(l, i, asked->op, w, asked->count, expected, answers) != MEASURED)
+            if (measure_compare(l, i, asked->op, w, asked->count, expected, answers) != MEASURED)
                 return UNLIKE;
         }
     return MEASURED;

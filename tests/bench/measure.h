@@ -41,6 +41,10 @@ typedef struct questions {
     size_t count;
 } questions;
 
+/* Compare answers with those of the first contender. UNLIKE has said on stderr what differs. */
+outcome measure_compare(const lineup *l, int i, const char *op, const workload *w, size_t count,
+                        const peer_answer *expected, const peer_answer *given);
+
 /* Time all contenders, `rounds` times in turn. UNLIKE has said on stderr what differs. */
 outcome measure_changes(lineup *l, const workload *w, const changes *asked, int rounds);
 outcome measure_asks(lineup *l, const workload *w, const questions *asked, int rounds);

@@ -25,6 +25,13 @@ const op all_ops[OPS] = {
     {"nearest_fast", STAGE_STATIC, .ask = PEER_NEAREST_FAST, .most = 100000, .rival = "octree-exact",
      .rival_ask = PEER_NEAREST, .goal = {AT_MOST, 1.1}},
     {"nearest_churned", STAGE_CHURNED, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 1 / 1.15}},
+    {"insert_1%", STAGE_BATCHES, .batch = BATCH_INSERT, .percent = 1, .goal = {AT_LEAST, 1.5}},
+    {"insert_10%", STAGE_BATCHES, .batch = BATCH_INSERT, .percent = 10, .goal = {AT_LEAST, 1.5}},
+    {"remove_1%", STAGE_BATCHES, .batch = BATCH_REMOVE, .percent = 1, .goal = {AT_LEAST, 1.5}},
+    {"remove_10%", STAGE_BATCHES, .batch = BATCH_REMOVE, .percent = 10, .goal = {AT_LEAST, 1.5}},
+    {"frame_1%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 1},
+    {"frame_10%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 10},
+    {"frame_100%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 100},
     {"auto_mixed", STAGE_TUNED, .ask = PEER_MIXED, .most = 50000, .hits = 10, .mix = {1, 1, 1, 1, 10},
      .goal = {AT_LEAST, 1 / 1.2}},
     {"auto_find", STAGE_TUNED, .ask = PEER_FIND, .most = 100000, .stored = true, .mix = {.changes = 1},
@@ -113,6 +120,8 @@ static bool fill_stage(lineup *l, stage at, const workload *w)
         return fill_churned(l, w);
     case STAGE_TUNED:
         return fill_tuned(l, w);
+    case STAGE_BATCHES:
+        return true;
     default:
         enter_all(l, w);
         return true;
@@ -166,6 +175,13 @@ static outcome run_changes(const op *o, lineup *l, const workload *w, int rounds
     return measure_changes(l, w, &asked, rounds);
 }
 
+static outcome run_op(const op *o, lineup *l, workload *w, int rounds)
+{
+    if (o->stage == STAGE_BATCHES)
+        return measure_batches(l, w, o->name, o->batch, o->percent, rounds);
+    return asks(o) ? run_asks(o, l, w, rounds) : run_changes(o, l, w, rounds);
+}
+
 static bool stage_is_wanted(const bool wanted[OPS], stage at)
 {
     for (int i = 0; i < OPS; i++)
@@ -185,7 +201,7 @@ static outcome run_stage(const bool wanted[OPS], stage at, workload *w, int roun
         lineup chosen = choose(o, &all);
         if (at == STAGE_TUNED && octree_tune(all.of[0].self, &o->mix) != OCTREE_OK)
             return OUT_OF_MEMORY;
-        result = asks(o) ? run_asks(o, &chosen, w, rounds) : run_changes(o, &chosen, w, rounds);
+        result = run_op(o, &chosen, w, rounds);
         if (result == MEASURED)
             report(o, w, &chosen, context);
     }

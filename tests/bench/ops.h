@@ -3,7 +3,7 @@
 #ifndef BENCH_OPS_H
 #define BENCH_OPS_H
 
-#include "measure.h"
+#include "batches.h"
 
 /* Which trees an operation needs. */
 typedef enum stage {
@@ -11,6 +11,7 @@ typedef enum stage {
     STAGE_DYNAMIC, /* filled point by point */
     STAGE_STATIC,  /* built at once */
     STAGE_CHURNED, /* octrees alone: half of the points are removed again, or were never there */
+    STAGE_BATCHES, /* octrees, and a grid that is built anew: made and freed by each operation */
     STAGE_TUNED,   /* octrees alone: one that chooses its capacity by the operation's mix, and all capacities */
     STAGES
 } stage;
@@ -31,11 +32,13 @@ typedef struct op {
     bool far;                /* move to a far place */
     const char *rival;       /* not null: the octree against itself, under this name and ... */
     peer_ask_kind rival_ask; /* ... asked like this */
+    batch_kind batch;        /* STAGE_BATCHES: what is done to ... */
+    size_t percent;          /* ... this share of the points */
     octree_mix mix;          /* STAGE_TUNED: what the capacity is chosen for */
     goal goal;
 } op;
 
-enum { OPS = 22 };
+enum { OPS = 29 };
 
 extern const op all_ops[OPS];
 

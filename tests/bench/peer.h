@@ -63,6 +63,9 @@ extern const peer peer_octree;
 /* An octree of this leaf capacity for peer_octree; null: no memory. */
 void *make_octree(const octree_box *world, size_t capacity);
 
+/* A uniform grid that is built anew: for the frames alone. */
+extern const peer peer_grid;
+
 extern const peer peer_nanoflann;
 extern const peer peer_boost_packed;
 extern const peer peer_boost_quadratic;

@@ -59,11 +59,15 @@ static octree_point step_away(const octree_point *from, double length, uint64_t 
     return to;
 }
 
+octree_point workload_step(const workload *w, const octree_point *from, uint64_t *random)
+{
+    return step_away(from, bench_side / cbrt((double)w->count), random);
+}
+
 static void place_targets(workload *w, const double (*rows)[3], uint64_t *random)
 {
-    const double spacing = bench_side / cbrt((double)w->count);
     for (size_t i = 0; i < w->query_count; i++) {
-        w->near[i] = step_away(&w->picks[i], spacing, random);
+        w->near[i] = workload_step(w, &w->picks[i], random);
         w->far[i].id = w->picks[i].id;
         w->stored[i].size = w->targets[i].size = 0;
         memcpy(w->far[i].position, rows[i], sizeof rows[i]);

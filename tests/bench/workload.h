@@ -23,6 +23,9 @@ typedef struct workload {
 bool workload_make(workload *w, octree_sample_kind set, size_t count);
 void workload_free(workload *w);
 
+/* Where a point goes that moves by one mean spacing, within the world. */
+octree_point workload_step(const workload *w, const octree_point *from, uint64_t *random);
+
 /* Give every target the size at which `ask` of the octree finds `hits` points in the mean (half of all at most).
  * False when there is no memory. */
 bool workload_size_targets(workload *w, peer_ask_kind ask, size_t hits);

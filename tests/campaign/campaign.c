@@ -30,6 +30,7 @@ static const kind kinds[] = {
     {"move", change_move, 130},
     {"insert_many", change_insert_many, 25},
     {"remove_many", change_remove_many, 20},
+    {"move_many", change_move_many, 25},
     {"reworld", change_reworld, 8},
     {"clear", change_clear, 1},
     {"find", ask_find, 45},

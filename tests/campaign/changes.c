@@ -8,20 +8,21 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 enum { BATCH_AT_MOST = 64 };
 
-typedef enum change_kind { INSERT, REMOVE, MOVE, INSERT_MANY, REMOVE_MANY, REWORLD, CLEAR } change_kind;
+typedef enum change_kind { INSERT, REMOVE, MOVE, INSERT_MANY, REMOVE_MANY, MOVE_MANY, REWORLD, CLEAR } change_kind;
 
-static const char *const change_names[] = {"insert",      "remove",  "move", "insert_many",
-                                           "remove_many", "reworld", "clear"};
+static const char *const change_names[] = {"insert",      "remove",    "move",    "insert_many",
+                                           "remove_many", "move_many", "reworld", "clear"};
 
 typedef struct change {
     change_kind kind;
     octree_point points[BATCH_AT_MOST]; /* one of them, but for many */
     size_t count;
-    double to[3];     /* move */
-    octree_box world; /* reworld */
+    double to[BATCH_AT_MOST][3]; /* where each moves to */
+    octree_box world;            /* reworld */
     octree_status statuses[BATCH_AT_MOST];
     size_t done;     /* many: what the tree says */
     size_t happened; /* what the model says: changes that were made */
@@ -36,11 +37,13 @@ static octree_status apply(octree *tree, change *c)
     case REMOVE:
         return octree_remove(tree, p->position, p->id);
     case MOVE:
-        return octree_move(tree, p->position, p->id, c->to);
+        return octree_move(tree, p->position, p->id, c->to[0]);
     case INSERT_MANY:
         return octree_insert_many(tree, p, c->count, c->statuses, &c->done);
     case REMOVE_MANY:
         return octree_remove_many(tree, p, c->count, c->statuses, &c->done);
+    case MOVE_MANY:
+        return octree_move_many(tree, p, (const double(*)[3])c->to, c->count, c->statuses, &c->done);
     case REWORLD:
         return octree_reworld(tree, &c->world);
     default:
@@ -52,6 +55,8 @@ static octree_status apply(octree *tree, change *c)
 static octree_status apply_one(model *m, const change *c, size_t i)
 {
     const octree_point *p = &c->points[i];
+    if (c->kind == MOVE_MANY)
+        return model_move(m, p->position, p->id, c->to[i]);
     return c->kind == INSERT_MANY ? model_insert(m, p->position, p->id) : model_remove(m, p->position, p->id);
 }
 
@@ -82,7 +87,7 @@ static bool compare(trial *t, change *c, octree_status status)
         expected = model_remove(&t->model, p->position, p->id);
         break;
     case MOVE:
-        expected = model_move(&t->model, p->position, p->id, c->to);
+        expected = model_move(&t->model, p->position, p->id, c->to[0]);
         break;
     case REWORLD:
         expected = model_reworld(&t->model, &c->world);
@@ -95,9 +100,9 @@ static bool compare(trial *t, change *c, octree_status status)
     }
     if (status != expected)
         return trial_fail(t, "%s of (%a, %a, %a), to (%a, %a, %a): the answer is %s and not %s", change_names[c->kind],
-                          p->position[0], p->position[1], p->position[2], c->to[0], c->to[1], c->to[2],
+                          p->position[0], p->position[1], p->position[2], c->to[0][0], c->to[0][1], c->to[0][2],
                           octree_status_name(status), octree_status_name(expected));
-    if (c->kind == INSERT_MANY || c->kind == REMOVE_MANY)
+    if (c->kind == INSERT_MANY || c->kind == REMOVE_MANY || c->kind == MOVE_MANY)
         return compare_many(t, c);
     c->happened = status == OCTREE_OK;
     return true;
@@ -172,7 +177,7 @@ bool change_move(trial *t)
 {
     change c = {.kind = MOVE};
     c.points[0] = any_pair(t);
-    any_position(t, c.to);
+    any_position(t, c.to[0]);
     return do_change(t, &c);
 }
 
@@ -196,6 +201,26 @@ bool change_remove_many(trial *t)
     const size_t most = has_enough(t) ? BATCH_AT_MOST + 1 : 3;
     for (size_t left = below(t, most); left > 0; left--)
         c.points[c.count++] = any_pair(t);
+    return do_change(t, &c);
+}
+
+/* At times a pair moves on, another one moves to where it was, or all move. */
+bool change_move_many(trial *t)
+{
+    change c = {.kind = MOVE_MANY};
+    const bool all = t->model.count <= BATCH_AT_MOST && below(t, 4) == 0;
+    for (size_t left = all ? t->model.count : below(t, BATCH_AT_MOST + 1); left > 0; left--) {
+        c.points[c.count] = all ? t->model.points[left - 1] : any_pair(t);
+        any_position(t, c.to[c.count]);
+        const size_t earlier = c.count ? below(t, c.count) : 0, what = c.count && !all ? below(t, 10) : 9;
+        if (what == 0) {
+            memcpy(c.points[c.count].position, c.to[earlier], sizeof c.to[0]);
+            c.points[c.count].id = c.points[earlier].id;
+        } else if (what == 1) {
+            memcpy(c.to[c.count], c.points[earlier].position, sizeof c.to[0]);
+        }
+        c.count++;
+    }
     return do_change(t, &c);
 }
 

@@ -9,7 +9,8 @@
 typedef bool operation(trial *t);
 
 /* changes.c */
-operation change_one, change_move, change_insert_many, change_remove_many, change_reworld, change_clear;
+operation change_one, change_move, change_insert_many, change_remove_many, change_move_many, change_reworld,
+    change_clear;
 
 /* ask_places.c */
 operation ask_find, ask_contains, ask_look;

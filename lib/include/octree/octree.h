@@ -184,6 +184,16 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed);
 
+/* Move many points in one restructuring: the pair points[i] to position to[i], as octree_move one after the other in
+ * the order given. statuses[i] (may be null) receives what octree_move would have returned, and *moved (may be null)
+ * the number of OKs. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are
+ * undefined. Cost: as octree_remove_many; a point that stays in its leaf is written in place, and nodes in which none
+ * stays are built anew from those that arrive. Where an id comes twice in a batch, where a pair would be there twice,
+ * and where a leaf may be full under OCTREE_REFUSE, the moves are first followed one by one in a hash table, with some
+ * 250 bytes a point while it runs. */
+octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
+                               octree_status *statuses, size_t *moved);
+
 /* Give the tree another world, with the same points and options. Errors: NULL_ARGUMENT, BAD_WORLD, OUTSIDE (a point
  * would be outside), FULL (a point would be refused), NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_reworld(octree *tree, const octree_box *world);

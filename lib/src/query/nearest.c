@@ -396,7 +396,7 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     for (size_t i = 0; i < count; i++) {
         uint32_t keys[3];
         nearest_keys(tree, targets[i], keys);
-        order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, false};
+        order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, MORTON_NEW};
     }
     morton_sort(order, order + count, count, 0, 0);
     search_in_order(tree, targets, order, count, &search, neighbors, found);

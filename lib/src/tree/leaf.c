@@ -105,8 +105,8 @@ static void hashed_remove(octree_point *points, uint32_t count, uint32_t index)
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* Room grows by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
-static unsigned room_for(uint32_t count)
+/* It grows by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
+unsigned leaf_room(uint32_t count)
 {
     const unsigned step = count <= 4 ? 1 : count <= 8 ? 2 : count <= 32 ? 4 : 8;
     return (count + step - 1) / step * step;
@@ -126,7 +126,7 @@ bool leaf_create(store *s, node *leaf, uint32_t count)
         leaf->below = hashed_create(&s->memory, count);
         leaf->room = LEAF_HASHED;
     } else {
-        leaf->room = (uint8_t)room_for(count);
+        leaf->room = (uint8_t)leaf_room(count);
         leaf->below = pool_take(&s->points, leaf->room);
     }
     return leaf->below != NULL;
@@ -202,7 +202,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
     octree_point *points = leaf_points(leaf);
     leaf->count--;
     points[index] = points[leaf->count];
-    const unsigned room = room_for(leaf->count);
+    const unsigned room = leaf_room(leaf->count);
     pool_give(&s->points, points + room, leaf->room - room);
     leaf->room = (uint8_t)room;
     if (room == 0)

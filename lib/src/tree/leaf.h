@@ -83,6 +83,9 @@ static inline uint32_t leaf_find(const node *leaf, const double position[3], uin
     return LEAF_NONE;
 }
 
+/* The room that a block has which holds so many points, at most POOL_MAX_UNITS. */
+unsigned leaf_room(uint32_t count);
+
 /* An empty leaf with room for `count` points. False when there is no memory. */
 bool leaf_create(store *s, node *leaf, uint32_t count);
 void leaf_release(store *s, const node *leaf);

@@ -7,12 +7,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A point: its code, and its index. */
+/* A point: its code, and where it is. */
 typedef struct morton_item {
     uint64_t code;
-    uint32_t place; /* index in the caller's array, or in a leaf */
-    bool stored;    /* in a leaf of the tree */
+    uint32_t place; /* index in the caller's array */
+    uint32_t index; /* of a stored point in its leaf; MORTON_NEW for one that is not stored */
 } morton_item;
+
+#define MORTON_NEW UINT32_MAX
 
 /* Cells of at most this many items may be left unsorted. */
 #define MORTON_UNSORTED 64

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: MIT */
+/* batch.c - the points of a batch: checked, sorted by Morton code, each pair once. */
+#include "batch.h"
+#include "float_rules.h"
+
+#include <string.h>
+
+/* Arrays with an item for each point. */
+static morton_item *take_items(const batch *b, size_t arrays)
+{
+    if (b->count >= SIZE_MAX / arrays / sizeof(morton_item) - 1)
+        return NULL;
+    return arena_take(&b->tree->store.memory, arrays * (b->count + 1) * sizeof(morton_item));
+}
+
+static void give_items(const batch *b, morton_item *items, size_t arrays)
+{
+    arena_give(&b->tree->store.memory, items, arrays * (b->count + 1) * sizeof *items);
+}
+
+static octree_status check_point(const batch *b, size_t i)
+{
+    const octree_box *world = &b->tree->def.world;
+    const double *from = b->points[i].position;
+    if (!box_contains(world, from))
+        return check_position(b->tree, from);
+    return !b->to || box_contains(world, b->to[i]) ? OCTREE_OK : check_position(b->tree, b->to[i]);
+}
+
+static void push_code(const batch *b, span *items, const double position[3], size_t place)
+{
+    items->items[items->count++] = (morton_item){morton_code(b->tree->axes, position), (uint32_t)place, MORTON_NEW};
+}
+
+static void collect_items(batch *b)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        const octree_status status = check_point(b, i);
+        if (status == OCTREE_OK)
+            push_code(b, &b->valid, b->points[i].position, i);
+        if (status == OCTREE_OK && b->all_move)
+            push_code(b, &b->arriving, b->to[i], i);
+        if (b->statuses)
+            b->statuses[i] = status;
+    }
+}
+
+enum { LISTS = 3 }; /* what leaves, what arrives, and one to sort with */
+
+/* Lists for what leaves and arrives, with room for all points. */
+static bool take_lists(batch *b)
+{
+    b->lists = take_items(b, LISTS);
+    b->leaving.items = b->lists;
+    b->arriving.items = b->lists + b->count + 1;
+    b->spare = b->lists + 2 * (b->count + 1);
+    return b->lists != NULL;
+}
+
+static bool sort_items(batch *b)
+{
+    morton_item *spare = take_items(b, 1);
+    if (!spare)
+        return false;
+    const size_t stored = b->tree->root.count;
+    /* Where all move, cells of as many as a leaf holds are leaves. */
+    const size_t unsorted = stored == 0 || b->all_move ? unsorted_count(b->tree) : 0;
+    b->repeated = morton_sort(b->valid.items, spare, b->valid.count, 0, unsorted);
+    give_items(b, spare, 1);
+    return true;
+}
+
+octree_status batch_begin(batch *b)
+{
+    if (!b->tree || (b->count && !b->points))
+        return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
+    if (b->count >= UINT32_MAX)
+        return OCTREE_TOO_MANY;
+    b->valid.items = take_items(b, 1);
+    if (!b->valid.items || (b->to && !take_lists(b)))
+        return OCTREE_NO_MEMORY;
+    b->all_move = b->to && b->count == b->tree->root.count;
+    collect_items(b);
+    if (b->valid.count < b->count) {
+        b->all_move = false;
+        b->arriving.count = 0;
+    }
+    return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+/* A point that repeats an earlier one of the batch: both by their index. */
+typedef struct repetition {
+    uint32_t place, first;
+} repetition;
+
+void batch_end(batch *b)
+{
+    if (!b->tree)
+        return;
+    list_release(&b->tree->store.memory, &b->repetitions, sizeof(repetition));
+    give_items(b, b->valid.items, 1);
+    give_items(b, b->lists, LISTS);
+}
+
+size_t octant_share(const morton_item *items, size_t count, unsigned depth)
+{
+    const unsigned octant = morton_octant(items[0].code, depth);
+    size_t low = 1, high = count; /* the first that lies elsewhere is in [low, high] */
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (morton_octant(items[middle].code, depth) == octant)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Whether no two items can be the same point, as where ids are counted: then they need not be looked up. */
+static bool ids_ascend(const batch *b, const morton_item *items, size_t count)
+{
+    for (size_t i = 1; i < count; i++)
+        if (b->points[items[i].place].id <= b->points[items[i - 1].place].id)
+            return false;
+    return true;
+}
+
+/* Keep the first of each pair among items of one code, which are in the caller's order. *kept receives how many are
+ * left. False when there is no memory. */
+static bool drop_repeated(batch *b, morton_item *items, size_t count, size_t *kept)
+{
+    store *st = &b->tree->store;
+    node seen;
+    *kept = count;
+    if (ids_ascend(b, items, count))
+        return true;
+    bool ok = leaf_create(st, &seen, (uint32_t)count);
+    for (size_t i = 0; ok && i < count; i++) {
+        const octree_point *point = &b->points[items[i].place];
+        const uint32_t first = leaf_find(&seen, point->position, point->id);
+        if (first == LEAF_NONE) {
+            items[seen.count] = items[i];
+            leaf_put(&seen, point);
+            continue;
+        }
+        const repetition r = {items[i].place, items[first].place};
+        ok = list_push(&st->memory, &b->repetitions, &r, sizeof r);
+    }
+    *kept = seen.count;
+    leaf_release(st, &seen);
+    return ok;
+}
+
+bool drop_repetitions(batch *b)
+{
+    morton_item *items = b->valid.items;
+    size_t left = 0;
+    for (size_t start = 0, end, kept; b->repeated && start < b->valid.count; start = end, left += kept) {
+        for (end = start + 1; end < b->valid.count && items[end].code == items[start].code; end++)
+            ;
+        kept = 1;
+        if (end - start > 1 && !drop_repeated(b, items + start, end - start, &kept))
+            return false;
+        memmove(items + left, items + start, kept * sizeof *items);
+    }
+    if (b->repeated)
+        b->valid.count = left;
+    return true;
+}
+
+void set_repeated_statuses(const batch *b, octree_status status)
+{
+    const repetition *all = b->repetitions.items;
+    for (size_t i = 0; b->statuses && i < b->repetitions.count; i++)
+        b->statuses[all[i].place] = b->statuses[all[i].first] == OCTREE_FULL ? OCTREE_FULL : status;
+}
+
+/* ---- The leaves that items lie in --------------------------------------------------------------------------- */
+
+static bool visit_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visit)
+{
+    while (n && n->octants &&
+           (items.count == 1 || morton_octant(items.items[0].code ^ items.items[items.count - 1].code, depth) == 0))
+        n = child_at(n, morton_octant(items.items[0].code, depth++));
+    if (!n || !n->octants)
+        return visit(b, n, depth, items);
+    while (items.count > 0) {
+        const size_t share = octant_share(items.items, items.count, depth);
+        if (!visit_below(b, child_at(n, morton_octant(items.items[0].code, depth)), depth + 1,
+                         (span){items.items, share}, visit))
+            return false;
+        items.items += share;
+        items.count -= share;
+    }
+    return true;
+}
+
+bool batch_visit_leaves(batch *b, leaf_visitor *visit)
+{
+    return b->valid.count == 0 || visit_below(b, &b->tree->root, 0, b->valid, visit);
+}

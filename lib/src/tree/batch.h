@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/* batch.h - many changes of a tree at once.
+ *
+ * What leaves and what arrives is sorted by Morton code. restructure() then goes once down the tree and up again and
+ * plans: a leaf with room for what arrives is edited later, in place; another node that changes is made anew from its
+ * old self; what does not change is shared. Last of all the plan is carried out, which cannot fail: so a batch either
+ * happens or does not.
+ */
+#ifndef OCTREE_BATCH_H
+#define OCTREE_BATCH_H
+
+#include "morton_sort.h"
+#include "tree.h"
+
+/* Sorted items: by code and, within one leaf, in any order. */
+typedef struct span {
+    morton_item *items;
+    size_t count;
+} span;
+
+typedef struct batch {
+    octree *tree;
+    const octree_point *points; /* the caller's */
+    const double (*to)[3];      /* where they move to; null where they do not move */
+    size_t count;
+    octree_status *statuses; /* the caller's, one for each point; may be null */
+    size_t done;             /* how many points were changed */
+
+    span valid;         /* the points with valid positions, by code; in cells that are leaves in any order */
+    bool repeated;      /* some of them may have the same code */
+    span leaving;       /* stored points that leave, with their index */
+    span arriving;      /* points of the caller's that arrive */
+    morton_item *lists; /* of a move: the memory of both and of a spare list, for sorting */
+    morton_item *spare;
+    list repetitions;
+
+    bool all_move;              /* as many points as are stored: they all arrive, and the tree is built anew */
+    bool absent;                /* a point that moves is not stored */
+    bool settled;               /* the moves have their statuses: none meets a full leaf */
+    bool may_be_stored;         /* look whether an arriving pair is stored already */
+    bool duplicate;             /* one is */
+    bool overflow;              /* a moved point may meet a full leaf */
+    const octree_point *stored; /* of the leaf whose points are among the items that are divided */
+    list patches, edits;        /* the plan */
+} batch;
+
+static inline void set_status(const batch *b, const morton_item *item, octree_status status)
+{
+    if (b->statuses)
+        b->statuses[item->place] = status;
+}
+
+/* The point that an item of the caller's becomes. */
+static inline octree_point arriving_point(const batch *b, const morton_item *item)
+{
+    octree_point point = b->points[item->place];
+    if (b->to)
+        memcpy(point.position, b->to[item->place], sizeof point.position);
+    return point;
+}
+
+/* How many of the sorted items lie in the same octant of a cell of this depth as the first of them. */
+size_t octant_share(const morton_item *items, size_t count, unsigned depth);
+
+/* How many items of a cell need not be sorted where they become a leaf. */
+static inline size_t unsorted_count(const octree *tree)
+{
+    return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;
+}
+
+/* Check all positions, and sort those that are valid into `valid`. Sets each point's status: OK, or why it is not
+ * among them. */
+octree_status batch_begin(batch *b);
+void batch_end(batch *b);
+
+/* Told the leaf of some items, and its depth; or null where there is none. Returns false to stop. */
+typedef bool leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
+
+/* Visit the leaves that the valid items lie in. False when a visitor stopped. */
+bool batch_visit_leaves(batch *b, leaf_visitor *visit);
+
+/* Drop the items that repeat the pair of an earlier one, and list them. False when there is no memory. */
+bool drop_repetitions(batch *b);
+
+/* Give them their status, unless the earlier one was refused by a full leaf, as they would then be too. */
+void set_repeated_statuses(const batch *b, octree_status status);
+
+/* The sorted codes of more points than the capacity: whether they all lie in one cell that cannot be divided. */
+bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count);
+
+/* Take what leaves out of the tree, and put in what arrives. Points that meet a full leaf under OCTREE_REFUSE are
+ * given their status, if they are inserted; those that move set `overflow`. NO_MEMORY, or OK: the tree is then changed
+ * unless `duplicate` or `overflow` is set for a move. */
+octree_status restructure(batch *b);
+
+/* Where a leaf may come to hold more points than its capacity while points move one after the other, in whatever order:
+ * whether there may be more than that in one cell that cannot be divided. True also when there is no memory to find
+ * out. */
+bool may_overflow(const batch *b, const node *old, cell c, span arriving);
+
+/* Give the moves their statuses one after the other in the order given, and list what leaves and arrives in the end.
+ * The tree is not changed. False when there is no memory. */
+bool resolve_moves_in_order(batch *b);
+
+#endif

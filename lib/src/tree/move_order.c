@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: MIT */
+/* move_order.c - moves one after the other in the order given, without the tree: which pairs are there, and under
+ * OCTREE_REFUSE how many points each smallest cell holds, followed in hash tables. For batches in which an id comes
+ * twice, a pair would be there twice, or a leaf may be full. */
+#include "batch.h"
+#include "octree/digest.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define NOBODY UINT32_MAX
+#define FIRST_OWNER (UINT32_MAX - 1)
+
+/* A pair (position, id) that a move leaves or goes to. */
+typedef struct pair {
+    octree_point point;
+    uint64_t code;
+    uint32_t owner; /* the move whose point is there: by its place in the batch; NOBODY; or who was first there */
+    uint32_t index; /* in its leaf at first, MORTON_NEW where it was not stored */
+} pair;
+
+/* A cell that cannot be divided. */
+typedef struct crowd {
+    octree_address cell; /* 0: unused */
+    uint32_t count;
+} crowd;
+
+typedef struct resolution {
+    batch *batch;
+    pair *pairs;
+    size_t pair_count;
+    uint32_t *slots; /* index + 1 of a pair, or 0; open addressing with linear probing */
+    crowd *crowds;   /* likewise; null where no leaf refuses a point */
+    size_t slot_count;
+} resolution;
+
+static bool same_pair(const octree_point *a, const octree_point *b)
+{
+    return a->id == b->id && same_position(a->position, b->position);
+}
+
+static size_t home_of(const resolution *r, const octree_point *point)
+{
+    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, point->id);
+    for (int i = 0; i < 3; i++)
+        digest = octree_digest_double(digest, point->position[i]);
+    return (size_t)digest & (r->slot_count - 1);
+}
+
+static uint32_t stored_index(const octree *tree, const octree_point *point)
+{
+    found_point found;
+    return find_point(tree, point->position, point->id, &found) ? found.index : MORTON_NEW;
+}
+
+static pair *pair_of(resolution *r, const octree_point *point)
+{
+    const octree *tree = r->batch->tree;
+    size_t slot = home_of(r, point);
+    while (r->slots[slot] && !same_pair(&r->pairs[r->slots[slot] - 1].point, point))
+        slot = (slot + 1) & (r->slot_count - 1);
+    if (!r->slots[slot]) {
+        const uint32_t index = stored_index(tree, point);
+        r->pairs[r->pair_count++] =
+            (pair){*point, morton_code(tree->axes, point->position), index == MORTON_NEW ? NOBODY : FIRST_OWNER, index};
+        r->slots[slot] = (uint32_t)r->pair_count;
+    }
+    return &r->pairs[r->slots[slot] - 1];
+}
+
+/* The cell that cannot be divided in which a code lies. */
+static octree_address smallest_cell(const octree *tree, uint64_t code)
+{
+    cell c = root_cell();
+    while (may_split(tree, c))
+        c = cell_child(c, morton_octant(code, c.depth));
+    return morton_address(code, c.depth);
+}
+
+static uint32_t stored_count(const octree *tree, uint64_t code, octree_address cell)
+{
+    const unsigned shift = 3 * (OCTREE_MAX_DEPTH - octree_address_depth(cell));
+    const path p = path_to(tree, code);
+    const node *leaf = path_end(&p);
+    uint32_t count = 0;
+    for (uint32_t i = 0; leaf->octants == 0 && i < leaf->count; i++)
+        count += (morton_code(tree->axes, leaf_points(leaf)[i].position) ^ code) >> shift == 0;
+    return count;
+}
+
+static crowd *crowd_of(const resolution *r, uint64_t code)
+{
+    const octree_address cell = smallest_cell(r->batch->tree, code);
+    size_t slot = (size_t)octree_digest_word(OCTREE_DIGEST_START, cell) & (r->slot_count - 1);
+    while (r->crowds[slot].cell && r->crowds[slot].cell != cell)
+        slot = (slot + 1) & (r->slot_count - 1);
+    if (!r->crowds[slot].cell)
+        r->crowds[slot] = (crowd){cell, stored_count(r->batch->tree, code, cell)};
+    return &r->crowds[slot];
+}
+
+/* Whether the leaf at the end of a move takes it. A leaf that cannot be divided has the points of just one cell. */
+static bool takes(const resolution *r, uint64_t from, uint64_t to)
+{
+    if (!r->crowds)
+        return true;
+    crowd *left = crowd_of(r, from), *entered = crowd_of(r, to);
+    if (entered != left && entered->count >= r->batch->tree->def.leaf_capacity)
+        return false;
+    left->count--;
+    entered->count++;
+    return true;
+}
+
+static octree_status move_one(resolution *r, uint32_t place)
+{
+    const octree_point *from = &r->batch->points[place];
+    const octree_point moved = arriving_point(r->batch, &(morton_item){.place = place});
+    pair *left = pair_of(r, from), *entered = pair_of(r, &moved);
+    if (left->owner == NOBODY)
+        return OCTREE_NOT_FOUND;
+    if (entered != left && entered->owner != NOBODY)
+        return OCTREE_DUPLICATE;
+    if (!takes(r, left->code, entered->code))
+        return OCTREE_FULL;
+    left->owner = NOBODY;
+    entered->owner = place;
+    return OCTREE_OK;
+}
+
+static int compare_places(const void *a, const void *b)
+{
+    const uint32_t p = ((const morton_item *)a)->place, q = ((const morton_item *)b)->place;
+    return (p > q) - (p < q);
+}
+
+/* What the pairs have become. */
+static void list_changes(const resolution *r)
+{
+    batch *b = r->batch;
+    for (size_t i = 0; i < r->pair_count; i++) {
+        const pair *p = &r->pairs[i];
+        if (p->index != MORTON_NEW && p->owner != FIRST_OWNER)
+            b->leaving.items[b->leaving.count++] = (morton_item){p->code, 0, p->index};
+        if (p->owner != NOBODY && p->owner != FIRST_OWNER)
+            b->arriving.items[b->arriving.count++] = (morton_item){p->code, p->owner, MORTON_NEW};
+    }
+    morton_sort(b->leaving.items, b->spare, b->leaving.count, 0, 0);
+    morton_sort(b->arriving.items, b->spare, b->arriving.count, 0, 0);
+}
+
+static void resolve(resolution *r)
+{
+    batch *b = r->batch;
+    morton_item *items = b->valid.items;
+    memset(r->slots, 0, r->slot_count * sizeof *r->slots);
+    if (r->crowds)
+        memset(r->crowds, 0, r->slot_count * sizeof *r->crowds);
+    qsort(items, b->valid.count, sizeof *items, compare_places);
+    for (size_t i = 0; i < b->valid.count; i++) {
+        const octree_status status = move_one(r, items[i].place);
+        set_status(b, &items[i], status);
+        b->done += status == OCTREE_OK;
+    }
+    list_changes(r);
+}
+
+bool resolve_moves_in_order(batch *b)
+{
+    arena *memory = &b->tree->store.memory;
+    const bool refuses = b->tree->def.full_leaf == OCTREE_REFUSE;
+    resolution r = {.batch = b, .slot_count = 64};
+    while (r.slot_count < 4 * b->valid.count)
+        r.slot_count *= 2;
+    const size_t pairs_size = (2 * b->valid.count + 1) * sizeof(pair);
+    r.pairs = arena_take(memory, pairs_size);
+    r.slots = arena_take(memory, r.slot_count * sizeof *r.slots);
+    r.crowds = refuses ? arena_take(memory, r.slot_count * sizeof *r.crowds) : NULL;
+    const bool ok = r.pairs && r.slots && (r.crowds || !refuses);
+    if (ok)
+        resolve(&r);
+    arena_give(memory, r.pairs, pairs_size);
+    arena_give(memory, r.slots, r.slot_count * sizeof *r.slots);
+    arena_give(memory, r.crowds, r.slot_count * sizeof *r.crowds);
+    return ok;
+}

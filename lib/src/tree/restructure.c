@@ -1,0 +1,541 @@
+/* SPDX-License-Identifier: MIT */
+/* restructure.c - what leaves and arrives merged into the nodes, in one pass down and up: planned, then carried out. */
+#include "batch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A node that is replaced when the plan is carried out. */
+typedef struct patch {
+    node *at;
+    node made;
+} patch;
+
+/* A leaf that is edited in its block. */
+typedef struct edit {
+    octree_point *points;
+    uint32_t count; /* before */
+    uint8_t room, room_left;
+    span leaving, arriving;
+} edit;
+
+static arena *memory_of(batch *b)
+{
+    return &b->tree->store.memory;
+}
+
+/* ---- Sharing out -------------------------------------------------------------------------------------------- */
+
+/* The items of each octant of a cell of this depth. Returns the octants that have any. */
+static unsigned share_out(span all, unsigned depth, span shares[8])
+{
+    unsigned octants = 0;
+    for (unsigned octant = 0; octant < 8; octant++)
+        shares[octant] = (span){all.items, 0};
+    while (all.count > 0) {
+        const unsigned octant = morton_octant(all.items[0].code, depth);
+        const size_t count = octant_share(all.items, all.count, depth);
+        shares[octant] = (span){all.items, count};
+        octants |= 1u << octant;
+        all.items += count;
+        all.count -= count;
+    }
+    return octants;
+}
+
+static int compare_indices(const void *a, const void *b)
+{
+    const morton_item *p = a, *q = b;
+    return (p->index > q->index) - (p->index < q->index);
+}
+
+/* Sort the items of a leaf by their index in it. */
+static void sort_by_index(span s)
+{
+    if (s.count > POOL_MAX_UNITS) {
+        qsort(s.items, s.count, sizeof *s.items, compare_indices);
+        return;
+    }
+    for (size_t i = 1; i < s.count; i++) {
+        const morton_item item = s.items[i];
+        size_t at = i;
+        for (; at > 0 && s.items[at - 1].index > item.index; at--)
+            s.items[at] = s.items[at - 1];
+        s.items[at] = item;
+    }
+}
+
+/* ---- Leaves ------------------------------------------------------------------------------------------------- */
+
+static octree_point point_of(const batch *b, const morton_item *item)
+{
+    return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
+}
+
+/* Stored points first, then the caller's in their order: so a leaf refuses the same points as one by one. */
+static int compare_places(const void *a, const void *b)
+{
+    const morton_item *p = a, *q = b;
+    const int p_new = p->index == MORTON_NEW, q_new = q->index == MORTON_NEW;
+    return p_new != q_new ? p_new - q_new : (p->place > q->place) - (p->place < q->place);
+}
+
+/* A leaf of the items, or of as many as it takes; the others are refused. */
+static bool make_leaf(batch *b, span items, node *made)
+{
+    const size_t capacity = b->tree->def.leaf_capacity;
+    size_t taken = items.count;
+    if (items.count > capacity && b->tree->def.full_leaf == OCTREE_REFUSE) {
+        qsort(items.items, items.count, sizeof *items.items, compare_places);
+        taken = capacity;
+    }
+    if (!leaf_create(&b->tree->store, made, (uint32_t)taken))
+        return false;
+    for (size_t i = 0; i < taken; i++) { /* scattered, in the caller's order */
+        const morton_item *item = &items.items[i];
+        prefetch(item->index == MORTON_NEW ? &b->points[item->place] : &b->stored[item->index]);
+        if (b->to && item->index == MORTON_NEW)
+            prefetch(&b->to[item->place]);
+    }
+    for (size_t i = 0; i < taken; i++) {
+        const octree_point point = point_of(b, &items.items[i]);
+        leaf_put(made, &point);
+    }
+    for (size_t i = taken; i < items.count; i++)
+        set_status(b, &items.items[i], OCTREE_FULL);
+    return true;
+}
+
+/* Copy the points of a leaf but for those that leave, which are sorted by index. */
+static void put_staying(node *made, const node *leaf, span leaving)
+{
+    for (uint32_t i = 0; i < leaf->count; i++) {
+        if (leaving.count > 0 && leaving.items->index == i) {
+            leaving.items++;
+            leaving.count--;
+        } else {
+            leaf_put(made, &leaf_points(leaf)[i]);
+        }
+    }
+}
+
+static void put_arriving(batch *b, node *made, span arriving)
+{
+    for (size_t i = 0; i < arriving.count; i++) {
+        const octree_point point = arriving_point(b, &arriving.items[i]);
+        leaf_put(made, &point);
+    }
+}
+
+static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, node *made)
+{
+    if (!leaf_create(&b->tree->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
+        return false;
+    put_staying(made, old, leaving);
+    put_arriving(b, made, arriving);
+    return true;
+}
+
+/* Let a leaf be edited in its block, which has room for what will be there. */
+static bool plan_edit(batch *b, const node *old, span leaving, span arriving, node *made)
+{
+    edit *e = list_append(memory_of(b), &b->edits, sizeof *e);
+    if (!e)
+        return false;
+    const uint32_t count = (uint32_t)(old->count - leaving.count + arriving.count);
+    const unsigned needed = leaf_room(count);
+    made->count = count;
+    made->room = needed < old->room ? (uint8_t)needed : old->room;
+    *e = (edit){leaf_points(old), old->count, old->room, made->room, leaving, arriving};
+    return true;
+}
+
+/* Points that arrive take the places of those that leave, then those behind the last; the last fill gaps that are left.
+ */
+static void carry_out_edit(batch *b, const edit *e)
+{
+    uint32_t count = e->count;
+    size_t taken = 0;
+    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last on: so the last point is never one that leaves */
+        octree_point *gap = &e->points[e->leaving.items[i].index];
+        *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
+    }
+    while (taken < e->arriving.count)
+        e->points[count++] = arriving_point(b, &e->arriving.items[taken++]);
+    if (e->room_left < e->room)
+        pool_give(&b->tree->store.points, e->points + e->room_left, e->room - e->room_left);
+}
+
+/* ---- Making nodes ------------------------------------------------------------------------------------------- */
+
+static bool change_below(batch *b, const node *old, cell c, span leaving, span arriving, node *made);
+
+bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count)
+{
+    const uint64_t unlike = items[0].code ^ items[count - 1].code;
+    for (; may_split(tree, c); c = cell_child(c, morton_octant(items[0].code, c.depth)))
+        if (morton_octant(unlike, c.depth) != 0)
+            return false;
+    return true;
+}
+
+/* An inner node for items alone. */
+static bool build_children(batch *b, cell c, span items, node *made);
+
+/* Make the node of a cell that holds only the items. Under OCTREE_REFUSE most of those that nothing separates are
+ * refused, and nothing is split for refused points. Where items are separated, more of them are stored than one leaf
+ * holds, so that the split is needed. */
+static bool build(batch *b, cell c, span items, node *made)
+{
+    const octree_def *def = &b->tree->def;
+    if (items.count <= def->leaf_capacity || !may_split(b->tree, c) ||
+        (def->full_leaf == OCTREE_REFUSE && inseparable(b->tree, c, items.items, items.count)))
+        return make_leaf(b, items, made);
+    return build_children(b, c, items, made);
+}
+
+static bool build_children(batch *b, cell c, span items, node *made)
+{
+    span shares[8];
+    const unsigned octants = share_out(items, c.depth, shares), children = bits_count8(octants);
+    node *group = pool_take(&b->tree->store.nodes, children);
+    *made = (node){.below = group, .octants = (uint8_t)octants};
+    if (!group)
+        return false;
+    memset(group, 0, children * sizeof *group);
+    for (unsigned octant = 0; octant < 8; octant++) {
+        if (shares[octant].count == 0)
+            continue;
+        if (!build(b, cell_child(c, octant), shares[octant], group))
+            return false;
+        made->count += group++->count;
+    }
+    return true;
+}
+
+/* Divide a leaf: its points that stay, and those that arrive. Where its cell cannot be divided the order does not
+ * matter, as for a hashed leaf. */
+static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
+{
+    const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
+    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(memory_of(b), room) : NULL;
+    if (!all)
+        return false;
+    size_t count = 0;
+    for (uint32_t i = 0; i < old->count; i++) {
+        if (leaving.count > 0 && leaving.items->index == i) {
+            leaving.items++;
+            leaving.count--;
+        } else {
+            all[count++] = (morton_item){morton_code(b->tree->axes, leaf_points(old)[i].position), 0, i};
+        }
+    }
+    memcpy(all + count, arriving.items, arriving.count * sizeof *all);
+    if (may_split(b->tree, c))
+        morton_sort(all, all + sum, sum, c.depth, unsorted_count(b->tree));
+    b->stored = leaf_points(old);
+    const bool ok = build(b, c, (span){all, sum}, made);
+    arena_give(memory_of(b), all, room);
+    return ok;
+}
+
+/* ---- Changing nodes ----------------------------------------------------------------------------------------- */
+
+static bool leaves(span leaving, uint32_t index)
+{
+    size_t low = 0, high = leaving.count; /* the first of at least this index is in [low, high] */
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (leaving.items[middle].index < index)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < leaving.count && leaving.items[low].index == index;
+}
+
+/* Drop the items that the leaf stores already. */
+static void drop_stored(batch *b, const node *leaf, span leaving, span *arriving)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < arriving->count; i++) {
+        const octree_point point = arriving_point(b, &arriving->items[i]);
+        const uint32_t index = leaf_find(leaf, point.position, point.id);
+        if (index == LEAF_NONE || leaves(leaving, index)) {
+            arriving->items[left++] = arriving->items[i];
+        } else {
+            set_status(b, &arriving->items[i], OCTREE_DUPLICATE);
+            b->duplicate = true;
+        }
+    }
+    arriving->count = left;
+}
+
+static bool change_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
+{
+    sort_by_index(leaving);
+    if (b->may_be_stored && arriving.count > 0)
+        drop_stored(b, old, leaving, &arriving);
+    if (leaving.count + arriving.count == 0)
+        return true;
+    if (b->to && may_overflow(b, old, c, arriving))
+        b->overflow = true;
+    const size_t count = old->count - leaving.count + arriving.count;
+    if (!fits_leaf(b->tree, count))
+        return divide_leaf(b, old, c, leaving, arriving, made);
+    if (old->room != LEAF_HASHED && count > 0 && count <= old->room)
+        return plan_edit(b, old, leaving, arriving, made);
+    return remake_leaf(b, old, leaving, arriving, made);
+}
+
+/* Put what stays in and below a node into a leaf. */
+static void gather_staying(const node *old, unsigned depth, span leaving, node *made)
+{
+    if (!old->octants) {
+        sort_by_index(leaving);
+        put_staying(made, old, leaving);
+        return;
+    }
+    span shares[8];
+    share_out(leaving, depth, shares);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (old->octants >> octant & 1)
+            gather_staying(child_at(old, octant), depth + 1, shares[octant], made);
+}
+
+/* Merge a node that fits one leaf. */
+static bool merge(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
+{
+    if (b->to && may_overflow(b, old, c, arriving))
+        b->overflow = true;
+    if (!leaf_create(&b->tree->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
+        return false;
+    gather_staying(old, c.depth, leaving, made);
+    if (b->may_be_stored)
+        drop_stored(b, made, (span){NULL, 0}, &arriving);
+    put_arriving(b, made, arriving);
+    return true;
+}
+
+/* Let a child have a successor. False when there is no memory; nothing is allocated then. */
+static bool plan_patch(batch *b, node *at, const node *made)
+{
+    if (at->below == made->below && at->count == made->count && at->octants == made->octants && at->room == made->room)
+        return true;
+    const patch p = {at, *made};
+    if (list_push(memory_of(b), &b->patches, &p, sizeof p))
+        return true;
+    node_release_unshared(&b->tree->store, made, at);
+    return false;
+}
+
+/* Change the child in an octant into *made, or where it is null into a plan for the child itself. */
+static bool change_child(batch *b, const node *old, cell c, unsigned octant, const span leaving[8],
+                         const span arriving[8], node *made, uint32_t *count)
+{
+    static const node empty = {0};
+    node *child = child_at(old, octant), successor = {0};
+    const bool ok = change_below(b, child ? child : &empty, cell_child(c, octant), leaving[octant], arriving[octant],
+                                 made ? made : &successor);
+    *count += made ? made->count : successor.count;
+    if (made)
+        return ok;
+    if (!ok)
+        node_release_unshared(&b->tree->store, &successor, child);
+    return ok && plan_patch(b, child, &successor);
+}
+
+/* The same children, of which some change. */
+static bool change_same_children(batch *b, const node *old, cell c, const span leaving[8], const span arriving[8],
+                                 node *made)
+{
+    for (unsigned octant = 0; octant < 8; octant++) {
+        if (leaving[octant].count + arriving[octant].count == 0)
+            continue;
+        const uint32_t before = child_at(old, octant)->count;
+        uint32_t after = 0;
+        if (!change_child(b, old, c, octant, leaving, arriving, NULL, &after))
+            return false;
+        made->count += after - before;
+    }
+    return true;
+}
+
+static bool change_children(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
+{
+    span out[8], in[8];
+    share_out(leaving, c.depth, out);
+    unsigned octants = share_out(arriving, c.depth, in);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if ((old->octants >> octant & 1) && child_at(old, octant)->count > out[octant].count)
+            octants |= 1u << octant;
+    if (octants == old->octants)
+        return change_same_children(b, old, c, out, in, made);
+    const unsigned children = bits_count8(octants);
+    node *group = pool_take(&b->tree->store.nodes, children);
+    *made = (node){.below = group, .octants = (uint8_t)octants};
+    if (!group)
+        return false;
+    memset(group, 0, children * sizeof *group);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if ((octants >> octant & 1) && !change_child(b, old, c, octant, out, in, group++, &made->count))
+            return false;
+    return true;
+}
+
+/* Make a node's successor. Where none of its points stays, it is built anew. False when there is no memory; *made then
+ * holds what was made. */
+static bool change_below(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
+{
+    *made = *old;
+    if (leaving.count + arriving.count == 0)
+        return true;
+    if (leaving.count == old->count) {
+        *made = (node){0};
+        if (b->to && may_overflow(b, old, c, arriving))
+            b->overflow = true;
+        return arriving.count == 0 || build(b, c, arriving, made);
+    }
+    if (!old->octants)
+        return change_leaf(b, old, c, leaving, arriving, made);
+    if (fits_leaf(b->tree, old->count - leaving.count + arriving.count))
+        return merge(b, old, c, leaving, arriving, made);
+    return change_children(b, old, c, leaving, arriving, made);
+}
+
+/* ---- Overflow ----------------------------------------------------------------------------------------------- */
+
+static size_t lower_bound(span s, uint64_t code)
+{
+    size_t low = 0, high = s.count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (s.items[middle].code < code)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Of a leaf: where its points are, where those that move were and where they arrive, by code. */
+static bool crowds(const batch *b, const node *leaf, cell c, span arriving)
+{
+    const size_t capacity = b->tree->def.leaf_capacity;
+    const uint64_t first = morton_interleave(c.low);
+    const size_t start = lower_bound(b->valid, first);
+    const size_t moved = lower_bound(b->valid, first + (UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - c.depth))) - start;
+    const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
+    arena *memory = &b->tree->store.memory;
+    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(memory, room) : NULL;
+    if (!all)
+        return true;
+    for (uint32_t i = 0; i < leaf->count; i++)
+        all[i] = (morton_item){morton_code(b->tree->axes, leaf_points(leaf)[i].position), 0, i};
+    if (moved)
+        memcpy(all + leaf->count, b->valid.items + start, moved * sizeof *all);
+    memcpy(all + leaf->count + moved, arriving.items, arriving.count * sizeof *all);
+    morton_sort(all, all + sum, sum, c.depth, 0);
+    bool crowded = false;
+    for (size_t i = 0; !crowded && i + capacity < sum; i++)
+        crowded = inseparable(b->tree, c, all + i, capacity + 1);
+    arena_give(memory, all, room);
+    return crowded;
+}
+
+bool may_overflow(const batch *b, const node *old, cell c, span arriving)
+{
+    static const node empty = {0};
+    if (b->tree->def.full_leaf != OCTREE_REFUSE || arriving.count == 0 || b->settled)
+        return false;
+    if (!old->octants)
+        return !fits_leaf(b->tree, old->count + arriving.count) && crowds(b, old, c, arriving);
+    span shares[8];
+    share_out(arriving, c.depth, shares);
+    for (unsigned octant = 0; octant < 8; octant++) {
+        const node *child = child_at(old, octant);
+        if (may_overflow(b, child ? child : &empty, cell_child(c, octant), shares[octant]))
+            return true;
+    }
+    return false;
+}
+
+/* ---- The plan ----------------------------------------------------------------------------------------------- */
+
+static void carry_out(batch *b)
+{
+    store *st = &b->tree->store;
+    const edit *edits = b->edits.items;
+    for (size_t i = 0; i < b->edits.count; i++)
+        carry_out_edit(b, &edits[i]);
+    const patch *patches = b->patches.items;
+    for (size_t i = 0; i < b->patches.count; i++) {
+        const node old = *patches[i].at;
+        *patches[i].at = patches[i].made;
+        node_release_unshared(st, &old, &patches[i].made);
+    }
+}
+
+static void drop_plan(batch *b)
+{
+    const patch *patches = b->patches.items;
+    for (size_t i = 0; i < b->patches.count; i++)
+        node_release_unshared(&b->tree->store, &patches[i].made, patches[i].at);
+}
+
+static void reset_pools(store *s)
+{
+    pool_init(&s->nodes, &s->memory, sizeof(node));
+    pool_init(&s->points, &s->memory, sizeof(octree_point));
+}
+
+/* Free all nodes, with pools that hold nothing else. */
+static void release_pools(store *s, const node *root)
+{
+    node_release(s, root); /* hashed leaves are not in the pools */
+    pool_release(&s->nodes);
+    pool_release(&s->points);
+}
+
+/* Nothing stays: a tree in pools of its own, as dense as one that is built, takes the place of the old one. */
+static octree_status build_anew(batch *b)
+{
+    octree *tree = b->tree;
+    const pool old_nodes = tree->store.nodes, old_points = tree->store.points;
+    node made = {0};
+    b->overflow = may_overflow(b, &tree->root, root_cell(), b->arriving);
+    if (b->overflow)
+        return OCTREE_OK;
+    reset_pools(&tree->store);
+    const bool ok = build(b, root_cell(), b->arriving, &made);
+    const pool nodes = tree->store.nodes, points = tree->store.points;
+    if (ok) {
+        tree->store.nodes = old_nodes;
+        tree->store.points = old_points;
+    }
+    release_pools(&tree->store, ok ? &tree->root : &made);
+    tree->store.nodes = ok ? nodes : old_nodes;
+    tree->store.points = ok ? points : old_points;
+    tree->root = ok ? made : tree->root;
+    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+octree_status restructure(batch *b)
+{
+    octree *tree = b->tree;
+    node made;
+    b->duplicate = b->overflow = false;
+    if (b->leaving.count == tree->root.count && b->leaving.count == b->arriving.count && b->arriving.count > 0)
+        return build_anew(b);
+    bool ok = change_below(b, &tree->root, root_cell(), b->leaving, b->arriving, &made);
+    if (!ok)
+        node_release_unshared(&tree->store, &made, &tree->root);
+    ok = ok && plan_patch(b, &tree->root, &made);
+    if (ok && !(b->to && (b->duplicate || b->overflow)))
+        carry_out(b);
+    else
+        drop_plan(b);
+    list_release(memory_of(b), &b->patches, sizeof(patch));
+    list_release(memory_of(b), &b->edits, sizeof(edit));
+    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
+}

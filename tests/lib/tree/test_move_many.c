@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: MIT */
+/* test_move_many.c - many moves at once are the same as one after the other, in statuses, in nodes and in points. */
+#include "fixture.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "brute.h"
+#include "counting_allocator.h"
+
+enum { MOST = 400 };
+
+/* A batch, what became of it, and what it is drawn from. */
+typedef struct moves {
+    octree_point points[MOST];
+    double to[MOST][3];
+    octree_status statuses[MOST];
+    size_t count;
+} moves;
+
+/* All points with all their bits, which the digest of a zero leaves out. */
+static brute points_of(const octree *tree)
+{
+    brute all = {0};
+    const octree_box world = octree_definition(tree).world;
+    assert_int_equal(octree_range(tree, &world, brute_collect, &all), OCTREE_OK);
+    if (all.count)
+        qsort(all.points, all.count, sizeof *all.points, octree_compare_points);
+    return all;
+}
+
+static void assert_trees_equal(const octree *a, const octree *b)
+{
+    assert_int_equal(octree_count(a), octree_count(b));
+    assert_true(octree_digest(a) == octree_digest(b));
+    assert_valid(a);
+    brute p = points_of(a), q = points_of(b);
+    assert_int_equal(p.count, q.count);
+    if (p.count)
+        assert_memory_equal(p.points, q.points, p.count * sizeof *p.points);
+    brute_free(&p);
+    brute_free(&q);
+}
+
+/* Move all at once in one tree and one after the other in its twin. Returns how many moved. */
+static size_t move_both(octree *batched, octree *stepped, moves *m)
+{
+    /* No room to spare, so that a sanitizer sees who reads beyond it. */
+    octree_point *points = malloc(m->count * sizeof *points + 1);
+    double(*to)[3] = malloc(m->count * sizeof *to + 1);
+    assert_true(points && to);
+    memcpy(points, m->points, m->count * sizeof *points);
+    memcpy(to, m->to, m->count * sizeof *to);
+    const uint64_t version = octree_version(batched);
+    size_t moved = SIZE_MAX, expected = 0;
+    assert_int_equal(octree_move_many(batched, points, (const double(*)[3])to, m->count, m->statuses, &moved),
+                     OCTREE_OK);
+    for (size_t i = 0; i < m->count; i++) {
+        const octree_status status = octree_move(stepped, points[i].position, points[i].id, to[i]);
+        assert_int_equal(m->statuses[i], status);
+        expected += status == OCTREE_OK;
+    }
+    free(points);
+    free(to);
+    assert_int_equal(moved, expected);
+    assert_true((octree_version(batched) != version) == (expected > 0));
+    assert_trees_equal(batched, stepped);
+    return moved;
+}
+
+/* How a round draws its points. */
+typedef struct play {
+    uint64_t random;
+    octree_box world;
+    uint64_t steps, ids;
+    octree *batched, *stepped;
+} play;
+
+static double coarse(play *p, int axis)
+{
+    const double min = p->world.min[axis], max = p->world.max[axis];
+    const double strays[] = {NAN, INFINITY, next_down(min), next_up(max), -DBL_MAX};
+    if (random_below(&p->random, 200) == 0)
+        return strays[random_below(&p->random, sizeof strays / sizeof strays[0])];
+    const double t = (double)random_below(&p->random, p->steps + 1) / (double)p->steps;
+    double value = fmin(fmax(min * (1 - t) + max * t, min), max);
+    if (random_below(&p->random, 6) == 0)
+        value = random_below(&p->random, 2) ? fmin(next_up(value), max) : fmax(next_down(value), min);
+    return value == 0 && random_below(&p->random, 2) ? -value : value;
+}
+
+static octree_point any_point(play *p)
+{
+    octree_point point = {.id = random_below(&p->random, p->ids)};
+    for (int axis = 0; axis < 3; axis++)
+        point.position[axis] = coarse(p, axis);
+    return point;
+}
+
+/* From where a point is stored, mostly; to any place, or by a small step, or where another one comes from. Under
+ * `apart` no id comes twice. */
+static void draw_moves(play *p, moves *m, size_t most, bool apart)
+{
+    brute all = points_of(p->batched);
+    m->count = 0;
+    for (size_t i = random_below(&p->random, most + 1); i > 0; i--) {
+        octree_point point = any_point(p), to = any_point(p);
+        if (all.count && random_below(&p->random, 8))
+            point = all.points[random_below(&p->random, all.count)];
+        else if (m->count && random_below(&p->random, 2))
+            memcpy(point.position, m->to[random_below(&p->random, m->count)], sizeof point.position);
+        const size_t which = random_below(&p->random, 6);
+        if (which == 0 && all.count)
+            to = all.points[random_below(&p->random, all.count)];
+        for (int axis = 0; which < 4 && which > 0 && axis < 3; axis++)
+            to.position[axis] = which == 1 ? point.position[axis] : next_up(point.position[axis]);
+        bool known = false;
+        for (size_t j = 0; j < m->count; j++)
+            known = known || m->points[j].id == point.id;
+        if (apart && known)
+            continue;
+        m->points[m->count] = point;
+        memcpy(m->to[m->count++], to.position, sizeof to.position);
+    }
+    brute_free(&all);
+}
+
+static void play_round(uint64_t seed, octree_box world, size_t capacity, size_t depth, octree_full_leaf full_leaf)
+{
+    static moves m;
+    play p = {.random = seed, .world = world};
+    p.steps = 1 + random_below(&p.random, 9);
+    p.ids = random_below(&p.random, 2) ? 4 : 100000;
+    p.batched = make_tree(world, capacity, depth, full_leaf);
+    p.stepped = make_tree(world, capacity, depth, full_leaf);
+    for (size_t i = random_below(&p.random, 120); i > 0; i--) {
+        const octree_point point = any_point(&p);
+        assert_int_equal(octree_insert(p.batched, point.position, point.id),
+                         octree_insert(p.stepped, point.position, point.id));
+    }
+    for (int i = 0; i < 6; i++) {
+        draw_moves(&p, &m, i % 2 ? 12 : 150, random_below(&p.random, 2));
+        move_both(p.batched, p.stepped, &m);
+    }
+    octree_destroy(p.batched);
+    octree_destroy(p.stepped);
+}
+
+static void moves_at_once_are_the_same_as_one_by_one(void **state)
+{
+    (void)state;
+    static const size_t capacities[] = {1, 2, 3, 5, 8, 64}, depths[] = {0, 1, 2, 4, 21};
+    for (size_t c = 0; c < sizeof capacities / sizeof capacities[0]; c++)
+        for (size_t d = 0; d < sizeof depths / sizeof depths[0]; d++)
+            for (uint64_t seed = 0; seed < 10; seed++) {
+                play_round(seed * 100 + c * 10 + d, cube(-4, 4), capacities[c], depths[d], OCTREE_REFUSE);
+                play_round(seed * 100 + c * 10 + d, cube(-4, 4), capacities[c], depths[d], OCTREE_GROW);
+            }
+}
+
+static void moves_at_once_are_the_same_in_extreme_worlds(void **state)
+{
+    (void)state;
+    static const octree_box worlds[] = {
+        {{-DBL_MAX, -DBL_MAX, -DBL_MAX}, {DBL_MAX, DBL_MAX, DBL_MAX}},
+        {{1e15, 0, 0}, {1e15 + 1, 1000, 1000}}, /* x is exhausted after three levels */
+        {{0, 0, 0}, {5e-324, 5e-324, 5e-324}},  /* no plane inside */
+        {{-5e-324, 0, -1}, {5e-324, 5e-324, 1}},
+    };
+    for (size_t w = 0; w < sizeof worlds / sizeof worlds[0]; w++)
+        for (uint64_t seed = 0; seed < 12; seed++) {
+            play_round(seed, worlds[w], 1 + seed % 5, seed % 3 ? 21 : 3, OCTREE_REFUSE);
+            play_round(seed, worlds[w], 1 + seed % 5, seed % 3 ? 21 : 3, OCTREE_GROW);
+        }
+}
+
+static void drift(uint64_t *random, const octree_point *from, double step, double to[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        to[axis] = fmin(fmax(from->position[axis] + random_between(random, -step, step), -1), 1);
+}
+
+/* Thousands of points through leaves of all sizes, hashed ones too; any share of them, by small steps and by large. */
+static void every_share_moves_the_same(void **state)
+{
+    (void)state;
+    enum { COUNT = 3000 };
+    static octree_point points[COUNT], batch[COUNT];
+    static double to[COUNT][3];
+    static octree_status statuses[COUNT];
+    static const size_t capacities[] = {1, 16, 64, 100, SIZE_MAX}, shares[] = {1, 10, 50, 100};
+    uint64_t random = 3;
+    for (size_t c = 0; c < sizeof capacities / sizeof capacities[0]; c++)
+        for (size_t s = 0; s < 8; s++) {
+            const octree_full_leaf full_leaf = (c + s) % 2 ? OCTREE_GROW : OCTREE_REFUSE;
+            octree *batched = make_tree(cube(-1, 1), capacities[c], 21, full_leaf);
+            octree *stepped = make_tree(cube(-1, 1), capacities[c], 21, full_leaf);
+            for (size_t i = 0; i < COUNT; i++) {
+                points[i].id = i;
+                drift(&random, &(octree_point){.id = 0}, i % 3 ? 1 : 0.01, points[i].position);
+                octree_insert(batched, points[i].position, points[i].id);
+                octree_insert(stepped, points[i].position, points[i].id);
+            }
+            for (int tick = 0; tick < 3; tick++) {
+                size_t count = 0;
+                for (size_t i = 0; i < COUNT; i++) {
+                    if (random_below(&random, 100) >= shares[s / 2])
+                        continue;
+                    drift(&random, &points[i], s % 2 ? 1.5 : 0.02, to[count]);
+                    batch[count++] = points[i];
+                }
+                assert_int_equal(octree_move_many(batched, batch, (const double(*)[3])to, count, statuses, NULL),
+                                 OCTREE_OK);
+                for (size_t i = 0; i < count; i++) {
+                    assert_int_equal(octree_move(stepped, batch[i].position, batch[i].id, to[i]), statuses[i]);
+                    if (statuses[i] == OCTREE_OK)
+                        memcpy(points[batch[i].id].position, to[i], sizeof to[i]);
+                }
+                assert_trees_equal(batched, stepped);
+            }
+            octree_destroy(batched);
+            octree_destroy(stepped);
+        }
+}
+
+static void a_full_leaf_is_met_in_the_order_given(void **state)
+{
+    (void)state;
+    /* One leaf of two: what comes first takes the place that was left before it, and not the one that is left after. */
+    static const octree_point points[] = {
+        {{-0.5, -0.5, -0.5}, 1}, {{0.1, 0.1, 0.1}, 2}, {{-0.4, -0.5, -0.5}, 3}, {{-0.5, 0.5, -0.5}, 4}};
+    static const double to[][3] = {{0.5, 0.5, 0.5}, {0.5, -0.5, 0.5}, {0.6, 0.5, 0.5}, {0.7, 0.5, 0.5}};
+    static const octree_status expected[] = {OCTREE_FULL, OCTREE_OK, OCTREE_OK, OCTREE_FULL};
+    octree *tree = make_tree(cube(-1, 1), 2, 1, OCTREE_REFUSE);
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(octree_insert(tree, points[i].position, points[i].id), OCTREE_OK);
+    assert_int_equal(octree_insert(tree, (double[3]){0.9, 0.9, 0.9}, 5), OCTREE_OK);
+    octree_status statuses[4];
+    size_t moved = 0;
+    assert_int_equal(octree_move_many(tree, points, to, 4, statuses, &moved), OCTREE_OK);
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(statuses[i], expected[i]);
+    assert_int_equal(moved, 2);
+    assert_valid(tree);
+    octree_destroy(tree);
+}
+
+static void a_pair_moves_on_within_one_batch(void **state)
+{
+    (void)state;
+    static const octree_point points[] = {{{-0.5, 0, 0}, 1}, {{0.5, 0, 0}, 1}, {{0.5, 0, 0}, 1}};
+    static const double to[][3] = {{0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0, 0}};
+    static const octree_status expected[] = {OCTREE_OK, OCTREE_OK, OCTREE_NOT_FOUND};
+    octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
+    assert_int_equal(octree_insert(tree, points[0].position, 1), OCTREE_OK);
+    octree_status statuses[3];
+    assert_int_equal(octree_move_many(tree, points, to, 3, statuses, NULL), OCTREE_OK);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(statuses[i], expected[i]);
+    assert_true(octree_contains(tree, to[1], 1));
+    assert_int_equal(octree_count(tree), 1);
+    octree_destroy(tree);
+}
+
+static void null_and_endless_arrays_are_refused(void **state)
+{
+    (void)state;
+    static const octree_point point = {{0, 0, 0}, 1};
+    static const double to[1][3] = {{1, 1, 1}};
+    octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
+    insert_all(tree, (const double[][3]){{0, 0, 0}}, 1);
+    const uint64_t version = octree_version(tree);
+    size_t moved = SIZE_MAX;
+    assert_int_equal(octree_move_many(NULL, &point, to, 1, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_move_many(tree, NULL, to, 1, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_move_many(tree, &point, NULL, 1, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_move_many(tree, &point, to, SIZE_MAX, NULL, NULL), OCTREE_TOO_MANY);
+    assert_int_equal(octree_move_many(tree, &point, to, UINT32_MAX, NULL, NULL), OCTREE_TOO_MANY);
+    assert_int_equal(octree_move_many(tree, NULL, NULL, 0, NULL, &moved), OCTREE_OK);
+    assert_int_equal(moved, 0);
+    assert_true(octree_version(tree) == version);
+    assert_int_equal(octree_move_many(tree, &point, to, 1, NULL, NULL), OCTREE_OK);
+    assert_true(octree_contains(tree, to[0], 1));
+    octree_destroy(tree);
+}
+
+/* Let the n-th allocation of a batch fail. Returns whether there was one. One that only looks whether moves depend on
+ * each other is not needed. */
+static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t capacity, uint64_t ids, double step)
+{
+    static moves m;
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), capacity, 6, full_leaf);
+    uint64_t random = 9;
+    for (m.count = 0; m.count < MOST; m.count++) {
+        octree_point *point = &m.points[m.count];
+        point->id = m.count % ids;
+        drift(&random, &(octree_point){.id = 0}, 1, point->position);
+        octree_insert(tree, point->position, point->id);
+        drift(&random, point, step, m.to[m.count]);
+    }
+    brute before = points_of(tree);
+    const uint64_t digest = octree_digest(tree), version = octree_version(tree);
+    counting_allocator_fail_at(&counts, n);
+    const octree_status status = octree_move_many(tree, m.points, (const double(*)[3])m.to, MOST, NULL, NULL);
+    const bool failed = counts.calls > counts.fail_from;
+    counting_allocator_heal(&counts);
+    assert_true(status == OCTREE_OK || (failed && status == OCTREE_NO_MEMORY));
+    assert_valid(tree);
+    if (status == OCTREE_OK) {
+        octree *stepped = make_tree(cube(-1, 1), capacity, 6, full_leaf);
+        for (size_t i = 0; i < MOST; i++)
+            octree_insert(stepped, m.points[i].position, m.points[i].id);
+        for (size_t i = 0; i < MOST; i++)
+            octree_move(stepped, m.points[i].position, m.points[i].id, m.to[i]);
+        assert_trees_equal(tree, stepped);
+        octree_destroy(stepped);
+    } else {
+        brute after = points_of(tree);
+        assert_true(octree_digest(tree) == digest && octree_version(tree) == version);
+        assert_int_equal(after.count, before.count);
+        assert_memory_equal(after.points, before.points, before.count * sizeof *before.points);
+        brute_free(&after);
+    }
+    brute_free(&before);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    return failed;
+}
+
+static void moves_survive_the_failure_of_each_allocation(void **state)
+{
+    (void)state;
+    for (int grow = 0; grow < 2; grow++)
+        for (int ids = 0; ids < 2; ids++)
+            for (int far = 0; far < 2; far++)
+                for (size_t capacity = 2; capacity <= 128; capacity *= 4) {
+                    size_t n = 0;
+                    while (fails_without_a_trace(n, grow ? OCTREE_GROW : OCTREE_REFUSE, capacity, ids ? 50 : MOST,
+                                                 far ? 1 : 0.1))
+                        n++;
+                    assert_true(n > 2);
+                }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(moves_at_once_are_the_same_as_one_by_one),
+        cmocka_unit_test(moves_at_once_are_the_same_in_extreme_worlds),
+        cmocka_unit_test(every_share_moves_the_same),
+        cmocka_unit_test(a_full_leaf_is_met_in_the_order_given),
+        cmocka_unit_test(a_pair_moves_on_within_one_batch),
+        cmocka_unit_test(null_and_endless_arrays_are_refused),
+        cmocka_unit_test(moves_survive_the_failure_of_each_allocation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
