@@ -24,7 +24,8 @@ typedef struct source {
     uint64_t strokes;        /* how many there are */
     uint64_t strokes_before; /* those of the scene, for its close-up */
     uint32_t elements_before;
-    int left, top; /* where it begins, in samples of the picture */
+    int left, top;      /* where it begins, in samples of the picture */
+    bool points_listed; /* the painted points of a probe's pixel */
 } source;
 
 /* The second is empty without a close-up. */
@@ -229,14 +230,10 @@ static draw_touch *find_touch(draw_touches *list, uint32_t number)
     return NULL;
 }
 
-/* The entry of an element, which is appended if it has none; null when there is no memory. */
-static draw_touch *take_touch(probe *p, scene_element element)
+/* Append an element that has no entry yet; null when there is no memory. */
+static draw_touch *append_touch(probe *p, uint32_t number)
 {
     draw_touches *list = p->list;
-    const uint32_t number = scene_number_of(p->picture, element);
-    draw_touch *found = find_touch(list, number);
-    if (found)
-        return found;
     draw_touch *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
     if (!items) {
         p->out_of_memory = true;
@@ -245,6 +242,14 @@ static draw_touch *take_touch(probe *p, scene_element element)
     list->items = items;
     list->items[list->count] = (draw_touch){.number = number};
     return &list->items[list->count++];
+}
+
+/* The entry of an element, which is appended if it has none; null when there is no memory. */
+static draw_touch *take_touch(probe *p, scene_element element)
+{
+    const uint32_t number = scene_number_of(p->picture, element);
+    draw_touch *found = find_touch(p->list, number);
+    return found ? found : append_touch(p, number);
 }
 
 /* Note that an element covers a sample. Quads come from the last to the first. */
@@ -274,6 +279,13 @@ static void add_box_too(size_t box, void *context)
     take_touch(at->probe, element_of(at->quad, box));
 }
 
+/* Points are many: none of those that are added here has an entry yet, and none is looked for. */
+static void append_point(probe *p, const quad *q, size_t index)
+{
+    if (index != q->index)
+        append_touch(p, scene_number_of(p->picture, element_of(q, index)));
+}
+
 /* Add the points that share the sample of a point that is drawn. */
 static void add_points_too(probe *p, const quad *q)
 {
@@ -284,7 +296,33 @@ static void add_points_too(probe *p, const quad *q)
         return;
     for (size_t i = 0; i < s->markers.count; i++)
         if (paint_point_pixel(s, &s->markers.items[i], &other, &band) && other == place)
-            take_touch(p, element_of(q, i));
+            append_point(p, q, i);
+}
+
+/* Add all painted points of the pixel, after the first of them. */
+static void add_painted_points(probe *p, const quad *q)
+{
+    source *from = source_of(&p->sources, q);
+    const splat_square samples = {p->part.x - from->left, p->part.y - from->top, p->part.width};
+    splat_list list = {.count = 0};
+    if (from->points_listed)
+        return;
+    from->points_listed = true;
+    p->out_of_memory |= !splats_list(&from->fine, &samples, &list);
+    for (size_t i = 0; i < list.count; i++)
+        append_point(p, q, list.items[i].marker);
+    free(list.items);
+}
+
+static void add_points(probe *p, const quad *q)
+{
+    const scene *s = &source_of(&p->sources, q)->fine;
+    if (s->markers.items[q->index].style.layer != LAYER_POINTS)
+        return;
+    if (view_paints_points(&s->view))
+        add_painted_points(p, q);
+    else
+        add_points_too(p, q);
 }
 
 /* Twice the area of the triangle of two corners and a place, doubled so that the place may lie between pixels. */
@@ -363,7 +401,7 @@ static void add_quad(probe *p, const quad *q, unsigned bits)
         if (bits >> i & 1)
             add_paint(p, element_of(q, q->index), q->color, i);
     if (element_of(q, 0).kind == SCENE_MARKER)
-        add_points_too(p, q);
+        add_points(p, q);
     p->taken |= bits;
 }
 

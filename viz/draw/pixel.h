@@ -20,7 +20,7 @@ typedef struct draw_touch {
     uint32_t number;
     int shown;     /* samples at which it is on top */
     int painted;   /* samples that its quads cover; 0: it shares the quad of an element before it in the list, as a box
-                      with the same edge or a point at the same sample */
+                      with the same edge or a point at the same sample; or it is a painted point that others hide */
     uint16_t at;   /* these samples as bits, row by row */
     uint8_t color; /* index of the theme's table that is painted there; 0 also in gaps of STROKE_CUT */
 } draw_touch;

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "splats.h"
+#include "array.h"
 #include "layer.h"
 #include "point_scale.h"
 #include "project.h"
+#include "stroke.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,12 +57,11 @@ static int32_t depth_of(const splatter *with, double depth)
     return samples > MOST_DEPTH ? MOST_DEPTH : samples < -MOST_DEPTH ? -MOST_DEPTH : (int32_t)samples;
 }
 
-/* At least as large as a mark, and so many samples that a pixel of the smallest picture is a pixel of any. */
+/* At least as large as a mark. */
 static int side_of(const splatter *with, scene_style style, double depth)
 {
     const scene *s = with->scene;
-    const int mark = 2 * (style.width * s->unit / 2) + 1, unit = s->unit / 2;
-    const int least = (mark > unit ? mark : unit) * view_samples(&s->view);
+    const int least = stroke_marker_side(style.width, s->unit) * view_samples(&s->view);
     const double side = ceil(s->camera.perspective ? with->spacing / depth : with->spacing);
     return side > with->most ? with->most : side > least ? (int)side : least;
 }
@@ -74,13 +75,6 @@ static bool place(const splatter *with, const scene_marker *marker, splat_square
     square->left = (int)floor(pixel[0]) - (square->side - 1) / 2;
     square->top = (int)floor(pixel[1]) - (square->side - 1) / 2;
     return true;
-}
-
-bool splats_square(const scene *s, const scene_marker *marker, splat_square *square)
-{
-    double depth;
-    const splatter with = splatter_make(s);
-    return view_paints_points(&s->view) && place(&with, marker, square, &depth);
 }
 
 /* ---- What is nearest ----------------------------------------------------------------------------------------- */
@@ -102,19 +96,25 @@ static bool is_in_disc(int side, int far)
     return side <= 2 || far <= side * side;
 }
 
-/* A disc lies the deeper the farther from its middle: of discs that overlap each has what is nearest to it. */
+/* A disc lies the deeper the farther from its middle: of discs that overlap each has what is nearest to it. False
+ * beyond its rim; `depth` is that of its middle. */
+static bool disc_depth(const splat_square *q, int x, int y, int32_t depth, int32_t *at)
+{
+    const int dx = 2 * (x - q->left) - q->side + 1, dy = 2 * (y - q->top) - q->side + 1, far = dx * dx + dy * dy;
+    *at = depth + far / (4 * q->side);
+    return is_in_disc(q->side, far);
+}
+
 static void put(splats *t, const scene *s, size_t index, const splat_square *q, int32_t depth)
 {
     const int right = q->left + q->side, bottom = q->top + q->side;
     const int left = q->left > 0 ? q->left : 0, end = right < s->view.width ? right : s->view.width;
     for (int y = q->top > 0 ? q->top : 0; y < bottom && y < s->view.height; y++) {
         splat *row = t->samples + (size_t)y * (size_t)s->view.width;
-        const int dy = 2 * (y - q->top) - q->side + 1;
         for (int x = left; x < end; x++) {
             const splat now = row[x];
-            const int dx = 2 * (x - q->left) - q->side + 1, far = dx * dx + dy * dy;
-            const int32_t at = depth + far / (4 * q->side);
-            if (is_in_disc(q->side, far) &&
+            int32_t at;
+            if (disc_depth(q, x, y, depth, &at) &&
                 (now.owner == 0 || at < now.depth || (at == now.depth && is_nearer(s, index, now.owner - 1))))
                 row[x] = (splat){at, (uint32_t)index + 1};
         }
@@ -326,4 +326,52 @@ void splats_put_closeup(splats *t, const scene *s, const splats *closeup, const 
                  top = (size_t)closer->place[1] * side;
     for (size_t y = 0; y < (size_t)closer->view.height; y++)
         memcpy(t->colors + 3 * ((top + y) * width + left), closeup->colors + 3 * y * row, 3 * row);
+}
+
+/* ---- What others hide ---------------------------------------------------------------------------------------- */
+
+/* The least depth of a disc in a square of samples; false where it covers none. */
+static bool covers(const splat_square *q, int32_t depth, const splat_square *samples, int32_t *least)
+{
+    bool any = false;
+    for (int i = 0; i < samples->side * samples->side; i++) {
+        const int x = samples->left + i % samples->side, y = samples->top + i / samples->side;
+        int32_t at;
+        if (x < q->left || y < q->top || x >= q->left + q->side || y >= q->top + q->side ||
+            !disc_depth(q, x, y, depth, &at))
+            continue;
+        *least = any && *least < at ? *least : at;
+        any = true;
+    }
+    return any;
+}
+
+static int compare_covering(const void *a, const void *b)
+{
+    const splat_covering *p = a, *q = b;
+    if (p->depth != q->depth)
+        return p->depth < q->depth ? -1 : 1;
+    if (p->view_depth != q->view_depth)
+        return p->view_depth < q->view_depth ? -1 : 1;
+    return (p->id > q->id) - (p->id < q->id);
+}
+
+bool splats_list(const scene *s, const splat_square *samples, splat_list *list)
+{
+    const splatter with = splatter_make(s);
+    for (size_t i = 0; i < s->markers.count; i++) {
+        splat_square square;
+        splat_covering one = {.marker = i, .id = s->markers.items[i].id};
+        if (!place(&with, &s->markers.items[i], &square, &one.view_depth) ||
+            !covers(&square, depth_of(&with, one.view_depth), samples, &one.depth))
+            continue;
+        splat_covering *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
+        if (!items)
+            return false;
+        list->items = items;
+        items[list->count++] = one;
+    }
+    if (list->count)
+        qsort(list->items, list->count, sizeof *list->items, compare_covering);
+    return true;
 }

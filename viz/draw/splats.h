@@ -30,11 +30,26 @@ void splats_fill(splats *t, const scene *s, const scene_panel *panel);
 /* Take over the colours of a close-up, where its part of the picture is; both scenes are in samples. */
 void splats_put_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer);
 
-/* The samples that a point covers where nothing is nearer: left, top and how many to each side. False where it is not a
- * painted point, or outside the picture. */
+/* The painted points that cover any of some samples, those that others hide too, the nearest first; and where their
+ * markers are. Empty when zeroed; free the items. */
+typedef struct splat_list {
+    struct splat_covering *items;
+    size_t count, room;
+} splat_list;
+
+typedef struct splat_covering {
+    size_t marker;
+    int32_t depth; /* as it is painted there; of equal ones the nearer, and then the lower id, comes first */
+    double view_depth;
+    uint64_t id;
+} splat_covering;
+
+/* So many samples to each side. */
 typedef struct splat_square {
     int left, top, side;
 } splat_square;
-bool splats_square(const scene *s, const scene_marker *marker, splat_square *square);
+
+/* List those of a scene, which is in samples. False when there is no memory. Cost: O(markers). */
+bool splats_list(const scene *s, const splat_square *samples, splat_list *list);
 
 #endif

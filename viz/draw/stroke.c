@@ -223,7 +223,7 @@ static void add_round(quad_list *list, const pencil *with, quad q, scene_shape s
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
 {
-    const int half = with->style.width * with->unit / 2, side = (2 * half + 1) * with->samples;
+    const int side = stroke_marker_side(with->style.width, with->unit) * with->samples;
     const int left = (int)floor(pixel[0]) - (side - 1) / 2, top = (int)floor(pixel[1]) - (side - 1) / 2;
     const quad q = blank(with, band);
     pencil thin = *with, thick = *with;

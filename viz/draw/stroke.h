@@ -19,6 +19,14 @@ pencil pencil_make(const scene *s, scene_style style, unsigned depth);
 /* Draw the pieces of one segment with its stroke; however short, at least one pixel. */
 void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
+/* How many pixels a marker of a width has to each side: what is a pixel in the smallest picture grows with the unit, so
+ * that it is not dust in a large one. */
+static inline int stroke_marker_side(int width, int unit)
+{
+    const int side = 2 * (width * unit / 2) + 1, least = unit / 2;
+    return side > least ? side : least;
+}
+
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
 void stroke_panel(quad_list *list, const scene_panel *panel, int samples);
 

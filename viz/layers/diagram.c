@@ -48,6 +48,7 @@ typedef struct diagram {
     scene *scene;
     const layer_source *in;
     diagram_slots slots;
+    size_t capacity;
     camera_window window;
     double left, width; /* of the slots */
     double top, pitch;  /* of the rows */
@@ -169,8 +170,9 @@ static void measure(const diagram *d, const diagram_node *node, double size[2])
 static unsigned role_of(const diagram *d, const diagram_node *node)
 {
     const octree_node asked = {.depth = node->depth, .leaf = node->leaf, .box = node->box};
-    const view *v = &d->scene->view;
-    return filter_shows_node(&v->filter, &d->in->world, &asked) ? node_role(v, node->depth, node->points) : ROLE_WORLD;
+    return filter_shows_node(&d->scene->view.filter, &d->in->world, &asked)
+               ? node_role(&d->scene->view, (node_look){node->depth, node->points, d->capacity, node->leaf})
+               : ROLE_WORLD;
 }
 
 /* From the foot of a node to the head of its child. */
@@ -241,8 +243,9 @@ static void add_path(const diagram *d)
 
 /* The nodes in a column of a level. */
 typedef struct bar {
-    size_t nodes, points;
-    bool shown; /* some of them, by the view's filter */
+    size_t nodes, leaves;
+    size_t points; /* of the leaves */
+    bool shown;    /* some of them, by the view's filter */
 } bar;
 
 typedef struct folding {
@@ -259,7 +262,8 @@ static void count_node(const octree_node *node, double middle, void *context)
     bar *b =
         &f->bars[(node->depth - d->slots.deepest - 1) * f->columns + (column < f->columns ? column : f->columns - 1)];
     b->nodes++;
-    b->points += node->count;
+    b->leaves += node->leaf;
+    b->points += node->leaf ? node->count : 0;
     b->shown = b->shown || filter_shows_node(&d->scene->view.filter, &d->in->world, node);
     if (is_on_path(d, node->address, node->depth))
         d->stops[node->depth] = stop_at(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
@@ -277,12 +281,12 @@ static unsigned steps_of(size_t nodes)
 static void add_bar(const folding *f, unsigned depth, size_t column, const bar *b)
 {
     const diagram *d = f->d;
-    const view *v = &d->scene->view;
     const double unit = d->scene->unit, width = d->width / (double)f->columns;
     const double height = fmax(floor((d->pitch - 2 * unit) * steps_of(b->nodes) / BAR_STEPS), 1);
     const double x = d->left + ((double)column + 0.5) * width;
+    const node_look look = {depth, b->leaves ? b->points / b->leaves : 0, d->capacity, b->leaves > 0};
     fill_box(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, row_at(d, depth), fmax(width - unit / 2, 1),
-             height, b->shown ? node_role(v, depth, b->points / b->nodes) : ROLE_WORLD);
+             height, b->shown ? node_role(&d->scene->view, look) : ROLE_WORLD);
     d->scene->tally.folded += b->nodes;
 }
 
@@ -386,6 +390,7 @@ static void find_path(diagram *d)
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     diagram d = {.scene = s, .in = in, .window = layout_diagram(&s->view)};
+    d.capacity = octree_definition(in->tree).leaf_capacity;
     if (!view_shows(&s->view, own))
         return;
     /* Covers what the space view has drawn beyond its area. */

@@ -27,7 +27,8 @@ theme_role foreign_kind_role(unsigned kind)
 
 static theme_role role_of(const view *v, const octree_foreign_place *place)
 {
-    return v->coloring == COLORING_KIND ? foreign_kind_role(place->kind) : node_role(v, place->depth, place->points);
+    return v->coloring == COLORING_KIND ? foreign_kind_role(place->kind)
+                                        : node_role(v, (node_look){.depth = place->depth, .points = place->points});
 }
 
 /* A box says depths up to 255. */

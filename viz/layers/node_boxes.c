@@ -1,16 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 #include "node_boxes.h"
 
-theme_role node_role(const view *v, unsigned depth, size_t points)
+static theme_role occupancy_role(node_look node)
+{
+    if (node.capacity == 0)
+        return theme_node_role(theme_step(node.points, 1));
+    return node.leaf ? theme_node_role(theme_part_step(node.points, node.capacity)) : ROLE_WORLD;
+}
+
+theme_role node_role(const view *v, node_look node)
 {
     switch (v->coloring) {
     case COLORING_OCCUPANCY:
-        return theme_node_role(theme_step(points, 1));
+        return occupancy_role(node);
     case COLORING_PLAIN:
     case COLORING_KIND:
         return ROLE_NODE_PLAIN;
     default:
-        return theme_node_role(depth);
+        return theme_node_role(node.depth);
     }
 }
 

@@ -6,8 +6,17 @@
 #include "octree/digest.h"
 #include "scene.h"
 
-/* The colour of a node of this depth and with so many points. */
-theme_role node_role(const view *v, unsigned depth, size_t points);
+/* What the colour of a node may tell. */
+typedef struct node_look {
+    unsigned depth;
+    size_t points;
+    size_t capacity; /* of the leaves of its tree; 0: it has none, as that of a program */
+    bool leaf;
+} node_look;
+
+/* Under COLORING_OCCUPANCY inner nodes of a tree with a capacity, which all hold more than that, are not on the scale:
+ * they would hide the leaves. */
+theme_role node_role(const view *v, node_look node);
 
 /* A node's box, with its address as id. */
 void add_node_box(scene *s, const octree_node *node, scene_style style);

@@ -21,6 +21,7 @@ typedef struct tree_walk {
     octree_box world;
     const point_values *values;
     uint8_t point_width;
+    size_t capacity;
     bool shows_nodes;                      /* of Octreel's tree; its points are shown with or without them */
     view_filter filter;                    /* of points */
     size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* boxes in the scene */
@@ -130,7 +131,7 @@ static void add_box(tree_walk *w, const octree_node *node)
         s->tally.beyond++;
         return;
     }
-    const theme_role role = node_role(&s->view, node->depth, node->count);
+    const theme_role role = node_role(&s->view, (node_look){node->depth, node->count, w->capacity, node->leaf});
     add_node_box(s, node, (scene_style){.layer = LAYER_NODES, .role = (uint8_t)role, .width = 1});
     w->at_depth[node->depth]++;
     s->tally.nodes++;
@@ -217,6 +218,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
 {
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
     tree_walk w = {.scene = s, .world = in->world, .values = in->values, .deepest = OCTREE_MAX_DEPTH};
+    w.capacity = octree_definition(in->tree).leaf_capacity;
     w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
     w.shows_nodes = view_shows(&s->view, LAYER_NODES) && shows_own_tree(in);
     w.filter = s->view.filter;
@@ -242,6 +244,20 @@ static void add_kinds_legend(legend *l, const layer_source *in)
             ->role = foreign_kind_role((unsigned)i);
 }
 
+/* A program's tree has no capacity, and so another scale. */
+static void add_occupancy_legend(legend *l, const layer_source *in)
+{
+    const view *v = &l->scene->view;
+    const bool diagram = view_shows(v, LAYER_DIAGRAM);
+    if (shows_own_tree(in) || diagram)
+        legend_add(l, SIGN_RAMP, "leaves, 0-%zu+ points", octree_definition(in->tree).leaf_capacity)->steps =
+            THEME_NODE_DEPTHS;
+    if ((shows_own_tree(in) && !v->filter.leaves) || diagram)
+        legend_add(l, SIGN_BOLD, "inner node")->role = ROLE_WORLD;
+    if (shows_foreign_tree(in))
+        legend_add(l, SIGN_RAMP, "program's, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
+}
+
 static void add_legend(legend *l, const layer_source *in)
 {
     const size_t depths = shows_foreign_tree(in) ? THEME_NODE_DEPTHS : octree_definition(in->tree).max_depth + 1;
@@ -251,7 +267,7 @@ static void add_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_RAMP, "nodes, shallow to deep")->steps =
             depths < THEME_NODE_DEPTHS ? (int)depths : THEME_NODE_DEPTHS;
     else if (l->scene->view.coloring == COLORING_OCCUPANCY)
-        legend_add(l, SIGN_RAMP, "nodes, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
+        add_occupancy_legend(l, in);
     else
         legend_add(l, SIGN_BOLD, "node");
 }

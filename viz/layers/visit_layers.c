@@ -18,12 +18,13 @@ static void add_own_met(scene *s, const layer_source *in, view_layer own)
 {
     const bool pruned = own == LAYER_PRUNED;
     scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
+    const size_t capacity = octree_definition(in->tree).leaf_capacity;
     octree_node node;
     for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->visit_count; i++) {
         const octree_visit *visit = &in->tick->visits[i];
         if (is_pruned(visit) != pruned || !tick_node_shown(s, in->tree, visit->node, &node))
             continue;
-        style.role = (uint8_t)node_role(&s->view, node.depth, node.count);
+        style.role = (uint8_t)node_role(&s->view, (node_look){node.depth, node.count, capacity, node.leaf});
         add_node_box(s, &node, style);
     }
 }

@@ -49,6 +49,12 @@ unsigned theme_step(uint64_t amount, unsigned shift)
     return step;
 }
 
+unsigned theme_part_step(uint64_t amount, uint64_t whole)
+{
+    const unsigned last = THEME_NODE_DEPTHS - 1;
+    return amount >= whole ? last : (unsigned)((amount * last + whole - 1) / whole);
+}
+
 /* ---- Colours of amounts and kinds ----------------------------------------------------------------------------- */
 
 #define RAMP_STEPS 32

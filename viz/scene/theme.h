@@ -105,6 +105,10 @@ theme_role theme_node_role(unsigned depth);
  * 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
 unsigned theme_step(uint64_t amount, unsigned shift);
 
+/* The step of the ramp for a part of a whole: 0 alone has the first, and up to the whole the others are of one size.
+ * More than the whole has the last. `whole` is below 2^60. */
+unsigned theme_part_step(uint64_t amount, uint64_t whole);
+
 /* Where the last step begins, with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 

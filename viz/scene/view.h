@@ -20,7 +20,7 @@
 /* What the colour of a node means: the same of each choice. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
     X(DEPTH, "depth", "how deep it lies")                                                                              \
-    X(OCCUPANCY, "occupancy", "how many points are in it, on a fixed scale of powers of two")                          \
+    X(OCCUPANCY, "occupancy", "how many points are in a leaf, up to its capacity; of a program's, in powers of two")   \
     X(PLAIN, "plain", "nothing: all have one colour")                                                                  \
     X(KIND, "kind", "what a node of a program's own tree is, by its word")
 

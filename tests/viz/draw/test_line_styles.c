@@ -135,6 +135,32 @@ static void marks_of_wrong_answers_have_their_forms(void **state)
     }
 }
 
+/* A point of the finest width is a pixel up to 1280 x 720, and as large a part of a larger picture; the other widths
+ * are as large as ever. */
+static void a_point_is_not_dust_in_a_large_picture(void **state)
+{
+    (void)state;
+    static const struct {
+        int height, sides[3];
+    } rows[] = {{360, {1, 1, 3}}, {720, {1, 3, 5}}, {1080, {1, 3, 7}}, {1440, {2, 5, 9}}, {2160, {3, 7, 13}}};
+    const octree_box world = cube(-1, 1);
+    for (size_t i = 0; i < 3 * sizeof rows / sizeof *rows; i++) {
+        const int height = rows[i / 3].height, side = rows[i / 3].sides[i % 3];
+        const view v = view_of(height * 16 / 9, height, CAMERA_TOP, 1u << LAYER_POINTS);
+        scene s = empty_scene(&v, &world);
+        scene_add_marker(&s, (scene_marker){.style = {LAYER_POINTS, ROLE_POINT, STROKE_SOLID, (uint8_t)(i % 3)}});
+        renderer *r = open_renderer_for(&s);
+        uint8_t *drawn = draw(r, &s);
+        int lit = 0;
+        for (size_t p = 0; p < frame_samples(&s); p++)
+            lit += drawn[p] != 0;
+        assert_int_equal(lit, side * side);
+        free(drawn);
+        renderer_close(r);
+        scene_release(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -142,6 +168,7 @@ int main(void)
         cmocka_unit_test(an_arrow_has_its_head_at_its_second_end),
         cmocka_unit_test(marks_of_wrong_answers_have_their_forms),
         cmocka_unit_test(a_bold_line_is_two_pixels_wide_in_a_small_picture),
+        cmocka_unit_test(a_point_is_not_dust_in_a_large_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

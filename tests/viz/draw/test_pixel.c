@@ -170,6 +170,40 @@ static void all_points_of_a_pixel_are_named(void **state)
     scene_release(&s);
 }
 
+/* Seen from above, discs of 9 pixels around x 40 to 44, the nearest last; and one of 90 that is apart. */
+static void painted_points_that_others_hide_are_named_the_nearest_first(void **state)
+{
+    (void)state;
+    for (int aa = 1; aa <= 4; aa *= 2) {
+        scene s = blank_scene(CAMERA_TOP, aa);
+        double pixel[2];
+        s.view.point_color = POINTS_BY_Z;
+        s.view.shade = SHADE_EDL;
+        s.spacing = 6;
+        for (int i = 0; i < 5; i++) {
+            scene_marker marker = point_at((uint64_t)(10 - i), i == 4 ? 90 : 40 + i, 20);
+            marker.at[2] = 10 * (i % 4);
+            marker.style.role = ROLE_OWN;
+            scene_add_marker(&s, marker);
+        }
+        scene_add_marker(&s, s.markers.items[1]); /* the same place, and a lower id */
+        s.markers.items[5].id = 1;
+        pixel_of(&s, s.markers.items[0].at, pixel);
+        renderer *r = open_renderer_for(&s);
+        draw_touches list = touches_at(r, &s, (int)pixel[0], (int)pixel[1]);
+        static const size_t expected[] = {3, 2, 5, 1, 0};
+        assert_int_equal(list.count, 5);
+        for (int i = 0; i < 5; i++) {
+            assert_int_equal(place_of(&s, &list, SCENE_MARKER, expected[i]), i);
+            assert_int_equal(list.items[i].shown, i == 0 ? aa * aa : 0);
+            assert_int_equal(list.items[i].painted, i == 0 ? aa * aa : 0);
+        }
+        draw_touches_release(&list);
+        renderer_close(r);
+        scene_release(&s);
+    }
+}
+
 static scene_box cell(uint64_t id, double x0, double x1, uint8_t depth)
 {
     return (scene_box){.id = id,
@@ -270,6 +304,7 @@ int main(void)
         cmocka_unit_test(what_is_covered_comes_behind_what_covers_it),
         cmocka_unit_test(samples_of_a_pixel_are_shared),
         cmocka_unit_test(all_points_of_a_pixel_are_named),
+        cmocka_unit_test(painted_points_that_others_hide_are_named_the_nearest_first),
         cmocka_unit_test(all_boxes_of_an_edge_are_named),
         cmocka_unit_test(a_gap_of_a_cut_line_is_the_lines_own_and_one_of_a_dashed_line_is_not),
         cmocka_unit_test(a_pixel_outside_the_picture_is_refused),

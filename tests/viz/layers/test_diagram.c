@@ -69,7 +69,7 @@ static double center_of(const scene_panel *panel)
 typedef struct recount {
     const scene *s;
     octree_address way;
-    size_t drawn, folded;
+    size_t capacity, drawn, folded;
     size_t at_depth[OCTREE_MAX_DEPTH + 1], drawn_at[OCTREE_MAX_DEPTH + 1];
     double right[OCTREE_MAX_DEPTH + 1]; /* where the last node of a level ends */
     double foot[OCTREE_MAX_DEPTH + 1];  /* and where all of them end below */
@@ -86,7 +86,8 @@ static bool is_above(octree_address node, octree_address other)
 static void check_panel(recount *r, const octree_node *node, const scene_panel *panel)
 {
     const unsigned depth = node->depth;
-    assert_int_equal(panel->style.role, node_role(&r->s->view, depth, node->count));
+    assert_int_equal(panel->style.role,
+                     node_role(&r->s->view, (node_look){depth, node->count, r->capacity, node->leaf}));
     assert_true(panel->x >= r->right[depth]);
     r->right[depth] = panel->x + panel->width;
     r->foot[depth] = fmax(r->foot[depth], panel->y + panel->height);
@@ -172,7 +173,7 @@ static double check_counts(const scene *s, const recount *r)
 
 static recount check_diagram(const scene *s, const octree *tree, octree_address way)
 {
-    recount r = {.s = s, .way = way};
+    recount r = {.s = s, .way = way, .capacity = octree_definition(tree).leaf_capacity};
     assert_int_equal(octree_walk(tree, recount_node, &r), OCTREE_OK);
     assert_int_equal(s->tally.drawn, r.drawn);
     assert_int_equal(s->tally.folded, r.folded);

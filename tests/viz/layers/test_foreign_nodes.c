@@ -3,6 +3,7 @@
 #include "foreign_nodes.h"
 #include "scenes.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,6 +110,12 @@ static void nodes_are_coloured_by_kind_and_by_their_points(void **state)
                      theme_node_role(theme_step(8, 1)));
     assert_int_equal(only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role,
                      theme_node_role(theme_step(2, 1)));
+    assert_true(says("program's, 0-256+ points"));
+    v.tree = TREE_BOTH;
+    show(&v, 0);
+    char own[SCENE_TEXT];
+    snprintf(own, sizeof own, "leaves, 0-%zu+ points", octree_definition(octree_game_tree(game)).leaf_capacity);
+    assert_true(says(own) && says("program's, 0-256+ points"));
 }
 
 static void filters_budget_and_lod_are_for_them_too(void **state)
