@@ -148,13 +148,16 @@ static void print_subject(FILE *out, const cause_fact *fact)
         print_value(out, value);
 }
 
+/* Longer lists, such as the scale of points, are in JSON alone: nobody reads them. */
+enum { LONGEST_LIST = 4 };
+
 /* " (8, was 4)", " (point 3: (7, -7, 7), was (7, 7, 7))". Counts of what something cost are in JSON alone. */
 static void print_values(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
     const bool has_id = fact->id != CAUSE_NO_ID && !json_is_object(value);
     const bool is_id = has_id && json_is_number(value) && group->change != CAUSE_OTHER;
-    if (!value || (p->minor && json_is_object(value)))
+    if (!value || (p->minor && json_is_object(value)) || json_array_size(value) > LONGEST_LIST)
         return;
     fputs(" (", out);
     if (has_id)

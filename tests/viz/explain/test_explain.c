@@ -96,6 +96,20 @@ static void another_view_is_no_difference_of_ticks(void **state)
     comparison_release(&made);
 }
 
+/* Its eleven numbers are in JSON alone. */
+static void another_scale_of_points_is_told_without_its_numbers(void **state)
+{
+    const octree_session session = short_session(KEYS);
+    film_options options = small_film("");
+    options.view.point_color = POINTS_BY_Z;
+    const place a = film_in(*state, "a", &session, &options);
+    options.view.point_scale.given = true;
+    const place b = film_in(*state, "b", &session, &options);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_string_equal(made.why.headline, "another scale of points: the same ticks, looked at in another way");
+    comparison_release(&made);
+}
+
 static void a_switch_that_is_off_is_told_as_off(void **state)
 {
     const octree_session session = short_session(KEYS);
@@ -308,6 +322,7 @@ int main(void)
         TEST(no_more_frames_are_explained_than_are_asked_for),
         TEST(an_edit_is_the_headline_and_its_point_the_cause),
         TEST(another_view_is_no_difference_of_ticks),
+        TEST(another_scale_of_points_is_told_without_its_numbers),
         TEST(a_switch_that_is_off_is_told_as_off),
         TEST(frames_that_differ_before_ticks_do_are_told),
         TEST(many_are_counted_and_few_are_named),
