@@ -91,7 +91,7 @@ static bool read_standard(file_progress *progress, void *context, char **bytes, 
     const bool regular = fstat(fileno(stdin), &status) == 0 && S_ISREG(status.st_mode);
     reading r = {stdin, regular ? (uint64_t)status.st_size : 0, progress, context, NULL, 0, 0};
     if (standard.read) {
-        snprintf(reason, FILE_REASON, "is read already, and can be read once");
+        snprintf(reason, FILE_REASON, "can be read only once, and something else has read it");
         return false;
     }
     standard.read = true;

@@ -357,14 +357,25 @@ static bool print_span(FILE *out, const cause_span *span, const char *what, bool
     return true;
 }
 
+/* "other wrong answers at tick 2"; "other wrong answers in 3 ticks from tick 2 on". */
+static bool print_other(FILE *out, const cause_span *span, bool first)
+{
+    if (span->count == 0)
+        return false;
+    fprintf(out, "%sother wrong answers", first ? "" : ", ");
+    if (span->count > 1)
+        fprintf(out, " in %" PRIu64 " ticks from tick %" PRIu64 " on", span->count, span->first);
+    else
+        fprintf(out, " at tick %" PRIu64, span->first);
+    return true;
+}
+
 /* Before all else: it is what an index is compared for. */
 static void print_wrong(FILE *out, const cause_answers *wrong)
 {
     const bool more = print_span(out, &wrong->more, "more wrong answer", true);
     const bool fewer = print_span(out, &wrong->fewer, "fewer wrong answer", !more);
-    const bool other = print_span(out, &wrong->other, "tick", !more && !fewer);
-    if (other)
-        fputs(" with other wrong answers", out);
+    const bool other = print_other(out, &wrong->other, !more && !fewer);
     if (more || fewer || other)
         fputs("; ", out);
 }

@@ -8,8 +8,8 @@
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
  * PCD: 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
  * LAS: 1.0 to 1.5, all point formats; coordinates are record * scale + offset in doubles, the bits that laspy computes.
- *   Records that are withheld, which is deleted, are skipped. LAZ and COPC, which are compressed LAS, are read where this
- *   was built with liblaszip: cloud_reads_laz(). The same points are the same bits.
+ *   Records that are withheld, which is deleted, are skipped. LAZ and COPC, which are compressed LAS, are read where
+ * this was built with liblaszip: cloud_reads_laz(). The same points are the same bits.
  *
  * Values beside the coordinates go by their names, in any case: red green blue or r g b, diffuse_red ..., of PCD rgb
  * and rgba, which are packed; intensity; class, classification or label. CloudCompare's "scalar_" before a name is

@@ -8,7 +8,8 @@
  *   "lod": 2, "budget": 250000, "aa": 1, and, where they are not off,
  *   "fit": {"min": [x, y, z], "max": [x, y, z]}, "look": [30, 22], "center": [x, y, z], "zoom": 2, "diagram": "beside",
  *   "color_points": "height", "shade": "edl", "point_scale": [lowest place, highest place, ids, intensities, spacing],
- *   "labels": true, "slice": {"z": 100}, "depths": [2, 5], "leaves": true, "region": {"min": [x, y, z], "max": [x, y, z]}
+ *   "labels": true, "slice": {"z": 100}, "depths": [2, 5], "leaves": true, "region": {"min": [x, y, z], "max": [x, y,
+ * z]}
  */
 #ifndef FORMATS_RECORDING_FILE_H
 #define FORMATS_RECORDING_FILE_H

@@ -165,7 +165,7 @@ bool session_end_values(json_reader *r)
     if (s->ids.count == 0)
         return true;
     if (!point_values_add(&s->made, s->listed, s->ids.count))
-        return json_fail(r, NULL, "out of memory for the values");
+        return json_fail(r, NULL, "out of memory for the colours, intensities and classes of points");
     hash_map_clear(&s->ids);
     return true;
 }

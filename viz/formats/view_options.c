@@ -191,7 +191,9 @@ static bool read_scale(json_reader *r, json_t *value, const json_place *at, void
 {
     double n[SCALE_NUMBERS];
     if (!json_is_array(value) || json_array_size(value) != SCALE_NUMBERS)
-        return json_expected(r, value, at, "eleven numbers");
+        return json_expected(
+            r, value, at,
+            "eleven numbers: the lowest and the highest place, the ends of ids and of intensities, and a spacing");
     if (!json_read_numbers(r, value, at, 0, SCALE_NUMBERS, n))
         return false;
     const point_scale s = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7]}, {n[8], n[9]}, n[10]};

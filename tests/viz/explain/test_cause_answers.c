@@ -84,8 +84,8 @@ static void more_and_fewer_wrong_answers_are_counted_from_their_first_tick(void 
 static void as_many_wrong_answers_with_other_faults_are_told(void **state)
 {
     (void)state;
-    assert_headline("112111", "119111", "1 tick at tick 2 with other wrong answers; ");
-    assert_headline("182182", "192122", "2 ticks from tick 1 on with other wrong answers; ");
+    assert_headline("112111", "119111", "other wrong answers at tick 2; ");
+    assert_headline("182182", "192122", "other wrong answers in 2 ticks from tick 1 on; ");
 }
 
 static void answers_that_stay_as_right_as_they_were_are_not_told_as_wrong(void **state)

@@ -253,10 +253,11 @@ static void las_that_is_compressed_is_refused_with_the_way_out(void **state)
         const las l = two_of(4, 7);
         bytes file = make(&l);
         file.data[104] |= flags[i];
-        assert_refuses("a.laz", file.data, file.size,
-                       "a.laz: is compressed LAS (LAZ or COPC), and this octreel was built without liblaszip; install "
-                       "that (Debian 13: liblaszip-dev) and build again, or decompress it, as in: pdal translate in.laz "
-                       "out.las");
+        assert_refuses(
+            "a.laz", file.data, file.size,
+            "a.laz: is compressed LAS (LAZ or COPC), and this octreel was built without liblaszip; install "
+            "that (Debian 13: liblaszip-dev) and build again, or decompress it, as in: pdal translate in.laz "
+            "out.las");
     }
 }
 

@@ -124,28 +124,12 @@ static void write_text(const view *v, char text[2048])
 static void every_option_of_the_command_line_is_kept(void **state)
 {
     static const char *const samples[][2] = {
-        {"size", "640x360"},
-        {"camera", "top"},
-        {"layers", "nodes"},
-        {"color-by", "plain"},
-        {"tree", "both"},
-        {"diagram", "only"},
-        {"slice", "z=7"},
-        {"depths", "2:3"},
-        {"leaves", ""},
-        {"labels", ""},
-        {"region", "0,0,0,1,2,3"},
-        {"lod", "9"},
-        {"budget", "77"},
-        {"aa", "4"},
-        {"camera-from", NULL},
-        {"fit", NULL},
-        {"look", "10,-5"},
-        {"center", "1,2,3"},
-        {"zoom", "2.5"},
-        {"color-points", "leaf"},
-        {"shade", "edl"},
-        {"no-closeup", NULL},
+        {"size", "640x360"}, {"camera", "top"},    {"layers", "nodes"},       {"color-by", "plain"},
+        {"tree", "both"},    {"diagram", "only"},  {"slice", "z=7"},          {"depths", "2:3"},
+        {"leaves", ""},      {"labels", ""},       {"region", "0,0,0,1,2,3"}, {"lod", "9"},
+        {"budget", "77"},    {"aa", "4"},          {"camera-from", NULL},     {"fit", NULL},
+        {"look", "10,-5"},   {"center", "1,2,3"},  {"zoom", "2.5"},           {"color-points", "leaf"},
+        {"shade", "edl"},    {"no-closeup", NULL},
     };
     const temp_folder *folder = *state;
     char unchanged[2048], written[2048], again[2048];

@@ -161,18 +161,21 @@ static void words_of_a_node_and_of_a_point_are_these(void **state)
     build_tick(&s, &v, game);
     bool found = false;
     for (size_t i = 0; i < s.markers.count; i++) {
-        const element_subject subject = describe_element(game, NULL, &s, (scene_element){.kind = SCENE_MARKER, .index = i});
+        const element_subject subject =
+            describe_element(game, NULL, &s, (scene_element){.kind = SCENE_MARKER, .index = i});
         found |= strcmp(subject.text, "point 5 at (-1, 2, 3)") == 0;
     }
     assert_true(found);
     for (size_t i = 0; i < s.boxes.count; i++) {
         if (s.boxes.items[i].style.layer != LAYER_NODES || s.boxes.items[i].id != OCTREE_ROOT)
             continue;
-        const element_subject subject = describe_element(game, NULL, &s, (scene_element){.kind = SCENE_BOX, .index = i});
+        const element_subject subject =
+            describe_element(game, NULL, &s, (scene_element){.kind = SCENE_BOX, .index = i});
         assert_string_equal(subject.text,
                             "node root: inner node at depth 0, 11 points, box (-1000, -1000, -1000) to (1000, 1000, "
                             "1000)");
-        assert_string_equal(layer_rows[scene_head_of(&s, (scene_element){.kind = SCENE_BOX, .index = i}).style.layer].name, "nodes");
+        assert_string_equal(
+            layer_rows[scene_head_of(&s, (scene_element){.kind = SCENE_BOX, .index = i}).style.layer].name, "nodes");
     }
     scene_release(&s);
     octree_game_destroy(game);
