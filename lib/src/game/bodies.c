@@ -303,24 +303,90 @@ octree_status game_apply_edits(octree_game *game, const octree_input *input)
     return OCTREE_OK;
 }
 
-octree_status game_move_bodies(octree_game *game)
+/* The moves of a tick. */
+typedef struct motion {
+    octree_point *points; /* where the bodies are stored */
+    double (*to)[3];
+    octree_status *statuses;
+    uint32_t *bodies; /* by their index */
+    size_t count, room;
+} motion;
+
+static bool motion_take(motion *m, arena *memory, size_t room)
 {
-    if (game->bodies.movers == 0)
-        return OCTREE_OK;
+    *m = (motion){.room = room};
+    m->points = arena_take(memory, room * sizeof *m->points);
+    m->to = arena_take(memory, room * sizeof *m->to);
+    m->statuses = arena_take(memory, room * sizeof *m->statuses);
+    m->bodies = arena_take(memory, room * sizeof *m->bodies);
+    return m->points && m->to && m->statuses && m->bodies;
+}
+
+static void motion_give(motion *m, arena *memory)
+{
+    arena_give(memory, m->points, m->room * sizeof *m->points);
+    arena_give(memory, m->to, m->room * sizeof *m->to);
+    arena_give(memory, m->statuses, m->room * sizeof *m->statuses);
+    arena_give(memory, m->bodies, m->room * sizeof *m->bodies);
+}
+
+static void collect_motion(const octree_game *game, motion *m)
+{
     for (size_t i = 0; i < game->bodies.items.count; i++) {
-        moving_body *body = &bodies_items(&game->bodies)[i];
+        const moving_body *body = &bodies_items(&game->bodies)[i];
         if (!is_moving(body->velocity))
             continue; /* its bits stay too: -0.0 plus nothing would be +0.0 */
         const octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
         if (memcmp(now.position, body->position, sizeof now.position) == 0)
             continue;
-        const octree_status status = game_move(game, body->position, body->id, now.position);
-        if (status == OCTREE_OK)
-            body_store(body, now.position, game->tick.number);
-        if (note_unless_done(game, body->id, status, now.position) == OCTREE_NO_MEMORY)
+        memcpy(m->points[m->count].position, body->position, sizeof body->position);
+        m->points[m->count].id = body->id;
+        memcpy(m->to[m->count], now.position, sizeof now.position);
+        m->bodies[m->count++] = (uint32_t)i;
+    }
+}
+
+enum { MANY = 256 }; /* of fewer the single moves cost no more */
+
+/* The tree alone. NO_MEMORY, after which some may have moved, or OK. */
+static octree_status move_points(octree *tree, motion *m)
+{
+    if (m->count >= MANY)
+        return octree_move_many(tree, m->points, (const double(*)[3])m->to, m->count, m->statuses, NULL);
+    for (size_t i = 0; i < m->count; i++) {
+        m->statuses[i] = octree_move(tree, m->points[i].position, m->points[i].id, m->to[i]);
+        if (m->statuses[i] == OCTREE_NO_MEMORY)
             return OCTREE_NO_MEMORY;
     }
     return OCTREE_OK;
+}
+
+/* What a move did to a body. */
+static octree_status note_move(octree_game *game, const motion *m, size_t i)
+{
+    if (m->statuses[i] == OCTREE_OK) {
+        touch(game, m->points[i].position);
+        touch(game, m->to[i]);
+        body_store(&bodies_items(&game->bodies)[m->bodies[i]], m->to[i], game->tick.number);
+    }
+    return note_unless_done(game, m->points[i].id, m->statuses[i], m->to[i]);
+}
+
+octree_status game_move_bodies(octree_game *game)
+{
+    motion m;
+    octree_status status = OCTREE_NO_MEMORY;
+    if (game->bodies.movers == 0)
+        return OCTREE_OK;
+    if (motion_take(&m, &game->memory, game->bodies.movers)) {
+        collect_motion(game, &m);
+        status = move_points(game->tree, &m);
+    }
+    for (size_t i = 0; status == OCTREE_OK && i < m.count; i++)
+        if (note_move(game, &m, i) == OCTREE_NO_MEMORY)
+            status = OCTREE_NO_MEMORY;
+    motion_give(&m, &game->memory);
+    return status;
 }
 
 octree_status game_list_movers(octree_game *game)

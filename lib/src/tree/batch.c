@@ -186,6 +186,16 @@ static bool visit_below(batch *b, node *n, unsigned depth, span items, leaf_visi
         n = child_at(n, morton_octant(items.items[0].code, depth++));
     if (!n || !n->octants)
         return visit(b, n, depth, items);
+    for (size_t i = 0, last = 8; items.count <= 64 && i < items.count; i++) {
+        const unsigned octant = morton_octant(items.items[i].code, depth);
+        const node *child = octant == last ? NULL : child_at(n, octant);
+        last = octant;
+        prefetch(&b->points[items.items[i].place]);
+        if (child && child->octants == 0)
+            leaf_prefetch(child);
+        else if (child)
+            prefetch(child->below);
+    }
     while (items.count > 0) {
         const size_t share = octant_share(items.items, items.count, depth);
         if (!visit_below(b, child_at(n, morton_octant(items.items[0].code, depth)), depth + 1,

@@ -226,6 +226,54 @@ static void the_fastest_body_is_known_from_the_start(void **state)
     assert_true(octree_game_fastest(NULL) == 0);
 }
 
+/* More bodies than are moved one by one, in leaves so small that they refuse some: as single moves in their order. */
+static void many_bodies_move_as_one_by_one(void **state)
+{
+    (void)state;
+    enum { COUNT = 700, TICKS = 12 };
+    static octree_body bodies[COUNT];
+    static double stored[COUNT][3];
+    uint64_t random = 4;
+    for (int i = 0; i < COUNT; i++) {
+        bodies[i].id = (uint64_t)(i * 37 % COUNT) + 1000;
+        for (int axis = 0; axis < 3; axis++) {
+            stored[i][axis] = bodies[i].position[axis] = (double)random_below(&random, 17) - 8;
+            bodies[i].velocity[axis] = ((double)random_below(&random, 5) - 2) / 16; /* none reaches a face */
+        }
+    }
+    octree_session session = small_session(bodies, COUNT);
+    octree_game *game = start_game(&session);
+    octree_def def = session.tree;
+    octree *tree;
+    assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
+    bool known[COUNT] = {false};
+    size_t refused = 0;
+    for (int i = 0; i < COUNT; i++)
+        known[i] = octree_contains(octree_game_tree(game), stored[i], bodies[i].id);
+    for (int i = 0; i < COUNT; i++)
+        if (known[i])
+            assert_int_equal(octree_insert(tree, stored[i], bodies[i].id), OCTREE_OK);
+    for (int tick = 1; tick <= TICKS; tick++) {
+        play_key(game, '.');
+        for (int i = 0; i < COUNT; i++) {
+            double to[3];
+            for (int axis = 0; axis < 3; axis++)
+                to[axis] = bodies[i].position[axis] + bodies[i].velocity[axis] * tick;
+            if (!known[i] || memcmp(to, stored[i], sizeof to) == 0)
+                continue;
+            if (octree_move(tree, stored[i], bodies[i].id, to) == OCTREE_OK)
+                memcpy(stored[i], to, sizeof to);
+            else
+                refused++;
+        }
+        for (int i = 0; i < COUNT; i++)
+            assert_true(!known[i] || octree_contains(octree_game_tree(game), stored[i], bodies[i].id));
+    }
+    assert_true(refused > 0);
+    octree_destroy(tree);
+    octree_game_destroy(game);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,6 +286,7 @@ int main(void)
         cmocka_unit_test(a_move_lets_a_body_go_on_that_was_too_fast_to_follow),
         cmocka_unit_test(a_body_that_its_leaf_refuses_is_told_where_it_stays),
         cmocka_unit_test(the_fastest_body_is_known_from_the_start),
+        cmocka_unit_test(many_bodies_move_as_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
