@@ -12,7 +12,7 @@
 
 /* ---- The tree ----------------------------------------------------------------------------------------------- */
 
-static octree_status insert_all(const cloud *c, inspection *result)
+static octree_status insert_all(cloud *c, inspection *result)
 {
     octree_point *points = malloc(c->count * sizeof *points);
     octree_status *statuses = malloc(c->count * sizeof *statuses);
@@ -21,6 +21,8 @@ static octree_status insert_all(const cloud *c, inspection *result)
         memcpy(points[i].position, c->positions[i], sizeof points[i].position);
         points[i].id = cloud_row(c, i);
     }
+    free(c->positions); /* before the tree takes as much again */
+    c->positions = NULL;
     if (points && statuses)
         status = octree_insert_many(result->tree, points, c->count, statuses, NULL);
     for (size_t i = 0; status == OCTREE_OK && i < c->count; i++) {

@@ -21,7 +21,7 @@ typedef struct inspection {
     const char *decided;
 } inspection;
 
-/* Insert every point of a cloud into a new tree, and take over the cloud's values. */
+/* Insert every point of a cloud into a new tree, and take over the cloud's values; its positions are freed. */
 bool inspect_build(cloud *c, const octree_def *def, inspection *result, octreel_error *error);
 void inspect_release(inspection *i);
 

@@ -47,31 +47,31 @@ static const hostile clouds[] = {
 
 enum { CLOUDS = sizeof clouds / sizeof clouds[0] };
 
-static cloud cloud_of(const hostile *h, double (*positions)[3])
+/* Of positions of its own, which building frees. */
+static cloud copy_cloud(const void *positions, size_t count)
 {
-    memcpy(positions, h->positions, sizeof h->positions);
-    return (cloud){.positions = positions, .count = h->count};
+    cloud c = {.positions = malloc(count * sizeof *c.positions), .count = count};
+    assert_non_null(c.positions);
+    memcpy(c.positions, positions, count * sizeof *c.positions);
+    return c;
 }
 
 static octree_box world_of(const hostile *h)
 {
-    double positions[4][3];
-    const cloud c = cloud_of(h, positions);
-    return point_world(c.positions, sizeof *c.positions, c.count);
+    return point_world(h->positions, sizeof *h->positions, h->count);
 }
 
 static void world_holds_every_point_and_a_tree_takes_it(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CLOUDS; i++) {
-        double positions[4][3];
-        cloud c = cloud_of(&clouds[i], positions);
-        const octree_def def =
-            define(point_world(c.positions, sizeof *c.positions, c.count), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
+        cloud c = copy_cloud(clouds[i].positions, clouds[i].count);
+        const octree_def def = define(world_of(&clouds[i]), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
         inspection made;
         octreel_error error = {""};
         if (!inspect_build(&c, &def, &made, &error))
             fail_msg("%s: %s", clouds[i].name, error.text);
+        assert_null(c.positions); /* not there twice while the tree is built */
         if (made.outside + made.refused != 0)
             fail_msg("%s: points are left out", clouds[i].name);
         assert_int_equal(octree_count(made.tree), c.count);
@@ -181,13 +181,14 @@ static void points_are_stored_refused_or_outside(void **state)
     enum { COUNT = 3000 };
     static double positions[COUNT][3];
     const octree_box all = cube(-10, 10), world = cube(-5, 5);
-    cloud c = {.positions = positions, .count = COUNT, .skipped = 4};
     octree_def def = define(world, 2, 3, OCTREE_REFUSE);
     inspection made;
     octreel_error error = {""};
     size_t outside = 0;
     (void)state;
     assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &all, COUNT, positions), OCTREE_OK);
+    cloud c = copy_cloud(positions, COUNT);
+    c.skipped = 4;
     for (size_t i = 0; i < COUNT; i++)
         outside += !box_holds(&world, positions[i]);
     assert_true(inspect_build(&c, &def, &made, &error));
@@ -204,8 +205,7 @@ static void points_are_stored_refused_or_outside(void **state)
 
 static void points_that_were_skipped_are_told_with_the_reason(void **state)
 {
-    double positions[1][3] = {{0, 0, 0}};
-    cloud c = {.positions = positions, .count = 1, .skipped = 3, .why_skipped = "marked as withheld"};
+    cloud c = copy_cloud((double[3]){0, 0, 0}, 1);
     const octree_def def = define(cube(-1, 1), 2, 3, OCTREE_GROW);
     char text[4096] = "";
     inspection made;
@@ -213,6 +213,8 @@ static void points_that_were_skipped_are_told_with_the_reason(void **state)
     FILE *out = fmemopen(text, sizeof text, "w");
     (void)state;
     assert_non_null(out);
+    c.skipped = 3;
+    c.why_skipped = "marked as withheld";
     assert_true(inspect_build(&c, &def, &made, &error));
     inspect_print(&made, "cloud", false, out);
     assert_int_equal(fclose(out), 0);
@@ -254,8 +256,7 @@ static void values_of_the_points_are_told(void **state)
 
 static void definition_that_a_tree_refuses_is_an_error(void **state)
 {
-    double positions[1][3] = {{0, 0, 0}};
-    cloud c = {.positions = positions, .count = 1};
+    cloud c = copy_cloud((double[3]){0, 0, 0}, 1);
     const octree_def defs[] = {define(cube(1, 1), 2, 3, OCTREE_GROW), define(cube(-1, 1), 0, 3, OCTREE_GROW),
                                define(cube(-INFINITY, 1), 2, 3, OCTREE_GROW)};
     (void)state;
@@ -266,6 +267,7 @@ static void definition_that_a_tree_refuses_is_an_error(void **state)
         assert_non_null(strstr(error.text, "the tree cannot be made"));
         assert_null(made.tree);
     }
+    cloud_release(&c);
 }
 
 int main(void)
