@@ -13,9 +13,9 @@
 
 const char program_name[] = "octree-tradeoff";
 
-static const knob *const all_knobs[] = {&knob_mode, &knob_nearest_epsilon, &knob_range_epsilon,
-                                        &knob_leaf, &knob_float,           &knob_sweep,
-                                        &knob_tick, &knob_picture,         &knob_png};
+static const knob *const all_knobs[] = {
+    &knob_mode, &knob_nearest_epsilon, &knob_range_epsilon, &knob_leaf, &knob_float, &knob_sweep,
+    &knob_tick, &knob_picture,         &knob_png,           &knob_shade};
 enum { KNOBS = sizeof all_knobs / sizeof all_knobs[0] };
 
 typedef struct options {
