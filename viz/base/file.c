@@ -4,6 +4,9 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <unistd.h>
+#include <sys/file.h>
+#include <fcntl.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +32,20 @@ bool folder_has(const char *folder, const char *name)
 }
 
 /* ---- Standard input and output ------------------------------------------------------------------------------ */
+
+bool file_lock(int file)
+{
+    return flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+bool file_is_locked(const char *path)
+{
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    const bool locked = file >= 0 && !file_lock(file);
+    if (file >= 0)
+        close(file);
+    return locked;
+}
 
 bool file_is_standard(const char *path)
 {

@@ -16,6 +16,11 @@ char *path_join(const char *folder, const char *name);
 /* Whether the folder has anything of this name. */
 bool folder_has(const char *folder, const char *name);
 
+/* Lock a file that is open, for as long as it is; false where somebody has, this process included. A file system
+ * without locks never has it locked. And whether a file is so locked. */
+bool file_lock(int file);
+bool file_is_locked(const char *path);
+
 /* "-" stands for standard input where a file is read, and for standard output where one is written: in each function
  * below, and so in every command. ./- is a file of that name. */
 bool file_is_standard(const char *path);

@@ -120,17 +120,28 @@ const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_R
     return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? numbered(*at, room) : NULL;
 }
 
-/* Control characters beyond ASCII, and the two that are none: U+0080 to U+009F, U+FFFE and U+FFFF. */
-static bool is_unfit(const unsigned char *at)
+bool utf8_is_unfit(const unsigned char *at)
 {
-    return (at[0] == 0xc2 && at[1] < 0xa0) || (at[0] == 0xef && at[1] == 0xbf && at[2] >= 0xbe);
+    switch (at[0]) {
+    case 0xc2: /* U+0080 to U+009F */
+        return at[1] < 0xa0;
+    case 0xd8: /* U+061C */
+        return at[1] == 0x9c;
+    case 0xe2: /* U+200E, U+200F; U+2028 to U+202E; U+2066 to U+2069 */
+        return (at[1] == 0x80 && (at[2] == 0x8e || at[2] == 0x8f || (at[2] >= 0xa8 && at[2] <= 0xae))) ||
+               (at[1] == 0x81 && at[2] >= 0xa6 && at[2] <= 0xa9);
+    case 0xef: /* U+FFFE, U+FFFF */
+        return at[1] == 0xbf && at[2] >= 0xbe;
+    default:
+        return false;
+    }
 }
 
 /* Returns the bytes that were written for. */
 static size_t write_beyond_ascii(FILE *out, const unsigned char *at)
 {
     const size_t length = utf8_length(at);
-    if (length == 0 || is_unfit(at))
+    if (length == 0 || utf8_is_unfit(at))
         fputs(UTF8_REPLACEMENT, out);
     else
         fwrite(at, 1, length, out);

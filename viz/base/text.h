@@ -28,6 +28,10 @@ bool text_stream_end(text_stream *s, char **text);
 /* The bytes of the character beyond ASCII at `at`, 0 when there is none. The final zero ends every character. */
 size_t utf8_length(const unsigned char *at);
 
+/* Whether the character beyond ASCII there is none to show: control characters, marks that turn the direction of what
+ * follows, ends of lines, and the two that are no characters. */
+bool utf8_is_unfit(const unsigned char *at);
+
 /* Put a question mark in the place of every byte that is not printable ASCII. Returns `text`. */
 char *make_printable(char *text);
 
@@ -49,7 +53,7 @@ escape escape_xml_text; /* inside an element, where lines may end */
 escape escape_markdown; /* inside a line, a cell of a table, or an element of HTML */
 
 /* Write UTF-8 in which each character of ASCII is written as the escape says. Control characters it leaves as they are,
- * characters that XML does not know, and what is no UTF-8 become U+FFFD. */
+ * what is unfit and what is no UTF-8 become U+FFFD. */
 void write_escaped(FILE *out, const char *text, escape *how);
 
 /* Write what was printed into a stream of text, and end it. False where there was no memory. */

@@ -4,6 +4,7 @@
 #include "file_kind.h"
 #include "hint.h"
 #include "number.h"
+#include "text.h"
 #include "view_options.h"
 
 #include <inttypes.h>
@@ -21,7 +22,9 @@ static void say(const char *format, va_list arguments)
     for (char *at = sentence; *at; at++)
         if ((unsigned char)*at < ' ' || *at == 127)
             *at = '?';
-    fprintf(stderr, "octreel: %s\n", sentence);
+    fputs("octreel: ", stderr);
+    write_escaped(stderr, sentence, escape_nothing);
+    fputc('\n', stderr);
 }
 
 int trouble(const char *format, ...)

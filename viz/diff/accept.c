@@ -8,6 +8,7 @@
 #include "diff_words.h"
 #include "file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,26 @@ static bool check_new(const accept_options *o, diff_kind kind, octreel_error *er
                      "%s: there is no such reference, and frames become one in a folder; of their digests: %s "
                      "digest FOLDER -o FILE",
                      o->reference, hint_program());
+}
+
+/* Frames that come while others are taken over would be missing. A chunk has a log of its own. */
+static bool check_ended(const diff_side *side, octreel_error *error)
+{
+    DIR *entries = side->kind == DIFF_RECORDING ? opendir(side->path) : NULL;
+    bool ok = true;
+    for (struct dirent *entry; entries && ok && (entry = readdir(entries));) {
+        const char *name = entry->d_name, *end = strrchr(name, '.');
+        if (strncmp(name, "ticks", 5) != 0 || !end || strcmp(end, ".jsonl") != 0)
+            continue;
+        char *path = path_join(side->path, name);
+        ok = path ? !file_is_locked(path) ||
+                        error_set(error, "%s: is still being filmed: accept it when it is whole", side->path)
+                  : error_no_memory(error);
+        free(path);
+    }
+    if (entries)
+        closedir(entries);
+    return ok;
 }
 
 /* A reference that does not exist yet starts as an empty side of the same kind. */
@@ -264,7 +285,8 @@ static void tell(const accepting *a)
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error)
 {
     accepting a = {.options = options, .out = out};
-    const bool ok = open_sides(&a, error) && compare(&a, error) && write_all(&a, error);
+    const bool ok = open_sides(&a, error) && check_ended(&a.frames, error) &&
+                    (a.is_new || check_ended(&a.reference, error)) && compare(&a, error) && write_all(&a, error);
     if (ok)
         tell(&a);
     free(a.actions);

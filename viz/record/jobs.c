@@ -4,6 +4,8 @@
 
 #include <errno.h>
 #include <poll.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -75,6 +77,29 @@ static bool job_keeps_going(void *context)
     return (!options->keep_going || options->keep_going(options->context)) && !pipe_poll(self->pipe, 0);
 }
 
+/* Sleep until the process that started the job has died, and die with it: the frame in hand has nobody who wants it.
+ * Where it only stops the job it has not closed its end. */
+static void *watch_starter(void *context)
+{
+    const job *self = context;
+    struct pollfd asked = {.fd = self->pipe, .events = 0};
+    while (poll(&asked, 1, -1) < 0 && errno == EINTR)
+        continue;
+    _exit(EXIT_FAILURE);
+}
+
+/* Without that thread the job notices after its frame. Signals go to the job itself. */
+static void begin_watch(job *self)
+{
+    sigset_t all, before;
+    pthread_t thread;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    if (pthread_create(&thread, NULL, watch_starter, self) == 0)
+        pthread_detach(thread);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+}
+
 static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
     const job *self = context;
@@ -88,6 +113,7 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
     octreel_error error;
     setenv("LP_NUM_THREADS", "0", 0); /* the other cores have jobs of their own */
     draw_context_tell(NULL);          /* the process that started it does */
+    begin_watch(self);
     bool ok = recording_film(r, p, &error);
     if (ok && !pipe_read(self->pipe, &p->session_digest, sizeof p->session_digest))
         _exit(EXIT_SUCCESS);

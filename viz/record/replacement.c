@@ -88,7 +88,7 @@ static bool check_entry(const char *folder, const char *name, bool *past, octree
     if (!ok)
         error_set(error, "%s: is not a regular file, so what is there is not replaced: choose another folder (-o)",
                   path);
-    else if (is_log(name) && tick_log_is_taken(path))
+    else if (is_log(name) && file_is_locked(path))
         ok = error_set(error, "%s: another process is filming into it", path);
     else
         *past |= strcmp(name, "ticks.jsonl") != 0 || status.st_size > 0;

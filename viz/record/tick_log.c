@@ -3,25 +3,10 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <unistd.h>
-
-/* Of an open file, so that a process notices its own other log, too. A file system without locks never has it taken. */
-static bool is_taken(int file)
-{
-    return flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-}
-
-bool tick_log_is_taken(const char *path)
-{
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
-    const bool taken = file >= 0 && is_taken(file);
-    if (file >= 0)
-        close(file);
-    return taken;
-}
 
 static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
 {
@@ -31,7 +16,7 @@ static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
 /* Emptied only after the lock is taken: the lines of another process stay. */
 static bool begin(tick_log *log, int file, bool keep, octreel_error *error)
 {
-    if (is_taken(file))
+    if (!file_lock(file))
         return error_set(error, "%s: another process is filming into it", log->path);
     log->kept = keep ? lseek(file, 0, SEEK_END) : 0;
     if (log->kept >= 0 && lseek(file, 0, SEEK_SET) == 0 && (keep || ftruncate(file, 0) == 0))

@@ -14,9 +14,6 @@ typedef struct tick_log {
     off_t kept;  /* bytes of an earlier log that may be the next lines; 0: none */
 } tick_log;
 
-/* Whether somebody has this log open, this process included. */
-bool tick_log_is_taken(const char *path);
-
 /* Begin a file of the folder anew; with `keep` its lines stay as long as the added lines are the same, so that nothing
  * is lost where fewer are added. False where another process or recorder has it open: two would overwrite each other's
  * frames. */

@@ -331,10 +331,12 @@ static void print_people(FILE *out, const char *folder, const verify_report *rep
                 gap->tick, gap->why);
     for (size_t i = 0; i < report->count; i++) {
         const verify_finding *finding = &report->findings[i];
-        fprintf(out, "%s: ", folder);
+        write_escaped(out, folder, escape_nothing);
+        fputs(": ", out);
         if (finding->has_tick)
             fprintf(out, "tick %" PRIu64 " differs%s: ", finding->tick, kinds[finding->kind].words);
-        fprintf(out, "%s\n", finding->text);
+        write_escaped(out, finding->text, escape_nothing);
+        fputc('\n', out);
     }
 }
 

@@ -2,6 +2,7 @@
 /* test_cli_names.c - names on the command line: empty ones, and those that a terminal would obey. */
 #include <string.h>
 
+#include <stdio.h>
 #include "commands.h"
 #include "fixture.h"
 #include "galleries.h"
@@ -62,6 +63,25 @@ static void control_characters_do_not_reach_the_terminal(void **state)
     assert_trouble(&result, "the name \"x?[31m?y.png\" has a character that a line cannot hold");
 }
 
+/* What is no UTF-8, a mark that turns the direction, and what some terminals take for an escape. */
+static void what_is_no_text_is_not_printed(void **state)
+{
+    static const char *const hostile[] = {"x\xff.png", "x\xe2\x80\xae.png", "x\xc2\x9b.png", "x\xe2\x81\xa7.png"};
+    for (size_t i = 0; i < sizeof hostile / sizeof hostile[0]; i++) {
+        char bytes[4] = "";
+        snprintf(bytes, sizeof bytes, "%.*s", (int)strcspn(hostile[i] + 1, "."), hostile[i] + 1);
+        const char *const lines[] = {"diff %s/%s a.png", "verify %s/%s", "inspect %s/%s", "accept %s/%s b"};
+        for (size_t j = 0; j < sizeof lines / sizeof lines[0]; j++) {
+            const temp_folder *own = *state;
+            command_result result =
+                run_octreel(&(command_setting){.environment = {"CI="}}, lines[j], own->name, hostile[i]);
+            assert_int_equal(result.status, 2);
+            assert_null(strstr(result.err, bytes));
+            command_release(&result);
+        }
+    }
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -69,6 +89,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(an_empty_name_is_refused_in_one_sentence),
         IN_FOLDER(control_characters_do_not_reach_the_terminal),
+        IN_FOLDER(what_is_no_text_is_not_printed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,12 +2,15 @@
 /* test_accept.c - octreel accept: what becomes the reference, what goes, and what is left alone. */
 #include "commands.h"
 #include "fixture.h"
+#include "files.h"
 #include "galleries.h"
 #include "recordings.h"
 #include "png_write.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -250,11 +253,29 @@ static void an_unwritable_reference_is_trouble(void **state)
     assert_same_folders(c.before.path, untouched.path, NULL);
 }
 
+/* Whoever films has the log locked. */
+static void recording_that_is_still_filmed_is_refused(void **state)
+{
+    const place film = place_in(*state, "film"), golden = place_in(*state, "golden");
+    command_result result = run_octreel(NULL, "record --keys wd --size 64x36 -o %s", film.path);
+    assert_done(&result);
+    command_release(&result);
+    const int log = open(place_below(film.path, "ticks.jsonl").path, O_RDONLY);
+    assert_true(log >= 0 && flock(log, LOCK_EX | LOCK_NB) == 0);
+    result = run_octreel(NULL, "accept %s %s", golden.path, film.path);
+    assert_trouble(&result, "film: is still being filmed");
+    assert_false(file_exists(golden.path));
+    close(log);
+    result = accept_all(&golden, &film);
+    command_release(&result);
+}
+
 #define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, without_ci, nested_folder_remove)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        WITH_FOLDER(recording_that_is_still_filmed_is_refused),
         WITH_FOLDER(all_new_frames_become_the_reference),
         WITH_FOLDER(named_frames_alone_are_taken_over),
         WITH_FOLDER(nothing_is_accepted_where_ci_is_set),

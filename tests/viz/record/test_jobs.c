@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* test_jobs.c - a recording by several processes: the bytes of one, whatever becomes of the processes. */
+#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -192,6 +195,34 @@ static void stopped_film_of_several_jobs_is_resumed(void **state)
     assert_resumes(state, folder.path, session.path);
 }
 
+/* A job that does not get on with its frame ends with the process that started it, and not after the frame: it writes
+ * into a pipe that nobody reads. */
+static void kill_of_the_whole_ends_a_job_within_its_frame(void **state)
+{
+    enum { PATIENCE = 20000 }; /* milliseconds, where it does not end */
+    const place folder = place_in(*state, "film"), stuck = place_below(folder.path, "frame_000001.png.part");
+    char said[256];
+    assert_recorded("--jobs 1 --keys wdn", folder.path);
+    remove(frame_place(folder.path, 0).path);
+    remove(frame_place(folder.path, 1).path);
+    assert_int_equal(mkfifo(stuck.path, 0666), 0);
+    background b = start_octreel("record --resume --jobs 2 -o %s", folder.path);
+    wait_for_file(&b, frame_place(folder.path, 0).path);
+    kill(b.pid, SIGKILL);
+    struct pollfd all_ended = {.fd = b.err, .events = POLLIN};
+    const bool ended = poll(&all_ended, 1, PATIENCE) == 1 && read(b.err, said, sizeof said) == 0;
+    if (!ended)
+        close(open(stuck.path, O_RDONLY));
+    command_result result = end_of(&b);
+    assert_int_equal(result.status, 128 + SIGKILL);
+    command_release(&result);
+    assert_true(ended);
+    remove(stuck.path);
+    result = run_octreel(NULL, "record --resume -o %s", folder.path);
+    assert_done(&result);
+    command_release(&result);
+}
+
 /* Its jobs end by themselves: no further frame appears. */
 static void kill_of_the_whole_leaves_no_job_behind(void **state)
 {
@@ -240,6 +271,7 @@ int main(void)
         IN_FOLDER(job_that_is_killed_is_named),
         IN_FOLDER(film_of_several_jobs_that_is_stopped_says_how_to_go_on),
         IN_FOLDER(stopped_film_of_several_jobs_is_resumed),
+        IN_FOLDER(kill_of_the_whole_ends_a_job_within_its_frame),
         IN_FOLDER(kill_of_the_whole_leaves_no_job_behind),
         IN_FOLDER(ignored_signals_stay_ignored),
     };

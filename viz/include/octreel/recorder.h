@@ -41,7 +41,8 @@
  *   - A null recorder is one that is off: every function takes it, does nothing, and returns OCTREEL_OK.
  *   - n is the number of points.
  *   - While it is recorded the session is in FOLDER/session.json.live, a tick a line. After a crash of the program
- *     "octreel record --resume -o FOLDER" makes a recording of it: what was in the queue alone is lost.
+ *     "octreel record --resume -o FOLDER" makes a recording of it: what was in the queue alone is lost. Nothing is
+ * synced to the disk: after a power cut a file may be damaged, which "octreel verify" finds.
  */
 #ifndef OCTREEL_RECORDER_H
 #define OCTREEL_RECORDER_H
