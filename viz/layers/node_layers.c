@@ -212,6 +212,13 @@ static void add_labels(scene *s)
 
 /* ---- The layers --------------------------------------------------------------------------------------------- */
 
+/* How much farther from each other points are of which one in so many is kept. They are kept at random, which leaves
+ * gaps that are wider than those of a scan. */
+static double thinned_spacing(uint64_t one_in)
+{
+    return one_in > 1 ? 1.3 * sqrt((double)one_in) : 1;
+}
+
 /* Both layers in one walk. Points are drawn smaller where there are many: for a game by the session's number, so that
  * it does not change from tick to tick. */
 static void add(scene *s, const layer_source *in, view_layer own)
@@ -229,7 +236,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     if (shows_foreign_tree(in))
         add_foreign_nodes(s, in);
     s->tally.one_in = w.sieve + 1;
-    s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * sqrt((double)s->tally.one_in) : 0;
+    s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * thinned_spacing(s->tally.one_in) : 0;
     if (s->view.labels && view_shows(&s->view, own))
         add_labels(s);
 }

@@ -2,6 +2,9 @@
 /* test_splats.c - points that are painted one by one: the nearest wins, whatever their order; surfaces are closed at
  * any size of the picture; light tells what is near, and flat ground is evenly lit. */
 #include "frames.h"
+#include "brute.h"
+#include "point_scale.h"
+#include "scenes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -107,6 +110,40 @@ static void a_surface_has_no_holes_at_any_size_of_the_picture(void **state)
     }
 }
 
+/* Points at random places of a plane, of which the budget leaves one in eight. */
+static void a_surface_that_is_thinned_has_next_to_no_holes(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    scene s = painted_scene(CAMERA_TOP, SHADE_EDL, 360);
+    view v = s.view;
+    octree_def def = octree_def_default();
+    octree *tree;
+    v.budget = 15000;
+    scene_release(&s);
+    def.world = cube(-1, 1);
+    assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
+    for (uint64_t i = 0; i < 80000; i++)
+        octree_insert(tree,
+                      (double[]){(double)random_below(&random, 20001) / 10000 - 1,
+                                 (double)random_below(&random, 20001) / 10000 - 1, 0},
+                      i);
+    assert_true(point_scale_fit(&v, tree, NULL));
+    build_tree(&s, &v, tree, "");
+    assert_int_equal(s.tally.one_in, 8);
+    lit l = draw_lit(&s);
+    double corners[2][2];
+    pixel_of(&s, (double[]){-0.9, 0.9, 0}, corners[0]);
+    pixel_of(&s, (double[]){0.9, -0.9, 0}, corners[1]);
+    size_t holes = 0, pixels = 0;
+    for (int y = (int)corners[0][1]; y < (int)corners[1][1]; y++)
+        for (int x = (int)corners[0][0]; x < (int)corners[1][0]; x++, pixels++)
+            holes += l.indices[(size_t)y * (size_t)s.view.width + (size_t)x] != THEME_OWN;
+    assert_true(holes * 50 < pixels);
+    octree_destroy(tree);
+    release(&l, &s);
+}
+
 /* Of a column of the picture through the ground. */
 static size_t colors_of_column(const lit *l, const scene *s)
 {
@@ -210,6 +247,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_nearest_point_wins_in_any_order_and_of_equal_ones_the_lowest_id),
         cmocka_unit_test(a_surface_has_no_holes_at_any_size_of_the_picture),
+        cmocka_unit_test(a_surface_that_is_thinned_has_next_to_no_holes),
         cmocka_unit_test(sloping_ground_is_lit_evenly_and_not_in_bands),
         cmocka_unit_test(what_lies_behind_something_near_is_darker_beside_it),
         cmocka_unit_test(density_is_the_number_of_points_of_a_pixel),
