@@ -202,12 +202,12 @@ static void kill_of_the_whole_ends_a_job_within_its_frame(void **state)
     enum { PATIENCE = 20000 }; /* milliseconds, where it does not end */
     const place folder = place_in(*state, "film"), stuck = place_below(folder.path, "frame_000001.png.part");
     char said[256];
-    assert_recorded("--jobs 1 --keys wdn", folder.path);
-    remove(frame_place(folder.path, 0).path);
+    assert_recorded("--jobs 1 --keys wdnwdnwdnwdnwdnwdnwdn", folder.path);
     remove(frame_place(folder.path, 1).path);
+    remove(frame_place(folder.path, 20).path);
     assert_int_equal(mkfifo(stuck.path, 0666), 0);
     background b = start_octreel("record --resume --jobs 2 -o %s", folder.path);
-    wait_for_file(&b, frame_place(folder.path, 0).path);
+    wait_for_file(&b, frame_place(folder.path, 20).path); /* of the other job, which is far beyond */
     kill(b.pid, SIGKILL);
     struct pollfd all_ended = {.fd = b.err, .events = POLLIN};
     const bool ended = poll(&all_ended, 1, PATIENCE) == 1 && read(b.err, said, sizeof said) == 0;
