@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* bulk.c - many points inserted, removed or moved at once: their statuses, and what leaves and arrives. */
 #include "batch.h"
+#include "float_rules.h"
 
 #include <string.h>
 
@@ -32,14 +33,84 @@ static octree_status insert_valid(batch *b)
     return status;
 }
 
-octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                                 size_t *inserted)
+static octree_status insert_all(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                size_t *inserted)
 {
     batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
     octree_status status = batch_begin(&b);
     if (status == OCTREE_OK)
         status = insert_valid(&b);
-    status = finish(&b, status, inserted);
+    return finish(&b, status, inserted);
+}
+
+/* Of a few points hardly two meet in one leaf, and sorting them gains nothing: those that find room in their leaf are
+ * inserted one by one, and the others, whose leaves were full and are so at the end, at once. */
+typedef struct few {
+    octree_point *full;
+    octree_status *statuses; /* of all, and then of those */
+    size_t full_count, inserted;
+} few;
+
+static octree_status insert_singly(octree *tree, const octree_point *points, size_t count, few *f)
+{
+    octree_status status = OCTREE_OK;
+    for (size_t i = 0; i < count; i++) {
+        status = check_position(tree, points[i].position);
+        const bool valid = status == OCTREE_OK;
+        if (valid)
+            status = insert_point(tree, &points[i], false);
+        f->statuses[i] = status;
+        if (status == OCTREE_NO_MEMORY)
+            return status;
+        if (status == OCTREE_FULL)
+            f->full[f->full_count++] = points[i];
+        f->inserted += status == OCTREE_OK;
+    }
+    return OCTREE_OK;
+}
+
+static void undo_insertions(octree *tree, const octree_point *points, few *f, uint64_t version)
+{
+    for (size_t i = 0; f->inserted > 0; i++)
+        if (f->statuses[i] == OCTREE_OK) {
+            octree_remove(tree, points[i].position, points[i].id);
+            f->inserted--;
+        }
+    tree->version = version;
+}
+
+static octree_status insert_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                size_t *inserted)
+{
+    arena *memory = &tree->store.memory;
+    const uint64_t version = tree->version;
+    few f = {.full = arena_take(memory, (count + 1) * sizeof *points),
+             .statuses = arena_take(memory, (2 * count + 1) * sizeof *statuses)};
+    size_t more = 0;
+    octree_status status = OCTREE_NO_MEMORY;
+    if (f.full && f.statuses)
+        status = insert_singly(tree, points, count, &f);
+    if (status == OCTREE_OK && f.full_count > 0)
+        status = insert_all(tree, f.full, f.full_count, f.statuses + count, &more);
+    if (status != OCTREE_OK)
+        undo_insertions(tree, points, &f, version);
+    for (size_t i = 0, full = 0; status == OCTREE_OK && statuses && i < count; i++)
+        statuses[i] = f.statuses[i] == OCTREE_FULL ? f.statuses[count + full++] : f.statuses[i];
+    if (status == OCTREE_OK && inserted)
+        *inserted = f.inserted + more;
+    arena_give(memory, f.full, (count + 1) * sizeof *points);
+    arena_give(memory, f.statuses, (2 * count + 1) * sizeof *statuses);
+    return status;
+}
+
+enum { FEW = 20 }; /* as many times more points are stored than a few */
+
+octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                 size_t *inserted)
+{
+    const bool is_few = tree && points && count > 0 && count < tree->root.count / FEW &&
+                        count <= UINT32_MAX - tree->root.count && float_mode_is_default();
+    const octree_status status = (is_few ? insert_few : insert_all)(tree, points, count, statuses, inserted);
     if (status == OCTREE_OK)
         tune_if_due(tree);
     return status;

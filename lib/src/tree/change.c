@@ -146,17 +146,19 @@ static octree_status split_or_grow(octree *tree, node *leaf, const octree_point 
     return OCTREE_OK;
 }
 
-static octree_status add_to_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth)
+static octree_status add_to_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth,
+                                 bool divides)
 {
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
         return OCTREE_DUPLICATE;
+    if (leaf->count >= tree->def.leaf_capacity && !divides)
+        return OCTREE_FULL;
     if (leaf->count >= tree->def.leaf_capacity)
         return split_or_grow(tree, leaf, point, code, depth);
     return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
-/* DUPLICATE, FULL, NO_MEMORY, TOO_MANY or OK, for a position that was checked. */
-static octree_status insert_point(octree *tree, const octree_point *point)
+octree_status insert_point(octree *tree, const octree_point *point, bool divides)
 {
     if (tree->root.count == UINT32_MAX)
         return OCTREE_TOO_MANY;
@@ -164,7 +166,7 @@ static octree_status insert_point(octree *tree, const octree_point *point)
     path p = path_to(tree, code);
     node *end = path_end(&p);
     const bool is_leaf = end->octants == 0;
-    const octree_status status = is_leaf ? add_to_leaf(tree, end, point, code, p.depth)
+    const octree_status status = is_leaf ? add_to_leaf(tree, end, point, code, p.depth, divides)
                                          : add_child(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
@@ -180,7 +182,8 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
-    const octree_status inserted = insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id});
+    const octree_status inserted =
+        insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id}, true);
     tune_if_due(tree);
     return inserted;
 }
@@ -265,7 +268,7 @@ static octree_status move_across(octree *tree, const found_point *found, const o
     node spare;
     if (!reserve_merge(tree, found, &spare))
         return OCTREE_NO_MEMORY;
-    const octree_status status = insert_point(tree, moved);
+    const octree_status status = insert_point(tree, moved, true);
     if (status != OCTREE_OK) {
         leaf_release(&tree->store, &spare);
         return status;

@@ -48,6 +48,10 @@ static inline bool fits_leaf(const octree *tree, size_t count)
 /* OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
 
+/* DUPLICATE, FULL, NO_MEMORY, TOO_MANY or OK, for a position that was checked. Unless it `divides`, a leaf that holds
+ * as many points as the capacity is FULL: then removing the point again takes no memory. */
+octree_status insert_point(octree *tree, const octree_point *point, bool divides);
+
 /* After points were inserted: choose the capacity if it is due. Without memory it stays as it is. */
 void tune_if_due(octree *tree);
 

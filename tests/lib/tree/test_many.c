@@ -202,6 +202,30 @@ static void large_batches_are_the_same_as_one_by_one(void **state)
         }
 }
 
+static void a_few_points_are_the_same_as_one_by_one(void **state)
+{
+    (void)state;
+    static const size_t capacities[] = {1, 2, 8, 64, 200};
+    static octree_point points[2000];
+    for (size_t c = 0; c < 10; c++) {
+        const twins t = make_twins(cube(-1, 1), capacities[c / 2], c % 3 ? 21 : 3, c % 2 ? OCTREE_GROW : OCTREE_REFUSE);
+        uint64_t random = c;
+        for (size_t i = 0; i < 2000; i++) {
+            points[i].id = random_below(&random, 3);
+            for (int axis = 0; axis < 3; axis++)
+                points[i].position[axis] = coarse(&random, -1, 1, i % 3 ? 12 : 2);
+        }
+        change_both(t, &insertion, points, 1000);
+        for (size_t at = 0, size; at < 1900; at += size) {
+            size = 1 + random_below(&random, 20);
+            change_both(t, &insertion, points + at, size);
+            if (random_below(&random, 4) == 0)
+                change_both(t, &removal, points + at / 2, size);
+        }
+        destroy_twins(t);
+    }
+}
+
 static void a_full_leaf_takes_the_first_in_input_order(void **state)
 {
     (void)state;
@@ -456,6 +480,7 @@ int main(void)
         cmocka_unit_test(batches_are_the_same_as_one_by_one),
         cmocka_unit_test(batches_are_the_same_as_one_by_one_in_extreme_worlds),
         cmocka_unit_test(large_batches_are_the_same_as_one_by_one),
+        cmocka_unit_test(a_few_points_are_the_same_as_one_by_one),
         cmocka_unit_test(a_full_leaf_takes_the_first_in_input_order),
         cmocka_unit_test(what_is_stored_stays_when_a_batch_meets_a_full_leaf),
         cmocka_unit_test(zeros_of_both_signs_are_one_place_and_the_first_bits_are_kept),
