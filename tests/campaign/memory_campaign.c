@@ -28,14 +28,14 @@ enum { MOST = 100000, MOST_FINDINGS = 10, VERDICT = 20 /* bytes that hold it, of
 static const char PREPARE[] =
     "mkdir given && cd given && "
     "printf '0 0 0\\n1 2 3\\n4 5 6\\n7 1 2\\n' >points.xyz && "
-    "$octreel record --keys wdn " SMALL " --jobs 1 -o film && "
-    "$octreel record --keys wds " SMALL " --jobs 1 -o other && "
-    "$octreel record --keys wdn " SMALL " --jobs 1 --ticks 0:2 -o chunks && "
-    "$octreel record --keys wdn " SMALL " --jobs 1 --ticks 2: -o chunks && "
+    "\"$octreel\" record --keys wdn " SMALL " --jobs 1 -o film && "
+    "\"$octreel\" record --keys wds " SMALL " --jobs 1 -o other && "
+    "\"$octreel\" record --keys wdn " SMALL " --jobs 1 --ticks 0:2 -o chunks && "
+    "\"$octreel\" record --keys wdn " SMALL " --jobs 1 --ticks 2: -o chunks && "
     "cp -r film half && rm half/frame_000002.png half/index.html && "
     "head -n 2 film/ticks.jsonl >half/ticks.jsonl && "
     "cp film/session.json session.json && "
-    "$octreel digest film -o film.digests && "
+    "\"$octreel\" digest film -o film.digests && "
     "printf '{\"octreel\": \"session\", \"version\": 1, \"points\": [[10, 0, 0], [0, 20, 0]], "
     "\"ticks\": 2}\\n{\"tick\": 1, \"queries\": [{\"knearest\": 2, \"at\": [0, 0, 0], "
     "\"answer\": [0]}]}\\n' >answers.json";
@@ -112,9 +112,10 @@ static void read_options(int argc, char **argv)
 /* In "<folder>/run", a new copy of "<folder>/given", with `what` failing from n on; 0: nothing fails. */
 static command_result run_one(const char *folder, const char *line, const char *what, uint64_t n)
 {
-    return run_script("cd %s && rm -rf run failed && cp -r given run && cd run && FAILED=../failed %s=%" PRIu64
-                      " LD_PRELOAD='%s' %s %s",
-                      folder, what, n, OCTREEL_FAILING_MEMORY, octreel_program(), line);
+    return run_script(
+        "unset CI; cd %s && rm -rf run failed && cp -r given run && cd run && FAILED=../failed %s=%" PRIu64
+        " LD_PRELOAD=$PWD/../memory.so %s %s",
+        folder, what, n, octreel_program(), line);
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -254,9 +255,12 @@ static size_t fail_each(const char *folder, const char *name, const char *line)
     return findings;
 }
 
+/* No path with a blank can be preloaded: the library is copied. */
 static void prepare(const temp_folder *own)
 {
-    command_result made = run_script("octreel=%s; cd %s && %s", octreel_program(), own->name, PREPARE);
+    const shell_word library = shell_quote(OCTREEL_FAILING_MEMORY);
+    command_result made =
+        run_script("octreel=%s; cd %s && cp %s memory.so && %s", octreel_program(), own->name, library.text, PREPARE);
     if (made.status != 0)
         fail_msg("%s", made.err);
     command_release(&made);
