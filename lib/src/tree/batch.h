@@ -85,6 +85,9 @@ bool drop_repetitions(batch *b);
 /* Give them their status, unless the earlier one was refused by a full leaf, as they would then be too. */
 void set_repeated_statuses(const batch *b, octree_status status);
 
+/* The items of each octant of a cell of this depth. Returns the octants that have any. */
+unsigned share_out(span all, unsigned depth, span shares[8]);
+
 /* The sorted codes of more points than the capacity: whether they all lie in one cell that cannot be divided. */
 bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count);
 

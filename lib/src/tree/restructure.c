@@ -26,8 +26,7 @@ static arena *memory_of(batch *b)
 
 /* ---- Sharing out -------------------------------------------------------------------------------------------- */
 
-/* The items of each octant of a cell of this depth. Returns the octants that have any. */
-static unsigned share_out(span all, unsigned depth, span shares[8])
+unsigned share_out(span all, unsigned depth, span shares[8])
 {
     unsigned octants = 0;
     for (unsigned octant = 0; octant < 8; octant++)
@@ -401,63 +400,6 @@ static bool change_below(batch *b, const node *old, cell c, span leaving, span a
     if (fits_leaf(b->tree, old->count - leaving.count + arriving.count))
         return merge(b, old, c, leaving, arriving, made);
     return change_children(b, old, c, leaving, arriving, made);
-}
-
-/* ---- Overflow ----------------------------------------------------------------------------------------------- */
-
-static size_t lower_bound(span s, uint64_t code)
-{
-    size_t low = 0, high = s.count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (s.items[middle].code < code)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-/* Of a leaf: where its points are, where those that move were and where they arrive, by code. */
-static bool crowds(const batch *b, const node *leaf, cell c, span arriving)
-{
-    const size_t capacity = b->tree->def.leaf_capacity;
-    const uint64_t first = morton_interleave(c.low);
-    const size_t start = lower_bound(b->valid, first);
-    const size_t moved = lower_bound(b->valid, first + (UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - c.depth))) - start;
-    const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
-    arena *memory = &b->tree->store.memory;
-    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(memory, room) : NULL;
-    if (!all)
-        return true;
-    for (uint32_t i = 0; i < leaf->count; i++)
-        all[i] = (morton_item){morton_code(b->tree->axes, leaf_points(leaf)[i].position), 0, i};
-    if (moved)
-        memcpy(all + leaf->count, b->valid.items + start, moved * sizeof *all);
-    memcpy(all + leaf->count + moved, arriving.items, arriving.count * sizeof *all);
-    morton_sort(all, all + sum, sum, c.depth, 0);
-    bool crowded = false;
-    for (size_t i = 0; !crowded && i + capacity < sum; i++)
-        crowded = inseparable(b->tree, c, all + i, capacity + 1);
-    arena_give(memory, all, room);
-    return crowded;
-}
-
-bool may_overflow(const batch *b, const node *old, cell c, span arriving)
-{
-    static const node empty = {0};
-    if (b->tree->def.full_leaf != OCTREE_REFUSE || arriving.count == 0 || b->settled)
-        return false;
-    if (!old->octants)
-        return !fits_leaf(b->tree, old->count + arriving.count) && crowds(b, old, c, arriving);
-    span shares[8];
-    share_out(arriving, c.depth, shares);
-    for (unsigned octant = 0; octant < 8; octant++) {
-        const node *child = child_at(old, octant);
-        if (may_overflow(b, child ? child : &empty, cell_child(c, octant), shares[octant]))
-            return true;
-    }
-    return false;
 }
 
 /* ---- The plan ----------------------------------------------------------------------------------------------- */
