@@ -229,7 +229,8 @@ static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span ar
             all[count++] = (morton_item){morton_code(b->tree->axes, leaf_points(old)[i].position), 0, i};
         }
     }
-    memcpy(all + count, arriving.items, arriving.count * sizeof *all);
+    if (arriving.count > 0)
+        memcpy(all + count, arriving.items, arriving.count * sizeof *all);
     if (may_split(b->tree, c))
         morton_sort(all, all + sum, sum, c.depth, unsorted_count(b->tree));
     b->stored = leaf_points(old);
