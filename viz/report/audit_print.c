@@ -33,7 +33,7 @@ static const char *reason_words(octree_fault fault)
         [OCTREE_FAULT_UNKNOWN] = "names an id that no point has",
         [OCTREE_FAULT_DUPLICATE] = "names a point twice",
         [OCTREE_FAULT_SKIPPED] = "names a point that is left out",
-        [OCTREE_FAULT_COUNT] = "not as many neighbours as there are",
+        [OCTREE_FAULT_COUNT] = "a wrong number of neighbours",
         [OCTREE_FAULT_FARTHER] = "a neighbour too far away",
         [OCTREE_FAULT_MISSED] = "points are missing",
         [OCTREE_FAULT_EXTRA] = "points that are outside",
@@ -62,6 +62,8 @@ void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
     fputs(reason_words(c->made.fault), out);
     if (c->made.fault <= OCTREE_FAULT_SKIPPED)
         fprintf(out, " (%" PRIu64 ")", c->made.fault_id);
+    if (c->made.fault == OCTREE_FAULT_COUNT)
+        fprintf(out, " (%zu named, %zu expected)", c->made.given_count, c->made.expected);
     if (c->made.rank)
         fprintf(out, "; wrong from rank %zu on", c->made.rank);
     if (neighbors)
@@ -140,11 +142,12 @@ void audit_print_nodes(FILE *out, const audit_nodes *nodes)
     fprintf(out, "nodes: %" PRIu64 " fault%s", nodes->faults, plural(nodes->faults));
     if (nodes->faults == 0)
         return;
-    fprintf(out, " in %" PRIu64 " tick%s, the first is %" PRIu64, nodes->ticks, plural(nodes->ticks),
+    fprintf(out, " in %" PRIu64 " tick%s, first at tick %" PRIu64, nodes->ticks, plural(nodes->ticks),
             nodes->first_wrong);
     for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
         if (nodes->kinds[i]) {
-            fprintf(out, "; %" PRIu64 ": %s", nodes->kinds[i], octree_node_fault_words((octree_node_fault_kind)i));
+            fprintf(out, "; %" PRIu64 " time%s: %s", nodes->kinds[i], plural(nodes->kinds[i]),
+                    octree_node_fault_words((octree_node_fault_kind)i));
             print_first(out, nodes, (octree_node_fault_kind)i);
         }
 }

@@ -24,7 +24,7 @@ static const struct {
     [OCTREE_NODE_OUTSIDE_POINT] = {"outside_point", "it lists a point outside its box"},
     [OCTREE_NODE_LOST_POINT] = {"lost_point", "a point is in no node"},
     [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query met it, and it is not there"},
-    [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it with a point of its answer"},
+    [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, and its answer lacks a point in it"},
 };
 
 const char *octree_node_fault_name(octree_node_fault_kind kind)

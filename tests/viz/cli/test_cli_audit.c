@@ -225,7 +225,7 @@ static void faults_of_nodes_are_a_finding(void **state)
     command_result result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
     assert_int_equal(result.status, 1);
     assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 faults of nodes, beyond what is allowed\n"));
-    assert_non_null(strstr(result.out, "nodes: 3 faults in 3 ticks, the first is 1; 3: a point is in no node "
+    assert_non_null(strstr(result.out, "nodes: 3 faults in 3 ticks, first at tick 1; 3 times: a point is in no node "
                                        "(tick 1, point 3)"));
     command_release(&result);
     result = run_octreel(NULL, "audit %s --junit -", session.path);
