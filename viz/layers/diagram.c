@@ -7,6 +7,7 @@
  * picture: each doubling is a sixteenth of the row higher. See diagram_slots.h for the layout.
  */
 #include "diagram_slots.h"
+#include "foreign_nodes.h"
 #include "layer_type.h"
 #include "layout.h"
 #include "node_boxes.h"
@@ -347,7 +348,8 @@ static void write_rows(diagram *d)
     const scene *s = d->scene;
     const double left = d->window.x + EDGE * s->unit, top = d->window.y + s->text.line / 2;
     const unsigned each = (unsigned)ceil(s->text.height / d->pitch); /* rows too low have words but now and then */
-    write_words(d, left, top, ROLE_FAINT, "depth");
+    /* Where the picture shows a program's tree, this is another one. */
+    write_words(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
     write_words(d, right_of(d, "nodes"), top, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth < d->rows; depth += each) {
         const double y = row_at(d, depth) - s->text.height / 2;

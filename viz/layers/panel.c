@@ -120,13 +120,20 @@ static const char *quiet_word(const layer_source *in)
     return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
 }
 
+/* Those of a tree that is not shown are left out. */
+static unsigned shown_events(const layer_source *in)
+{
+    return in->tick->events & ~(shows_own_tree(in) ? 0u : OCTREE_EVENT_SPLIT | OCTREE_EVENT_MERGED);
+}
+
 /* What the tick did, in words; the most urgent gives the colour. */
 static void write_events(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
+    const unsigned events = shown_events(in);
     char words[SCENE_TEXT] = "";
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
-        if (tick->events >> i & 1) {
+        if (events >> i & 1) {
             strncat(words, words[0] ? ", " : "", sizeof words - strlen(words) - 1);
             strncat(words, octree_event_name(1u << i), sizeof words - strlen(words) - 1);
         }

@@ -71,6 +71,24 @@ static void the_view_says_whose_nodes_are_shown(void **state)
     }
 }
 
+/* Octreel's own tree splits where nobody sees it, and the diagram, which is of that tree, says so. */
+static void what_is_said_of_the_tree_that_is_not_shown_is_told_apart(void **state)
+{
+    (void)state;
+    view own = view_by(TREE_OWN), program = view_by(TREE_FOREIGN);
+    show(&own, 0);
+    ((octree_tick *)(uintptr_t)octree_game_tick(game))->events = OCTREE_EVENT_SPLIT | OCTREE_EVENT_WRONG;
+    build_tick(&shown, &own, game);
+    assert_true(says("split, wrong"));
+    build_tick(&shown, &program, game);
+    assert_true(says("wrong"));
+    own.diagram = program.diagram = DIAGRAM_BESIDE;
+    show(&own, 0);
+    assert_true(says("depth") && !says("Octreel's depth"));
+    show(&program, 0);
+    assert_true(says("Octreel's depth"));
+}
+
 static void nodes_have_the_looks_of_octreels_own(void **state)
 {
     (void)state;
@@ -232,6 +250,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_view_says_whose_nodes_are_shown),
+        cmocka_unit_test(what_is_said_of_the_tree_that_is_not_shown_is_told_apart),
         cmocka_unit_test(nodes_have_the_looks_of_octreels_own),
         cmocka_unit_test(nodes_are_coloured_by_kind_and_by_their_points),
         cmocka_unit_test(filters_budget_and_lod_are_for_them_too),
