@@ -120,17 +120,11 @@ static const char *quiet_word(const layer_source *in)
     return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
 }
 
-/* Those of a tree that is not shown are left out. */
-static unsigned shown_events(const layer_source *in)
-{
-    return in->tick->events & ~(shows_own_tree(in) ? 0u : OCTREE_EVENT_SPLIT | OCTREE_EVENT_MERGED);
-}
-
-/* What the tick did, in words; the most urgent gives the colour. */
+/* What the tick did, in words, but for what happened to a tree that is not shown; the most urgent gives the colour. */
 static void write_events(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
-    const unsigned events = shown_events(in);
+    const unsigned events = tick->events & ~(shows_own_tree(in) ? 0u : OCTREE_EVENT_SPLIT | OCTREE_EVENT_MERGED);
     char words[SCENE_TEXT] = "";
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++) {
         if (events >> i & 1) {

@@ -3,6 +3,7 @@
  * them in ticks.jsonl. */
 #include "fixture.h"
 #include "session_file.h"
+#include "session_texts.h"
 #include "ticks_write.h"
 
 #include <stdio.h>
@@ -12,26 +13,6 @@
 #define HEADER "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[-5,0,0],[5,0,0]],\n\"ticks\":3"
 #define ROOT "{\"id\":9,\"box\":{\"min\":[-10,-10,-10],\"max\":[10,10,10]}}"
 #define LEAF(rest) "{\"id\":4,\"parent\":9,\"box\":{\"min\":[0,-1,-1],\"max\":[10,1,1]}" rest "}"
-
-static session_file parse(const char *text)
-{
-    session_file file;
-    octreel_error error = {""};
-    if (!session_parse("s.json", "", text, strlen(text), &file, &error))
-        fail_msg("%s", error.text);
-    return file;
-}
-
-static char *write_session(const octree_session *session)
-{
-    char *text;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_true(session_write(session, NULL, out));
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
 
 static void assert_refuses(const char *text, const char *sentence)
 {
@@ -47,8 +28,8 @@ static void nodes_are_read_with_all_that_is_said_of_them(void **state)
 {
     (void)state;
     session_file file =
-        parse(HEADER ",\"nodes\":[" ROOT "," LEAF(",\"points\":[2,7],\"kind\":\"leaf\",\"depth\":3,"
-                                                  "\"mode\":\"float\"") "]}\n{\"tick\":2,\"nodes\":[]}");
+        session_of_text(HEADER ",\"nodes\":[" ROOT "," LEAF(",\"points\":[2,7],\"kind\":\"leaf\",\"depth\":3,"
+                                                            "\"mode\":\"float\"") "]}\n{\"tick\":2,\"nodes\":[]}");
     const octree_session *s = &file.session;
     assert_int_equal(s->foreign_count, 2);
     assert_true(s->foreign[0].tick == 0 && s->foreign[0].node_count == 2);
@@ -65,7 +46,7 @@ static void nodes_are_read_with_all_that_is_said_of_them(void **state)
 static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
 {
     (void)state;
-    session_file file = parse(
+    session_file file = session_of_text(
         HEADER
         ",\"queries\":[{\"radius\":1,\"at\":[0,0,0],\"hit\":[4]}]}\n"
         "{\"tick\":0,\"nodes\":[" LEAF(
@@ -78,10 +59,10 @@ static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
     session_file copy, again;
     octreel_error error;
     assert_true(session_copy(&file.session, &copy, &error));
-    char *text = write_session(&copy.session);
+    char *text = text_of_session(&copy.session, NULL);
     session_release(&file);
-    again = parse(text);
-    char *second = write_session(&again.session);
+    again = session_of_text(text);
+    char *second = text_of_session(&again.session, NULL);
     assert_string_equal(text, second);
     assert_non_null(strstr(text, "\n{\"tick\": 0, \"nodes\": [{\"id\": 4, \"parent\": 9, \"box\": "));
     assert_non_null(strstr(text, "\"points\": []"));
@@ -151,7 +132,7 @@ static char *write_tick(const octree_session *session)
 static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
 {
     (void)state;
-    session_file file = parse(HEADER ",\"nodes\":[" ROOT "," LEAF(
+    session_file file = session_of_text(HEADER ",\"nodes\":[" ROOT "," LEAF(
         ",\"points\":[1,2,3]") "],"
                                "\"queries\":[{\"nearest\":[4,0,0],\"visited\":[9],\"pruned\":[4,5]}]}");
     char *text = write_tick(&file.session);

@@ -3,6 +3,7 @@
  */
 #include "clouds.h"
 #include "session_file.h"
+#include "session_texts.h"
 #include "temp_folder.h"
 #include "text.h"
 
@@ -12,33 +13,14 @@
 
 #define HEADER "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 3, "
 
-static session_file parse(const char *text)
-{
-    session_file file;
-    octreel_error error = {""};
-    if (!session_parse("s.json", "", text, strlen(text), &file, &error))
-        fail_msg("%s", error.text);
-    return file;
-}
-
-static char *write_session(const session_file *file)
-{
-    char *text;
-    text_stream s;
-    assert_true(text_stream_begin(&s));
-    assert_true(session_write(&file->session, &file->values, s.stream));
-    assert_true(text_stream_end(&s, &text));
-    return text;
-}
-
 /* A session is written with this, and reads back to the same. */
 static void assert_writes(const session_file *file, const char *part)
 {
-    char *text = write_session(file);
+    char *text = text_of_session(&file->session, &file->values);
     if (!strstr(text, part))
         fail_msg("%s\nhas not\n%s", text, part);
-    session_file again = parse(text);
-    char *text_again = write_session(&again);
+    session_file again = session_of_text(text);
+    char *text_again = text_of_session(&again.session, &again.values);
     assert_string_equal(text, text_again);
     free(text_again);
     session_release(&again);
@@ -47,11 +29,11 @@ static void assert_writes(const session_file *file, const char *part)
 
 static void values_are_found_by_id(void **state)
 {
-    session_file file =
-        parse(HEADER "\"columns\": [\"class\", \"color\"],"
-                     "\"points\": [[1,2,3], [4,5,6,70,2,\"#Ff0001\"], [7,8,9,5,null,\"#000000\"],"
-                     "{\"id\": 9000000000000, \"position\": [1,1,1], \"intensity\": 0.1}]}"
-                     "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 6, \"position\": [1,1,1], \"class\": 65535}}]}");
+    session_file file = session_of_text(
+        HEADER "\"columns\": [\"class\", \"color\"],"
+               "\"points\": [[1,2,3], [4,5,6,70,2,\"#Ff0001\"], [7,8,9,5,null,\"#000000\"],"
+               "{\"id\": 9000000000000, \"position\": [1,1,1], \"intensity\": 0.1}]}"
+               "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 6, \"position\": [1,1,1], \"class\": 65535}}]}");
     const point_values *v = &file.values;
     (void)state;
     assert_int_equal(point_values_row(v, 1), POINT_VALUES_NONE);
@@ -73,8 +55,8 @@ static void values_are_found_by_id(void **state)
 
 static void points_with_velocities_keep_their_values(void **state)
 {
-    session_file file = parse(HEADER "\"points\": [{\"id\": 3, \"position\": [1,2,3], \"velocity\": [1,0,0], "
-                                     "\"color\": \"#123456\", \"intensity\": -2.5, \"class\": 0}]}");
+    session_file file = session_of_text(HEADER "\"points\": [{\"id\": 3, \"position\": [1,2,3], \"velocity\": [1,0,0], "
+                                               "\"color\": \"#123456\", \"intensity\": -2.5, \"class\": 0}]}");
     (void)state;
     assert_writes(&file, "{\"id\": 3, \"position\": [1, 2, 3], \"velocity\": [1, 0, 0], \"color\": \"#123456\", "
                          "\"intensity\": -2.5, \"class\": 0}");
@@ -99,7 +81,7 @@ static void intensities_are_floats_in_few_digits(void **state)
         char text[256], expected[64];
         snprintf(text, sizeof text, HEADER "\"columns\": [\"intensity\"], \"points\": [[1,2,3,4,%s]]}", rows[i].read);
         snprintf(expected, sizeof expected, "[1, 2, 3, 4, %s]", rows[i].written);
-        session_file file = parse(text);
+        session_file file = session_of_text(text);
         assert_writes(&file, expected);
         session_release(&file);
     }
@@ -107,8 +89,8 @@ static void intensities_are_floats_in_few_digits(void **state)
 
 static void sessions_without_values_say_nothing_of_them(void **state)
 {
-    session_file file = parse(HEADER "\"columns\": [\"color\"], \"points\": [[1,2,3], [1,2,3,7,null]]}");
-    char *text = write_session(&file);
+    session_file file = session_of_text(HEADER "\"columns\": [\"color\"], \"points\": [[1,2,3], [1,2,3,7,null]]}");
+    char *text = text_of_session(&file.session, &file.values);
     (void)state;
     assert_null(strstr(text, "columns"));
     assert_non_null(strstr(text, "[1, 2, 3, 7]"));
@@ -168,12 +150,12 @@ static void values_that_are_none_are_refused(void **state)
 /* An id that had values before may be inserted without them, and keeps its own; and one that is new may have some. */
 static void inserted_points_keep_the_values_of_their_id(void **state)
 {
-    session_file file =
-        parse(HEADER "\"points\": [{\"id\": 7, \"position\": [1,2,3], \"class\": 4}, [1,2,3,8]]}\n"
-                     "{\"tick\": 1, \"edits\": [{\"remove\": 7}, {\"insert\": {\"id\": 7, \"position\": [1,1,1]}}]}\n"
-                     "{\"tick\": 2, \"edits\": [{\"remove\": 7}, "
-                     "{\"insert\": {\"id\": 7, \"position\": [1,2,3], \"class\": 4}}, "
-                     "{\"insert\": {\"id\": 9, \"position\": [1,2,3], \"class\": 5}}]}");
+    session_file file = session_of_text(
+        HEADER "\"points\": [{\"id\": 7, \"position\": [1,2,3], \"class\": 4}, [1,2,3,8]]}\n"
+               "{\"tick\": 1, \"edits\": [{\"remove\": 7}, {\"insert\": {\"id\": 7, \"position\": [1,1,1]}}]}\n"
+               "{\"tick\": 2, \"edits\": [{\"remove\": 7}, "
+               "{\"insert\": {\"id\": 7, \"position\": [1,2,3], \"class\": 4}}, "
+               "{\"insert\": {\"id\": 9, \"position\": [1,2,3], \"class\": 5}}]}");
     (void)state;
     assert_int_equal(point_values_get(&file.values, 7).class, 4);
     assert_int_equal(point_values_get(&file.values, 9).class, 5);

@@ -4,6 +4,7 @@
 #include "octree/sample.h"
 #include "random_session.h"
 #include "session_file.h"
+#include "session_texts.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -11,26 +12,6 @@
 #include <string.h>
 
 #define HEADER "{\"octreel\":\"session\",\"version\":1"
-
-static session_file parse(const char *text)
-{
-    session_file file;
-    octreel_error error = {""};
-    if (!session_parse("s.json", "", text, strlen(text), &file, &error))
-        fail_msg("%s", error.text);
-    return file;
-}
-
-static char *write_session(const octree_session *session)
-{
-    char *text;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_true(session_write(session, NULL, out));
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
 
 /* In all that is read of a player of its kind. */
 static void assert_same_player(const octree_player *a, const octree_player *b)
@@ -119,10 +100,10 @@ static void assert_same_session(const octree_session *a, const octree_session *b
 
 static void assert_round_trip(const octree_session *session)
 {
-    char *text = write_session(session);
-    session_file file = parse(text);
+    char *text = text_of_session(session, NULL);
+    session_file file = session_of_text(text);
     assert_same_session(session, &file.session);
-    char *again = write_session(&file.session);
+    char *again = text_of_session(&file.session, NULL);
     assert_string_equal(text, again);
     free(again);
     free(text);
@@ -270,8 +251,8 @@ static void options_that_the_tree_clamps_are_written_clamped(void **state)
     session.tree.leaf_capacity = SIZE_MAX;
     session.tree.max_depth = SIZE_MAX;
     session.tree.full_leaf = OCTREE_GROW;
-    char *text = write_session(&session);
-    session_file file = parse(text);
+    char *text = text_of_session(&session, NULL);
+    session_file file = session_of_text(text);
     assert_true(file.session.tree.leaf_capacity == UINT32_MAX);
     assert_int_equal(file.session.tree.max_depth, OCTREE_MAX_DEPTH);
     assert_int_equal(file.session.tree.full_leaf, OCTREE_GROW);
@@ -286,8 +267,8 @@ static void neighbours_beyond_what_a_tree_holds_are_written_clamped(void **state
     (void)state;
     session.queries = &all;
     session.query_count = 1;
-    char *text = write_session(&session);
-    session_file file = parse(text);
+    char *text = text_of_session(&session, NULL);
+    session_file file = session_of_text(text);
     assert_true(file.session.queries[0].k == UINT32_MAX);
     free(text);
     session_release(&file);
@@ -309,8 +290,8 @@ static void written_session_has_a_point_a_line_and_a_tick_a_line(void **state)
         "]}\n"
         "{\"tick\": 1, \"edits\": [{\"remove\": 7}], \"queries\": [{\"nearest\": [0, 0, 0]}]}\n"
         "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 9, \"position\": [1, 1, 1]}}]}\n";
-    session_file file = parse(expected);
-    char *text = write_session(&file.session);
+    session_file file = session_of_text(expected);
+    char *text = text_of_session(&file.session, NULL);
     (void)state;
     assert_string_equal(text, expected);
     free(text);
@@ -332,7 +313,7 @@ static void stream_without_room_is_told(void **state)
 static void many_points_survive_the_round_trip(void **state)
 {
     session_file file =
-        parse(HEADER ",\"points\":{\"sample\":\"uniform\",\"count\":20000},\"velocities\":{\"speed\":1}}");
+        session_of_text(HEADER ",\"points\":{\"sample\":\"uniform\",\"count\":20000},\"velocities\":{\"speed\":1}}");
     (void)state;
     assert_round_trip(&file.session);
     session_release(&file);
@@ -352,7 +333,7 @@ static void copy_owns_all_it_has(void **state)
     random_session_full(made, 3);
     assert_same_session(&made->session, &file.session);
     free(made);
-    char *text = write_session(&file.session);
+    char *text = text_of_session(&file.session, NULL);
     free(text);
     session_release(&file);
     session_release(&file);
