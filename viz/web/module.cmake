@@ -62,15 +62,15 @@ set(wasm_includes -I${PROJECT_SOURCE_DIR}/lib/include -I${CMAKE_CURRENT_SOURCE_D
 foreach(room exact tree query game)
   list(APPEND wasm_includes -I${PROJECT_SOURCE_DIR}/lib/src/${room})
 endforeach()
-foreach(room base image scene layers draw formats record replay)
+foreach(room base image scene layers frame draw clouds formats record replay)
   list(APPEND wasm_includes -I${CMAKE_CURRENT_SOURCE_DIR}/${room})
 endforeach()
 list(APPEND wasm_includes -isystem ${wasm_folder}/include)
 
 # absent.c stands for what a page does not have; of the rest the linker takes what is used.
 file(GLOB wasm_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/src/*/*.c base/*.c image/image.c scene/*.c layers/*.c
-     draw/*.c formats/*.c record/playback.c record/picture.c replay/pick.c web/*.c)
-list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read|cloud[a-z_]*)\\.c$")
+     frame/*.c draw/*.c clouds/point_world.c formats/*.c record/playback.c record/picture.c replay/pick.c web/*.c)
+list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read)\\.c$")
 list(APPEND wasm_sources ${GLYPHS})
 set(wasm_objects "")
 foreach(source ${wasm_sources})

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* point_world.h - the world of points for which none is named. */
-#ifndef FORMATS_POINT_WORLD_H
-#define FORMATS_POINT_WORLD_H
+#ifndef CLOUDS_POINT_WORLD_H
+#define CLOUDS_POINT_WORLD_H
 
 #include "octree/octree.h"
 

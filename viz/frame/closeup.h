@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* closeup.h - what is around the player, larger, in a part of the picture. */
-#ifndef LAYERS_CLOSEUP_H
-#define LAYERS_CLOSEUP_H
+#ifndef FRAME_CLOSEUP_H
+#define FRAME_CLOSEUP_H
 
 #include "layer_type.h"
 

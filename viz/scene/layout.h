@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* layout.h - the areas of a picture, in whole pixels: the column of text at the left, the space view, the close-up, the
  * diagram; and the placement of labels so that none covers another. */
-#ifndef LAYERS_LAYOUT_H
-#define LAYERS_LAYOUT_H
+#ifndef SCENE_LAYOUT_H
+#define SCENE_LAYOUT_H
 
 #include "scene.h"
 

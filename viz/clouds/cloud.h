@@ -22,8 +22,8 @@
  * is cut off is an error: no point is lost in silence. What follows the last point and does not fit the header, such as
  * a newline after a compressed block, is not needed: it is passed over with a note.
  */
-#ifndef FORMATS_CLOUD_H
-#define FORMATS_CLOUD_H
+#ifndef CLOUDS_CLOUD_H
+#define CLOUDS_CLOUD_H
 
 #include "error.h"
 #include "point_values.h"

@@ -5,8 +5,8 @@
  * To add a format: a row of CLOUD_FORMAT_MAP, a file cloud_NAME.c that defines `const cloud_format cloud_NAME`, and its
  * test.
  */
-#ifndef FORMATS_CLOUD_FORMAT_H
-#define FORMATS_CLOUD_FORMAT_H
+#ifndef CLOUDS_CLOUD_FORMAT_H
+#define CLOUDS_CLOUD_FORMAT_H
 
 #include "cloud.h"
 

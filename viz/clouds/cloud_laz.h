@@ -2,8 +2,8 @@
 /* cloud_laz.h - the points of compressed LAS files, by liblaszip; cloud_las.c reads everything else of them. Private to
  * cloud*.c.
  */
-#ifndef FORMATS_CLOUD_LAZ_H
-#define FORMATS_CLOUD_LAZ_H
+#ifndef CLOUDS_CLOUD_LAZ_H
+#define CLOUDS_CLOUD_LAZ_H
 
 #include "cloud_format.h"
 

@@ -10,8 +10,8 @@
  * each is placed in the slot of its ancestor at that level, at its points' position among the ancestor's points in
  * Morton order.
  */
-#ifndef LAYERS_DIAGRAM_SLOTS_H
-#define LAYERS_DIAGRAM_SLOTS_H
+#ifndef FRAME_DIAGRAM_SLOTS_H
+#define FRAME_DIAGRAM_SLOTS_H
 
 #include "octree/octree.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tick_scene.h - builds the scene of a tree, or of a tick of a game, with the layers that its view shows. */
-#ifndef LAYERS_TICK_SCENE_H
-#define LAYERS_TICK_SCENE_H
+#ifndef FRAME_TICK_SCENE_H
+#define FRAME_TICK_SCENE_H
 
 #include "heat.h"
 #include "octree/game.h"
