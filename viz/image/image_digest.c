@@ -79,6 +79,36 @@ uint64_t image_digest(const image *image)
     return finish(&d);
 }
 
+static const char *const kind_names[] = {
+#define KIND_NAME(kind, name) name,
+    IMAGE_DIGEST_MAP(KIND_NAME)
+#undef KIND_NAME
+};
+
+const char *image_digest_kind_name(image_digest_kind kind)
+{
+    return kind_names[kind];
+}
+
+image_digest_kind image_digest_kind_of(const char *name, size_t length)
+{
+    int kind = 0;
+    while (kind < IMAGE_DIGEST_KINDS && (strlen(kind_names[kind]) != length || memcmp(kind_names[kind], name, length)))
+        kind++;
+    return (image_digest_kind)kind;
+}
+
+bool image_digest_png_of(image_digest_kind kind, const char *path, image_color background, image *about,
+                         uint64_t *digest, octreel_error *error)
+{
+    switch (kind) {
+    case IMAGE_DIGEST_RUNS:
+        return image_digest_png(path, background, about, digest, error);
+    default:
+        return error_set(error, "%s: there is no such kind of digest", path);
+    }
+}
+
 bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error)
 {
     image_source *source = image_source_open(path, background, false, error);

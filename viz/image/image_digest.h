@@ -11,4 +11,26 @@ uint64_t image_digest(const image *image);
 /* The same of a PNG as image_read_png_over() reads it, row by row. `about` is the image without pixels. */
 bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error);
 
+/* The ways in which digests were ever made, the newest last, and the name of each in files that hold digests of several
+ * kinds: what was accepted by an old kind is compared by that kind. */
+#define IMAGE_DIGEST_MAP(X) X(RUNS, "runs")
+
+typedef enum image_digest_kind {
+#define IMAGE_DIGEST_ENUM(kind, name) IMAGE_DIGEST_##kind,
+    IMAGE_DIGEST_MAP(IMAGE_DIGEST_ENUM)
+#undef IMAGE_DIGEST_ENUM
+        IMAGE_DIGEST_KINDS
+} image_digest_kind;
+
+#define IMAGE_DIGEST_NEWEST ((image_digest_kind)(IMAGE_DIGEST_KINDS - 1)) /* that of the functions above */
+
+const char *image_digest_kind_name(image_digest_kind kind);
+
+/* The kind of a name; IMAGE_DIGEST_KINDS where there is none such, as in a file of a later version. */
+image_digest_kind image_digest_kind_of(const char *name, size_t length);
+
+/* image_digest_png() of any kind. */
+bool image_digest_png_of(image_digest_kind kind, const char *path, image_color background, image *about,
+                         uint64_t *digest, octreel_error *error);
+
 #endif

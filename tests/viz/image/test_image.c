@@ -72,6 +72,19 @@ static void compare_sees_through_palettes(void **state)
     release_twins(&b);
 }
 
+/* The names are in files: none may change or go. */
+static void each_kind_of_digest_is_found_by_its_name(void **state)
+{
+    (void)state;
+    assert_string_equal(image_digest_kind_name(IMAGE_DIGEST_RUNS), "runs");
+    for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++) {
+        const char *name = image_digest_kind_name((image_digest_kind)kind);
+        assert_int_equal(image_digest_kind_of(name, strlen(name)), kind);
+        assert_int_equal(image_digest_kind_of(name, strlen(name) - 1), IMAGE_DIGEST_KINDS);
+    }
+    assert_int_equal(image_digest_kind_of("", 0), IMAGE_DIGEST_KINDS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -79,6 +92,7 @@ int main(void)
         cmocka_unit_test(created_image_is_all_zero_and_release_empties_it),
         cmocka_unit_test(digest_is_of_size_and_colours_alone),
         cmocka_unit_test(digest_changes_with_any_channel_of_any_pixel),
+        cmocka_unit_test(each_kind_of_digest_is_found_by_its_name),
         cmocka_unit_test(compare_sees_through_palettes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
