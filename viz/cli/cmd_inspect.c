@@ -127,7 +127,11 @@ static bool draw(const report *r, octreel_error *error)
                                 .answers = r->answers.answers,
                                 .answer_count = r->answers.count};
     const film_options options = {.view = r->view, .values = &r->made->values, .renderer = a->renderer};
-    if (!film_tree(r->made->tree, &about, &options, a->picture, &drawn, error))
+    progress bar = progress_start("");
+    progress_say(&bar, "drawing %s", file_output_title(a->picture));
+    const bool ok = film_tree(r->made->tree, &about, &options, a->picture, &drawn, error);
+    progress_end(&bar);
+    if (!ok)
         return false;
     if (drawn.over_budget)
         fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", file_output_title(a->picture));
@@ -208,6 +212,11 @@ static void on_step(double fraction, void *context)
     progress_show(&r->bar, (uint64_t)(r->size * fraction / 1000), (uint64_t)(r->size / 1000));
 }
 
+static void on_built(uint64_t done, uint64_t total, void *context)
+{
+    progress_show(context, done, total);
+}
+
 /* Read the cloud and build its tree; the bar on the terminal is gone afterwards. */
 static bool build(const arguments *a, inspection *made, octreel_error *error)
 {
@@ -220,8 +229,10 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
     if (ok) {
         if (!a->has_world)
             def.world = point_world(points.positions, sizeof *points.positions, points.count);
-        progress_say(&r.bar, "building the tree of %zu points", points.count);
-        ok = inspect_build(&points, &def, made, &why) || error_set(error, "%s: %s", file_title(a->cloud), why.text);
+        progress_end(&r.bar);
+        r.bar = progress_start("points in the tree");
+        ok = inspect_build(&points, &def, on_built, &r.bar, made, &why) ||
+             error_set(error, "%s: %s", file_title(a->cloud), why.text);
         memcpy(note, points.note, sizeof note);
         cloud_release(&points);
     }

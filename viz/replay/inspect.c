@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect.c - builds the tree of a point cloud; prints its statistics and nodes. */
+/* inspect.c - prints the statistics and the nodes of the tree of a cloud. */
 #include "inspect.h"
 #include "file.h"
 #include "json_write.h"
@@ -7,56 +7,7 @@
 #include "text.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 #include <string.h>
-
-/* ---- The tree ----------------------------------------------------------------------------------------------- */
-
-static octree_status insert_all(cloud *c, inspection *result)
-{
-    octree_point *points = malloc(c->count * sizeof *points);
-    octree_status *statuses = malloc(c->count * sizeof *statuses);
-    octree_status status = OCTREE_NO_MEMORY;
-    for (size_t i = 0; points && i < c->count; i++) {
-        memcpy(points[i].position, c->positions[i], sizeof points[i].position);
-        points[i].id = cloud_row(c, i);
-    }
-    free(c->positions); /* before the tree takes as much again */
-    c->positions = NULL;
-    if (points && statuses)
-        status = octree_insert_many(result->tree, points, c->count, statuses, NULL);
-    for (size_t i = 0; status == OCTREE_OK && i < c->count; i++) {
-        result->refused += statuses[i] == OCTREE_FULL;
-        result->outside += statuses[i] == OCTREE_OUTSIDE;
-    }
-    free(points);
-    free(statuses);
-    return status;
-}
-
-bool inspect_build(cloud *c, const octree_def *def, inspection *result, octreel_error *error)
-{
-    *result = (inspection){.points = c->count, .skipped = c->skipped, .why_skipped = c->why_skipped};
-    octree_status status = octree_create(def, &result->tree);
-    if (status == OCTREE_OK)
-        status = insert_all(c, result);
-    if (status == OCTREE_OK) {
-        result->values = c->values;
-        c->values = (point_values){0};
-        result->color_full = c->color_full;
-        result->decided = c->decided;
-        return true;
-    }
-    inspect_release(result);
-    return error_set(error, "the tree cannot be made: %s", octree_status_text(status));
-}
-
-void inspect_release(inspection *i)
-{
-    octree_destroy(i->tree);
-    i->tree = NULL;
-    point_values_release(&i->values);
-}
 
 /* ---- Statistics ----------------------------------------------------------------------------------------- */
 

@@ -115,10 +115,12 @@ static void reading_and_building_a_cloud_are_shown(void **state)
     file_write_text(cloud.path, text);
     for (int from_standard_input = 0; from_standard_input < 2; from_standard_input++) {
         command_result result = run_octreel(&(command_setting){.terminal = true, .columns = 80, .input = cloud.path},
-                                            "inspect %s", from_standard_input ? "-" : cloud.path);
+                                            "inspect %s -o %s --size 16x16", from_standard_input ? "-" : cloud.path,
+                                            place_in(*state, "tree.png").path);
         assert_int_equal(result.status, 0);
         assert_non_null(strstr(result.err, "4/4 kB of the cloud"));
-        assert_non_null(strstr(result.err, "building the tree of 500 points"));
+        assert_non_null(strstr(result.err, "500/500 points in the tree"));
+        assert_non_null(strstr(result.err, "drawing "));
         command_release(&result);
     }
 }

@@ -69,7 +69,7 @@ static void world_holds_every_point_and_a_tree_takes_it(void **state)
         const octree_def def = define(world_of(&clouds[i]), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
         inspection made;
         octreel_error error = {""};
-        if (!inspect_build(&c, &def, &made, &error))
+        if (!inspect_build(&c, &def, NULL, NULL, &made, &error))
             fail_msg("%s: %s", clouds[i].name, error.text);
         assert_null(c.positions); /* not there twice while the tree is built */
         if (made.outside + made.refused != 0)
@@ -191,7 +191,7 @@ static void points_are_stored_refused_or_outside(void **state)
     c.skipped = 4;
     for (size_t i = 0; i < COUNT; i++)
         outside += !box_holds(&world, positions[i]);
-    assert_true(inspect_build(&c, &def, &made, &error));
+    assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
     assert_int_equal(made.points, COUNT);
     assert_int_equal(made.skipped, 4);
     assert_int_equal(made.outside, outside);
@@ -201,6 +201,55 @@ static void points_are_stored_refused_or_outside(void **state)
             assert_false(octree_contains(made.tree, positions[i], i));
     inspect_release(&made);
     assert_null(made.tree);
+}
+
+typedef struct told {
+    uint64_t times, done;
+} told;
+
+static void tell(uint64_t done, uint64_t total, void *context)
+{
+    told *t = context;
+    assert_true(done > t->done && done <= total);
+    t->times++;
+    t->done = done;
+}
+
+/* Part of the points are outside, and one far off, which makes a coarse grid of the world. The nodes are those of one
+ * insertion, whose full leaves refuse the same points. */
+static void a_large_cloud_is_built_in_portions(void **state)
+{
+    enum { COUNT = 200000 };
+    static double positions[COUNT][3];
+    static octree_point points[COUNT];
+    const octree_box all = cube(-10, 10);
+    const struct {
+        octree_box world;
+        octree_full_leaf full;
+        uint64_t times;
+    } rows[] = {{{{-10, -10, -5}, {10, 10, 100}}, OCTREE_GROW, 3}, {cube(-5, 50), OCTREE_REFUSE, 1}};
+    (void)state;
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &all, COUNT, positions), OCTREE_OK);
+    for (size_t i = 0; i < COUNT; i++)
+        points[i] = (octree_point){{positions[i][0], positions[i][1], positions[i][2]}, i};
+    for (size_t r = 0; r < 2; r++) {
+        octree_def def = define(rows[r].world, 8, 4, rows[r].full);
+        cloud c = copy_cloud(positions, COUNT);
+        told t = {0};
+        inspection made;
+        octreel_error error = {""};
+        size_t inserted = 0;
+        octree *whole = make_tree(def.world, 8, 4, rows[r].full);
+        assert_int_equal(octree_insert_many(whole, points, COUNT, NULL, &inserted), OCTREE_OK);
+        assert_true(inspect_build(&c, &def, tell, &t, &made, &error));
+        assert_int_equal(t.times, rows[r].times);
+        assert_int_equal(t.done, COUNT);
+        assert_true(octree_digest(made.tree) == octree_digest(whole));
+        assert_int_equal(made.outside + made.refused, COUNT - inserted);
+        assert_true(made.outside > 0 && (made.refused > 0) == (rows[r].full == OCTREE_REFUSE));
+        octree_destroy(whole);
+        inspect_release(&made);
+    }
 }
 
 static void points_that_were_skipped_are_told_with_the_reason(void **state)
@@ -215,7 +264,7 @@ static void points_that_were_skipped_are_told_with_the_reason(void **state)
     assert_non_null(out);
     c.skipped = 3;
     c.why_skipped = "marked as withheld";
-    assert_true(inspect_build(&c, &def, &made, &error));
+    assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
     inspect_print(&made, "cloud", false, out);
     assert_int_equal(fclose(out), 0);
     assert_non_null(strstr(text, "\n  skipped   3 marked as withheld\n"));
@@ -243,7 +292,7 @@ static void values_of_the_points_are_told(void **state)
     octreel_error error = {""};
     (void)state;
     assert_true(cloud_parse("a.xyz", (const unsigned char *)text, sizeof text - 1, &c, &error));
-    assert_true(inspect_build(&c, &def, &made, &error));
+    assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
     assert_int_equal(c.values.count, 0); /* the inspection has them */
     cloud_release(&c);
     assert_prints(&made, false, "\n  values    color 0-255; intensity -7.5 to 65535 of 2 points; classes 2, 6\n");
@@ -263,7 +312,7 @@ static void definition_that_a_tree_refuses_is_an_error(void **state)
     for (size_t i = 0; i < sizeof defs / sizeof defs[0]; i++) {
         inspection made;
         octreel_error error = {""};
-        assert_false(inspect_build(&c, &defs[i], &made, &error));
+        assert_false(inspect_build(&c, &defs[i], NULL, NULL, &made, &error));
         assert_non_null(strstr(error.text, "the tree cannot be made"));
         assert_null(made.tree);
     }
@@ -279,6 +328,7 @@ int main(void)
         cmocka_unit_test(world_is_about_the_middle_of_the_points),
         cmocka_unit_test(worlds_of_random_extents_hold_their_points),
         cmocka_unit_test(points_are_stored_refused_or_outside),
+        cmocka_unit_test(a_large_cloud_is_built_in_portions),
         cmocka_unit_test(points_that_were_skipped_are_told_with_the_reason),
         cmocka_unit_test(values_of_the_points_are_told),
         cmocka_unit_test(definition_that_a_tree_refuses_is_an_error),
