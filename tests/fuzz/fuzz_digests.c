@@ -2,6 +2,7 @@
 /* fuzz_digests.c - libFuzzer entry of the reader of digest files: what is read is written, and reads back the same.
  * Build with clang -fsanitize=fuzzer,address,undefined.
  */
+#include "baseline.h"
 #include "digest_file.h"
 
 #include <stdlib.h>
@@ -30,7 +31,7 @@ static char *write_side(const diff_side *side, size_t *size)
     octreel_error error;
     char *text = NULL;
     FILE *out = open_memstream(&text, size);
-    if (!out || !digest_file_write(out, side, &error) || fclose(out) != 0)
+    if (!out || !(side->baseline ? baseline_write : digest_file_write)(out, side, &error) || fclose(out) != 0)
         abort();
     return text;
 }

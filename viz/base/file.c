@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
@@ -20,6 +21,16 @@ char *path_join(const char *folder, const char *name)
     if (path)
         snprintf(path, size, "%s/%s", folder, name);
     return path;
+}
+
+/* The folder in which a path lies; the caller frees it. */
+static char *parent_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *parent = strdup(slash ? path : ".");
+    if (parent && slash)
+        parent[slash == path ? 1 : slash - path] = 0;
+    return parent;
 }
 
 /* It needs no memory, without which it would find nothing. A longer path names nothing either. */
@@ -47,6 +58,16 @@ bool file_is_locked(const char *path)
     return locked;
 }
 
+int file_lock_folder_of(const char *path)
+{
+    char *parent = parent_of(path);
+    const int folder = parent ? open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    while (folder >= 0 && flock(folder, LOCK_EX) != 0 && errno == EINTR)
+        continue;
+    free(parent);
+    return folder;
+}
+
 bool file_is_standard(const char *path)
 {
     return strcmp(path, "-") == 0;
@@ -70,9 +91,9 @@ static bool is_there_but_no_file(const char *path)
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
+static bool open_writer(file_writer *file, const char *path, const char *ending, const char *mode, octreel_error *error)
 {
-    const size_t size = strlen(path) + sizeof ".part";
+    const size_t size = strlen(path) + strlen(ending) + 1;
     *file = (file_writer){.path = path};
     if (file_is_standard(path)) {
         file->stream = stdout;
@@ -81,13 +102,35 @@ bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
     file->temp = malloc(size);
     if (!file->temp)
         return error_no_memory(error);
-    snprintf(file->temp, size, "%s%s", path, is_there_but_no_file(path) ? "" : ".part");
-    file->stream = fopen(file->temp, "wb");
+    snprintf(file->temp, size, "%s%s", path, is_there_but_no_file(path) ? "" : ending);
+    file->stream = fopen(file->temp, mode);
     if (file->stream)
         return true;
-    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+    const int reason = errno;
+    error_set(error, "%s: cannot be written: %s", path, strerror(reason));
     free(file->temp);
+    errno = reason;
     return false;
+}
+
+bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
+{
+    return open_writer(file, path, ".part", "wb", error);
+}
+
+/* Two names are hardly alike, and where they are the file of the other is left alone. */
+bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *error)
+{
+    bool ok = false;
+    errno = EEXIST;
+    for (int tries = 0; !ok && tries < 100 && errno == EEXIST; tries++) {
+        char ending[48];
+        struct timespec now;
+        clock_gettime(CLOCK_REALTIME, &now);
+        snprintf(ending, sizeof ending, ".%lx.part", (unsigned long)now.tv_nsec);
+        ok = open_writer(file, path, ending, is_there_but_no_file(path) ? "wb" : "wbx", error);
+    }
+    return ok;
 }
 
 bool file_writer_close(file_writer *file, octreel_error *error)
@@ -132,18 +175,30 @@ static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *er
     return !ferror(in) || error_set(error, "%s: cannot be read: %s", from, strerror(errno));
 }
 
-bool file_copy_to(const char *from, const char *to, octreel_error *error)
+typedef bool writer_opener(file_writer *file, const char *path, octreel_error *error);
+
+static bool copy_by(writer_opener *open_file, const char *from, const char *to, octreel_error *error)
 {
     char reason[FILE_REASON];
     file_writer file;
     FILE *in = file_open(from, NULL, reason);
     if (!in)
         return error_set(error, "%s: %s", file_title(from), reason);
-    bool ok = file_writer_open(&file, to, error);
+    bool ok = open_file(&file, to, error);
     if (ok)
         ok = copy_stream(in, from, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
     fclose(in);
     return ok;
+}
+
+bool file_copy_to(const char *from, const char *to, octreel_error *error)
+{
+    return copy_by(file_writer_open, from, to, error);
+}
+
+bool file_copy_apart(const char *from, const char *to, octreel_error *error)
+{
+    return copy_by(file_writer_open_apart, from, to, error);
 }
 
 /* ---- Compared ----------------------------------------------------------------------------------------------- */
@@ -184,10 +239,8 @@ bool same_file(const struct stat *a, const struct stat *b)
 
 bool stat_parent(const char *path, struct stat *status)
 {
-    char *parent = strdup(path), *slash = parent ? strrchr(parent, '/') : NULL;
-    if (slash)
-        slash[slash == parent ? 1 : 0] = 0;
-    const bool is = parent && stat(slash ? parent : ".", status) == 0;
+    char *parent = parent_of(path);
+    const bool is = parent && stat(parent, status) == 0;
     free(parent);
     return is;
 }

@@ -21,6 +21,10 @@ bool folder_has(const char *folder, const char *name);
 bool file_lock(int file);
 bool file_is_locked(const char *path);
 
+/* Lock the folder in which a path lies, and wait for whoever has it: what is read, changed and renamed in it by all who
+ * do so is lost to nobody. Released by close(); -1 where the folder or its file system has no locks. */
+int file_lock_folder_of(const char *path);
+
 /* "-" stands for standard input where a file is read, and for standard output where one is written: in each function
  * below, and so in every command. ./- is a file of that name. */
 bool file_is_standard(const char *path);
@@ -58,6 +62,9 @@ typedef struct file_writer {
 } file_writer;
 
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
+
+/* The same by way of a file that nobody else writes at the same time. */
+bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *error);
 bool file_writer_close(file_writer *file, octreel_error *error);
 
 /* Leave the path as it was before; always false, so that a caller can return it. */
@@ -65,6 +72,9 @@ bool file_writer_abandon(file_writer *file);
 
 /* Copy a regular file, a block at a time, by way of "<to>.part" and a rename. */
 bool file_copy_to(const char *from, const char *to, octreel_error *error);
+
+/* The same by way of a file that nobody else writes at the same time. */
+bool file_copy_apart(const char *from, const char *to, octreel_error *error);
 
 /* A file that a command line names as an output: none may take the place of what is read, nor of another one. */
 typedef struct output_file {

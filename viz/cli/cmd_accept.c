@@ -7,42 +7,114 @@
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 static const char help[] =
-    "usage: octreel accept REFERENCE NEW [FRAME ...]\n\n"
+    "usage: octreel accept REFERENCE NEW [FRAME ...] [OPTION ...]\n\n"
     "Take over new frames as the reference: all of them, or those that are named. NEW is a PNG, a folder of PNGs or a\n"
     "recording, or -, a PNG from standard input; REFERENCE is the like, or a file of digests, and is made where there\n"
-    "is nothing. References with the\n"
-    "same pixels stay as they are; those that NEW has no frame for are removed, where all or they are asked for.\n"
-    "What was there before is told as octreel diff tells it. Look at the pictures first.\n\n"
-    "Where the environment has CI set, nothing is accepted: a test that accepts what it should test proves nothing.\n\n"
+    "is nothing. References with the same pixels stay as they are; those that NEW has no frame for are removed, where\n"
+    "all or they are asked for. What was there before is told as octreel diff tells it. Look at the pictures first.\n\n"
+    "      --from FILE       the frames that FILE names, one a line: what was ticked in the page of octreel diff -o,\n"
+    "                        which saves it as accept.txt; - is standard input\n\n"
+    "A baseline is a file of digests that says why. It is text for git: a line for each frame and each accepted "
+    "digest,\n"
+    "one for each reason, in an order that merges well; \"baseline.txt merge=union\" in .gitattributes lets two "
+    "people\n"
+    "accept the same frame.\n"
+    "      --reason TEXT     why, in one line; makes REFERENCE a baseline where there is nothing\n"
+    "      --date DATE       when, as YYYY-MM-DD (default: today)\n"
+    "      --variant         what was accepted before stays so, too: any of a frame's variants passes\n"
+    "      --store DIR       put the pictures there, each under the digest of its pixels, for octreel diff --store to\n"
+    "                        show what was expected; no verdict depends on it\n"
     "  -h, --help\n\n"
+    "Of several who accept into one baseline at once each sees what the others did, and where a disk is full nothing\n"
+    "is accepted. Where the environment has CI set, nothing is either: a test that accepts what it should test proves\n"
+    "nothing.\n\n"
     "Exit status: 0 done, 2 trouble.\n\n"
     "Examples: octreel accept golden frames\n"
     "          octreel accept golden frames frame_000041.png frame_000042.png\n"
-    "          octreel accept frames.digests frames\n";
+    "          octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
+    "          octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n";
+
+typedef struct arguments {
+    const char *from, *date, *reason, *store;
+    bool variant;
+} arguments;
+
+static bool read_date(const command_option *option, const char *text, void *into)
+{
+    return baseline_is_date(text) ? read_text(option, text, into)
+                                  : refuse("--%s takes a date such as 2026-11-22, not \"%s\"", option->name, text);
+}
+
+static bool read_reason(const command_option *option, const char *text, void *into)
+{
+    return baseline_is_reason(text)
+               ? read_text(option, text, into)
+               : refuse("--%s takes one line of text, without blanks around it, and \"%s\" is none", option->name,
+                        text);
+}
+
+static const command_option options[] = {
+    {"from", read_name, OPTION_VALUE(arguments, from), 0, 0},
+    {"reason", read_reason, OPTION_VALUE(arguments, reason), 0, 0},
+    {"date", read_date, OPTION_VALUE(arguments, date), 0, 0},
+    {"variant", read_flag, OPTION_VALUE(arguments, variant), 0, 0},
+    {"store", read_folder, OPTION_VALUE(arguments, store), 0, 0},
+    {0},
+};
+
+/* By the clock and the time zone of who accepts. */
+static const char *today(char text[11])
+{
+    const time_t now = time(NULL);
+    struct tm local;
+    if (!localtime_r(&now, &local) || strftime(text, 11, "%Y-%m-%d", &local) == 0)
+        snprintf(text, 11, "1970-01-01");
+    return text;
+}
+
+static int accept_them(const arguments *a, char **paths, int count)
+{
+    char date[11];
+    octreel_error error;
+    frame_list names = {0};
+    const accept_options all = {.reference = paths[0],
+                                .frames = paths[1],
+                                .names = &names,
+                                .words = {a->date ? a->date : today(date), a->reason},
+                                .store = a->store,
+                                .variant = a->variant};
+    bool ok = !a->from || frame_list_read(&names, a->from, &error);
+    for (int i = 2; ok && i < count; i++)
+        ok = frame_list_add(&names, paths[i], 0, &error);
+    ok = ok && accept_frames(&all, stdout, &error);
+    frame_list_release(&names);
+    return ok ? EXIT_DONE : trouble("%s", error.text);
+}
 
 #define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING)
 
 int cmd_accept(int argc, char **argv)
 {
+    arguments a = {0};
     const command_line line = {.name = "accept",
                                .help = help,
+                               .options = options,
+                               .arguments = &a,
                                .least = 2,
                                .most = INT_MAX,
                                .takes = "a reference and what is new, each a PNG, a folder of PNGs or a recording",
                                .inputs = {FILE_KIND(MISSING) | FILE_KIND(DIGESTS) | SIDE, FILE_KIND(DIGESTS) | SIDE}};
     const int status = command_line_read(&line, argc, argv);
-    octreel_error error;
     if (status != COMMAND_GO_ON)
         return status;
     if (getenv("CI"))
         return trouble("nothing is accepted where CI is set in the environment: references change by hand alone");
-    const accept_options all = {
-        .reference = argv[optind],
-        .frames = argv[optind + 1],
-        .names = (const char *const *)argv + optind + 2,
-        .name_count = (size_t)(argc - optind - 2),
-    };
-    return accept_frames(&all, stdout, &error) ? EXIT_DONE : trouble("%s", error.text);
+    if (a.date && !a.reason)
+        return trouble("--date is that of a reason: give --reason, too");
+    if (a.from && file_is_standard(a.from) && file_is_standard(argv[optind + 1]))
+        return trouble("standard input can be read once, and \"-\" names it twice");
+    return accept_them(&a, argv + optind, argc - optind);
 }

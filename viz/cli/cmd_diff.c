@@ -6,6 +6,7 @@
 #include "hint.h"
 #include "ignored_layers.h"
 #include "number.h"
+#include "picture_store.h"
 #include "report.h"
 #include "text.h"
 #include "view_options.h"
@@ -17,10 +18,10 @@
 static const char help[] =
     "usage: octreel diff REFERENCE COMPARED [OPTION ...]\n\n"
     "Compare pictures, exactly unless told otherwise. Each side is a PNG, a folder of PNGs (those directly in it), a\n"
-    "recording, or a file of digests made by octreel digest; - is a PNG or digests from standard input. Frames belong\n"
-    "together by their names; a frame without a\n"
-    "reference is a difference, and so is a reference without a frame. Of recordings without frames the ticks are\n"
-    "compared.\n\n"
+    "recording, or a file of digests, made by octreel digest or octreel accept; - is a PNG or digests from standard\n"
+    "input. Frames belong together by their names; a frame without a reference is a difference, and so is a reference\n"
+    "without a frame. Where a baseline accepts several digests of a frame, any of them passes. Of recordings without\n"
+    "frames the ticks are compared.\n\n"
     "Forgiven is only what is asked for, and every verdict says so:\n"
     "      --max-pixels N    up to N unlike pixels a frame, after all below is forgiven\n"
     "      --max-delta D     colours no farther apart than D in the unit YIQ (Kotsarenko and Ramos 2010), from 0, the\n"
@@ -34,6 +35,8 @@ static const char help[] =
     "verdict is about the frames, whatever their sessions are.\n"
     "      --causes N        explain the first N frames and ticks that differ, and list as many of them, at least 10\n"
     "                        (default 10; a page explains 50), \"all\", or 0 for none\n\n"
+    "      --store DIR       of a file of digests: pictures that octreel accept --store has put there show what was\n"
+    "                        expected; no verdict depends on them\n"
     "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
     "  -o, --output FOLDER   leave evidence: report.html, a page that holds all it shows, and of each frame that\n"
     "                        differs NAME.expected.png, NAME.actual.png and NAME.difference.png (what counts glows, "
@@ -56,6 +59,7 @@ typedef struct arguments {
     unsigned layers;                       /* left out: bits 1 << view_layer */
     image_rectangle *ignored;              /* owned */
     const char *folder, *junit, *markdown; /* null: not asked for */
+    const char *store;                     /* null: there is none */
     uint64_t causes;                       /* how many are explained */
     bool causes_said;
     size_t lines; /* how many frames are listed: no fewer than are asked for by --causes */
@@ -132,6 +136,7 @@ static const command_option options[] = {
     {"ignore-layer", read_layers, 0, 0, 0, 0},
     {"causes", read_causes, 0, sizeof(uint64_t), 0, UINT32_MAX},
     {"background", read_color, OPTION_VALUE(arguments, options.background), 0, 0},
+    {"store", read_name, OPTION_VALUE(arguments, store), 0, 0},
     {"output", read_folder, OPTION_VALUE(arguments, folder), 0, 0},
     {"junit", read_file, OPTION_VALUE(arguments, junit), 0, 0},
     {"markdown", read_file, OPTION_VALUE(arguments, markdown), 0, 0},
@@ -248,6 +253,7 @@ static int compare(const arguments *a, const char *paths[2])
     octreel_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
                     check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
+                    (!a->store || picture_store_fetch(a->store, &sides[0], &result, &error)) &&
                     explain(&sides[0], &sides[1], &result, a->causes, &why, &error);
     diff_report all = {.a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines};
     const int status = ok ? report(a, &all) : trouble("%s", error.text);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* accept.c - references are compared with new frames, and replaced by them. */
-#include "accept.h"
+#include "accepting.h"
 #include "digest_file.h"
 #include "file_kind.h"
-#include "hint.h"
+#include "png_read.h"
 #include "text.h"
 #include "diff_words.h"
 #include "file.h"
@@ -14,35 +14,25 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What happens to a reference. */
-typedef enum action { KEPT, CHANGED, ADDED, REMOVED, ACTIONS } action;
-
-/* Both sides while the new one is taken over. */
-typedef struct accepting {
-    const accept_options *options;
-    diff_side reference, frames;
-    bool is_new; /* there was no reference */
-    diff_result result;
-    action *actions; /* one a pair */
-    size_t counts[ACTIONS];
-    FILE *out;
-} accepting;
-
 /* ---- What is to be done ------------------------------------------------------------------------------------- */
 
 /* Of what its name says it is: no folder "x.digests", and no picture "golden". */
 static bool check_new(const accept_options *o, diff_kind kind, octreel_error *error)
 {
     const name_kind name = name_kind_of(o->reference);
+    if (kind == DIFF_DIGESTS)
+        return name == NAME_OPEN || name == NAME_FILE ||
+               error_set(error, "%s: there is no such reference, and a file of digests has no name of a picture",
+                         o->reference);
     if (kind == DIFF_PICTURE)
         return name == NAME_PNG ||
                error_set(error, "%s: there is no such reference, and %s becomes one as NAME.png alone", o->reference,
                          o->frames);
     return name == NAME_OPEN ||
            error_set(error,
-                     "%s: there is no such reference, and frames become one in a folder; of their digests: %s "
-                     "digest FOLDER -o FILE",
-                     o->reference, hint_program());
+                     "%s: there is no such reference, and frames become one in a folder; with --reason TEXT their "
+                     "digests become one in a file",
+                     o->reference);
 }
 
 /* Frames that come while others are taken over would be missing. A chunk has a log of its own. */
@@ -77,11 +67,14 @@ static bool open_sides(accepting *a, octreel_error *error)
         return error_set(error, "%s: there is no PNG in it", o->frames);
     a->is_new = access(o->reference, F_OK) != 0;
     if (a->is_new) {
-        if (!check_new(o, a->frames.kind, error))
-            return false;
-        a->reference = (diff_side){
-            .path = o->reference, .source = o->reference, .kind = a->frames.kind, .no_frames = a->frames.no_frames};
-        return true;
+        const bool digests = o->words.reason || o->store || o->variant;
+        a->reference = (diff_side){.path = o->reference,
+                                   .source = o->reference,
+                                   .kind = digests ? DIFF_DIGESTS : a->frames.kind,
+                                   .baseline = digests,
+                                   .background = IMAGE_WHITE,
+                                   .no_frames = a->frames.no_frames && !digests};
+        return check_new(o, a->reference.kind, error);
     }
     if (!diff_side_open(&a->reference, o->reference, error))
         return false;
@@ -97,18 +90,24 @@ static bool open_sides(accepting *a, octreel_error *error)
 
 static bool is_named(const accept_options *options, const char *name)
 {
-    for (size_t i = 0; i < options->name_count; i++)
-        if (strcmp(options->names[i], name) == 0)
+    for (size_t i = 0; i < options->names->count; i++)
+        if (strcmp(options->names->frames[i].name, name) == 0)
             return true;
-    return options->name_count == 0;
+    return options->names->count == 0;
 }
 
 static bool check_names(const accepting *a, octreel_error *error)
 {
-    for (size_t i = 0; i < a->options->name_count; i++)
-        if (!diff_find(&a->result, a->options->names[i]))
-            return error_set(error, "there is no frame %s, neither in %s nor in %s", a->options->names[i],
-                             a->frames.path, a->reference.path);
+    for (size_t i = 0; i < a->options->names->count; i++) {
+        const listed_frame *listed = &a->options->names->frames[i];
+        char line[48] = "";
+        if (diff_find(&a->result, listed->name))
+            continue;
+        if (listed->line)
+            snprintf(line, sizeof line, "line %zu of the list: ", listed->line);
+        return error_set(error, "%sthere is no frame %s, neither in %s nor in %s", line, listed->name, a->frames.path,
+                         a->reference.path);
+    }
     return true;
 }
 
@@ -130,6 +129,7 @@ static action action_for(const diff_pair *pair)
 /* A frame that cannot be read becomes no reference; a reference that cannot be read may be replaced. */
 static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
+    pair->about[1].kind = a->reference.baseline ? IMAGE_DIGEST_NEWEST : IMAGE_DIGEST_RUNS; /* of version 1 */
     return digest_frame(pair->b->path, a->reference.background, &pair->about[1], error);
 }
 
@@ -154,7 +154,7 @@ static bool decide(accepting *a, octreel_error *error)
 static bool check_overlap(const accepting *a, octreel_error *error)
 {
     const size_t references = a->reference.count;
-    return references == 0 || a->options->name_count > 0 || a->counts[REMOVED] < references ||
+    return references == 0 || a->options->names->count > 0 || a->counts[REMOVED] < references ||
            error_set(error, "%s: all its references (%zu) would go, for %s has none of their names", a->reference.path,
                      references, a->frames.path);
 }
@@ -207,26 +207,6 @@ static bool write_pictures(const accepting *a, octreel_error *error)
     return true;
 }
 
-/* All references as they are now; those that stay keep their digests. */
-static bool write_digests(const accepting *a, octreel_error *error)
-{
-    diff_side now = {.path = a->reference.path, .kind = DIFF_DIGESTS, .background = a->reference.background};
-    file_writer file;
-    bool ok = true;
-    for (size_t i = 0; ok && i < a->result.count; i++) {
-        const diff_pair *pair = &a->result.pairs[i];
-        if (a->actions[i] == CHANGED || a->actions[i] == ADDED)
-            ok = diff_side_add(&now, pair->b->name, pair->about[1], error);
-        else if (a->actions[i] == KEPT && pair->a)
-            ok = diff_side_add(&now, pair->a->name, pair->a->digest, error);
-    }
-    ok = ok && file_writer_open(&file, now.path, error);
-    if (ok)
-        ok = digest_file_write(file.stream, &now, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
-    diff_side_release(&now);
-    return ok;
-}
-
 static bool copy_fact(const accepting *a, const char *name, octreel_error *error)
 {
     char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
@@ -250,14 +230,14 @@ static bool write_facts(const accepting *a, octreel_error *error)
     return ok;
 }
 
-static bool write_all(const accepting *a, octreel_error *error)
+static bool write_all(accepting *a, octreel_error *error)
 {
-    const bool whole = a->options->name_count == 0;
+    const bool whole = a->options->names->count == 0;
     const diff_kind kind = a->reference.kind;
-    if (a->is_new && kind != DIFF_PICTURE && !folder_prepare(a->reference.path, error))
+    if (a->is_new && kind != DIFF_PICTURE && kind != DIFF_DIGESTS && !folder_prepare(a->reference.path, error))
         return false;
     if (kind == DIFF_DIGESTS)
-        return write_digests(a, error);
+        return accept_digests(a, error);
     if (!write_pictures(a, error))
         return false;
     return kind != DIFF_RECORDING || !whole || write_facts(a, error);
@@ -278,14 +258,15 @@ static void tell(const accepting *a)
     const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
     fprintf(a->out, "%s: %zu before, %zu after: %zu changed, %zu new, %zu removed\n", a->reference.path, before, after,
             a->counts[CHANGED], a->counts[ADDED], a->counts[REMOVED]);
-    if (a->reference.kind == DIFF_RECORDING && a->options->name_count > 0 && said > 0)
+    if (a->reference.kind == DIFF_RECORDING && a->options->names->count > 0 && said > 0)
         fprintf(a->out, "Its ticks are still those of before; to take them over too, accept all frames.\n");
 }
 
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error)
 {
     accepting a = {.options = options, .out = out};
-    const bool ok = open_sides(&a, error) && check_ended(&a.frames, error) &&
+    const int lock = file_kind_of(options->reference) == KIND_FOLDER ? -1 : file_lock_folder_of(options->reference);
+    const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && check_ended(&a.frames, error) &&
                     (a.is_new || check_ended(&a.reference, error)) && compare(&a, error) && write_all(&a, error);
     if (ok)
         tell(&a);
@@ -293,5 +274,7 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
     diff_release(&a.result);
     diff_side_release(&a.reference);
     diff_side_release(&a.frames);
+    if (lock >= 0)
+        close(lock);
     return ok;
 }

@@ -55,6 +55,7 @@ void diff_release(diff_result *result)
     for (size_t i = 0; i < result->count; i++) {
         mask_release(&result->pairs[i].mask);
         free(result->pairs[i].trouble);
+        free(result->pairs[i].no_picture);
     }
     free(result->pairs);
     *result = (diff_result){0};
@@ -257,22 +258,71 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
 
 /* ---- Digests ------------------------------------------------------------------------------------------------- */
 
+/* What is known of a frame by one kind of digest: that of its picture, or all that its file of digests has. */
+typedef struct known_digests {
+    frame_digest own; /* the picture's, or that which was accepted last */
+    const frame_digest *list;
+    size_t count;
+} known_digests;
+
+/* False with an error, or without one where no digest is of this kind. */
+static bool know_digests(const diff_frame *frame, image_digest_kind kind, image_color background, known_digests *k,
+                         octreel_error *error)
+{
+    *k = (known_digests){.own = {.kind = kind}};
+    error->text[0] = 0;
+    if (frame->path) {
+        k->list = &k->own;
+        k->count = 1;
+        return digest_frame(frame->path, background, &k->own, error);
+    }
+    k->count = diff_frame_digests(frame, &k->list);
+    k->own = frame->digest;
+    for (size_t i = k->count; i > 0 && k->own.kind != kind; i--)
+        k->own = k->list[i - 1];
+    return k->own.kind == kind;
+}
+
+/* Equal are pictures of one size and one digest. */
+static bool compare_kind(diff_pair *pair, image_digest_kind kind, image_color background, octreel_error *error)
+{
+    known_digests a, b;
+    if (!know_digests(pair->a, kind, background, &a, error) || !know_digests(pair->b, kind, background, &b, error))
+        return false;
+    pair->about[0] = a.own;
+    pair->about[1] = b.own;
+    for (size_t n = 0; n < a.count * b.count; n++) {
+        const frame_digest *x = &a.list[n / b.count], *y = &b.list[n % b.count];
+        if (x->kind == kind && y->kind == kind && x->pixels == y->pixels && x->width == y->width &&
+            x->height == y->height) {
+            pair->about[0] = pair->about[1] = *x;
+            pair->finding = FOUND_SAME_PIXELS;
+            break;
+        }
+    }
+    return true;
+}
+
 static void compare_digests(diff_pair *pair, const diff_options *options)
 {
-    const diff_frame *const frames[2] = {pair->a, pair->b};
-    octreel_error error;
-    for (int i = 0; i < 2; i++) {
-        pair->about[i] = frames[i]->digest;
-        if (frames[i]->path && !digest_frame(frames[i]->path, options->background, &pair->about[i], &error)) {
-            find_unreadable(pair, &error);
+    octreel_error error = {
+        "the digests of both sides are of unlike kinds, which tells nothing: make those of one anew"};
+    bool any = false;
+    for (int kind = 0; kind < IMAGE_DIGEST_KINDS && !(any && pair->finding == FOUND_SAME_PIXELS); kind++) {
+        octreel_error trouble;
+        if (compare_kind(pair, (image_digest_kind)kind, options->background, &trouble)) {
+            any = true;
+        } else if (trouble.text[0]) {
+            find_unreadable(pair, &trouble);
             return;
         }
     }
-    const frame_digest *a = &pair->about[0], *b = &pair->about[1];
-    if (a->width != b->width || a->height != b->height)
-        pair->finding = FOUND_SIZE;
-    else
-        pair->finding = a->pixels == b->pixels ? FOUND_SAME_PIXELS : FOUND_DIGEST;
+    if (!any)
+        find_unreadable(pair, &error);
+    else if (pair->finding != FOUND_SAME_PIXELS)
+        pair->finding = pair->about[0].width != pair->about[1].width || pair->about[0].height != pair->about[1].height
+                            ? FOUND_SIZE
+                            : FOUND_DIGEST;
 }
 
 void compare_pixels(diff_pair *pair, const diff_options *options)
@@ -337,8 +387,9 @@ static bool compare_ticks(const diff_side *a, const diff_side *b, diff_result *r
     return ok;
 }
 
-static void sum_up(diff_result *result)
+void diff_count(diff_result *result)
 {
+    memset(result->found, 0, sizeof result->found);
     for (size_t i = 0; i < result->count; i++) {
         const diff_finding finding = result->pairs[i].finding;
         result->found[finding]++;
@@ -363,7 +414,7 @@ bool diff_run(const diff_side *a, const diff_side *b, const diff_options *option
     if (ok && a->no_frames)
         ok = compare_ticks(a, b, result, error);
     if (ok)
-        sum_up(result);
+        diff_count(result);
     else
         diff_release(result);
     return ok;

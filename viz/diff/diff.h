@@ -60,6 +60,7 @@ typedef struct diff_pair {
     image_difference difference; /* where both were decoded */
     pixel_mask mask;             /* what the layers that are left out cover */
     char *trouble;               /* the error of what is unreadable; owned */
+    char *no_picture;            /* why the store has none of the reference; owned */
     bool no_memory;              /* it may be readable */
 } diff_pair;
 
@@ -83,6 +84,9 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               octreel_error *error);
 void diff_release(diff_result *result);
+
+/* Count the findings anew, and set the verdict by them. */
+void diff_count(diff_result *result);
 
 /* Find by the pixels, or by the digests, of a pair that has both frames. The finding is set in any case. */
 void compare_pixels(diff_pair *pair, const diff_options *options);

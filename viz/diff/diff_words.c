@@ -54,7 +54,7 @@ static void print_pixels(FILE *out, const diff_pair *pair)
     print_worst(out, d);
 }
 
-void diff_print_difference(FILE *out, const diff_pair *pair)
+static void print_difference(FILE *out, const diff_pair *pair)
 {
     const frame_digest *about = pair->about;
     switch (pair->finding) {
@@ -85,6 +85,15 @@ void diff_print_difference(FILE *out, const diff_pair *pair)
         fputs("the same", out);
         break;
     }
+}
+
+void diff_print_difference(FILE *out, const diff_pair *pair)
+{
+    print_difference(out, pair);
+    if (pair->a && pair->b && pair->a->variant_count > 1 && diff_finding_verdict(pair->finding) == DIFF_DIFFERENT)
+        fprintf(out, "; none of %zu variants that are accepted", pair->a->variant_count);
+    if (pair->no_picture)
+        fprintf(out, "; there is no picture of what was expected: %s", pair->no_picture);
 }
 
 void diff_print_pair(FILE *out, const diff_pair *pair)

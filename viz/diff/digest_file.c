@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* digest_file.c - files of digests, read and written. */
 #include "digest_file.h"
+#include "baseline.h"
 #include "file_kind.h"
 #include "parallel.h"
 #include "text.h"
@@ -11,12 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FIRST_LINE DIGEST_FILE_BEGINNING "1"
-
 /* ---- Reading ------------------------------------------------------------------------------------------------- */
 
-/* So many hexadecimal digits in lower case and the character that ends them; *at is moved after it. */
-static bool take_hexadecimal(const char **at, size_t digits, char end, uint64_t *value)
+bool digest_file_take_hexadecimal(const char **at, size_t digits, char end, uint64_t *value)
 {
     if (strspn(*at, "0123456789abcdef") != digits || (*at)[digits] != end)
         return false;
@@ -36,10 +34,15 @@ static bool take_side_length(const char **at, char end, int *value)
     return *end_of_number == end && length <= IMAGE_MAX_SIDE;
 }
 
-static bool holds_control(const char *name)
+bool digest_file_take_size(const char **at, char end, frame_digest *digest)
 {
-    for (; *name; name++)
-        if ((unsigned char)*name < ' ' || *name == 127)
+    return take_side_length(at, 'x', &digest->width) && take_side_length(at, end, &digest->height);
+}
+
+bool digest_file_holds_control(const char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 127)
             return true;
     return false;
 }
@@ -51,7 +54,7 @@ static bool parse_background(const char *line, image_color *color)
     if (strncmp(line, word, sizeof word - 1) != 0)
         return false;
     line += sizeof word - 1;
-    if (!take_hexadecimal(&line, 6, 0, &value))
+    if (!digest_file_take_hexadecimal(&line, 6, 0, &value))
         return false;
     *color = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
     return true;
@@ -59,28 +62,53 @@ static bool parse_background(const char *line, image_color *color)
 
 static bool parse_frame(const char *line, frame_digest *digest, const char **name)
 {
-    const bool ok = take_hexadecimal(&line, 16, ' ', &digest->pixels) && take_side_length(&line, 'x', &digest->width) &&
-                    take_side_length(&line, ' ', &digest->height);
+    *digest = (frame_digest){.kind = IMAGE_DIGEST_RUNS};
+    const bool ok =
+        digest_file_take_hexadecimal(&line, 16, ' ', &digest->pixels) && digest_file_take_size(&line, ' ', digest);
     *name = line;
-    return ok && *line && !holds_control(line) && !strchr(line, '/');
+    return ok && *line && !digest_file_holds_control(line) && !strchr(line, '/');
 }
 
-static bool take_line(diff_side *side, const char *line, size_t number, octreel_error *error)
+/* What is between "<<<<<<< ours" and ">>>>>>> theirs" is of two files. */
+static bool is_conflict(const char *line)
 {
-    frame_digest digest;
-    const char *name;
-    if (number == 1)
-        return strcmp(line, FIRST_LINE) == 0 ||
-               error_set(error, "%s:1: this version reads \"%s\" alone", side->path, FIRST_LINE);
+    return strlen(line) >= 7 && line[0] && strchr("<=>|", line[0]) && strspn(line, (char[]){line[0], 0}) == 7 &&
+           (line[7] == 0 || line[7] == ' ');
+}
+
+static bool take_head(diff_side *side, const char *line, size_t number, octreel_error *error)
+{
+    static const char first[] = DIGEST_FILE_BEGINNING;
+    const char *version = line + sizeof first - 1;
     if (number == 2)
         return parse_background(line, &side->background) ||
                error_set(error, "%s:2: expected a background, as in \"background ffffff\"", side->path);
+    if (strncmp(line, first, sizeof first - 1) != 0 || (strcmp(version, "1") != 0 && strcmp(version, "2") != 0))
+        return error_set(error, "%s:1: this version reads \"%s1\" and \"%s2\" alone", side->path, first, first);
+    side->baseline = *version == '2';
+    return true;
+}
+
+static bool take_frame(diff_side *side, const char *line, size_t number, octreel_error *error)
+{
+    frame_digest digest;
+    const char *name;
     if (!parse_frame(line, &digest, &name))
         return error_set(error, "%s:%zu: expected a digest, a size and a name, as in \"%016d 1280x720 frame.png\"",
                          side->path, number, 0);
     if (side->count > 0 && strcmp(side->frames[side->count - 1].name, name) >= 0)
         return error_set(error, "%s:%zu: names must be in order, each but once", side->path, number);
     return diff_side_add(side, name, digest, error);
+}
+
+static bool take_line(diff_side *side, char *line, size_t number, octreel_error *error)
+{
+    if (is_conflict(line))
+        return error_set(error, "%s:%zu: a conflict that git has left; choose among the lines between its marks",
+                         side->path, number);
+    if (number <= 2)
+        return take_head(side, line, number, error);
+    return side->baseline ? baseline_take_line(side, line, number, error) : take_frame(side, line, number, error);
 }
 
 bool digest_file_parse(diff_side *side, char *text, size_t size, octreel_error *error)
@@ -99,7 +127,9 @@ bool digest_file_parse(diff_side *side, char *text, size_t size, octreel_error *
         if (!take_line(side, line, ++number, error))
             return false;
     }
-    return number >= 2 || error_set(error, "%s: it ends before its second line", side->path);
+    if (number < 2)
+        return error_set(error, "%s: it ends before its second line", side->path);
+    return !side->baseline || baseline_collect(side, error);
 }
 
 bool digest_file_read(diff_side *side, octreel_error *error)
@@ -116,7 +146,7 @@ bool digest_file_read(diff_side *side, octreel_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------- */
 
-static bool fail_name(const diff_side *side, const char *name, octreel_error *error)
+bool digest_file_fail_name(const diff_side *side, const char *name, octreel_error *error)
 {
     char *shown = strdup(name);
     error_set(error, "%s: the name \"%s\" has a character that a line cannot hold", side->path,
@@ -125,13 +155,17 @@ static bool fail_name(const diff_side *side, const char *name, octreel_error *er
     return false;
 }
 
+void digest_file_write_head(FILE *out, int version, image_color ground)
+{
+    fprintf(out, "%s%d\nbackground %02x%02x%02x\n", DIGEST_FILE_BEGINNING, version, ground.r, ground.g, ground.b);
+}
+
 bool digest_file_write(FILE *out, const diff_side *side, octreel_error *error)
 {
-    const image_color ground = side->background;
     for (size_t i = 0; i < side->count; i++)
-        if (holds_control(side->frames[i].name))
-            return fail_name(side, side->frames[i].name, error);
-    fprintf(out, "%s\nbackground %02x%02x%02x\n", FIRST_LINE, ground.r, ground.g, ground.b);
+        if (digest_file_holds_control(side->frames[i].name))
+            return digest_file_fail_name(side, side->frames[i].name, error);
+    digest_file_write_head(out, 1, side->background);
     for (size_t i = 0; i < side->count; i++) {
         const diff_frame *frame = &side->frames[i];
         fprintf(out, "%016" PRIx64 " %dx%d %s\n", frame->digest.pixels, frame->digest.width, frame->digest.height,
@@ -146,9 +180,9 @@ bool digest_frame(const char *path, image_color background, frame_digest *digest
 {
     image about;
     uint64_t pixels;
-    if (!image_digest_png(path, background, &about, &pixels, error))
+    if (!image_digest_png_of(digest->kind, path, background, &about, &pixels, error))
         return false;
-    *digest = (frame_digest){pixels, about.width, about.height};
+    *digest = (frame_digest){pixels, about.width, about.height, digest->kind, 0};
     return true;
 }
 
@@ -161,6 +195,7 @@ static void digest_one(size_t i, void *context)
 {
     const digesting *d = context;
     diff_frame *frame = &d->side->frames[i];
+    frame->digest.kind = IMAGE_DIGEST_RUNS; /* of version 1 */
     if (!digest_frame(frame->path, d->side->background, &frame->digest, &d->errors[i]))
         frame->digest = (frame_digest){0};
 }

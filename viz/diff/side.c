@@ -52,6 +52,12 @@ bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octre
     return error_no_memory(error);
 }
 
+size_t diff_frame_digests(const diff_frame *frame, const frame_digest **digests)
+{
+    *digests = frame->variants ? frame->variants : &frame->digest;
+    return frame->variants ? frame->variant_count : 1;
+}
+
 static bool is_png_name(const char *name)
 {
     const size_t length = strlen(name);
@@ -139,7 +145,11 @@ void diff_side_release(diff_side *side)
     for (size_t i = 0; i < side->count; i++) {
         free(side->frames[i].name);
         free(side->frames[i].path);
+        free(side->frames[i].variants);
     }
+    for (size_t i = 0; i < side->acceptance_count; i++)
+        free(side->acceptances[i].reason);
+    free(side->acceptances);
     free(side->frames);
     *side = (diff_side){0};
 }

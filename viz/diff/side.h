@@ -4,7 +4,7 @@
 #define DIFF_SIDE_H
 
 #include "folder.h"
-#include "image.h"
+#include "image_digest.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -16,12 +16,25 @@ typedef enum diff_kind { DIFF_PICTURE, DIFF_FOLDER, DIFF_RECORDING, DIFF_DIGESTS
 typedef struct frame_digest {
     uint64_t pixels; /* image_digest() */
     int width, height;
+    image_digest_kind kind;
+    size_t acceptance; /* in a baseline: by which it was taken over, in side->acceptances */
 } frame_digest;
 
+/* Digests that were taken over together: when and why, as a person has said it. They are of pictures of one size, and
+ * of one kind. */
+typedef struct acceptance {
+    char id[3], date[11]; /* two of 0-9a-z; YYYY-MM-DD */
+    int width, height;
+    image_digest_kind kind;
+    char *reason; /* owned */
+} acceptance;
+
 typedef struct diff_frame {
-    char *name;          /* of the file, without folders */
-    char *path;          /* null in a file of digests */
-    frame_digest digest; /* zero where there is a path */
+    char *name;             /* of the file, without folders */
+    char *path;             /* null in a file of digests, unless the picture was found in a store */
+    frame_digest digest;    /* zero where there is a path; of several that which was accepted last */
+    frame_digest *variants; /* in a baseline: all that are accepted; owned */
+    size_t variant_count;
 } diff_frame;
 
 typedef struct diff_side {
@@ -30,8 +43,11 @@ typedef struct diff_side {
     diff_kind kind;
     diff_frame *frames; /* in the order of their names' bytes, no name twice */
     size_t count, room;
-    bool no_frames;         /* a recording that was made without: its ticks are compared */
-    image_color background; /* of a file of digests: what transparent pixels were laid over */
+    bool no_frames;          /* a recording that was made without: its ticks are compared */
+    image_color background;  /* of a file of digests: what transparent pixels were laid over */
+    acceptance *acceptances; /* of a baseline; owned */
+    size_t acceptance_count, acceptance_room;
+    bool baseline; /* a file of digests that says when and why */
 } diff_side;
 
 /* Open what a path names; "-" is a PNG or digests from standard input. A folder has the PNG files directly in it whose
@@ -49,5 +65,8 @@ const char *diff_kind_name(diff_kind kind);
 
 /* Append a frame: a copy of its name, its path where the side's kind has paths, and its digest. */
 bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
+
+/* The digests of a frame of such a file: its variants, or the one that it has. */
+size_t diff_frame_digests(const diff_frame *frame, const frame_digest **digests);
 
 #endif

@@ -175,7 +175,7 @@ static void a_name_of_a_file_becomes_no_folder_and_no_other_picture(void **state
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         const place reference = place_in(*state, names[i]);
         command_result result = run_octreel(NULL, "accept %s %s", reference.path, frames.path);
-        assert_trouble(&result, "there is no such reference, and frames become one in a folder; of their digests: ");
+        assert_trouble(&result, "there is no such reference, and frames become one in a folder; with --reason TEXT ");
         assert_false(file_exists(reference.path));
     }
     const place golden = place_in(*state, "golden");

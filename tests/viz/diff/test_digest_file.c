@@ -131,7 +131,7 @@ static void what_is_not_is_refused_with_its_line(void **state)
     static const struct {
         const char *text, *part;
     } cases[] = {
-        {"octreel-digests 2\nbackground ffffff\n", "file:1: "},
+        {"octreel-digests 3\nbackground ffffff\n", "file:1: "},
         {"octreel-digests 1 \nbackground ffffff\n", "file:1: "},
         {"octreel-digests 1\n", "second line"},
         {"octreel-digests 1", "second line"},
@@ -150,7 +150,7 @@ static void what_is_not_is_refused_with_its_line(void **state)
         {HEAD "0123456789abcdef 12x34 ../a.png\n", "file:3: expected"},
         {HEAD "0123456789abcdef 12x34 a\tb.png\n", "file:3: expected"},
         {HEAD "\n", "file:3: expected"},
-        {HEAD "<<<<<<< HEAD\n", "file:3: expected"},
+        {HEAD "<<<<<<< HEAD\n", "file:3: a conflict that git has left"},
         {HEAD LINE_A LINE_A, "file:4: names must be in order"},
         {HEAD LINE_B LINE_A, "file:4: names must be in order"},
     };

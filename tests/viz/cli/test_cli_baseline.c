@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_baseline.c - octreel accept into a baseline, and octreel diff against it, with and without its pictures. */
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "galleries.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static int without_ci(void **state)
+{
+    unsetenv("CI");
+    return temp_folder_make(state);
+}
+
+static void assert_says(const char *text, const char *part)
+{
+    if (!strstr(text, part))
+        fail_msg("\"%s\" does not say \"%s\"", text, part);
+}
+
+/* Two states of three frames: 2.png differs. And the files of a test. */
+typedef struct states {
+    place before, after, file, store;
+} states;
+
+static states make_states(void **state)
+{
+    const states made = {gallery_make(*state, "old", "1.png 2.png 3.png"),
+                        gallery_make(*state, "new", "1.png 2.png 3.png"), place_in(*state, "baseline.txt"),
+                        place_in(*state, "store")};
+    gallery_write(place_below(made.after.path, "2.png").path, 1, 5);
+    return made;
+}
+
+#define BY(reason, date) " --reason '" reason "' --date " date
+
+static void accept_into(const states *s, const place *frames, const char *more)
+{
+    command_result result = run_script("%s accept %s %s %s", octreel_program(), s->file.path, frames->path, more);
+    assert_done(&result);
+    command_release(&result);
+}
+
+static void assert_diff(const states *s, const place *frames, const char *more, int status, const char *part)
+{
+    command_result result = run_octreel(NULL, "diff %s %s %s", s->file.path, frames->path, more);
+    assert_int_equal(result.status, status);
+    assert_says(result.out, part);
+    command_release(&result);
+}
+
+static size_t count_lines(const char *path, const char *part)
+{
+    char *text = file_read(path, NULL);
+    size_t count = 0;
+    for (const char *at = text; (at = strstr(at, part)); at++)
+        count++;
+    free(text);
+    return count;
+}
+
+static void what_is_accepted_replaces_what_was_and_stays_beside_it_as_a_variant(void **state)
+{
+    const states s = make_states(state);
+    accept_into(&s, &s.before, BY("the first", "2026-11-22"));
+    assert_int_equal(count_lines(s.file.path, "\n"), 6);
+    assert_diff(&s, &s.before, "", 0, "same: 3 frames");
+    assert_diff(&s, &s.after, "", 1, "2.png: pixels differ: digest ");
+    accept_into(&s, &s.after, "2.png --variant" BY("another machine", "2026-11-23"));
+    assert_int_equal(count_lines(s.file.path, "\n"), 8);
+    assert_diff(&s, &s.before, "", 0, "same: 3 frames");
+    assert_diff(&s, &s.after, "", 0, "same: 3 frames");
+    const place third = gallery_make(*state, "third", "1.png 2.png 3.png");
+    gallery_write(place_below(third.path, "2.png").path, 1, 9);
+    assert_diff(&s, &third, "", 1, "; none of 2 variants that are accepted");
+    accept_into(&s, &third, BY("on purpose", "2026-11-24"));
+    assert_diff(&s, &s.before, "", 1, "different: 1 of 3 frames");
+    assert_diff(&s, &third, "", 0, "same: 3 frames");
+    assert_int_equal(count_lines(s.file.path, "accepted "), 2);
+    assert_int_equal(count_lines(s.file.path, " 2026-11-24 24x16 runs on purpose\n"), 1);
+}
+
+/* What stays keeps its lines, so that git shows what changed. */
+static void frames_that_are_the_same_keep_their_lines(void **state)
+{
+    const states s = make_states(state);
+    accept_into(&s, &s.before, BY("the first", "2026-11-22"));
+    char *before = file_read(s.file.path, NULL);
+    accept_into(&s, &s.before, BY("again", "2026-11-25"));
+    char *after = file_read(s.file.path, NULL);
+    assert_string_equal(after, before);
+    free(before);
+    free(after);
+}
+
+static void a_baseline_wants_a_reason_and_nothing_else_takes_one(void **state)
+{
+    const states s = make_states(state);
+    command_result result = run_octreel(NULL, "accept %s %s", s.file.path, s.before.path);
+    assert_trouble(&result, "with --reason TEXT their digests become one in a file");
+    result = run_octreel(NULL, "accept %s %s --store %s", s.file.path, s.before.path, s.store.path);
+    assert_trouble(&result, "a baseline says why: give --reason TEXT");
+    result = run_octreel(NULL, "accept %s %s --reason x", s.before.path, s.after.path);
+    assert_trouble(&result, "are for a file of digests, and this is none");
+    result = run_octreel(NULL, "accept x.png %s --reason x", s.after.path);
+    assert_trouble(&result, "a file of digests has no name of a picture");
+    accept_into(&s, &s.before, "--reason x");
+    result = run_octreel(NULL, "accept %s %s", s.file.path, s.after.path);
+    assert_trouble(&result, "a baseline says why");
+    static const char *const wrong[] = {"--date 2026-02-29", "--date today", "--reason ''", "--reason 'a\nb'",
+                                        "--reason ' a'"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        result = run_script("%s accept %s %s %s", octreel_program(), s.file.path, s.after.path, wrong[i]);
+        assert_trouble(&result, i < 2 ? "--date takes a date" : "--reason takes one line of text");
+    }
+    result = run_octreel(NULL, "accept %s %s --date 2026-11-22", s.file.path, s.after.path);
+    assert_trouble(&result, "--date is that of a reason");
+    const command_setting ci = {.environment = {"CI=true"}};
+    result = run_octreel(&ci, "accept %s %s --reason x", s.file.path, s.after.path);
+    assert_trouble(&result, "CI is set");
+}
+
+static void a_file_of_version_1_becomes_a_baseline_by_its_first_reason(void **state)
+{
+    const states s = make_states(state);
+    command_result result = run_octreel(NULL, "digest %s -o %s", s.before.path, s.file.path);
+    assert_done(&result);
+    command_release(&result);
+    accept_into(&s, &s.after, "2.png" BY("larger letters", "2026-11-23"));
+    assert_diff(&s, &s.after, "", 0, "same: 3 frames");
+    assert_int_equal(count_lines(s.file.path, " 2026-11-23 24x16 runs taken over from version 1 of this file\n"), 1);
+    assert_int_equal(count_lines(s.file.path, " 2026-11-23 24x16 runs larger letters\n"), 1);
+}
+
+/* ---- What a person ticked ------------------------------------------------------------------------------------ */
+
+static void a_list_of_frames_is_taken_over_and_no_more(void **state)
+{
+    const states s = make_states(state);
+    const place list = place_in(*state, "accept.txt");
+    gallery_write(place_below(s.after.path, "3.png").path, 2, 5);
+    accept_into(&s, &s.before, BY("the first", "2026-11-22"));
+    file_write_text(list.path, "\r\n3.png\r\n3.png");
+    char more[1200];
+    snprintf(more, sizeof more, "--from %s" BY("ticked", "2026-11-23"), list.path);
+    accept_into(&s, &s.after, more);
+    assert_diff(&s, &s.after, "", 1, "different: 1 of 3 frames");
+    file_write_text(list.path, "3.png\n<<<<<<< HEAD\n");
+    command_result result =
+        run_octreel(NULL, "accept %s %s --reason x --from %s", s.file.path, s.after.path, list.path);
+    assert_trouble(&result, "line 2 of the list: there is no frame <<<<<<< HEAD");
+    file_write_text(list.path, "\n\n");
+    result = run_octreel(NULL, "accept %s %s --reason x --from %s", s.file.path, s.after.path, list.path);
+    assert_trouble(&result, "accept.txt: it names no frame");
+    result = run_octreel(NULL, "accept %s %s --from nix.txt", s.before.path, s.after.path);
+    assert_trouble(&result, "nix.txt: cannot be opened");
+    file_write_text(list.path, "2.png\n"); /* folders of pictures take it, too */
+    result = run_octreel(NULL, "accept %s %s --from %s", s.before.path, s.after.path, list.path);
+    assert_done(&result);
+    assert_says(result.out, "1 changed, 0 new, 0 removed");
+    command_release(&result);
+}
+
+/* ---- Pictures ------------------------------------------------------------------------------------------------ */
+
+/* The picture in the store of the frame that one accepts alone. */
+static place only_picture(const states *s)
+{
+    command_result result = run_script("find %s -name '*.png'", s->store.path);
+    place found;
+    snprintf(found.path, sizeof found.path, "%.*s", (int)strcspn(result.out, "\n"), result.out);
+    command_release(&result);
+    return found;
+}
+
+static void pictures_of_the_store_show_what_was_expected(void **state)
+{
+    const states s = make_states(state);
+    const place out = place_in(*state, "out");
+    char more[4096];
+    snprintf(more, sizeof more, "--store %s" BY("the first", "2026-11-22"), s.store.path);
+    accept_into(&s, &s.before, more);
+    snprintf(more, sizeof more, "--store %s -o %s", s.store.path, out.path);
+    assert_diff(&s, &s.after, more, 1, "2.png: 5 of 384 pixels differ");
+    assert_same_files(place_below(out.path, "2.expected.png").path, place_below(s.before.path, "2.png").path);
+    assert_true(file_exists(place_below(out.path, "2.difference.png").path));
+}
+
+static void a_lost_damaged_or_swapped_picture_changes_no_verdict_and_is_said(void **state)
+{
+    const states s = make_states(state);
+    const place out = place_in(*state, "out");
+    char more[4096];
+    snprintf(more, sizeof more, "2.png --store %s" BY("the first", "2026-11-22"), s.store.path);
+    accept_into(&s, &s.before, more);
+    const place picture = only_picture(&s);
+    snprintf(more, sizeof more, "--store %s -o %s", s.store.path, out.path);
+    gallery_write(picture.path, 7, 0);
+    assert_diff(&s, &s.after, more, 1, ": it was changed or swapped: its pixels have the digest ");
+    assert_false(file_exists(place_below(out.path, "2.expected.png").path));
+    assert_true(file_exists(place_below(out.path, "2.actual.png").path));
+    assert_int_equal(truncate(picture.path, 60), 0);
+    assert_diff(&s, &s.after, more, 1, "there is no picture of what was expected: ");
+    assert_int_equal(remove(picture.path), 0);
+    assert_diff(&s, &s.after, more, 1, "cannot be opened: No such file or directory");
+    snprintf(more, sizeof more, "--store %s", s.file.path); /* no folder at all */
+    assert_diff(&s, &s.after, more, 1, "there is no picture of what was expected: ");
+    snprintf(more, sizeof more, "2.png --store %s" BY("again", "2026-11-23"), s.store.path);
+    accept_into(&s, &s.before, more); /* it is the same, and its picture is there again */
+    assert_true(file_exists(picture.path));
+    command_result result = run_octreel(NULL, "diff %s %s --store %s", s.before.path, s.after.path, s.store.path);
+    assert_trouble(&result, "--store is for a file of digests");
+}
+
+/* A damaged one is replaced by what is accepted. */
+static void a_damaged_picture_is_put_anew(void **state)
+{
+    const states s = make_states(state);
+    char more[4096];
+    snprintf(more, sizeof more, "2.png --store %s" BY("the first", "2026-11-22"), s.store.path);
+    accept_into(&s, &s.before, more);
+    const place picture = only_picture(&s);
+    assert_int_equal(truncate(picture.path, 60), 0);
+    accept_into(&s, &s.before, more);
+    assert_same_files(picture.path, place_below(s.before.path, "2.png").path);
+}
+
+/* ---- Who else writes, and disks that are full ---------------------------------------------------------------- */
+
+static void of_many_who_accept_at_once_nothing_is_lost(void **state)
+{
+    const states s = make_states(state);
+    const place many = gallery_make(*state, "many", "1.png 2.png 3.png 4.png 5.png 6.png 7.png 8.png");
+    command_result result = run_script(
+        "for i in 1 2 3 4 5 6 7 8; do %s accept %s %s $i.png --store %s" BY("frame '$i'", "2026-11-22") " & done; wait",
+        octreel_program(), s.file.path, many.path, s.store.path);
+    assert_done(&result);
+    command_release(&result);
+    assert_diff(&s, &many, "", 0, "same: 8 frames");
+    assert_int_equal(count_lines(s.file.path, "accepted "), 8);
+    result = run_script("find %s -name '*.part'; find %s -name '*.png' | wc -l", s.store.path, s.store.path);
+    assert_int_equal(atoi(result.out), 8);
+    command_release(&result);
+}
+
+/* The limits stop a picture of the store, and then the baseline itself: both are those of before. */
+static void a_full_disk_accepts_nothing(void **state)
+{
+    const states s = make_states(state);
+    static const size_t limits[] = {1, 20, 150};
+    char more[4096];
+    accept_into(&s, &s.before,
+                BY("the first, with a reason that is rather long, so that the file is not shorter than "
+                   "a picture",
+                   "2026-11-22"));
+    char *before = file_read(s.file.path, NULL);
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
+        const command_setting full = {.file_limit = limits[i]};
+        snprintf(more, sizeof more, "--store %s --reason x", s.store.path);
+        command_result result =
+            run_octreel(&full, "accept %s %s %s", s.file.path, s.after.path, i == 1 ? "--reason x" : more);
+        assert_trouble(&result, "cannot be written: File too large");
+        char *after = file_read(s.file.path, NULL);
+        assert_string_equal(after, before);
+        free(after);
+    }
+    free(before);
+    command_result result = run_script("find %s -type f", s.store.path);
+    assert_string_equal(result.out, "");
+    command_release(&result);
+    assert_false(file_exists(place_in(*state, "baseline.txt.part").path));
+}
+
+#define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, without_ci, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FOLDER(what_is_accepted_replaces_what_was_and_stays_beside_it_as_a_variant),
+        WITH_FOLDER(frames_that_are_the_same_keep_their_lines),
+        WITH_FOLDER(a_baseline_wants_a_reason_and_nothing_else_takes_one),
+        WITH_FOLDER(a_file_of_version_1_becomes_a_baseline_by_its_first_reason),
+        WITH_FOLDER(a_list_of_frames_is_taken_over_and_no_more),
+        WITH_FOLDER(pictures_of_the_store_show_what_was_expected),
+        WITH_FOLDER(a_lost_damaged_or_swapped_picture_changes_no_verdict_and_is_said),
+        WITH_FOLDER(a_damaged_picture_is_put_anew),
+        WITH_FOLDER(of_many_who_accept_at_once_nothing_is_lost),
+        WITH_FOLDER(a_full_disk_accepts_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

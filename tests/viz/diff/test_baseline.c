@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: MIT */
+/* test_baseline.c - files of digests that say why: read in any order, written in one, refused with a line. */
+#include "baseline.h"
+#include "digest_file.h"
+#include "fixture.h"
+#include "galleries.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define HEAD "octreel-digests 2\nbackground ffffff\n"
+#define FIRST "accepted 7f 2026-11-22 24x16 runs the first\n"
+#define SECOND "accepted k3 2026-11-23 24x16 runs the second, of \"Mesa\" \xc3\xa9\n"
+#define A7 "7f 0123456789abcdef a\n"
+#define AK "k3 0000000000000001 a\n"
+#define BK "k3 fedcba9876543210 b b\n"
+
+static bool parse(const char *text, diff_side *side, octreel_error *error)
+{
+    char *copy = strdup(text);
+    assert_non_null(copy);
+    *side = (diff_side){.path = "file"};
+    const bool ok = digest_file_parse(side, copy, strlen(text), error);
+    free(copy);
+    return ok;
+}
+
+static diff_side assert_parsed(const char *text)
+{
+    diff_side side;
+    octreel_error error = {""};
+    if (!parse(text, &side, &error))
+        fail_msg("%s", error.text);
+    return side;
+}
+
+static char *written(const diff_side *side)
+{
+    char *text;
+    size_t size;
+    octreel_error error;
+    FILE *out = open_memstream(&text, &size);
+    assert_true(out && baseline_write(out, side, &error) && fclose(out) == 0);
+    return text;
+}
+
+static void assert_written(const char *text, const char *expected)
+{
+    diff_side side = assert_parsed(text);
+    char *again = written(&side);
+    assert_string_equal(again, expected);
+    free(again);
+    diff_side_release(&side);
+}
+
+static void lines_are_read_in_any_order_and_written_in_one(void **state)
+{
+    (void)state;
+    static const char whole[] = HEAD FIRST SECOND A7 AK BK;
+    assert_written(whole, whole);
+    assert_written(HEAD SECOND BK AK BK FIRST SECOND A7, whole); /* as git's merge by union may leave it */
+    assert_written(HEAD "accepted 7f 2026-11-22 24x16 runs the first\r\n7f 0123456789abcdef a\r\n", HEAD FIRST A7);
+    assert_written(HEAD FIRST SECOND A7, HEAD FIRST A7); /* a reason of nothing */
+    assert_written(HEAD, HEAD);
+}
+
+static void a_frame_has_all_its_variants_and_the_newest_stands_for_them(void **state)
+{
+    (void)state;
+    diff_side side = assert_parsed(HEAD SECOND FIRST AK A7 BK);
+    assert_int_equal(side.count, 2);
+    assert_string_equal(side.frames[0].name, "a.png");
+    assert_string_equal(side.frames[1].name, "b b.png");
+    assert_int_equal(side.frames[0].variant_count, 2);
+    assert_true(side.frames[0].digest.pixels == 1);
+    assert_int_equal(side.frames[0].digest.width, 24);
+    assert_int_equal(side.frames[0].digest.height, 16);
+    assert_int_equal(side.acceptance_count, 2);
+    diff_side_release(&side);
+}
+
+/* Endings other than ".png" are said, and what one line would leave in doubt. */
+static void each_name_is_read_back_as_it_was(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.png", "a.PNG", "a.png.png", "a.Png.png", "a .png", " .png", "7f.png", "p"};
+    static const char *const lines[] = {"a", "a.PNG", "a.png.png", "a.Png.png", "a .png", " .png", "7f", "p"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true, .background = {255, 255, 255}};
+        octreel_error error;
+        frame_digest digest = {7, 24, 16, IMAGE_DIGEST_RUNS, 0};
+        char line[64];
+        assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "why"}, &digest, &error));
+        assert_true(baseline_add(&side, names[i], &digest, 1, &error));
+        char *text = written(&side);
+        snprintf(line, sizeof line, "\n%s 0000000000000007 %s\n", side.acceptances[0].id, lines[i]);
+        assert_non_null(strstr(text, line));
+        diff_side again = assert_parsed(text);
+        char *twice = written(&again);
+        assert_string_equal(twice, text);
+        if (strcmp(names[i], "p") != 0) /* one picture alone may have it, and is compared whatever its name is */
+            assert_string_equal(again.frames[0].name, names[i]);
+        free(twice);
+        free(text);
+        diff_side_release(&again);
+        diff_side_release(&side);
+    }
+}
+
+static void what_is_malformed_is_refused_with_its_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *part;
+    } cases[] = {
+        {HEAD FIRST "<<<<<<< HEAD\n" A7 "=======\n" AK ">>>>>>> theirs\n", "file:4: a conflict that git has left"},
+        {HEAD FIRST A7 "=======\n", "file:5: a conflict"},
+        {HEAD "||||||| 0123456\n", "file:3: a conflict"},
+        {"<<<<<<< HEAD\n", "file:1: a conflict"},
+        {HEAD "accepted 7f 2026-11-22 24x16 lanes9 why\n" A7,
+         "file:3: this version knows no digests of the kind \"lanes9\""},
+        {HEAD A7, "file:3: no line before says what 7f stands for"},
+        {HEAD FIRST "accepted 7f 2026-11-23 24x16 runs another\n", "file:4: 7f stands for another reason already"},
+        {HEAD "accepted 7f 2026-02-30 24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-13-01 24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-1-1 24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 24x16 runs\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 24x16 runs \n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 0x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7 2026-11-22 24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7F 2026-11-22 24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted\n", "file:3: expected"},
+        {HEAD "accepted \n", "file:3: expected"},
+        {HEAD "\n", "file:3: expected"},
+        {HEAD FIRST "7f 0123456789abcde a\n", "file:4: expected"},
+        {HEAD FIRST "7f 0123456789ABCDEF a\n", "file:4: expected"},
+        {HEAD FIRST "7f 0123456789abcdef \n", "file:4: expected"},
+        {HEAD FIRST "7f 0123456789abcdef\n", "file:4: expected"},
+        {HEAD FIRST "7f 0123456789abcdef ../a\n", "file:4: expected"},
+        {HEAD FIRST "7f 0123456789abcdef a\tb\n", "file:4: expected"},
+        {HEAD FIRST "7f\n", "file:4: expected"},
+        {HEAD FIRST "7\n", "file:4: expected"},
+        {"octreel-digests 3\nbackground ffffff\n", "file:1: "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        diff_side side;
+        octreel_error error = {""};
+        if (parse(cases[i].text, &side, &error) || !strstr(error.text, cases[i].part))
+            fail_msg("case %zu: \"%s\" does not say \"%s\"", i, error.text, cases[i].part);
+        diff_side_release(&side);
+    }
+}
+
+/* What two branches accept for the same reason has one name in both; other reasons have others. */
+static void a_reason_is_named_by_what_it_says(void **state)
+{
+    (void)state;
+    static const char *const reasons[] = {"one", "two", "one"};
+    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    frame_digest digests[3];
+    octreel_error error;
+    for (size_t i = 0; i < 3; i++) {
+        digests[i] = (frame_digest){i, 24, 16, IMAGE_DIGEST_RUNS, 0};
+        assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", reasons[i]}, &digests[i], &error));
+    }
+    assert_int_equal(side.acceptance_count, 2);
+    assert_int_equal(digests[0].acceptance, digests[2].acceptance);
+    assert_string_not_equal(side.acceptances[0].id, side.acceptances[1].id);
+    frame_digest other = {9, 48, 32, IMAGE_DIGEST_RUNS, 0};
+    assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "one"}, &other, &error));
+    assert_int_equal(other.acceptance, 2);
+    diff_side_release(&side);
+}
+
+static void a_thousand_reasons_have_names_and_too_many_are_refused(void **state)
+{
+    (void)state;
+    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    octreel_error error;
+    char reason[16];
+    for (int i = 0; i <= 36 * 36; i++) {
+        frame_digest digest = {1, 24, 16, IMAGE_DIGEST_RUNS, 0};
+        snprintf(reason, sizeof reason, "%d", i);
+        assert_int_equal(baseline_accept(&side, &(acceptance_words){"2026-11-22", reason}, &digest, &error),
+                         i < 36 * 36);
+    }
+    assert_non_null(strstr(error.text, "no name for another"));
+    diff_side_release(&side);
+}
+
+/* 1,000 frames with 3 variants: under 100 KB. */
+static void a_large_baseline_is_small(void **state)
+{
+    (void)state;
+    static const char *const reasons[] = {"as recorded first, with Mesa 25", "Mesa 26", "without SIMD"};
+    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    octreel_error error;
+    for (int i = 0; i < 1000; i++) {
+        frame_digest variants[3];
+        char name[32];
+        snprintf(name, sizeof name, "frame_%06d.png", i);
+        for (int v = 0; v < 3; v++) {
+            variants[v] = (frame_digest){UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(3 * i + v + 1), 1280, 720,
+                                         IMAGE_DIGEST_NEWEST, 0};
+            assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", reasons[v]}, &variants[v], &error));
+        }
+        assert_true(baseline_add(&side, name, variants, 3, &error));
+    }
+    char *text = written(&side);
+    assert_true(strlen(text) < 100000);
+    diff_side again = assert_parsed(text);
+    assert_int_equal(again.count, 1000);
+    assert_int_equal(again.frames[999].variant_count, 3);
+    diff_side_release(&again);
+    diff_side_release(&side);
+    free(text);
+}
+
+static void a_name_that_no_line_holds_is_refused(void **state)
+{
+    (void)state;
+    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    octreel_error error = {""};
+    frame_digest digest = {1, 24, 16, IMAGE_DIGEST_RUNS, 0};
+    assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "why"}, &digest, &error));
+    assert_true(baseline_add(&side, "a\nb.png", &digest, 1, &error));
+    assert_false(baseline_write(stderr, &side, &error));
+    assert_non_null(strstr(error.text, "a line cannot hold"));
+    diff_side_release(&side);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_are_read_in_any_order_and_written_in_one),
+        cmocka_unit_test(a_frame_has_all_its_variants_and_the_newest_stands_for_them),
+        cmocka_unit_test(each_name_is_read_back_as_it_was),
+        cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
+        cmocka_unit_test(a_reason_is_named_by_what_it_says),
+        cmocka_unit_test(a_thousand_reasons_have_names_and_too_many_are_refused),
+        cmocka_unit_test(a_large_baseline_is_small),
+        cmocka_unit_test(a_name_that_no_line_holds_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* accepting.h - what accept.c and accept_digests.c share: both sides while the new one is taken over. */
+#ifndef DIFF_ACCEPTING_H
+#define DIFF_ACCEPTING_H
+
+#include "accept.h"
+#include "diff.h"
+
+/* What happens to a reference. */
+typedef enum action { KEPT, CHANGED, ADDED, REMOVED, ACTIONS } action;
+
+typedef struct accepting {
+    const accept_options *options;
+    diff_side reference, frames;
+    bool is_new; /* there was no reference */
+    diff_result result;
+    action *actions; /* one a pair */
+    size_t counts[ACTIONS];
+    FILE *out;
+} accepting;
+
+/* Whether what is asked for fits the reference: a baseline wants a reason, and nothing else takes one. One of version 1
+ * becomes a baseline where there is a reason. */
+bool accept_check_words(accepting *a, octreel_error *error);
+
+/* Put the pictures into the store, where there is one, and write the file of digests. */
+bool accept_digests(accepting *a, octreel_error *error);
+
+#endif

@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: MIT */
+/* baseline.c - baselines, read and written. */
+#include "baseline.h"
+#include "array.h"
+#include "digest_file.h"
+#include "octree/digest.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+static const char id_letters[] = "0123456789abcdefghijklmnopqrstuvwxyz";
+#define ID_LETTERS (sizeof id_letters - 1)
+#define IDS (ID_LETTERS * ID_LETTERS)
+
+/* ---- Words --------------------------------------------------------------------------------------------------- */
+
+static int digits_at(const char *text, int count)
+{
+    int value = 0;
+    for (; count > 0; count--, text++)
+        value = value * 10 + (*text - '0');
+    return value;
+}
+
+bool baseline_is_date(const char *text)
+{
+    static const int days[] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    static const char form[] = "0000-00-00";
+    for (size_t i = 0; i < sizeof form - 1; i++)
+        if (form[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9')
+            return false;
+    const int year = digits_at(text, 4), month = digits_at(text + 5, 2), day = digits_at(text + 8, 2);
+    const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    return !text[sizeof form - 1] && month >= 1 && month <= 12 && day >= 1 && day <= days[month - 1] &&
+           (month != 2 || day < 29 || leap);
+}
+
+bool baseline_is_reason(const char *text)
+{
+    const size_t length = strlen(text);
+    return length > 0 && text[0] != ' ' && text[length - 1] != ' ' && !digest_file_holds_control(text);
+}
+
+/* ".png" goes without saying where that leaves no doubt. */
+static size_t written_length(const char *name)
+{
+    const size_t length = strlen(name), stem = length > 4 ? length - 4 : 0;
+    const bool plain = stem > 0 && strcmp(name + stem, ".png") == 0 && name[stem - 1] != ' ' &&
+                       !(stem >= 4 && strncasecmp(name + stem - 4, ".png", 4) == 0);
+    return plain ? stem : length;
+}
+
+static char *read_name(const char *written)
+{
+    const size_t length = strlen(written);
+    const bool whole = length >= 4 && strcasecmp(written + length - 4, ".png") == 0;
+    char *name = malloc(length + sizeof ".png");
+    if (name)
+        snprintf(name, length + sizeof ".png", "%s%s", written, whole ? "" : ".png");
+    return name;
+}
+
+/* ---- Acceptances --------------------------------------------------------------------------------------------- */
+
+static bool is_id(const char *text)
+{
+    return text[0] && strchr(id_letters, text[0]) && text[1] && strchr(id_letters, text[1]);
+}
+
+static const acceptance *find_id(const diff_side *side, const char *id)
+{
+    for (size_t i = 0; i < side->acceptance_count; i++)
+        if (memcmp(side->acceptances[i].id, id, 2) == 0)
+            return &side->acceptances[i];
+    return NULL;
+}
+
+static bool same_acceptance(const acceptance *a, const acceptance *b)
+{
+    return strcmp(a->date, b->date) == 0 && a->width == b->width && a->height == b->height && a->kind == b->kind &&
+           strcmp(a->reason, b->reason) == 0;
+}
+
+/* A copy with its own reason. */
+static bool add_acceptance(diff_side *side, const acceptance *from, octreel_error *error)
+{
+    acceptance *grown =
+        array_reserve(side->acceptances, side->acceptance_count + 1, &side->acceptance_room, sizeof *grown);
+    if (!grown)
+        return error_no_memory(error);
+    side->acceptances = grown;
+    grown[side->acceptance_count] = *from;
+    grown[side->acceptance_count].reason = strdup(from->reason);
+    if (!grown[side->acceptance_count].reason)
+        return error_no_memory(error);
+    side->acceptance_count++;
+    return true;
+}
+
+/* The first free id from that on which the acceptance's own words make. */
+static bool choose_id(const diff_side *side, acceptance *a)
+{
+    uint64_t digest = octree_digest_bytes(OCTREE_DIGEST_START, a->date, strlen(a->date));
+    digest = octree_digest_word(octree_digest_word(digest, (uint64_t)a->width), (uint64_t)a->height);
+    digest = octree_digest_bytes(octree_digest_word(digest, (uint64_t)a->kind), a->reason, strlen(a->reason));
+    for (size_t tried = 0; tried < IDS; tried++, digest++) {
+        const size_t n = (size_t)(digest % IDS);
+        memcpy(a->id, (char[]){id_letters[n / ID_LETTERS], id_letters[n % ID_LETTERS], 0}, 3);
+        if (!find_id(side, a->id))
+            return true;
+    }
+    return false;
+}
+
+bool baseline_accept(diff_side *side, const acceptance_words *words, frame_digest *digest, octreel_error *error)
+{
+    acceptance wanted = {.width = digest->width, .height = digest->height, .kind = digest->kind};
+    snprintf(wanted.date, sizeof wanted.date, "%s", words->date);
+    wanted.reason = (char *)words->reason;
+    for (size_t i = side->acceptance_count; i > 0; i--)
+        if (same_acceptance(&side->acceptances[i - 1], &wanted)) {
+            digest->acceptance = i - 1;
+            return true;
+        }
+    if (!choose_id(side, &wanted))
+        return error_set(error, "%s: there are %zu reasons in it, and no name for another", side->path, IDS);
+    digest->acceptance = side->acceptance_count;
+    return add_acceptance(side, &wanted, error);
+}
+
+/* ---- Reading ------------------------------------------------------------------------------------------------- */
+
+static bool fail_line(const diff_side *side, size_t number, octreel_error *error)
+{
+    return error_set(error,
+                     "%s:%zu: expected \"accepted 7f 2026-11-22 1280x720 runs the reason\", or one such name, a digest "
+                     "and a frame, as in \"7f %016d frame_000000\"",
+                     side->path, number, 0);
+}
+
+/* What follows "accepted ". */
+static bool take_acceptance(diff_side *side, char *line, size_t number, octreel_error *error)
+{
+    acceptance a = {{line[0], line[0] ? line[1] : 0, 0}, "", 0, 0, IMAGE_DIGEST_KINDS, NULL};
+    frame_digest size;
+    if (!is_id(line) || line[2] != ' ' || strlen(line) < 14 || line[13] != ' ')
+        return fail_line(side, number, error);
+    memcpy(a.date, line + 3, 10);
+    const char *at = line + 14;
+    if (!baseline_is_date(a.date) || !digest_file_take_size(&at, ' ', &size))
+        return fail_line(side, number, error);
+    const size_t kind = strcspn(at, " ");
+    a.width = size.width;
+    a.height = size.height;
+    a.kind = image_digest_kind_of(at, kind);
+    if (a.kind == IMAGE_DIGEST_KINDS)
+        return error_set(error, "%s:%zu: this version knows no digests of the kind \"%.*s\"", side->path, number,
+                         kind < 40 ? (int)kind : 40, at);
+    a.reason = line + (at - line) + kind + (at[kind] == ' ');
+    if (!baseline_is_reason(a.reason))
+        return fail_line(side, number, error);
+    const acceptance *other = find_id(side, a.id);
+    if (!other)
+        return add_acceptance(side, &a, error);
+    return same_acceptance(other, &a) ||
+           error_set(error,
+                     "%s:%zu: %s stands for another reason already: give one of both, and its digests, a new name",
+                     side->path, number, a.id);
+}
+
+static bool take_digest(diff_side *side, const char *line, size_t number, octreel_error *error)
+{
+    const char *at = line + 3;
+    frame_digest digest = {0};
+    if (!is_id(line) || line[2] != ' ' || !digest_file_take_hexadecimal(&at, 16, ' ', &digest.pixels) || !*at ||
+        strchr(at, '/') || digest_file_holds_control(at))
+        return fail_line(side, number, error);
+    const acceptance *by = find_id(side, line);
+    if (!by)
+        return error_set(error,
+                         "%s:%zu: no line before says what %.2s stands for, as in \"accepted %.2s 2026-11-22 ...\"",
+                         side->path, number, line, line);
+    digest.width = by->width;
+    digest.height = by->height;
+    digest.kind = by->kind;
+    digest.acceptance = (size_t)(by - side->acceptances);
+    char *name = read_name(at);
+    const bool ok = name ? diff_side_add(side, name, digest, error) : error_no_memory(error);
+    free(name);
+    return ok;
+}
+
+bool baseline_take_line(diff_side *side, char *line, size_t number, octreel_error *error)
+{
+    static const char accepted[] = "accepted ";
+    if (strncmp(line, accepted, sizeof accepted - 1) == 0)
+        return take_acceptance(side, line + sizeof accepted - 1, number, error);
+    return take_digest(side, line, number, error);
+}
+
+/* ---- Frames and their variants ------------------------------------------------------------------------------- */
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
+}
+
+/* Two that say the same twice, as after a merge, are one. */
+static bool add_variant(diff_frame *frame, const frame_digest *digest)
+{
+    for (size_t i = 0; i < frame->variant_count; i++)
+        if (frame->variants[i].acceptance == digest->acceptance && frame->variants[i].pixels == digest->pixels)
+            return true;
+    frame_digest *grown = realloc(frame->variants, (frame->variant_count + 1) * sizeof *grown);
+    if (!grown)
+        return false;
+    grown[frame->variant_count++] = *digest;
+    frame->variants = grown;
+    return true;
+}
+
+/* The one that was accepted last stands for all, where one must. */
+static void choose_newest(const diff_side *side, diff_frame *frame)
+{
+    frame->digest = frame->variants[0];
+    for (size_t i = 1; i < frame->variant_count; i++)
+        if (strcmp(side->acceptances[frame->variants[i].acceptance].date,
+                   side->acceptances[frame->digest.acceptance].date) >= 0)
+            frame->digest = frame->variants[i];
+}
+
+/* Frames of one name become one; what they held is freed. */
+bool baseline_collect(diff_side *side, octreel_error *error)
+{
+    size_t kept = 0;
+    bool ok = true;
+    if (side->count > 0)
+        qsort(side->frames, side->count, sizeof *side->frames, by_name);
+    for (size_t i = 0; i < side->count; i++) {
+        diff_frame frame = side->frames[i];
+        if (kept > 0 && strcmp(side->frames[kept - 1].name, frame.name) == 0) {
+            ok = ok && add_variant(&side->frames[kept - 1], &frame.digest);
+            free(frame.name);
+        } else {
+            ok = ok && (frame.variants || add_variant(&frame, &frame.digest));
+            side->frames[kept++] = frame;
+        }
+    }
+    side->count = kept;
+    for (size_t i = 0; ok && i < kept; i++)
+        choose_newest(side, &side->frames[i]);
+    return ok || error_no_memory(error);
+}
+
+bool baseline_add(diff_side *side, const char *name, const frame_digest *digests, size_t count, octreel_error *error)
+{
+    bool ok = diff_side_add(side, name, digests[0], error);
+    for (size_t i = 0; ok && i < count; i++)
+        ok = add_variant(&side->frames[side->count - 1], &digests[i]) || error_no_memory(error);
+    return ok;
+}
+
+/* ---- Writing ------------------------------------------------------------------------------------------------- */
+
+static int by_id(const void *a, const void *b)
+{
+    return strcmp((*(const acceptance *const *)a)->id, (*(const acceptance *const *)b)->id);
+}
+
+static bool is_used(const diff_side *side, size_t acceptance)
+{
+    for (size_t i = 0; i < side->count; i++)
+        for (size_t j = 0; j < side->frames[i].variant_count; j++)
+            if (side->frames[i].variants[j].acceptance == acceptance)
+                return true;
+    return false;
+}
+
+static bool write_acceptances(FILE *out, const diff_side *side)
+{
+    const acceptance **used = malloc((side->acceptance_count + 1) * sizeof *used);
+    size_t count = 0;
+    if (!used)
+        return false;
+    for (size_t i = 0; i < side->acceptance_count; i++)
+        if (is_used(side, i))
+            used[count++] = &side->acceptances[i];
+    qsort(used, count, sizeof(const acceptance *), by_id);
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "accepted %s %s %dx%d %s %s\n", used[i]->id, used[i]->date, used[i]->width, used[i]->height,
+                image_digest_kind_name(used[i]->kind), used[i]->reason);
+    free(used);
+    return true;
+}
+
+/* The next of a frame's variants in the order of their lines; null after the last. */
+static const frame_digest *next_variant(const diff_side *side, const diff_frame *frame, const frame_digest *last)
+{
+    const frame_digest *next = NULL;
+    for (size_t i = 0; i < frame->variant_count; i++) {
+        const frame_digest *at = &frame->variants[i];
+        const char *id = side->acceptances[at->acceptance].id;
+        const int after = last ? strcmp(id, side->acceptances[last->acceptance].id) : 1;
+        const int before = next ? strcmp(id, side->acceptances[next->acceptance].id) : -1;
+        if ((after > 0 || (after == 0 && at->pixels > last->pixels)) &&
+            (before < 0 || (before == 0 && at->pixels < next->pixels)))
+            next = at;
+    }
+    return next;
+}
+
+bool baseline_write(FILE *out, const diff_side *side, octreel_error *error)
+{
+    for (size_t i = 0; i < side->count; i++)
+        if (digest_file_holds_control(side->frames[i].name))
+            return digest_file_fail_name(side, side->frames[i].name, error);
+    digest_file_write_head(out, 2, side->background);
+    if (!write_acceptances(out, side))
+        return error_no_memory(error);
+    for (size_t i = 0; i < side->count; i++) {
+        const diff_frame *frame = &side->frames[i];
+        for (const frame_digest *at = NULL; (at = next_variant(side, frame, at));)
+            fprintf(out, "%s %016" PRIx64 " %.*s\n", side->acceptances[at->acceptance].id, at->pixels,
+                    (int)written_length(frame->name), frame->name);
+    }
+    return true;
+}

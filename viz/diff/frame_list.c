@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+#include "frame_list.h"
+#include "array.h"
+#include "error.h"
+#include "file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool frame_list_add(frame_list *list, const char *name, size_t line, octreel_error *error)
+{
+    listed_frame *grown = array_reserve(list->frames, list->count + 1, &list->room, sizeof *grown);
+    if (!grown)
+        return error_no_memory(error);
+    list->frames = grown;
+    list->frames[list->count++] = (listed_frame){name, line};
+    return true;
+}
+
+bool frame_list_read(frame_list *list, const char *path, octreel_error *error)
+{
+    char reason[FILE_REASON];
+    size_t size, before = list->count, number = 0;
+    if (!file_read_whole(path, &list->text, &size, reason))
+        return error_set(error, "%s: %s", file_title(path), reason);
+    list->text[size] = 0;
+    if (strlen(list->text) < size)
+        return error_set(error, "%s: it holds a zero byte, so it is no text", file_title(path));
+    for (char *line = list->text, *next; *line; line = next) {
+        char *end = line + strcspn(line, "\n");
+        next = *end ? end + 1 : end;
+        if (end > line && end[-1] == '\r')
+            end[-1] = 0;
+        *end = 0;
+        number++;
+        if (*line && !frame_list_add(list, line, number, error))
+            return false;
+    }
+    return list->count > before || error_set(error, "%s: it names no frame", file_title(path));
+}
+
+void frame_list_release(frame_list *list)
+{
+    free(list->frames);
+    free(list->text);
+    *list = (frame_list){0};
+}

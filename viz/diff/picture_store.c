@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+/* picture_store.c - pictures by their digests: put, and fetched again. */
+#include "picture_store.h"
+#include "digest_file.h"
+#include "file.h"
+#include "folder.h"
+#include "parallel.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The folder of a digest, and the file in it. */
+static char *folder_of(const char *store, const frame_digest *digest)
+{
+    const char *kind = image_digest_kind_name(digest->kind);
+    const size_t size = strlen(store) + strlen(kind) + sizeof "//00";
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s/%02x", store, kind, (unsigned)(digest->pixels >> 56));
+    return path;
+}
+
+static char *path_of(const char *folder, const frame_digest *digest)
+{
+    char name[sizeof "0123456789abcdef.png"];
+    snprintf(name, sizeof name, "%016" PRIx64 ".png", digest->pixels);
+    return path_join(folder, name);
+}
+
+/* Whether a file holds the picture of a digest; the sentence says what it is instead. */
+static bool is_picture(const char *path, const frame_digest *digest, image_color background, octreel_error *error)
+{
+    frame_digest found = {.kind = digest->kind};
+    if (!digest_frame(path, background, &found, error))
+        return false;
+    return found.pixels == digest->pixels ||
+           error_set(error, "%s: it was changed or swapped: its pixels have the digest %016" PRIx64, path,
+                     found.pixels);
+}
+
+bool picture_store_put(const char *store, const char *picture, const frame_digest *digest, image_color background,
+                       octreel_error *error)
+{
+    octreel_error ignored;
+    char *folder = folder_of(store, digest), *path = folder ? path_of(folder, digest) : NULL;
+    bool ok = path || error_no_memory(error);
+    if (ok && (access(path, F_OK) != 0 || !is_picture(path, digest, background, &ignored)))
+        ok = folder_make(folder, error) && file_copy_apart(picture, path, error);
+    free(path);
+    free(folder);
+    return ok;
+}
+
+char *picture_store_get(const char *store, const frame_digest *digest, image_color background, octreel_error *error)
+{
+    char *folder = folder_of(store, digest), *path = folder ? path_of(folder, digest) : NULL;
+    const bool ok = path ? is_picture(path, digest, background, error) : error_no_memory(error);
+    free(folder);
+    if (!ok)
+        free(path);
+    return ok ? path : NULL;
+}
+
+/* ---- For a comparison ---------------------------------------------------------------------------------------- */
+
+typedef struct fetching {
+    const char *store;
+    diff_side *reference;
+    diff_result *result;
+} fetching;
+
+/* The variant that was accepted last, or else any whose picture is there. The sentence is about the first. */
+static char *fetch_any(const fetching *f, diff_frame *frame, frame_digest *found, octreel_error *why)
+{
+    const frame_digest *variants;
+    const size_t count = diff_frame_digests(frame, &variants);
+    octreel_error ignored;
+    *found = frame->digest;
+    char *path = picture_store_get(f->store, found, f->reference->background, why);
+    for (size_t i = count; !path && i > 0; i--) {
+        *found = variants[i - 1];
+        path = picture_store_get(f->store, found, f->reference->background, &ignored);
+    }
+    return path;
+}
+
+/* What is different stays so, whatever becomes of the picture meanwhile. */
+static void compare_fetched(diff_pair *pair, const diff_options *options)
+{
+    const diff_finding before = pair->finding;
+    compare_pixels(pair, options);
+    if (diff_finding_verdict(pair->finding) != DIFF_DIFFERENT)
+        pair->finding = before;
+}
+
+static void fetch_one(size_t i, void *context)
+{
+    const fetching *f = context;
+    diff_pair *pair = &f->result->pairs[i];
+    const bool unlike = pair->finding == FOUND_DIGEST || pair->finding == FOUND_SIZE;
+    if (!pair->a || pair->a->path || !(unlike || pair->finding == FOUND_NO_FRAME))
+        return;
+    diff_frame *frame = &f->reference->frames[pair->a - f->reference->frames];
+    octreel_error why = {""};
+    frame_digest found;
+    frame->path = fetch_any(f, frame, &found, &why);
+    if (!frame->path)
+        pair->no_picture = strdup(why.text);
+    else if (unlike && pair->b->path)
+        compare_fetched(pair, &f->result->options);
+}
+
+bool picture_store_fetch(const char *store, diff_side *reference, diff_result *result, octreel_error *error)
+{
+    fetching f = {store, reference, result};
+    if (reference->kind != DIFF_DIGESTS)
+        return error_set(error, "--store is for a file of digests, and %s is none", reference->path);
+    parallel_for(result->count, fetch_one, &f);
+    diff_count(result);
+    return true;
+}
