@@ -20,14 +20,9 @@ bool shows_foreign_tree(const layer_source *in)
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
-theme_role foreign_kind_role(unsigned kind)
-{
-    return theme_node_role((kind * 3 + 1) % THEME_NODE_DEPTHS); /* those of few kinds are far apart */
-}
-
 static theme_role role_of(const view *v, const octree_foreign_place *place)
 {
-    return v->coloring == COLORING_KIND ? foreign_kind_role(place->kind)
+    return v->coloring == COLORING_KIND ? theme_node_kind_role(place->kind)
                                         : node_role(v, (node_look){.depth = place->depth, .points = place->points});
 }
 
@@ -129,12 +124,11 @@ void add_foreign_met(scene *s, const layer_source *in, view_layer own)
 /* The words for a fault beside what it is about. */
 static const char *short_words(octree_node_fault_kind kind)
 {
-    static const char *const words[OCTREE_NODE_FAULTS] = {[OCTREE_NODE_OUTSIDE_PARENT] = " outside parent",
-                                                          [OCTREE_NODE_UNKNOWN_POINT] = " unknown point",
-                                                          [OCTREE_NODE_OUTSIDE_POINT] = " point outside",
-                                                          [OCTREE_NODE_LOST_POINT] = " in no node",
-                                                          [OCTREE_NODE_UNKNOWN_NODE] = "",
-                                                          [OCTREE_NODE_PRUNED_POINT] = " wrongly pruned"};
+    static const char *const words[OCTREE_NODE_FAULTS] = {
+        [OCTREE_NODE_OUTSIDE_PARENT] = " outside parent", [OCTREE_NODE_UNKNOWN_POINT] = " unknown point",
+        [OCTREE_NODE_OUTSIDE_POINT] = " point outside",   [OCTREE_NODE_REPEATED_POINT] = " point twice",
+        [OCTREE_NODE_LOST_POINT] = " in no node",         [OCTREE_NODE_UNKNOWN_NODE] = "",
+        [OCTREE_NODE_PRUNED_POINT] = " wrongly pruned"};
     return words[kind];
 }
 

@@ -34,9 +34,6 @@ void add_foreign_nodes(scene *s, const layer_source *in);
 void add_foreign_met(scene *s, const layer_source *in, view_layer own);
 void add_foreign_faults(scene *s, const layer_source *in, view_layer own);
 
-/* The colour of a kind of nodes. */
-theme_role foreign_kind_role(unsigned kind);
-
 /* "node 5 of the program: leaf "leaf" at depth 2 under node 7, 3 points listed, box ...", and what is wrong with it. */
 void say_foreign_node(description *d, uint64_t element);
 

@@ -241,14 +241,18 @@ static void add(scene *s, const layer_source *in, view_layer own)
         add_labels(s);
 }
 
-/* A line for each kind that there is; Octreel's nodes have none. */
+/* A line for each kind that has a colour; Octreel's nodes have none. */
 static void add_kinds_legend(legend *l, const layer_source *in)
 {
+    const size_t count = shows_foreign_tree(in) ? in->tick->foreign.kind_count : 0;
+    const size_t own = count > THEME_NODE_KINDS ? THEME_NODE_KINDS - 1 : count;
     if (shows_own_tree(in))
         legend_add(l, SIGN_BOLD, "node");
-    for (size_t i = 0; shows_foreign_tree(in) && i < in->tick->foreign.kind_count; i++)
+    for (size_t i = 0; i < own; i++)
         legend_add(l, SIGN_BOLD, "node: %s", in->tick->foreign.kinds[i][0] ? in->tick->foreign.kinds[i] : "no kind")
-            ->role = foreign_kind_role((unsigned)i);
+            ->role = theme_node_kind_role((unsigned)i);
+    if (count > own)
+        legend_add(l, SIGN_BOLD, "node: any other kind")->role = theme_node_kind_role((unsigned)own);
 }
 
 /* A program's tree has no capacity, and so another scale. */

@@ -32,13 +32,21 @@ theme_color theme_shade(theme_color full, unsigned shade)
 
 theme_color theme_color_at(uint8_t index)
 {
-    const unsigned role = index / THEME_SHADES;
-    return role < ROLE_COUNT ? theme_shade(roles[role], index % THEME_SHADES) : roles[ROLE_BACKGROUND];
+    const unsigned kind = (unsigned)(index - THEME_FIRST_KIND) / THEME_KIND_SHADES;
+    if (index < THEME_FIRST_KIND)
+        return theme_shade(roles[index / THEME_SHADES], index % THEME_SHADES);
+    return index < THEME_COLORS ? theme_shade(roles[ROLE_KIND + kind], index % THEME_KIND_SHADES * 2)
+                                : roles[ROLE_BACKGROUND];
 }
 
 theme_role theme_node_role(unsigned depth)
 {
     return (theme_role)(ROLE_NODE + (depth < THEME_NODE_DEPTHS ? depth : THEME_NODE_DEPTHS - 1));
+}
+
+theme_role theme_node_kind_role(unsigned kind)
+{
+    return (theme_role)(ROLE_KIND + (kind < THEME_NODE_KINDS ? kind : THEME_NODE_KINDS - 1));
 }
 
 unsigned theme_step(uint64_t amount, unsigned shift)

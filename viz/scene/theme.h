@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* theme.h - what the colours mean, and the fixed table of 256 that a frame is made of.
  *
- * A role has eight shades, from 0 (near, full colour) to 7 (far, towards the background): the colour of a pixel is
- * the index role * 8 + shade. Red means collision and nothing else.
+ * A role has eight shades, from 0 (near, full colour) to 7 (far, towards the background), each with an index of its
+ * own; kinds of nodes, for which the table has no more room, share one in two. Red means collision and nothing else.
  */
 #ifndef SCENE_THEME_H
 #define SCENE_THEME_H
@@ -12,11 +12,12 @@
 
 #define THEME_SHADES 8
 
-/* Each role, its name and its colour on the dark ground. Single meanings are from the set of Okabe and Ito (2008),
- * which survives colour blindness, and a few more were searched for beside them; depth is a ramp of growing lightness
- * from blue to pale yellow, after cividis (Nunez et al. 2018), so that it survives grey. A new role is a row at the
- * end: `test_theme --propose` prints colours that differ visibly from all others, on every background and under colour
- * blindness. Scene digests hash the names. */
+/* Each role, its name and its colour on the dark ground. Single meanings are near the set of Okabe and Ito (2008),
+ * and were searched for so that they survive each kind of colour blindness; depth is a ramp of growing lightness
+ * from blue to pale yellow, after cividis (Nunez et al. 2018), so that it survives grey. Kinds of nodes were searched
+ * for so that any eye tells them from each other, first of all, and from what is drawn upon them. A new role is a row
+ * before these: `test_theme --propose` prints colours that differ visibly from all others, on every background and
+ * under colour blindness. Scene digests hash the names. */
 #define THEME_ROLE_MAP(X)                                                                                              \
     X(BACKGROUND, "background", 13, 17, 26)                                                                            \
     X(PANEL, "panel", 24, 30, 43)                                                                                      \
@@ -24,7 +25,7 @@
     X(FAINT, "faint", 139, 150, 170) /* secondary text, axes */                                                        \
     X(WORLD, "world", 96, 108, 130)                                                                                    \
     X(POINT, "point", 245, 247, 250)                                                                                   \
-    X(PLAYER, "player", 240, 228, 66)                                                                                  \
+    X(PLAYER, "player", 254, 246, 84)                                                                                  \
     X(COLLISION, "collision", 255, 64, 64) /* the only red */                                                          \
     X(RANGE, "range", 240, 165, 30)                                                                                    \
     X(RADIUS, "radius", 140, 250, 185)                                                                                 \
@@ -41,13 +42,21 @@
     X(NODE_7, "node-7", 142, 186, 112)                                                                                 \
     X(NODE_8, "node-8", 178, 196, 104)                                                                                 \
     X(NODE_9, "node-9", 212, 206, 116)                                                                                 \
-    X(SHAPE, "shape", 90, 200, 255)                                                                                    \
+    X(SHAPE, "shape", 142, 196, 252)                                                                                   \
     X(WRONG, "wrong", 228, 40, 255) /* a program's answer, and what it named wrongly */                                \
     X(MISSED, "missed", 0, 216, 174)                                                                                   \
-    X(HIT, "hit", 12, 132, 252)        /* leaves that hold what was found */                                           \
-    X(CHANGE, "change", 252, 252, 138) /* of the tree: solid where it splits, dashed where it merges */
+    X(HIT, "hit", 102, 122, 254)       /* leaves that hold what was found */                                           \
+    X(CHANGE, "change", 210, 250, 130) /* of the tree: solid where it splits, dashed where it merges */                \
+    X(KIND, "kind", 112, 208, 136)     /* of a program's nodes: the first; the rows below are the others */            \
+    X(KIND_1, "kind-1", 248, 136, 224)                                                                                 \
+    X(KIND_2, "kind-2", 200, 216, 80)                                                                                  \
+    X(KIND_3, "kind-3", 120, 32, 248)                                                                                  \
+    X(KIND_4, "kind-4", 176, 80, 0)                                                                                    \
+    X(KIND_5, "kind-5", 56, 112, 88)                                                                                   \
+    X(KIND_6, "kind-6", 144, 56, 176)
 
 #define THEME_NODE_DEPTHS 10 /* deeper nodes share the last */
+#define THEME_NODE_KINDS 7   /* and so do further kinds */
 
 typedef enum theme_role {
 #define THEME_ROLE_ENUM(role, ...) ROLE_##role,
@@ -72,13 +81,16 @@ theme_color theme_shade(theme_color full, unsigned shade);
 /* The colour of an index; the background beyond the last role. */
 theme_color theme_color_at(uint8_t index);
 
+/* The indices of kinds of nodes, and the number of indices in use. */
+#define THEME_KIND_SHADES (THEME_SHADES / 2)
+#define THEME_FIRST_KIND (ROLE_KIND * THEME_SHADES)
+#define THEME_COLORS (THEME_FIRST_KIND + (ROLE_COUNT - ROLE_KIND) * THEME_KIND_SHADES)
+
 static inline uint8_t theme_index(unsigned role, unsigned shade)
 {
-    return (uint8_t)(role * THEME_SHADES + shade);
+    return (uint8_t)(role < ROLE_KIND ? role * THEME_SHADES + shade
+                                      : THEME_FIRST_KIND + (role - ROLE_KIND) * THEME_KIND_SHADES + shade / 2);
 }
-
-/* The number of indices in use. */
-#define THEME_COLORS (ROLE_COUNT * THEME_SHADES)
 
 /* The role of an element that has a colour of its own, beside this table, and the index of its pixels. */
 #define ROLE_OWN ROLE_COUNT
@@ -100,6 +112,9 @@ theme_color theme_kind(unsigned kind);
 
 /* The colour of a node by its depth, or by any other step of the same ramp. */
 theme_role theme_node_role(unsigned depth);
+
+/* The colour of a kind of nodes. */
+theme_role theme_node_kind_role(unsigned kind);
 
 /* The step of the ramp for an amount: each step begins at 2^shift times the one before. With a shift of 1 the steps are
  * 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */

@@ -78,6 +78,7 @@ typedef enum octree_node_fault_kind {
     OCTREE_NODE_OUTSIDE_PARENT, /* its box leaves that of its parent */
     OCTREE_NODE_UNKNOWN_POINT,  /* it lists an id that no point has at that tick */
     OCTREE_NODE_OUTSIDE_POINT,  /* it lists a point that is outside its box */
+    OCTREE_NODE_REPEATED_POINT, /* it lists a point more than once */
     OCTREE_NODE_LOST_POINT,     /* no node holds the point; the player whom keys move need not be held */
     OCTREE_NODE_UNKNOWN_NODE,   /* a query met an id that no node has */
     OCTREE_NODE_PRUNED_POINT,   /* a query pruned it, and it or a node below alone holds a point without which no answer
@@ -86,8 +87,8 @@ typedef enum octree_node_fault_kind {
     OCTREE_NODE_FAULTS
 } octree_node_fault_kind;
 
-/* "outside_parent", "unknown_point", "outside_point", "lost_point", "unknown_node", "pruned_point". Null from
- * OCTREE_NODE_FAULTS on. */
+/* "outside_parent", "unknown_point", "outside_point", "repeated_point", "lost_point", "unknown_node", "pruned_point".
+ * Null from OCTREE_NODE_FAULTS on. */
 const char *octree_node_fault_name(octree_node_fault_kind kind);
 
 /* In some words, such as "its box leaves its parent's". Null from OCTREE_NODE_FAULTS on. */

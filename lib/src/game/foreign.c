@@ -277,6 +277,7 @@ void foreign_release(foreign *f, arena *memory)
     list_release(memory, &f->marks, sizeof(foreign_mark));
     list_release(memory, &f->holdings, sizeof(foreign_holding));
     list_release(memory, &f->kinds, OCTREE_NODE_KIND);
+    list_release(memory, &f->repeated, sizeof(foreign_holding));
     list_release(memory, &f->faults, sizeof(octree_node_fault));
     list_release(memory, &f->met, sizeof(size_t));
     list_release(memory, &f->lost, sizeof(uint64_t));

@@ -32,6 +32,7 @@ typedef struct foreign {
     list marks;                 /* foreign_mark, by place */
     list holdings;              /* foreign_holding, by point and then place */
     list kinds;                 /* char[OCTREE_NODE_KIND] */
+    list repeated;              /* foreign_holding: points that their nodes list more than once */
     list faults;                /* octree_node_fault */
     list met;                   /* size_t: the places that the tick's queries met, some twice */
     list lost;                  /* room for uint64_t: ids of points that nobody holds */

@@ -2,7 +2,7 @@
 /* foreign_faults.c - what can be proved wrong about a program's nodes, by themselves and by how queries met them.
  *
  * Nothing is held against a program that need not be so: a node that says nothing of its points may have any in its
- * box, a point may be in several nodes, and boxes may overlap.
+ * box, a point may be in several nodes, once in each, and boxes may overlap.
  */
 #include "foreign.h"
 #include "game_state.h"
@@ -22,6 +22,7 @@ static const struct {
     [OCTREE_NODE_OUTSIDE_PARENT] = {"outside_parent", "its box leaves its parent's"},
     [OCTREE_NODE_UNKNOWN_POINT] = {"unknown_point", "it lists a point that is not there"},
     [OCTREE_NODE_OUTSIDE_POINT] = {"outside_point", "it lists a point outside its box"},
+    [OCTREE_NODE_REPEATED_POINT] = {"repeated_point", "it lists a point more than once"},
     [OCTREE_NODE_LOST_POINT] = {"lost_point", "a point is in no node"},
     [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query met it, and it is not there"},
     [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, and its answer lacks a point in it"},
@@ -113,6 +114,36 @@ static bool check_points(octree_game *game, size_t place)
             whole = accuse(game, place, (octree_node_fault){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
         whole = whole && list_push(&game->memory, &f->holdings, &(foreign_holding){id, place}, sizeof(foreign_holding));
     }
+    return whole;
+}
+
+static bool is_same_holding(const foreign_holding *a, const foreign_holding *b)
+{
+    return a->id == b->id && a->place == b->place;
+}
+
+static int compare_by_place(const void *a, const void *b)
+{
+    const foreign_holding *p = a, *q = b;
+    return p->place != q->place ? (p->place > q->place) - (p->place < q->place) : (p->id > q->id) - (p->id < q->id);
+}
+
+/* The points that a node lists more than once, by node and then by point. The holdings are sorted. */
+static bool accuse_repeated(octree_game *game)
+{
+    foreign *f = &game->foreign;
+    const foreign_holding *items = f->holdings.items;
+    bool whole = true;
+    f->repeated.count = 0;
+    for (size_t i = 1; whole && i < f->holdings.count; i++)
+        if (is_same_holding(&items[i], &items[i - 1]) && !(i > 1 && is_same_holding(&items[i], &items[i - 2])))
+            whole = list_push(&game->memory, &f->repeated, &items[i], sizeof *items);
+    const foreign_holding *repeated = f->repeated.items;
+    if (f->repeated.count > 1)
+        qsort(f->repeated.items, f->repeated.count, sizeof *repeated, compare_by_place);
+    for (size_t i = 0; whole && i < f->repeated.count; i++)
+        whole = accuse(game, repeated[i].place,
+                       (octree_node_fault){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
     return whole;
 }
 
@@ -271,7 +302,7 @@ static octree_status find_standing(octree_game *game)
         return OCTREE_NO_MEMORY;
     if (f->holdings.count > 1)
         qsort(f->holdings.items, f->holdings.count, sizeof(foreign_holding), compare_holdings);
-    const octree_status status = find_lost_points(game);
+    const octree_status status = accuse_repeated(game) ? find_lost_points(game) : OCTREE_NO_MEMORY;
     f->standing = f->faults.count;
     memcpy(f->standing_counts, state->faults, sizeof state->faults);
     f->checked = status == OCTREE_OK;

@@ -195,11 +195,31 @@ static void each_fault_of_a_node_is_found(void **state)
     assert_fault(CHANGED(RIGHT, .id = 60, UNDER(50), X_BOX(0, 10.5), POINTS(3, 4)), OCTREE_NODE_OUTSIDE_PARENT, 60, 0);
     assert_fault(CHANGED(RIGHT, .id = 60, UNDER(50), X_BOX(0, 10), POINTS(3, 9, 4)), OCTREE_NODE_UNKNOWN_POINT, 60, 9);
     assert_fault(CHANGED(RIGHT, .id = 60, UNDER(50), X_BOX(0, 7), POINTS(3, 4)), OCTREE_NODE_OUTSIDE_POINT, 60, 4);
+    assert_fault(CHANGED(RIGHT, .id = 60, UNDER(50), X_BOX(0, 10), POINTS(4, 3, 4, 4)), OCTREE_NODE_REPEATED_POINT, 60,
+                 4);
     assert_fault(CHANGED(RIGHT, .id = 60, UNDER(50), X_BOX(0, 10), POINTS(4)), OCTREE_NODE_LOST_POINT, 0, 3);
     assert_fault(CHANGED(RIGHT, .id = 60, UNDER(50), X_BOX(0, 7)), OCTREE_NODE_LOST_POINT, 0, 4);
     assert_faultless(CHANGED(RIGHT, .id = 60, UNDER(50), X_BOX(0, 10)));
     assert_faultless(CHANGED(ROOT, .id = 50, X_BOX(-1e300, 1e300), POINTS(1, 4)));
     assert_faultless(CHANGED(RIGHT, .id = 60, .box = {{2, 0, 0}, {8, 0, 0}}, POINTS(3, 4)));
+}
+
+/* A point may be in several nodes, but once in each. */
+static void repeated_points_are_told_by_node_and_then_by_point(void **state)
+{
+    (void)state;
+    octree_foreign_node nodes[NODES];
+    memcpy(nodes, right_nodes, sizeof nodes);
+    nodes[ROOT] = (octree_foreign_node){.id = 50, X_BOX(-10, 10), POINTS(4, 4, 1)};
+    nodes[RIGHT] = (octree_foreign_node){.id = 60, UNDER(50), X_BOX(0, 10), POINTS(4, 3, 4, 3)};
+    const octree_foreign_state *foreign = &tick_with(nodes, NODES, NULL)->foreign;
+    static const uint64_t nodes_and_points[][2] = {{50, 4}, {60, 3}, {60, 4}};
+    assert_int_equal(foreign->fault_count, 3);
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(foreign->listed[i].kind, OCTREE_NODE_REPEATED_POINT);
+        assert_int_equal(foreign->listed[i].node, nodes_and_points[i][0]);
+        assert_int_equal(foreign->listed[i].point, nodes_and_points[i][1]);
+    }
 }
 
 static void what_moves_out_of_its_leaf_is_found_when_it_does(void **state)
@@ -429,6 +449,7 @@ int main(void)
         cmocka_unit_test(nodes_that_are_no_tree_are_refused),
         cmocka_unit_test(a_long_chain_of_nodes_is_a_tree),
         cmocka_unit_test(each_fault_of_a_node_is_found),
+        cmocka_unit_test(repeated_points_are_told_by_node_and_then_by_point),
         cmocka_unit_test(what_moves_out_of_its_leaf_is_found_when_it_does),
         cmocka_unit_test(boxes_of_floats_are_compared_in_floats),
         cmocka_unit_test(how_queries_met_nodes_is_told),

@@ -136,6 +136,23 @@ static void nodes_are_coloured_by_kind_and_by_their_points(void **state)
     assert_true(says(own) && says("program's, 0-256+ points"));
 }
 
+static void kinds_beyond_those_that_have_a_colour_share_the_last(void **state)
+{
+    (void)state;
+    static const char kinds[][OCTREE_NODE_KIND] = {"a", "b", "c", "d", "e", "f", "g", "h"};
+    view v = view_by(TREE_AUTO);
+    v.coloring = COLORING_KIND;
+    show(&v, 0);
+    octree_foreign_state *foreign = (octree_foreign_state *)(uintptr_t)&octree_game_tick(game)->foreign;
+    foreign->kinds = kinds;
+    foreign->kind_count = THEME_NODE_KINDS;
+    build_tick(&shown, &v, game);
+    assert_true(says("node: g") && !says("node: any other kind"));
+    foreign->kind_count++;
+    build_tick(&shown, &v, game);
+    assert_true(says("node: f") && !says("node: g") && says("node: any other kind"));
+}
+
 static void filters_budget_and_lod_are_for_them_too(void **state)
 {
     (void)state;
@@ -253,6 +270,7 @@ int main(void)
         cmocka_unit_test(what_is_said_of_the_tree_that_is_not_shown_is_told_apart),
         cmocka_unit_test(nodes_have_the_looks_of_octreels_own),
         cmocka_unit_test(nodes_are_coloured_by_kind_and_by_their_points),
+        cmocka_unit_test(kinds_beyond_those_that_have_a_colour_share_the_last),
         cmocka_unit_test(filters_budget_and_lod_are_for_them_too),
         cmocka_unit_test(what_is_wrong_is_marked_and_told),
         cmocka_unit_test(nodes_are_told_in_words),

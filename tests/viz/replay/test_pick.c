@@ -35,7 +35,8 @@ static bool has_color_of(const scene *s, uint32_t number, uint8_t index)
     if (number == 0)
         return index == 0;
     const scene_style style = scene_head_of(s, scene_element_at(s, number)).style;
-    return index / THEME_SHADES == style.role || (index == 0 && style.stroke == STROKE_CUT);
+    return (index >= theme_index(style.role, 0) && index <= theme_index(style.role, THEME_SHADES - 1)) ||
+           (index == 0 && style.stroke == STROKE_CUT);
 }
 
 static void every_sample_of_every_golden_frame_has_the_colour_of_its_element(void **state)

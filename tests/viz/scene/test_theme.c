@@ -78,7 +78,8 @@ static void farther_shades_come_nearer_to_the_background_and_stay_apart_from_it(
     (void)state;
     for (unsigned role = ROLE_BACKGROUND + 1; role < ROLE_COUNT; role++) {
         int last = distance_to_ground(theme_color_at(theme_index(role, 0)));
-        for (unsigned shade = 1; shade < THEME_SHADES; shade++) {
+        const unsigned step = role < ROLE_KIND ? 1 : THEME_SHADES / THEME_KIND_SHADES;
+        for (unsigned shade = step; shade < THEME_SHADES; shade += step) {
             const int now = distance_to_ground(theme_color_at(theme_index(role, shade)));
             assert_true(now < last);
             last = now;
@@ -99,9 +100,10 @@ static void every_index_fits_a_byte_and_is_used_once(void **state)
 {
     (void)state;
     bool used[256] = {false};
-    assert_true(THEME_COLORS <= 256);
+    assert_true(THEME_COLORS < 256); /* and one of painted points: THEME_OWN */
     for (unsigned role = 0; role < ROLE_COUNT; role++) {
-        for (unsigned shade = 0; shade < THEME_SHADES; shade++) {
+        const unsigned step = role < ROLE_KIND ? 1 : THEME_SHADES / THEME_KIND_SHADES;
+        for (unsigned shade = 0; shade < THEME_SHADES; shade += step) {
             assert_true(theme_index(role, shade) < THEME_COLORS);
             assert_false(used[theme_index(role, shade)]);
             used[theme_index(role, shade)] = true;
@@ -111,11 +113,13 @@ static void every_index_fits_a_byte_and_is_used_once(void **state)
         assert_int_equal(distance_to_ground(theme_color_at((uint8_t)index)), 0);
 }
 
-/* Severity 1.0 of Machado, Oliveira and Fernandes (2009), on linear light; and the eye that sees all. */
+/* Severity 1.0 of Machado, Oliveira and Fernandes (2009), on linear light: without red, green or blue; and the eye that
+ * sees all. */
 static const double eyes[][3][3] = {
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
     {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}},
     {{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}},
+    {{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}},
 };
 
 /* A colour as an eye sees it, in CIE L*a*b* (D65). */
@@ -156,7 +160,7 @@ static double apart(theme_role a, theme_role b, const double eye[3][3])
 #define CLEARLY_APART 12
 
 static const theme_role meanings[] = {ROLE_POINT,   ROLE_PLAYER, ROLE_COLLISION, ROLE_RANGE, ROLE_RADIUS, ROLE_KNEAREST,
-                                      ROLE_NEAREST, ROLE_WRONG,  ROLE_MISSED,    ROLE_HIT,   ROLE_CHANGE};
+                                      ROLE_NEAREST, ROLE_WRONG,  ROLE_MISSED,    ROLE_HIT,   ROLE_CHANGE, ROLE_SHAPE};
 #define MEANINGS (sizeof meanings / sizeof meanings[0])
 #define EYES (sizeof eyes / sizeof eyes[0])
 
@@ -217,7 +221,7 @@ static void the_ramp_is_even_and_grows_lighter_for_every_eye(void **state)
             double before[3], after[3];
             to_lab(a, eyes[eye], before);
             to_lab(b, eyes[eye], after);
-            assert_true(after[0] > before[0] + 1);
+            assert_true(after[0] > before[0] + (eye < 3 ? 1 : 0)); /* without blue the last is one */
             smallest = eye == 0 ? fmin(smallest, colors_apart(a, b, eyes[eye])) : smallest;
             largest = eye == 0 ? fmax(largest, colors_apart(a, b, eyes[eye])) : largest;
         }
@@ -242,6 +246,23 @@ static void kinds_stay_apart_without_red_or_green(void **state)
         for (unsigned i = 0; i < THEME_KINDS; i++)
             for (unsigned j = i + 1; j < THEME_KINDS; j++)
                 assert_true(colors_apart(theme_kind(i), theme_kind(j), eyes[eye]) > CLEARLY_APART);
+}
+
+/* They cross each other and are seen for themselves: far apart, and apart from all that lies on them. */
+static void kinds_of_nodes_are_told_apart_by_any_eye(void **state)
+{
+    (void)state;
+    for (size_t eye = 0; eye < EYES; eye++)
+        for (unsigned i = 0; i < THEME_NODE_KINDS; i++) {
+            const theme_role kind = theme_node_kind_role(i);
+            for (unsigned j = i + 1; j < THEME_NODE_KINDS; j++)
+                assert_true(apart(kind, theme_node_kind_role(j), eyes[eye]) > 2.5 * CLEARLY_APART);
+            for (size_t j = 0; j < MEANINGS; j++)
+                assert_true(apart(kind, meanings[j], eyes[eye]) > CLEARLY_APART);
+            assert_true(apart(kind, ROLE_NODE_PLAIN, eyes[eye]) > CLEARLY_APART);
+            assert_true(contrast(theme_color_at(theme_index(kind, 0)), ROLE_BACKGROUND) >= 3);
+        }
+    assert_int_equal(theme_node_kind_role(THEME_NODE_KINDS), theme_node_kind_role(THEME_NODE_KINDS - 1));
 }
 
 /* ---- A colour for a new role -------------------------------------------------------------------------------- */
@@ -305,6 +326,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(one_look_has_one_meaning),
         cmocka_unit_test(the_ramp_is_even_and_grows_lighter_for_every_eye),
         cmocka_unit_test(the_ramp_ends_where_amounts_do),
+        cmocka_unit_test(kinds_of_nodes_are_told_apart_by_any_eye),
         cmocka_unit_test(kinds_stay_apart_without_red_or_green),
         cmocka_unit_test(meanings_stay_apart_from_nodes_unless_they_are_dashed),
     };
