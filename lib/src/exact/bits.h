@@ -6,11 +6,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* The number of bits set in each of 16 values, four bits an answer: two shifts count a mask of eight. */
+#define BITS_COUNTS UINT64_C(0x4332322132212110)
+
 static inline unsigned bits_count8(unsigned mask)
 {
-    mask = mask - ((mask >> 1) & 0x55);
-    mask = (mask & 0x33) + ((mask >> 2) & 0x33);
-    return (mask + (mask >> 4)) & 0x0f;
+    return (unsigned)((BITS_COUNTS >> 4 * (mask & 15) & 15) + (BITS_COUNTS >> 4 * (mask >> 4) & 15));
 }
 
 /* Index of the lowest set bit; mask must not be 0. */

@@ -18,31 +18,51 @@ static void give_items(const batch *b, morton_item *items, size_t arrays)
     arena_give(&b->tree->store.memory, items, arrays * (b->count + 1) * sizeof *items);
 }
 
-static octree_status check_point(const batch *b, size_t i)
+enum { TOGETHER = 64 }; /* codes are computed of so many positions at a time */
+
+/* The code of a position, OK when it is in the world. */
+static octree_status sure_code(const octree *tree, const double position[3], uint64_t *code)
 {
-    const octree_box *world = &b->tree->def.world;
-    const double *from = b->points[i].position;
-    if (!box_contains(world, from))
-        return check_position(b->tree, from);
-    return !b->to || box_contains(world, b->to[i]) ? OCTREE_OK : check_position(b->tree, b->to[i]);
+    const octree_status status = *code == MORTON_UNSURE ? check_position(tree, position) : OCTREE_OK;
+    if (*code == MORTON_UNSURE && status == OCTREE_OK)
+        *code = morton_code(tree->axes, position);
+    return status;
 }
 
-static void push_code(const batch *b, span *items, const double position[3], size_t place)
+/* Where a point moves to: its code if all points move, else only whether that is in the world. */
+static octree_status check_target(const batch *b, size_t i, uint64_t *code)
 {
-    items->items[items->count++] = (morton_item){morton_code(b->tree->axes, position), (uint32_t)place, MORTON_NEW};
+    if (b->all_move)
+        return sure_code(b->tree, b->to[i], code);
+    return !b->to || box_contains(&b->tree->def.world, b->to[i]) ? OCTREE_OK : check_position(b->tree, b->to[i]);
+}
+
+/* Items for the valid ones of some points. */
+static void collect_some(batch *b, size_t first, size_t count)
+{
+    const axis *axes = b->tree->axes;
+    uint64_t codes[TOGETHER], to_codes[TOGETHER];
+    morton_codes(axes, b->points[first].position, sizeof *b->points / sizeof(double), count, codes);
+    if (b->all_move)
+        morton_codes(axes, b->to[first], 3, count, to_codes);
+    for (size_t i = 0; i < count; i++) {
+        const size_t place = first + i;
+        octree_status status = sure_code(b->tree, b->points[place].position, &codes[i]);
+        if (status == OCTREE_OK)
+            status = check_target(b, place, &to_codes[i]);
+        if (status == OCTREE_OK)
+            b->valid.items[b->valid.count++] = (morton_item){codes[i], (uint32_t)place, MORTON_NEW};
+        if (status == OCTREE_OK && b->all_move)
+            b->arriving.items[b->arriving.count++] = (morton_item){to_codes[i], (uint32_t)place, MORTON_NEW};
+        if (b->statuses)
+            b->statuses[place] = status;
+    }
 }
 
 static void collect_items(batch *b)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        const octree_status status = check_point(b, i);
-        if (status == OCTREE_OK)
-            push_code(b, &b->valid, b->points[i].position, i);
-        if (status == OCTREE_OK && b->all_move)
-            push_code(b, &b->arriving, b->to[i], i);
-        if (b->statuses)
-            b->statuses[i] = status;
-    }
+    for (size_t i = 0; i < b->count; i += TOGETHER)
+        collect_some(b, i, b->count - i < TOGETHER ? b->count - i : TOGETHER);
 }
 
 enum { LISTS = 3 }; /* what leaves, what arrives, and one to sort with */

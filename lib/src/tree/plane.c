@@ -19,6 +19,19 @@ static double first_bits(double value)
     return value;
 }
 
+/* The rounding to fixed point is one more error. Where coordinates are subnormal, guesses come from another product. */
+static void set_sure(axis *a)
+{
+    static const double first = (double)PLANE_GRID;
+    const double error = a->guess_error * (double)(UINT64_C(1) << PLANE_FRACTION) + 2;
+    const int64_t fraction = INT64_C(1) << PLANE_FRACTION;
+    memcpy(&a->sure_from, &first, sizeof first);
+    if (a->subnormal || !(2 * error < (double)fraction)) /* or NaN */
+        return;
+    a->sure_from += (uint64_t)error;
+    a->sure_span = (uint64_t)(fraction - 2 * (int64_t)error);
+}
+
 axis axis_make(double min, double max)
 {
     axis a = {.min = min, .max = max, .unit = 1, .keys_per_unit = (double)PLANE_GRID / (max - min)};
@@ -37,6 +50,7 @@ axis axis_make(double min, double max)
         a.keys_per_unit = (double)PLANE_GRID / subnormal_count(max - min);
         a.guess_error = 0x1p-29 + 4 * a.keys_per_unit;
     }
+    set_sure(&a);
     a.plain = a.unit == 1 && a.center[1] == 0 && a.half[1] == 0 && a.half[2] == 0;
     return a;
 }
@@ -67,11 +81,83 @@ uint32_t plane_key_near(const axis *a, double x)
     if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess >= 0 && guess < (double)PLANE_GRID))
         return key_search(a, x);
     uint32_t key = (uint32_t)guess;
+    const double fraction = guess - (double)key;
+    if (fraction > a->guess_error && fraction < 1 - a->guess_error)
+        return key;
     while (key > 0 && plane_at(a, key) > x)
         key--;
     while (key + 1 < PLANE_GRID && plane_at(a, key + 1) <= x)
         key++;
     return key;
+}
+
+#ifdef OCTREE_SSE2
+
+/* The same as bits_spread(), of two words. */
+static inline __m128i spread_step(__m128i x, int shift, uint64_t mask)
+{
+    return _mm_and_si128(_mm_or_si128(x, _mm_slli_epi64(x, shift)), _mm_set1_epi64x((long long)mask));
+}
+
+static inline __m128i spread_both(__m128i x)
+{
+    x = spread_step(x, 32, UINT64_C(0x001f00000000ffff));
+    x = spread_step(x, 16, UINT64_C(0x001f0000ff0000ff));
+    x = spread_step(x, 8, UINT64_C(0x100f00f00f00f00f));
+    x = spread_step(x, 4, UINT64_C(0x10c30c30c30c30c3));
+    return spread_step(x, 2, UINT64_C(0x1249249249249249));
+}
+
+/* The codes of two positions: plane_fixed() and plane_unsure() of each axis. */
+static inline void codes_of_two(const axis axes[3], const double *p, const double *q, uint64_t codes[2])
+{
+    const __m128i fraction = _mm_set1_epi64x((long long)PLANE_FRACTION_MASK), zero = _mm_setzero_si128();
+    __m128i sums = zero, unsure = zero;
+    for (int i = 0; i < 3; i++) {
+        const axis *a = &axes[i];
+        const __m128d above = _mm_sub_pd(_mm_set_pd(q[i], p[i]), _mm_set1_pd(a->min));
+        const __m128d guess =
+            _mm_add_pd(_mm_mul_pd(above, _mm_set1_pd(a->keys_per_unit)), _mm_set1_pd((double)PLANE_GRID));
+        const __m128i fixed = _mm_sub_epi64(_mm_castpd_si128(guess), _mm_set1_epi64x((long long)a->sure_from));
+        const __m128i last = _mm_set1_epi64x((long long)(a->sure_span - 1));
+        unsure = _mm_or_si128(unsure, _mm_sub_epi64(last, _mm_and_si128(fixed, fraction)));
+        unsure = _mm_or_si128(unsure, _mm_sub_epi64(zero, _mm_srli_epi64(fixed, PLANE_FIXED_BITS)));
+        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_both(_mm_srli_epi64(fixed, PLANE_FRACTION)));
+    }
+    const __m128i all_ones = _mm_sub_epi64(zero, _mm_srli_epi64(unsure, 63));
+    _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_ones));
+}
+
+#else
+
+static inline uint64_t code_if_sure(const axis axes[3], const double p[3])
+{
+    uint64_t code = 0, unsure = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint64_t fixed = plane_fixed(&axes[i], p[i]);
+        unsure |= plane_unsure(axes[i].sure_span, fixed);
+        code = code << 1 | bits_spread(fixed >> PLANE_FRACTION);
+    }
+    return code | (0 - (unsure >> 63));
+}
+
+static inline void codes_of_two(const axis axes[3], const double *p, const double *q, uint64_t codes[2])
+{
+    codes[0] = code_if_sure(axes, p);
+    codes[1] = code_if_sure(axes, q);
+}
+
+#endif
+
+void morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes)
+{
+    uint64_t last[2];
+    for (; count >= 2; count -= 2, codes += 2, positions += 2 * stride)
+        codes_of_two(axes, positions, positions + stride, codes);
+    if (count > 0) {
+        codes_of_two(axes, positions, positions, last);
+        codes[0] = last[0];
+    }
 }
 
 octree_box cell_bounds(const axis axes[3], cell c)

@@ -23,6 +23,8 @@ typedef struct axis {
     bool subnormal;       /* all coordinates and their differences are */
     double keys_per_unit; /* a guess only: may be 0 or infinite in extreme worlds */
     double guess_error;   /* bound for that guess, in keys; may be infinite or NaN */
+    uint64_t sure_from;   /* guesses in fixed point: where the surely right ones of a key begin, from its plane on */
+    uint64_t sure_span;   /* and how many there are; 0 where no guess is sure */
 } axis;
 
 axis axis_make(double min, double max);
@@ -58,19 +60,34 @@ static inline double plane_guess(const axis *a, double x)
 /* The same as plane_key() for a coordinate near a plane, where the guess may be wrong. */
 uint32_t plane_key_near(const axis *a, double x);
 
+/* Fixed point: 21 bits of a key and PLANE_FRACTION bits below them, which are the fraction of a double in
+ * [2^21, 2^22). */
+#define PLANE_FRACTION 31
+#define PLANE_FRACTION_MASK ((UINT64_C(1) << PLANE_FRACTION) - 1)
+#define PLANE_FIXED_BITS (OCTREE_MAX_DEPTH + PLANE_FRACTION)
+
+/* The guess in fixed point, less the error that it may have: more than that from a whole number it is right. */
+static inline uint64_t plane_fixed(const axis *a, double x)
+{
+    const double guess = (x - a->min) * a->keys_per_unit + (double)PLANE_GRID;
+    uint64_t bits;
+    memcpy(&bits, &guess, sizeof bits);
+    return bits - a->sure_from;
+}
+
+/* The highest bit is set when that guess is not sure, as for all coordinates outside the world. */
+static inline uint64_t plane_unsure(uint64_t span, uint64_t fixed)
+{
+    return (span - 1 - (fixed & PLANE_FRACTION_MASK)) | (0 - (fixed >> PLANE_FIXED_BITS));
+}
+
 /* The key of a coordinate of the world, 0 <= key < PLANE_GRID. The guess has four roundings of a number below 2^21,
  * less than 2^-29 in all, and a plane is off its ideal place by at most an ulp of the world's coordinates: a guess
  * farther than that from a whole number is right. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
-    const double guess = plane_guess(a, x);
-    if (guess >= 0 && guess < (double)PLANE_GRID) {
-        const uint32_t key = (uint32_t)guess;
-        const double fraction = guess - (double)key;
-        if (fraction > a->guess_error && fraction < 1 - a->guess_error)
-            return key;
-    }
-    return plane_key_near(a, x);
+    const uint64_t fixed = plane_fixed(a, x);
+    return plane_unsure(a->sure_span, fixed) >> 63 ? plane_key_near(a, x) : (uint32_t)(fixed >> PLANE_FRACTION);
 }
 
 /* A cell: its lowest grid plane on each axis, and its depth. */
@@ -116,6 +133,13 @@ static inline uint64_t morton_code(const axis axes[3], const double position[3])
                               plane_key(&axes[2], position[2])};
     return morton_interleave(keys);
 }
+
+/* No code: a position whose code takes more than a sure guess, or that is not in the world. */
+#define MORTON_UNSURE UINT64_MAX
+
+/* The Morton codes of `count` positions, each so many doubles after the one before: some instructions a position, as
+ * most guesses are sure. The others are MORTON_UNSURE. */
+void morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes);
 
 /* The octant that a code takes from a node of this depth. */
 static inline unsigned morton_octant(uint64_t code, unsigned depth)

@@ -189,13 +189,9 @@ octree_status check_position(const octree *tree, const double position[3])
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    bool inside = true;
-    for (int i = 0; i < 3; i++) {
-        if (!isfinite(position[i]))
-            return OCTREE_NOT_FINITE;
-        inside &= tree->axes[i].min <= position[i] && position[i] <= tree->axes[i].max;
-    }
-    return inside ? OCTREE_OK : OCTREE_OUTSIDE;
+    if (box_contains(&tree->def.world, position))
+        return OCTREE_OK;
+    return is_finite(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
 }
 
 path path_to(const octree *tree, uint64_t code)
@@ -229,6 +225,7 @@ octree_status octree_find(const octree *tree, const double position[3], uint64_t
         return status;
     const path p = path_to(tree, morton_code(tree->axes, position));
     const node *leaf = path_end(&p);
+    leaf_prefetch(leaf->octants ? &(node){0} : leaf);
     bool found = false;
     uint64_t lowest = UINT64_MAX;
     for (uint32_t i = 0; leaf->octants == 0 && i < leaf->count; i++) {

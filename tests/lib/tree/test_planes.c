@@ -175,6 +175,47 @@ static void no_node_splits_without_a_plane_strictly_inside(void **state)
     }
 }
 
+/* A plane of an axis, a neighbour of it, or what is in no world. */
+static double beside_a_plane(size_t row, uint64_t *random)
+{
+    const double strange[] = {NAN, INFINITY, -INFINITY, DBL_MAX, -DBL_MAX, 0.0, -0.0, world_axes[row][1]};
+    const unsigned depth = (unsigned)random_below(random, OCTREE_MAX_DEPTH + 1),
+                   way = (unsigned)random_below(random, 9);
+    const octree_box box = cell(row, (uint32_t)random_below(random, UINT64_C(1) << depth), depth);
+    if (way == 8)
+        return strange[random_below(random, 8)];
+    return way < 2   ? nextafter(box.min[0], -INFINITY)
+           : way < 4 ? nextafter(box.min[0], INFINITY)
+           : way < 6 ? box.min[0]
+                     : random_between(random, world_axes[row][0], world_axes[row][1]);
+}
+
+static void points_beside_planes_are_built_into_the_cells_that_they_are_inserted_into(void **state)
+{
+    (void)state;
+    enum { POINTS = 301 };
+    uint64_t random = 8;
+    for (size_t row = 0; row < world_count; row++) {
+        octree_point points[POINTS];
+        octree_status statuses[POINTS];
+        octree *built = make_tree(world_of(row), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
+        octree *single = make_tree(world_of(row), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
+        for (size_t i = 0; i < POINTS; i++) {
+            points[i].id = i;
+            for (int axis = 0; axis < 3; axis++)
+                points[i].position[axis] = beside_a_plane(row, &random);
+        }
+        assert_int_equal(octree_insert_many(built, points, POINTS, statuses, NULL), OCTREE_OK);
+        for (size_t i = 0; i < POINTS; i++)
+            assert_int_equal(statuses[i], octree_insert(single, points[i].position, points[i].id));
+        assert_true(octree_count(built) > POINTS / 4);
+        assert_true(octree_digest(built) == octree_digest(single));
+        assert_null(octree_check(built, NULL));
+        octree_destroy(built);
+        octree_destroy(single);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -187,6 +228,7 @@ int main(void)
         cmocka_unit_test(symmetric_worlds_split_at_zero),
         cmocka_unit_test(the_quarters_of_symmetric_worlds_are_exact),
         cmocka_unit_test(no_node_splits_without_a_plane_strictly_inside),
+        cmocka_unit_test(points_beside_planes_are_built_into_the_cells_that_they_are_inserted_into),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
