@@ -12,9 +12,10 @@
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
+#include "las_files.h"
 #include "page.h"
 
-static const char cloud[] = "0 0 0\n1 2 3\n4 5 6\n";
+static const char points[] = "0 0 0\n1 2 3\n4 5 6\n";
 static const char session[] = "{\"octreel\":\"session\",\"version\":1,\"points\":{\"sample\":\"uniform\",\"count\":9,"
                               "\"seed\":1},\"keys\":\"wd\",\"queries\":[{\"nearest\":[-999,0,0],\"answer\":[77]}]}\n";
 
@@ -34,22 +35,36 @@ static void assert_lines_done(void **state, const char *lines)
 
 static void a_cloud_is_told_by_what_it_holds(void **state)
 {
-    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
-                              "property double z\nend_header\n1 2 3\n4 5 6\n";
-    file_write_text(place_in(*state, "standard input").path, cloud); /* whose name is in what is said */
+    file_write_text(place_in(*state, "standard input").path, points); /* whose name is in what is said */
     assert_lines_done(state, "\"$octreel\" inspect 'standard input' --nodes nodes --nearest 1,2,2 >a && "
                              "cat 'standard input' | \"$octreel\" inspect - --nearest 1,2,2 >b && tail -n +3 b >c && "
                              "test -s b && grep -v '^wrote' a | cmp - b && "
                              "cat 'standard input' | \"$octreel\" inspect - --nodes - 2>d | cmp - nodes && "
                              "grep -q 'wrote standard output: all nodes' d");
-    file_write_text(place_in(*state, "standard input").path, ply);
-    assert_lines_done(state, "\"$octreel\" inspect 'standard input' --json >a && "
-                             "cat 'standard input' | \"$octreel\" inspect - --json | cmp - a");
+}
+
+static void clouds_of_each_format_come_through_a_pipe(void **state)
+{
+    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
+                              "property double z\nend_header\n1 2 3\n4 5 6\n",
+                      pcd[] = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nPOINTS 2\nDATA binary\n"
+                              "abcdefghijkl@bcdefghijkl",
+                      text[] = "x,y,z\n1,2,3\n4,5,6\n";
+    const bytes las = make(&two);
+    const struct {
+        const void *data;
+        size_t size;
+    } rows[] = {{ply, sizeof ply - 1}, {pcd, sizeof pcd - 1}, {text, sizeof text - 1}, {las.data, las.size}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        file_write(place_in(*state, "standard input").path, rows[i].data, rows[i].size);
+        assert_lines_done(state, "\"$octreel\" inspect 'standard input' --json >a && grep -q '\"points\": 2,' a && "
+                                 "cat 'standard input' | \"$octreel\" inspect - --json | cmp - a");
+    }
 }
 
 static void a_picture_goes_to_standard_output_alone(void **state)
 {
-    file_write_text(place_in(*state, "standard input").path, cloud);
+    file_write_text(place_in(*state, "standard input").path, points);
     assert_lines_done(state, "\"$octreel\" inspect 'standard input' -o a.png --size 64x36 >a && "
                              "\"$octreel\" inspect - -o - --size 64x36 <'standard input' 2>b | cmp - a.png && "
                              "sed 's/wrote a.png/wrote standard output/' a | cmp - b");
@@ -62,7 +77,7 @@ static void a_terminal_is_sent_no_picture(void **state)
     if (terminal < 0)
         skip();
     assert_true(grantpt(terminal) == 0 && unlockpt(terminal) == 0);
-    file_write_text(file.path, cloud);
+    file_write_text(file.path, points);
     command_result result =
         run_octreel(&(command_setting){.output = ptsname(terminal)}, "inspect %s -o - --size 64x36", file.path);
     assert_trouble(&result, "-o - writes a PNG, which a terminal does not show");
@@ -131,7 +146,7 @@ static void what_is_neither_is_told_by_a_sentence(void **state)
 /* ./- has a name that is short for it where a session has no folder. */
 static void a_file_of_that_name_stays_a_file(void **state)
 {
-    file_write_text(place_in(*state, "-").path, cloud);
+    file_write_text(place_in(*state, "-").path, points);
     file_write_text(place_in(*state, "s.json").path,
                     "{\"octreel\":\"session\",\"version\":1,\"points\":{\"file\":\"-\"}}");
     assert_lines_done(state, "\"$octreel\" record - --no-frames -o a <s.json >b && grep -q '4, 5, 6' a/session.json && "
@@ -145,6 +160,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(a_cloud_is_told_by_what_it_holds),
+        IN_FOLDER(clouds_of_each_format_come_through_a_pipe),
         IN_FOLDER(a_picture_goes_to_standard_output_alone),
         IN_FOLDER(a_terminal_is_sent_no_picture),
         IN_FOLDER(sessions_to_play_come_from_standard_input),
