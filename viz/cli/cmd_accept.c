@@ -1,41 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_accept.c - octreel accept: new frames become the reference. */
 #include "command.h"
-#include "command_line.h"
 #include "accept.h"
 
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
-
-static const char help[] =
-    "usage: octreel accept REFERENCE NEW [FRAME ...] [OPTION ...]\n\n"
-    "Take over new frames as the reference: all of them, or those that are named. NEW is a PNG, a folder of PNGs or a\n"
-    "recording, or -, a PNG from standard input; REFERENCE is the like, or a file of digests, and is made where there\n"
-    "is nothing. References with the same pixels stay as they are; those that NEW has no frame for are removed, where\n"
-    "all or they are asked for. What was there before is told as octreel diff tells it. Look at the pictures first.\n\n"
-    "      --from FILE       the frames that FILE names, one a line: what was ticked in the page of octreel diff -o,\n"
-    "                        which saves it as accept.txt; - is standard input\n\n"
-    "A baseline is a file of digests that says why. It is text for git: a line for each frame and each accepted "
-    "digest,\n"
-    "one for each reason, in an order that merges well; \"baseline.txt merge=union\" in .gitattributes lets two "
-    "people\n"
-    "accept the same frame.\n"
-    "      --reason TEXT     why, in one line; makes REFERENCE a baseline where there is nothing\n"
-    "      --date DATE       when, as YYYY-MM-DD (default: today)\n"
-    "      --variant         what was accepted before stays so, too: any of a frame's variants passes\n"
-    "      --store DIR       put the pictures there, each under the digest of its pixels, for octreel diff --store to\n"
-    "                        show what was expected; no verdict depends on it\n"
-    "  -h, --help\n\n"
-    "Of several who accept into one baseline at once each sees what the others did, and where a disk is full nothing\n"
-    "is accepted. Where the environment has CI set, nothing is either: a test that accepts what it should test proves\n"
-    "nothing.\n\n"
-    "Exit status: 0 done, 2 trouble.\n\n"
-    "Examples: octreel accept golden frames\n"
-    "          octreel accept golden frames frame_000041.png frame_000042.png\n"
-    "          octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
-    "          octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n";
 
 typedef struct arguments {
     const char *from, *date, *reason, *store;
@@ -57,11 +28,22 @@ static bool read_reason(const command_option *option, const char *text, void *in
 }
 
 static const command_option options[] = {
-    {"from", read_name, OPTION_VALUE(arguments, from), 0, 0},
-    {"reason", read_reason, OPTION_VALUE(arguments, reason), 0, 0},
-    {"date", read_date, OPTION_VALUE(arguments, date), 0, 0},
-    {"variant", read_flag, OPTION_VALUE(arguments, variant), 0, 0},
-    {"store", read_folder, OPTION_VALUE(arguments, store), 0, 0},
+    {"from", "FILE",
+     "the frames that FILE names, one a line: what was ticked in the page of octreel diff -o, which saves it as "
+     "accept.txt; - is standard input",
+     .read = read_name, OPTION_VALUE(arguments, from)},
+    {.help = "A baseline is a file of digests that says why. It is text for git: a line for each frame and each "
+             "accepted digest, one for each reason, in an order that merges well; \"baseline.txt merge=union\" in "
+             ".gitattributes lets two people accept the same frame."},
+    {"reason", "TEXT", "why, in one line; makes REFERENCE a baseline where there is nothing", .read = read_reason,
+     OPTION_VALUE(arguments, reason)},
+    {"date", "DATE", "when, as YYYY-MM-DD (default: today)", .read = read_date, OPTION_VALUE(arguments, date)},
+    {"variant", NULL, "what was accepted before stays so, too: any of a frame's variants passes", .read = read_flag,
+     OPTION_VALUE(arguments, variant)},
+    {"store", "DIR",
+     "put the pictures there, each under the digest of its pixels, for octreel diff --store to show what was expected; "
+     "no verdict depends on it",
+     .read = read_folder, OPTION_VALUE(arguments, store)},
     {0},
 };
 
@@ -89,25 +71,17 @@ static int accept_them(const arguments *a, char **paths, int count)
     bool ok = !a->from || frame_list_read(&names, a->from, &error);
     for (int i = 2; ok && i < count; i++)
         ok = frame_list_add(&names, paths[i], 0, &error);
-    ok = ok && accept_frames(&all, stdout, &error);
+    ok = ok && accept_frames(&all, is_quiet() ? NULL : stdout, &error);
     frame_list_release(&names);
     return ok ? EXIT_DONE : trouble("%s", error.text);
 }
 
 #define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING)
 
-int cmd_accept(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     arguments a = {0};
-    const command_line line = {.name = "accept",
-                               .help = help,
-                               .options = options,
-                               .arguments = &a,
-                               .least = 2,
-                               .most = INT_MAX,
-                               .takes = "a reference and what is new, each a PNG, a folder of PNGs or a recording",
-                               .inputs = {FILE_KIND(MISSING) | FILE_KIND(DIGESTS) | SIDE, FILE_KIND(DIGESTS) | SIDE}};
-    const int status = command_line_read(&line, argc, argv);
+    const int status = command_read(&command_accept, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     if (getenv("CI"))
@@ -118,3 +92,29 @@ int cmd_accept(int argc, char **argv)
         return trouble("standard input can be read once, and \"-\" names it twice");
     return accept_them(&a, argv + optind, argc - optind);
 }
+
+const command command_accept = {
+    .name = "accept",
+    .run = run,
+    .options = options,
+    .line = "take over new frames as the reference",
+    .usage = "REFERENCE NEW [FRAME ...] [OPTION ...]",
+    .about = "Take over new frames as the reference: all of them, or those that are named. NEW is a PNG, a folder of "
+             "PNGs or a recording, or -, a PNG from standard input; REFERENCE is the like, or a file of digests, and "
+             "is made where there is nothing. References with the same pixels stay as they are; those that NEW has no "
+             "frame for are removed, where all or they are asked for. What was there before is told as octreel diff "
+             "tells it. Look at the pictures first.\n",
+    .more = "Of several who accept into one baseline at once each sees what the others did, and where a disk is full "
+            "nothing is accepted. Where the environment has CI set, nothing is either: a test that accepts what it "
+            "should test proves nothing.\n",
+    .examples =
+        "octreel accept golden frames\n"
+        "octreel accept golden frames frame_000041.png frame_000042.png\n"
+        "octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
+        "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n",
+    .environment = "  CI  when it is set, nothing is accepted\n",
+    .least = 2,
+    .most = INT_MAX,
+    .takes = "a reference and what is new, each a PNG, a folder of PNGs or a recording",
+    .inputs = {FILE_KIND(MISSING) | FILE_KIND(DIGESTS) | SIDE, FILE_KIND(DIGESTS) | SIDE},
+};

@@ -2,7 +2,6 @@
 /* cmd_audit.c - octreel audit: what a program answered to queries, judged by the true answers. */
 #include "audit_print.h"
 #include "command.h"
-#include "command_line.h"
 #include "file.h"
 #include "file_kind.h"
 #include "progress.h"
@@ -10,36 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char help[] = "usage: octreel audit RECORDING|SESSION [OPTION ...]\n\n"
-                           "Judge a program's own spatial index: play a session whose queries say what the program "
-                           "answered, and say for each\n"
-                           "kind of query how many answers were asked for and how many were wrong; their recall, the "
-                           "share of the true points\n"
-                           "that were named; of neighbours how many times as far as the true one of its rank one of "
-                           "them was, at worst and in\n"
-                           "99 of 100 answers; the first tick with a wrong one; and the three worst cases with their "
-                           "numbers; and what is proved\n"
-                           "wrong about nodes of its own. Nothing is drawn, and the files are not changed. octreel "
-                           "help session says how a\n"
-                           "query carries an answer. SESSION may be -, standard input.\n\n";
-
-static const char more_help[] =
-    "      --allow LIMITS    what is no finding: ratio=1.01, neighbours up to so many times as far; recall=0.99, "
-    "answers\n"
-    "                        that miss points, as long as so much of all true points is named; or both with a comma.\n"
-    "                        Nothing allows ids that no point has, points named twice, left out or outside\n"
-    "      --html FILE|DIR   write a page, DIR/audit.html: recall and ratio over the ticks, where each point leads to "
-    "its\n"
-    "                        frame, and the worst cases\n"
-    "      --junit FILE      write JUnit's XML, a test case for each kind of query\n"
-    "      --json            print JSON; a ratio of null is infinite: the true one is at the target\n"
-    "                        (FILE may be -, standard output, for one of them)\n"
-    "  -h, --help\n\n"
-    "Exit status: 0 all are right or within what is allowed, 1 a finding, 2 trouble, or no query has an answer.\n"
-    "Examples: octreel audit flight\n"
-    "          octreel audit flight --html flight --junit audit.xml\n"
-    "          octreel audit game.json --allow ratio=1.01,recall=0.99 --json\n";
 
 typedef struct arguments {
     audit_limits limits;
@@ -54,9 +23,18 @@ static bool read_limits(const command_option *option, const char *text, void *in
 }
 
 static const command_option options[] = {
-    {"allow", read_limits, OPTION_VALUE(arguments, limits), 0, 0},
-    {"html", read_name, OPTION_VALUE(arguments, html), 0, 0},
-    {"junit", read_file, OPTION_VALUE(arguments, junit), 0, 0},
+    {"allow", "LIMITS",
+     "what is no finding: ratio=1.01, neighbours up to so many times as far; recall=0.99, answers that miss points, as "
+     "long as so much of all true points is named; or both with a comma. Nothing allows ids that no point has, points "
+     "named twice, left out or outside",
+     .read = read_limits, OPTION_VALUE(arguments, limits)},
+    {"html", "FILE|DIR",
+     "write a page, DIR/audit.html: recall and ratio over the ticks, where each point leads to its frame, and the "
+     "worst cases",
+     .read = read_name, OPTION_VALUE(arguments, html)},
+    {"junit", "FILE", "write JUnit's XML, a test case for each kind of query", .read = read_file,
+     OPTION_VALUE(arguments, junit)},
+    JSON_OPTION(arguments, json, "print JSON; a ratio of null is infinite: the true one is at the target"),
     {0},
 };
 
@@ -160,19 +138,33 @@ static int audit_it(const arguments *a, const char *path)
     return !done ? trouble("%s", error.text) : passes ? EXIT_DONE : EXIT_FINDING;
 }
 
-int cmd_audit(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     arguments a = {.json = false};
-    const command_line line = {.name = "audit",
-                               .help = help,
-                               .more_help = more_help,
-                               .options = options,
-                               .arguments = &a,
-                               .json = &a.json,
-                               .least = 1,
-                               .most = 1,
-                               .takes = "the folder of one recording, or one session",
-                               .inputs = {FILE_KIND(RECORDING) | FILE_KIND(SESSION)}};
-    const int status = command_line_read(&line, argc, argv);
+    const int status = command_read(&command_audit, &a, argc, argv);
     return status == COMMAND_GO_ON ? audit_it(&a, argv[optind]) : status;
 }
+
+const command command_audit = {
+    .name = "audit",
+    .run = run,
+    .options = options,
+    .line = "judge what a program answered to queries: how much of it is wrong, and where",
+    .usage = "RECORDING|SESSION [OPTION ...]",
+    .about =
+        "Judge a program's own spatial index: play a session whose queries say what the program answered, and say for "
+        "each kind of query how many answers were asked for and how many were wrong; their recall, the share of the "
+        "true points that were named; of neighbours how many times as far as the true one of its rank one of them was, "
+        "at worst and in 99 of 100 answers; the first tick with a wrong one; and the three worst cases with their "
+        "numbers; and what is proved wrong about nodes of its own. Nothing is drawn, and the files are not changed. "
+        "octreel help session says how a query carries an answer. SESSION may be -, standard input.\n",
+    .more = "FILE may be -, standard output, for one of --html, --junit and --json.\n",
+    .statuses = {"all are right or within what is allowed", "a finding", "trouble, or no query has an answer"},
+    .examples = "octreel audit flight\n"
+                "octreel audit flight --html flight --junit audit.xml\n"
+                "octreel audit game.json --allow ratio=1.01,recall=0.99 --json\n",
+    .least = 1,
+    .most = 1,
+    .takes = "the folder of one recording, or one session",
+    .inputs = {FILE_KIND(RECORDING) | FILE_KIND(SESSION)},
+};

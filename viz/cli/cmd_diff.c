@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
 #include "command.h"
-#include "command_line.h"
 #include "explain.h"
 #include "hint.h"
 #include "ignored_layers.h"
@@ -14,45 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char help[] =
-    "usage: octreel diff REFERENCE COMPARED [OPTION ...]\n\n"
-    "Compare pictures, exactly unless told otherwise. Each side is a PNG, a folder of PNGs (those directly in it), a\n"
-    "recording, or a file of digests, made by octreel digest or octreel accept; - is a PNG or digests from standard\n"
-    "input. Frames belong together by their names; a frame without a reference is a difference, and so is a reference\n"
-    "without a frame. Where a baseline accepts several digests of a frame, any of them passes. Of recordings without\n"
-    "frames the ticks are compared.\n\n"
-    "Forgiven is only what is asked for, and every verdict says so:\n"
-    "      --max-pixels N    up to N unlike pixels a frame, after all below is forgiven\n"
-    "      --max-delta D     colours no farther apart than D in the unit YIQ (Kotsarenko and Ramos 2010), from 0, the\n"
-    "                        same, to 1: pixelmatch's and odiff's threshold, which is 0.1 there by default\n"
-    "      --antialias       pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)\n"
-    "      --ignore X,Y,W,H  a rectangle of pixels; may be given again\n"
-    "      --ignore-layer LIST  in recordings: what these layers show, where it is on top in either frame, as in\n"
-    "                        nodes,points; text is the panel and all letters; octreel record --help lists them\n\n"
-    "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from it in\n"
-    "each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone differs. The\n"
-    "verdict is about the frames, whatever their sessions are.\n"
-    "      --causes N        explain the first N frames and ticks that differ, and list as many of them, at least 10\n"
-    "                        (default 10; a page explains 50), \"all\", or 0 for none\n\n"
-    "      --store DIR       of a file of digests: pictures that octreel accept --store has put there show what was\n"
-    "                        expected; no verdict depends on them\n"
-    "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
-    "  -o, --output FOLDER   leave evidence: report.html, a page that holds all it shows, and of each frame that\n"
-    "                        differs NAME.expected.png, NAME.actual.png and NAME.difference.png (what counts glows, "
-    "be\n"
-    "                        it by one level; what is forgiven is blue)\n"
-    "      --json            print JSON\n"
-    "      --junit FILE      write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions\n"
-    "                        read it\n"
-    "      --markdown FILE   write a summary for a CI job's page: the verdict and a table of what differs\n"
-    "                        (FILE may be -, standard output, for one of the two, unless --json goes there)\n"
-    "  -h, --help\n\n"
-    "Exit status: 0 the same, or all forgiven; 1 different; 2 trouble, as when a picture cannot be read.\n\n"
-    "Examples: octreel diff before.png after.png\n"
-    "          octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
-    "          octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
-    "          octreel digest frames -o frames.digests && octreel diff frames.digests frames\n";
 
 typedef struct arguments {
     diff_options options;
@@ -129,17 +89,45 @@ static bool read_causes(const command_option *option, const char *text, void *in
 }
 
 static const command_option options[] = {
-    {"max-pixels", read_whole, OPTION_VALUE(arguments, options.tolerance.max_pixels), 0, UINT32_MAX},
-    {"max-delta", read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta), 0, 0},
-    {"antialias", read_flag, OPTION_VALUE(arguments, options.tolerance.antialias), 0, 0},
-    {"ignore", read_rectangle, 0, 0, 0, 0},
-    {"ignore-layer", read_layers, 0, 0, 0, 0},
-    {"causes", read_causes, 0, sizeof(uint64_t), 0, UINT32_MAX},
-    {"background", read_color, OPTION_VALUE(arguments, options.background), 0, 0},
-    {"store", read_name, OPTION_VALUE(arguments, store), 0, 0},
-    {"output", read_folder, OPTION_VALUE(arguments, folder), 0, 0},
-    {"junit", read_file, OPTION_VALUE(arguments, junit), 0, 0},
-    {"markdown", read_file, OPTION_VALUE(arguments, markdown), 0, 0},
+    {.help = "Forgiven is only what is asked for, and every verdict says so:"},
+    {"max-pixels", "N", "up to N unlike pixels a frame, after all below is forgiven", .read = read_whole,
+     OPTION_VALUE(arguments, options.tolerance.max_pixels), .max = UINT32_MAX},
+    {"max-delta", "D",
+     "colours no farther apart than D in the unit YIQ (Kotsarenko and Ramos 2010), from 0, the same, to 1: "
+     "pixelmatch's and odiff's threshold, which is 0.1 there by default",
+     .read = read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta)},
+    {"antialias", NULL, "pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
+     OPTION_VALUE(arguments, options.tolerance.antialias)},
+    {"ignore", "X,Y,W,H", "a rectangle of pixels; may be given again", .read = read_rectangle},
+    {"ignore-layer", "LIST",
+     "in recordings: what these layers show, where it is on top in either frame, as in nodes,points; octreel record "
+     "--help lists them",
+     .read = read_layers, .names = view_layer_at},
+    {.help = "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from "
+             "it in each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone "
+             "differs. The verdict is about the frames, whatever their sessions are."},
+    {"causes", "N",
+     "explain the first N frames and ticks that differ, and list as many of them, at least 10 (default 10; a page "
+     "explains 50), \"all\", or 0 for none",
+     .read = read_causes, .size = sizeof(uint64_t), .max = UINT32_MAX},
+    {.help = "What is read and written:"},
+    {"store", "DIR",
+     "of a file of digests: pictures that octreel accept --store has put there show what was expected; no verdict "
+     "depends on them",
+     .read = read_name, OPTION_VALUE(arguments, store)},
+    {"background", "RRGGBB", "what transparent pixels are laid over (default ffffff, white)", .read = read_color,
+     OPTION_VALUE(arguments, options.background)},
+    {"output", "DIR",
+     "leave evidence: report.html, a page that holds all it shows, and of each frame that differs NAME.expected.png, "
+     "NAME.actual.png and NAME.difference.png (what counts glows, be it by one level; what is forgiven is blue)",
+     .read = read_folder, OPTION_VALUE(arguments, folder)},
+    JSON_OPTION(arguments, json, "print JSON"),
+    {"junit", "FILE", "write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions read it",
+     .read = read_file, OPTION_VALUE(arguments, junit)},
+    {"markdown", "FILE",
+     "write a summary for a CI job's page: the verdict and a table of what differs (FILE may be -, standard output, "
+     "for one of the two, unless --json goes there)",
+     .read = read_file, OPTION_VALUE(arguments, markdown)},
     {0},
 };
 
@@ -266,19 +254,10 @@ static int compare(const arguments *a, const char *paths[2])
 
 #define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING) | FILE_KIND(DIGESTS)
 
-int cmd_diff(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
-    const command_line line = {.name = "diff",
-                               .help = help,
-                               .options = options,
-                               .arguments = &a,
-                               .json = &a.json,
-                               .least = 2,
-                               .most = 2,
-                               .takes = "two sides, each a PNG, a folder of PNGs, a recording or a file of digests",
-                               .inputs = {SIDE, SIDE}};
-    int status = command_line_read(&line, argc, argv);
+    int status = command_read(&command_diff, &a, argc, argv);
     a.lines = a.causes_said && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     if (a.folder && !a.causes_said)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */
@@ -287,3 +266,25 @@ int cmd_diff(int argc, char **argv)
     free(a.ignored);
     return status;
 }
+
+const command command_diff = {
+    .name = "diff",
+    .run = run,
+    .options = options,
+    .line = "compare two pictures, folders of them or recordings, exactly or within a tolerance",
+    .usage = "REFERENCE COMPARED [OPTION ...]",
+    .about = "Compare pictures, exactly unless told otherwise. Each side is a PNG, a folder of PNGs (those directly in "
+             "it), a recording, or a file of digests, made by octreel digest or octreel accept; - is a PNG or digests "
+             "from standard input. Frames belong together by their names; a frame without a reference is a difference, "
+             "and so is a reference without a frame. Where a baseline accepts several digests of a frame, any of them "
+             "passes. Of recordings without frames the ticks are compared.\n",
+    .statuses = {"the same, or all forgiven", "different", "trouble, as when a picture cannot be read"},
+    .examples = "octreel diff before.png after.png\n"
+                "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
+                "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
+                "octreel digest frames -o frames.digests && octreel diff frames.digests frames\n",
+    .least = 2,
+    .most = 2,
+    .takes = "two sides, each a PNG, a folder of PNGs, a recording or a file of digests",
+    .inputs = {SIDE, SIDE},
+};

@@ -1,25 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_digest.c - octreel digest: the pixels of many frames as a small text file. */
 #include "command.h"
-#include "command_line.h"
 #include "digest_file.h"
 #include "png_read.h"
 
 #include <stdio.h>
-
-static const char help[] =
-    "usage: octreel digest FOLDER [-o FILE] [OPTION ...]\n\n"
-    "Write a digest of each frame's pixels as text, one line a frame: a baseline of a few kilobytes that octreel diff\n"
-    "takes in place of pictures. FOLDER is a recording or a folder of PNGs; a single PNG will do, and so will -, one\n"
-    "from standard input.\n\n"
-    "  -o, --output FILE     where it goes (default: -, standard output)\n"
-    "      --background RRGGBB  what transparent pixels are laid over (default ffffff, white)\n"
-    "  -h, --help\n\n"
-    "Examples: octreel digest frames -o frames.digests\n"
-    "          octreel diff frames.digests frames\n\n"
-    "The file: \"octreel-digests 1\", \"background ffffff\", and then, in the order of the names' bytes, lines such "
-    "as\n"
-    "  0123456789abcdef 1280x720 frame_000000.png\n";
 
 static bool write_file(const diff_side *side, const char *path, octreel_error *error)
 {
@@ -54,22 +39,35 @@ typedef struct arguments {
 } arguments;
 
 static const command_option options[] = {
-    {"output", read_file, OPTION_VALUE(arguments, path), 0, 0},
-    {"background", read_color, OPTION_VALUE(arguments, background), 0, 0},
+    {"output", "FILE", "where it goes (default: -, standard output)", .read = read_file, OPTION_VALUE(arguments, path)},
+    {"background", "RRGGBB", "what transparent pixels are laid over (default ffffff, white)", .read = read_color,
+     OPTION_VALUE(arguments, background)},
     {0},
 };
 
-int cmd_digest(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     arguments a = {.path = "-", .background = IMAGE_WHITE};
-    const command_line line = {.name = "digest",
-                               .help = help,
-                               .options = options,
-                               .arguments = &a,
-                               .least = 1,
-                               .most = 1,
-                               .takes = "one folder of frames",
-                               .inputs = {FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING)}};
-    const int status = command_line_read(&line, argc, argv);
+    const int status = command_read(&command_digest, &a, argc, argv);
     return status == COMMAND_GO_ON ? digest_it(argv[optind], a.path, a.background) : status;
 }
+
+const command command_digest = {
+    .name = "digest",
+    .run = run,
+    .options = options,
+    .line = "write digests of many frames, a small reference for diff",
+    .usage = "FOLDER [-o FILE] [OPTION ...]",
+    .about = "Write a digest of each frame's pixels as text, one line a frame: a baseline of a few kilobytes that "
+             "octreel diff takes in place of pictures. FOLDER is a recording or a folder of PNGs; a single PNG will "
+             "do, and so will -, one from standard input.\n",
+    .more = "The file: \"octreel-digests 1\", \"background ffffff\", and then, in the order of the names' bytes, lines "
+            "such as\n\n"
+            "    0123456789abcdef 1280x720 frame_000000.png\n",
+    .examples = "octreel digest frames -o frames.digests\n"
+                "octreel diff frames.digests frames\n",
+    .least = 1,
+    .most = 1,
+    .takes = "one folder of frames",
+    .inputs = {FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING)},
+};

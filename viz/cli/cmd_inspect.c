@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_inspect.c - octreel inspect: the tree of a point cloud: its statistics, a picture, a node, answers to queries. */
 #include "command.h"
-#include "command_line.h"
 #include "file.h"
 #include "film.h"
 #include "inspect.h"
@@ -11,36 +10,13 @@
 #include "number.h"
 #include "point_world.h"
 #include "progress.h"
+#include "query_options.h"
 #include "text.h"
 
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
-
-static const char help[] =
-    "usage: octreel inspect CLOUD [-o PICTURE.png] [OPTION ...]\n\n"
-    "Build an octree from a point cloud (x y z text, PLY, PCD, LAS or LAZ), print its statistics, and draw its "
-    "subdivision.\n"
-    "CLOUD may be -, standard input: what it is is told by what it holds, as of a file.\n\n"
-    "  -o, --output FILE     draw the tree into this PNG; - is standard output, and what is said goes to stderr\n"
-    "      --capacity N      points a leaf holds before it splits (default 64)\n"
-    "      --depth N         deepest level, 0 to 21 (default 21)\n"
-    "      --full MODE       what a full leaf at that depth does: grow (default) or refuse\n"
-    "      --world BOX       x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)\n"
-    "      --node ADDRESS    print one node, as in 0/3/7 (or root): its box and its points; a picture marks it\n"
-    "      --nodes FILE.csv  write all nodes as CSV; - is standard output, as above\n" FILL_HELP;
-
-static const char more_help[] =
-    "      --json            print JSON\n"
-    "  -h, --help\n\n"
-    "Points are numbered from 0 in the order of the file, those that are skipped counted: without finite coordinates,\n"
-    "or withheld in LAS. LAZ and COPC are read by an octreel that was built with liblaszip (Debian 13); else, first:\n"
-    "pdal translate in.laz out.las\n\n"
-    "Examples: octreel inspect scan.pcd -o tree.png --capacity 32\n"
-    "          pdal translate scan.laz STDOUT --writer text | octreel inspect -\n"
-    "          octreel inspect points.txt --node 0/3 --json\n"
-    "          for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n";
 
 typedef struct arguments {
     const char *cloud;
@@ -61,13 +37,25 @@ static bool read_depth(const command_option *option, const char *text, void *int
     return read_whole(option, text, into);
 }
 
+static const char *full_at(int n)
+{
+    static const char *const names[] = {[OCTREE_REFUSE] = "refuse", [OCTREE_GROW] = "grow"};
+    return n <= OCTREE_GROW ? names[n] : NULL;
+}
+
+static const char *full_words_at(int n)
+{
+    static const char *const words[] = {[OCTREE_REFUSE] = "refuses it", [OCTREE_GROW] = "holds it too (the default)"};
+    return n <= OCTREE_GROW ? words[n] : NULL;
+}
+
 static bool read_full(const command_option *option, const char *text, void *into)
 {
-    octree_full_leaf *mode = into;
-    *mode = strcmp(text, "grow") == 0 ? OCTREE_GROW : OCTREE_REFUSE;
-    if (*mode == OCTREE_GROW || strcmp(text, "refuse") == 0)
-        return true;
-    return refuse("--%s takes refuse or grow, not \"%s\"", option->name, text);
+    const int found = json_find_name(full_at, text);
+    if (found < 0)
+        return refuse("--%s takes refuse or grow, not \"%s\"", option->name, text);
+    *(octree_full_leaf *)into = (octree_full_leaf)found;
+    return true;
 }
 
 static bool read_world(const command_option *option, const char *text, void *into)
@@ -94,14 +82,25 @@ static bool read_node(const command_option *option, const char *text, void *into
 }
 
 static const command_option options[] = {
-    {"output", read_picture, OPTION_VALUE(arguments, picture), 0, 0},
-    {"capacity", read_whole, OPTION_VALUE(arguments, def.leaf_capacity), 1, UINT32_MAX},
-    {"depth", read_depth, OPTION_VALUE(arguments, def.max_depth), 0, OCTREE_MAX_DEPTH},
-    {"full", read_full, OPTION_VALUE(arguments, def.full_leaf), 0, 0},
-    {"world", read_world, 0, sizeof(arguments), 0, 0},
-    {"node", read_node, OPTION_VALUE(arguments, node), 0, 0},
-    {"fill", read_fill, OPTION_VALUE(arguments, renderer.fill), 0, 0},
-    {"nodes", read_file, OPTION_VALUE(arguments, nodes), 0, 0},
+    {"output", "FILE", "draw the tree into this PNG; - is standard output, and what is said goes to stderr",
+     .read = read_picture, OPTION_VALUE(arguments, picture)},
+    {"capacity", "N", "points a leaf holds before it splits (default 64)", .read = read_whole,
+     OPTION_VALUE(arguments, def.leaf_capacity), .min = 1, .max = UINT32_MAX},
+    {"depth", "N", "deepest level, 0 to 21 (default 21)", .read = read_depth, OPTION_VALUE(arguments, def.max_depth),
+     .max = OCTREE_MAX_DEPTH},
+    {"full", "MODE", "what a full leaf at that depth does with one more point: one of", .read = read_full,
+     OPTION_VALUE(arguments, def.full_leaf), .names = full_at, .words = full_words_at},
+    {"world", "BOX", "x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)", .read = read_world,
+     .size = sizeof(arguments)},
+    {"node", "ADDRESS", "print one node, as in 0/3/7 (or root): its box and its points; a picture marks it",
+     .read = read_node, OPTION_VALUE(arguments, node)},
+    {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, as above", .read = read_file,
+     OPTION_VALUE(arguments, nodes)},
+    FILL_OPTION(arguments, renderer.fill),
+    QUERY_OPTIONS(arguments, queries),
+    VIEW_OPTIONS(arguments, view_options),
+    RENDERER_OPTIONS(arguments, renderer),
+    JSON_OPTION(arguments, json, "print JSON, which lists all points that are found"),
     {0},
 };
 
@@ -134,12 +133,12 @@ static bool draw(const report *r, octreel_error *error)
     if (!ok)
         return false;
     if (drawn.over_budget)
-        fprintf(stderr, "octreel: %s leaves out what is beyond --budget\n", file_output_title(a->picture));
+        note("%s leaves out what is beyond --budget", file_output_title(a->picture));
     if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* which says so in the picture */
-        fprintf(stderr, "octreel: %s leaves out what appears smaller than --lod\n", file_output_title(a->picture));
+        note("%s leaves out what appears smaller than --lod", file_output_title(a->picture));
     if (drawn.left_out)
-        fprintf(stderr, "octreel: %" PRIu64 " element%s too far off to be in %s\n", drawn.left_out,
-                plural(drawn.left_out), file_output_title(a->picture));
+        note("%" PRIu64 " element%s too far off to be in %s", drawn.left_out, plural(drawn.left_out),
+             file_output_title(a->picture));
     return true;
 }
 
@@ -165,10 +164,10 @@ static void print(const report *r)
         inspect_print_answers(&r->answers, r->name, a->json, out);
     if (!a->node && !a->queries.count)
         inspect_print(r->made, r->name, a->json, out);
-    if (a->picture && !a->json)
+    if (a->picture && !a->json && !is_quiet())
         fprintf(out, "wrote %s: %d x %d pixels%s%s\n", file_output_title(a->picture), a->view.width, a->view.height,
                 *r->chosen ? "; " : "", r->chosen);
-    if (a->nodes && !a->json)
+    if (a->nodes && !a->json && !is_quiet())
         fprintf(out, "wrote %s: all nodes\n", file_output_title(a->nodes));
 }
 
@@ -224,7 +223,7 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
     octree_def def = a->def;
     octreel_error why;
     cloud points;
-    char note[sizeof points.note] = "";
+    char left_out[sizeof points.note] = "";
     bool ok = cloud_read(a->cloud, &(cloud_watch){on_block, on_step, &r}, &points, error);
     if (ok) {
         if (!a->has_world)
@@ -233,12 +232,12 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
         r.bar = progress_start("points in the tree");
         ok = inspect_build(&points, &def, on_built, &r.bar, made, &why) ||
              error_set(error, "%s: %s", file_title(a->cloud), why.text);
-        memcpy(note, points.note, sizeof note);
+        memcpy(left_out, points.note, sizeof left_out);
         cloud_release(&points);
     }
     progress_end(&r.bar);
-    if (*note)
-        fprintf(stderr, "octreel: %s\n", note);
+    if (*left_out)
+        note("%s", left_out);
     return ok;
 }
 
@@ -283,29 +282,38 @@ static bool check_outputs(const arguments *a)
            refuse("%s", error.text);
 }
 
-int cmd_inspect(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     arguments a = {.def = octree_def_default(), .view = view_default()};
-    const command_line line = {.name = "inspect",
-                               .help = help,
-                               .more_help = more_help,
-                               .options = options,
-                               .arguments = &a,
-                               .json = &a.json,
-                               .renderer = &a.renderer,
-                               .view = &a.view_options,
-                               .queries = &a.queries,
-                               .least = 1,
-                               .most = 1,
-                               .takes = "one point cloud",
-                               .inputs = {FILE_KIND(CLOUD)},
-                               .several = "*.pcd"};
     a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
-    const int status = command_line_read(&line, argc, argv);
+    const int status = command_read(&command_inspect, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     a.cloud = argv[optind];
-    const bool ok = check_picture(&a) && read_view(&a.view_options, &a.view) && check_outputs(&a);
+    const bool ok =
+        check_renderer(&a.renderer) && check_picture(&a) && read_view(&a.view_options, &a.view) && check_outputs(&a);
     return ok ? inspect_it(&a) : EXIT_TROUBLE;
 }
+
+const command command_inspect = {
+    .name = "inspect",
+    .run = run,
+    .options = options,
+    .line = "build a tree from a point cloud, draw its subdivision, print its statistics",
+    .usage = "CLOUD [-o PICTURE.png] [OPTION ...]",
+    .about = "Build an octree from a point cloud (x y z text, PLY, PCD, LAS or LAZ), print its statistics, and draw "
+             "its subdivision. CLOUD may be -, standard input: what it is is told by what it holds, as of a file.\n",
+    .more = "Points are numbered from 0 in the order of the file, those that are skipped counted: without finite "
+            "coordinates, or withheld in LAS. LAZ and COPC are read by an octreel that was built with liblaszip "
+            "(Debian 13); else, first: pdal translate in.laz out.las\n",
+    .examples = "octreel inspect scan.pcd -o tree.png --capacity 32\n"
+                "pdal translate scan.laz STDOUT --writer text | octreel inspect -\n"
+                "octreel inspect points.txt --node 0/3 --json\n"
+                "for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n",
+    .least = 1,
+    .most = 1,
+    .takes = "one point cloud",
+    .inputs = {FILE_KIND(CLOUD)},
+    .several = "*.pcd",
+};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_play.c - octreel play: a session becomes a page that plays it. */
 #include "command.h"
-#include "command_line.h"
 #include "file.h"
 #include "film_report.h"
 #include "folder.h"
@@ -16,22 +15,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char help[] =
-    "usage: octreel play [SESSION] [-o FILE.html] [OPTION ...]\n\n"
-    "Make a page that plays a session, in one file that needs nothing beside it: in a browser it draws any tick, "
-    "turns\n"
-    "and zooms, asks what is at a place, and the keys of the game play on. Nothing is filmed. Without SESSION, the\n"
-    "paper's own is played; octreel help session tells what one holds. - is one from standard input.\n\n"
-    "  -o, --output FILE     where the page goes; - is standard output (default: SESSION's name with .html in the\n"
-    "                        current folder, or octreel.html). A page of octreel play is replaced, and nothing else\n"
-    "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait, q "
-    "end\n";
-
-static const char more_help[] = "  -h, --help\n\n"
-                                "The options of the view say how the page begins.\n\n"
-                                "Examples: octreel play\n"
-                                "          octreel play session.json --camera orbit -o walk.html\n";
-
 typedef struct arguments {
     const char *session, *keys, *page; /* null: not given */
     film_options film;
@@ -39,8 +22,13 @@ typedef struct arguments {
 } arguments;
 
 static const command_option options[] = {
-    {"output", read_file, OPTION_VALUE(arguments, page), 0, 0},
-    {"keys", read_text, OPTION_VALUE(arguments, keys), 0, 0},
+    {"output", "FILE",
+     "where the page goes; - is standard output (default: SESSION's name with .html in the current folder, or "
+     "octreel.html). A page of octreel play is replaced, and nothing else",
+     .read = read_file, OPTION_VALUE(arguments, page)},
+    {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
+     OPTION_VALUE(arguments, keys)},
+    VIEW_OPTIONS(arguments, view),
     {0},
 };
 
@@ -138,11 +126,11 @@ static int play_it(arguments *a, const octree_session *session)
     a->film.context = &w;
     const bool ok = write_file(a, session, &summary, &error);
     progress_end(&w.progress);
-    if (ok)
+    if (ok && !is_quiet())
         film_report_start(stderr, &summary.start, session);
     if (!ok)
         trouble("%s", error.text);
-    else if (!file_is_standard(a->page))
+    else if (!file_is_standard(a->page) && !is_quiet())
         tell(a->page, summary.ticks);
     watch_end(&w);
     return ok ? EXIT_DONE : EXIT_TROUBLE;
@@ -157,26 +145,17 @@ static int play(arguments *a)
                     (!a->keys || session_set_keys(&file, a->keys, &error));
     a->film.values = &file.values;
     if (ok && *file.note)
-        fprintf(stderr, "octreel: %s\n", file.note);
+        note("%s", file.note);
     const int status = ok ? play_it(a, &file.session) : trouble("%s", error.text);
     session_release(&file);
     return status;
 }
 
-int cmd_play(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_default()}};
     char name[NAME_MAX + 1];
-    const command_line line = {.name = "play",
-                               .help = help,
-                               .more_help = more_help,
-                               .options = options,
-                               .arguments = &a,
-                               .view = &a.view,
-                               .most = 1,
-                               .takes = "one session",
-                               .inputs = {FILE_KIND(SESSION)}};
-    const int status = command_line_read(&line, argc, argv);
+    const int status = command_read(&command_play, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     a.session = argv[optind];
@@ -185,3 +164,20 @@ int cmd_play(int argc, char **argv)
         a.page = name;
     return read_view(&a.view, &a.film.view) && check_page(&a) ? play(&a) : EXIT_TROUBLE;
 }
+
+const command command_play = {
+    .name = "play",
+    .run = run,
+    .options = options,
+    .line = "make a page of a session that plays it in a browser, and films nothing",
+    .usage = "[SESSION] [-o FILE.html] [OPTION ...]",
+    .about = "Make a page that plays a session, in one file that needs nothing beside it: in a browser it draws any "
+             "tick, turns and zooms, asks what is at a place, and the keys of the game play on. Nothing is filmed. "
+             "Without SESSION, the paper's own is played; octreel help session tells what one holds. - is one from "
+             "standard input. The options of the view say how the page begins.\n",
+    .examples = "octreel play\n"
+                "octreel play session.json --camera orbit -o walk.html\n",
+    .most = 1,
+    .takes = "one session",
+    .inputs = {FILE_KIND(SESSION)},
+};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_record.c - octreel record: film a session into a folder. */
 #include "command.h"
-#include "command_line.h"
 #include "film.h"
 #include "file.h"
 #include "film_report.h"
@@ -15,41 +14,6 @@
 #include <limits.h>
 #include <stdio.h>
 #include <unistd.h>
-
-static const char help[] =
-    "usage: octreel record [SESSION] -o DIR [OPTION ...]\n\n"
-    "Play a session and film it: DIR/frame_000000.png ..., with ticks.jsonl, session.json, recording.json and\n"
-    "renderer.json beside them, and index.html, a page that shows all of it. Without SESSION, the paper's own is\n"
-    "played; octreel help session tells what one holds. Where SESSION is -, it is read from standard input and filmed\n"
-    "while it is written, tick by tick: mygame | octreel record - -o DIR\n\n"
-    "  -o, --output DIR      where the recording goes; a new folder, or one without a recording\n"
-    "      --keys KEYS       play these keys instead of the session's: w s +-y, d a +-x, e f +-z, n nearest, . wait, q "
-    "end\n"
-    "      --every N         film each N-th tick (ticks.jsonl still has all of them)\n"
-    "      --no-frames       draw nothing: the session, its ticks, and a page that draws them by itself\n"
-    "      --ticks A:B       film the ticks from A to B - 1 alone, as a chunk; chunks go into one folder, from any "
-    "number\n"
-    "                        of machines, and octreel join makes it whole; A: and :B will do, B may be beyond the end\n"
-    "      --jobs N          processes that film at the same time (default: one a core, fewer for a few frames); the\n"
-    "                        bytes are the same\n"
-    "      --resume          complete what is in DIR; frames that are there and right are kept. Without SESSION and\n"
-    "                        without options, those of DIR are taken. What is not of this recording is refused\n"
-    "      --replace         film in place of the recording in DIR, which stays until a tick is filmed; other files "
-    "of\n"
-    "                        DIR stay, and what is no recording is refused\n" FILL_HELP;
-
-static const char more_help[] =
-    "      --json            print a summary as JSON on stdout\n"
-    "  -h, --help\n\n"
-    "Ctrl-C finishes the frame in hand, and says how to go on. Of a session from standard input that breaks off, is\n"
-    "malformed from some line on, or is stopped, what came before is a whole recording. After a kill every file is\n"
-    "whole, and --resume completes the recording; after a power cut a file may be damaged, which verify finds, since\n"
-    "files are left to the system to write to the disk: syncing each would cost some 3 ms a frame.\n\n"
-    "Examples: octreel record -o frames\n"
-    "          octreel record session.json --keys wwdn --camera orbit --size 640x360 -o frames\n"
-    "          octreel record --resume -o frames\n"
-    "          octreel record session.json --ticks 1000:2000 -o frames\n"
-    "          mygame | octreel record - -o frames\n";
 
 typedef struct arguments {
     const char *session, *keys;
@@ -74,17 +38,41 @@ static bool read_ticks(const command_option *option, const char *text, void *int
 }
 
 static const command_option options[] = {
-    {"output", read_folder, OPTION_VALUE(arguments, film.folder), 0, 0},
-    {"keys", read_text, OPTION_VALUE(arguments, keys), 0, 0},
-    {"every", read_whole, OPTION_VALUE(arguments, every), 1, 1000000000},
-    {"no-frames", read_flag, OPTION_VALUE(arguments, no_frames), 0, 0},
-    {"ticks", read_ticks, OPTION_VALUE(arguments, film), 0, 0},
-    {"jobs", read_whole, OPTION_VALUE(arguments, film.jobs), 1, FILM_MOST_JOBS},
-    {"fill", read_fill, OPTION_VALUE(arguments, film.renderer.fill), 0, 0},
-    {"resume", read_flag, OPTION_VALUE(arguments, film.resume), 0, 0},
-    {"replace", read_flag, OPTION_VALUE(arguments, film.replace), 0, 0},
+    {"output", "DIR", "where the recording goes; a new folder, or one without a recording", .read = read_folder,
+     OPTION_VALUE(arguments, film.folder)},
+    {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
+     OPTION_VALUE(arguments, keys)},
+    {"every", "N", "film each N-th tick (ticks.jsonl still has all of them)", .read = read_whole,
+     OPTION_VALUE(arguments, every), .min = 1, .max = 1000000000},
+    {"no-frames", NULL, "draw nothing: the session, its ticks, and a page that draws them by itself", .read = read_flag,
+     OPTION_VALUE(arguments, no_frames)},
+    {"ticks", "A:B",
+     "film the ticks from A to B - 1 alone, as a chunk; chunks go into one folder, from any number of machines, and "
+     "octreel join makes it whole; A: and :B will do, B may be beyond the end",
+     .read = read_ticks, OPTION_VALUE(arguments, film)},
+    {"jobs", "N",
+     "processes that film at the same time (default: one a core, fewer for a few frames); the bytes are the same",
+     .read = read_whole, OPTION_VALUE(arguments, film.jobs), .min = 1, .max = FILM_MOST_JOBS},
+    {"resume", NULL,
+     "complete what is in DIR; frames that are there and right are kept. Without SESSION and without options, those of "
+     "DIR are taken. What is not of this recording is refused",
+     .read = read_flag, OPTION_VALUE(arguments, film.resume)},
+    {"replace", NULL,
+     "film in place of the recording in DIR, which stays until a tick is filmed; other files of DIR stay, and what is "
+     "no recording is refused",
+     .read = read_flag, OPTION_VALUE(arguments, film.replace)},
+    FILL_OPTION(arguments, film.renderer.fill),
+    VIEW_OPTIONS(arguments, view),
+    RENDERER_OPTIONS(arguments, film.renderer),
+    JSON_OPTION(arguments, json, "print a summary as JSON on stdout"),
     {0},
 };
+
+static void tell(const arguments *a, const film_summary *summary, const watch *w)
+{
+    if (a->json || !is_quiet())
+        film_report(stdout, summary, &a->film, progress_seconds(&w->progress), a->json);
+}
 
 static int film_it(arguments *a, const octree_session *session)
 {
@@ -98,14 +86,14 @@ static int film_it(arguments *a, const octree_session *session)
     a->film.context = &w;
     const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&w.progress);
-    if (ok)
+    if (ok && !is_quiet())
         film_report_start(stderr, &summary.start, session);
     if (!ok)
         trouble("%s", error.text);
     else if (!whole)
         film_report_stopped(stderr, &summary, &a->film);
     else
-        film_report(stdout, &summary, &a->film, progress_seconds(&w.progress), a->json);
+        tell(a, &summary, &w);
     watch_end(&w);
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
@@ -131,7 +119,7 @@ static int end_stream(const arguments *a, film_stream_end how, const film_summar
 {
     const uint64_t ticks = summary->ticks;
     if (how == FILM_STREAM_WHOLE)
-        film_report(stdout, summary, &a->film, progress_seconds(&w->progress), a->json);
+        tell(a, summary, w);
     else if (how == FILM_STREAM_STOPPED && ticks == 0)
         trouble("stopped before a tick was filmed");
     else if (how == FILM_STREAM_STOPPED)
@@ -157,8 +145,8 @@ static int film_standard_input(arguments *a)
     const film_stream_end how = film_stream(stream, a->keys, &a->film, &summary, &error);
     progress_end(&w.progress);
     if (*session_stream_note(stream))
-        fprintf(stderr, "octreel: %s\n", session_stream_note(stream));
-    if (how == FILM_STREAM_WHOLE)
+        note("%s", session_stream_note(stream));
+    if (how == FILM_STREAM_WHOLE && !is_quiet())
         film_report_start(stderr, &summary.start, session_stream_start(stream));
     const int status = end_stream(a, how, &summary, &w, &error);
     session_stream_close(stream);
@@ -216,7 +204,7 @@ static int play(arguments *a)
     const bool ok = read_session(a, &file, &error) && (!a->keys || session_set_keys(&file, a->keys, &error));
     a->film.values = &file.values;
     if (ok && *file.note)
-        fprintf(stderr, "octreel: %s\n", file.note);
+        note("%s", file.note);
     const int status = ok ? film_it(a, &file.session) : trouble("%s", error.text);
     session_release(&file);
     return status;
@@ -241,29 +229,18 @@ static bool is_own_folder(const char *folder)
     return !holds_current(folder) || file_kind_of(folder) == KIND_RECORDING;
 }
 
-int cmd_record(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_default()}};
-    const command_line line = {.name = "record",
-                               .help = help,
-                               .more_help = more_help,
-                               .options = options,
-                               .arguments = &a,
-                               .json = &a.json,
-                               .renderer = &a.film.renderer,
-                               .view = &a.view,
-                               .most = 1,
-                               .takes = "one session",
-                               .inputs = {FILE_KIND(SESSION)}};
-    const int status = command_line_read(&line, argc, argv);
+    const int status = command_read(&command_record, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     if (!a.film.folder)
         return trouble("record needs a folder for its frames: -o DIR");
     if (!is_own_folder(a.film.folder))
-        return trouble("-o takes a folder of its own for the frames, and \"%s\" is the current one or holds it: -o "
-                       "frames, say",
-                       a.film.folder);
+        return trouble(
+            "-o takes a folder of its own for the frames, and \"%s\" is the current one or holds it: -o frames, say",
+            a.film.folder);
     if (a.film.replace && (a.film.resume || a.film.last != 0))
         return trouble("--replace does not go with %s: it begins a whole recording anew",
                        a.film.resume ? "--resume" : "--ticks");
@@ -273,7 +250,32 @@ int cmd_record(int argc, char **argv)
     const bool stream = a.session && file_is_standard(a.session);
     if (stream && refuse_stream(&a))
         return trouble("%s", refuse_stream(&a));
-    if (!read_film(&a))
+    if (!check_renderer(&a.film.renderer) || !read_film(&a))
         return EXIT_TROUBLE;
     return stream ? film_standard_input(&a) : play(&a);
 }
+
+const command command_record = {
+    .name = "record",
+    .run = run,
+    .options = options,
+    .line = "film a session: every tick of the game becomes one PNG frame",
+    .usage = "[SESSION] -o DIR [OPTION ...]",
+    .about = "Play a session and film it: DIR/frame_000000.png ..., with ticks.jsonl, session.json, recording.json and "
+             "renderer.json beside them, and index.html, a page that shows all of it. Without SESSION, the paper's own "
+             "is played; octreel help session tells what one holds. Where SESSION is -, it is read from standard input "
+             "and filmed while it is written, tick by tick: mygame | octreel record - -o DIR\n",
+    .more =
+        "Ctrl-C finishes the frame in hand, and says how to go on. Of a session from standard input that breaks off, "
+        "is malformed from some line on, or is stopped, what came before is a whole recording. After a kill every file "
+        "is whole, and --resume completes the recording; after a power cut a file may be damaged, which octreel verify "
+        "finds, since files are left to the system to write to the disk: syncing each would cost some 3 ms a frame.\n",
+    .examples = "octreel record -o frames\n"
+                "octreel record session.json --keys wwdn --camera orbit --size 640x360 -o frames\n"
+                "octreel record --resume -o frames\n"
+                "octreel record session.json --ticks 1000:2000 -o frames\n"
+                "mygame | octreel record - -o frames\n",
+    .most = 1,
+    .takes = "one session",
+    .inputs = {FILE_KIND(SESSION)},
+};

@@ -1,92 +1,86 @@
 /* SPDX-License-Identifier: MIT */
 /* command_line.c - one loop over the options for all commands. */
-#include "command_line.h"
+#include "command.h"
+#include "help.h"
 #include "hint.h"
 
+#include <inttypes.h>
 #include <limits.h>
 #include <string.h>
 
 #define MOST_OPTIONS 64
-#define OWN_OPTION 1024 /* the first of getopt's numbers for a command's own */
+#define OPTION 1024 /* the first of getopt's numbers for options: their rows follow */
 
-/* Numbers beyond letters, which are what getopt says of short options. */
-enum { OPTION_JSON = VIEW_OPTION - 4, OPTION_HELP };
+/* ---- The options of a command -------------------------------------------------------------------------------- */
 
-static void list_options(const command_line *line, struct option all[MOST_OPTIONS])
+/* Those that all commands have. */
+static bool common_option_row(size_t n, command_option *option)
 {
-    static const struct option drawing[] = {{"context", required_argument, NULL, OPTION_CONTEXT},
-                                            {"any-renderer", no_argument, NULL, OPTION_ANY_RENDERER}};
-    size_t count = 0;
-    for (const command_option *own = line->options; own && own->name; own++)
-        all[count++] = (struct option){own->name, own->read == read_flag ? no_argument : required_argument, NULL,
-                                       OWN_OPTION + (int)(own - line->options)};
-    if (line->queries)
-        count += list_query_options(all + count);
-    if (line->view)
-        count += list_view_options(all + count);
-    if (line->renderer) {
-        all[count++] = drawing[0];
-        all[count++] = drawing[1];
+    static const command_option rows[] = {
+        {"quiet", NULL, "say nothing but errors and what is asked for: no progress, no notes", .read = read_quiet},
+        {"help", NULL, "print this, and do nothing else", .read = read_flag},
+        {"version", NULL, "print the version, and do nothing else", .read = read_flag},
+    };
+    if (n >= sizeof rows / sizeof rows[0])
+        return false;
+    *option = rows[n];
+    return true;
+}
+
+static bool ends_table(const command_option *row)
+{
+    return !row->name && !row->help && !row->more;
+}
+
+bool command_option_at(const command *c, size_t n, command_option *option)
+{
+    for (const command_option *own = c->options; own && !ends_table(own); own++) {
+        for (size_t i = 0; own->more && own->more(i, option); i++)
+            if (n-- == 0) {
+                option->offset += own->offset;
+                return true;
+            }
+        if (!own->more && n-- == 0) {
+            *option = *own;
+            return true;
+        }
     }
-    if (line->json)
-        all[count++] = (struct option){"json", no_argument, NULL, OPTION_JSON};
-    all[count++] = (struct option){"help", no_argument, NULL, OPTION_HELP};
+    return common_option_row(n, option);
+}
+
+/* The row of the option with this letter; false where the command has none. */
+static bool find_lettered(const command *c, char letter, command_option *option)
+{
+    for (size_t n = 0; command_option_at(c, n, option); n++)
+        if (option->name && option_letter(option->name) == letter)
+            return true;
+    return false;
+}
+
+/* As getopt_long wants them. */
+static void list_options(const command *c, struct option all[MOST_OPTIONS], char letters[MOST_OPTIONS])
+{
+    size_t count = 0, used = 1;
+    command_option o;
+    letters[0] = ':';
+    for (size_t n = 0; command_option_at(c, n, &o) && count + 1 < MOST_OPTIONS; n++) {
+        if (!o.name)
+            continue;
+        all[count++] = (struct option){o.name, o.value ? required_argument : no_argument, NULL, OPTION + (int)n};
+        if (option_letter(o.name)) {
+            letters[used++] = option_letter(o.name);
+            letters[used++] = ':';
+            used -= !o.value;
+        }
+    }
     all[count] = (struct option){NULL, 0, NULL, 0};
-}
-
-static int print_help(const command_line *line)
-{
-    hint_write_commands(stdout, line->help);
-    if (line->queries)
-        print_query_options(stdout);
-    if (line->view)
-        print_view_options(stdout);
-    if (line->renderer)
-        print_renderer_options(stdout);
-    if (line->more_help)
-        hint_write_commands(stdout, line->more_help);
-    return EXIT_DONE;
-}
-
-/* getopt's number for -o; 0 where the command has none. */
-static int find_output(const command_line *line)
-{
-    for (const command_option *own = line->options; own && own->name; own++)
-        if (strcmp(own->name, "output") == 0)
-            return OWN_OPTION + (int)(own - line->options);
-    return 0;
-}
-
-static bool read_own(const command_line *line, int option)
-{
-    const command_option *own = &line->options[option - OWN_OPTION];
-    return own->read(own, optarg, (char *)line->arguments + own->offset);
-}
-
-static bool read_option(const command_line *line, int option)
-{
-    if (line->view && take_view_option(line->view, option))
-        return true;
-    if (is_query_option(option))
-        return read_query(line->queries, option, optarg);
-    switch (option) {
-    case OPTION_CONTEXT:
-        return read_context(optarg, line->renderer);
-    case OPTION_ANY_RENDERER:
-        return line->renderer->any_renderer = true;
-    case OPTION_JSON:
-        return *line->json = true;
-    case 'o':
-        return read_own(line, find_output(line));
-    default: /* a digit, as in -10 */
-        return option >= OWN_OPTION ? read_own(line, option) : refuse("%s", line->no_negative);
-    }
+    memcpy(letters + used, c->no_negative ? "0123456789" : "", c->no_negative ? 11 : 1);
 }
 
 /* ---- What does not fit --------------------------------------------------------------------------------------- */
 
 /* "--s could be --size or --slice"; false where fewer than two options begin so. */
-static bool tell_ambiguous(const command_line *line, const struct option *all, const char *name, size_t length)
+static bool tell_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
 {
     char could[256] = "";
     size_t used = 0, found = 0;
@@ -97,142 +91,155 @@ static bool tell_ambiguous(const command_line *line, const struct option *all, c
         }
     if (found < 2)
         return false;
-    trouble("%s: --%.*s could be each of %s", line->name, (int)length, name, could);
+    trouble("%s: --%.*s could be each of %s", c->name, (int)length, name, could);
     return true;
 }
 
-static const struct option *find_option(const struct option *all, int number)
-{
-    while (all->name && all->val != number)
-        all++;
-    return all->name ? all : NULL;
-}
-
 /* An option that getopt does not know, or whose value is missing or too much. */
-static int refuse_option(const command_line *line, const struct option *all, bool missing, const char *typed)
+static int refuse_option(const command *c, const struct option *all, bool missing, const char *typed)
 {
     char meant[HINT_TEXT];
     const bool letter = optopt > 0 && optopt < 128;
-    const struct option *known = find_option(all, letter ? find_output(line) : optopt);
+    command_option known = {.name = NULL};
+    if (!letter && optopt)
+        command_option_at(c, (size_t)(optopt - OPTION), &known);
     if (missing)
         return trouble("%s%s takes a value, and has none; %s %s --help tells more", letter ? "-" : "--",
-                       letter ? (char[]){(char)optopt, 0} : known->name, hint_program(), line->name);
+                       letter ? (char[]){(char)optopt, 0} : known.name, hint_program(), c->name);
     if (letter)
-        return trouble("%s has no option -%c; %s %s --help lists all", line->name, optopt, hint_program(), line->name);
+        return trouble("%s has no option -%c; %s %s --help lists all", c->name, optopt, hint_program(), c->name);
     if (optopt)
-        return trouble("--%s takes no value", known->name);
+        return trouble("--%s takes no value", known.name);
     const char *name = typed + 2;
     const size_t length = strcspn(name, "=");
     hint h = hint_for(name, length);
-    if (tell_ambiguous(line, all, name, length))
+    if (tell_ambiguous(c, all, name, length))
         return EXIT_TROUBLE;
     for (const struct option *o = all; o->name; o++)
         hint_offer(&h, o->name);
-    return trouble("%s has no option --%.*s%s%s %s --help lists all", line->name, (int)length, name,
-                   hint_text(&h, "--", meant), hint_program(), line->name);
+    return trouble("%s has no option --%.*s%s%s %s --help lists all", c->name, (int)length, name,
+                   hint_text(&h, "--", meant), hint_program(), c->name);
 }
 
 /* A value that is an option: the option before it has none. */
 static bool is_option(const char *value)
 {
-    return (strncmp(value, "--", 2) == 0 && value[2]) || strcmp(value, "-o") == 0 || strcmp(value, "-h") == 0;
+    return (strncmp(value, "--", 2) == 0 && value[2]) ||
+           (value[0] == '-' && value[1] && !value[2] && strchr("ohq", value[1]));
 }
 
-static int read_options(const command_line *line, int argc, char **argv, bool *has_output)
+/* The row that getopt_long found; false for the digit of a negative number. */
+static bool option_found(const command *c, int number, command_option *option)
 {
-    const char *letters = line->no_negative ? ":h0123456789" : find_output(line) ? ":o:h" : ":h";
-    const int output = find_output(line);
+    return number >= OPTION ? command_option_at(c, (size_t)(number - OPTION), option)
+                            : find_lettered(c, (char)number, option);
+}
+
+/* COMMAND_GO_ON, or the exit status. */
+static int read_option(const command *c, int number, char **argv, void *arguments)
+{
+    command_option o;
+    if (!option_found(c, number, &o))
+        return trouble("%s", c->no_negative);
+    if (strcmp(o.name, "help") == 0)
+        return help_print(stdout, c);
+    if (strcmp(o.name, "version") == 0)
+        return help_print_version();
+    if (optarg && optarg == argv[optind - 1] && is_option(optarg))
+        return trouble("%s takes a value, and \"%s\" is an option", argv[optind - 2], optarg);
+    return o.read(&o, optarg, (char *)arguments + o.offset) ? COMMAND_GO_ON : EXIT_TROUBLE;
+}
+
+static int read_options(const command *c, int argc, char **argv, void *arguments, bool *has_output)
+{
     struct option all[MOST_OPTIONS];
-    list_options(line, all);
+    char letters[MOST_OPTIONS];
+    int status = COMMAND_GO_ON;
+    list_options(c, all, letters);
     optind = 1;
     opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, letters, all, NULL)) != -1;) {
-        if (option == 'h' || option == OPTION_HELP)
-            return print_help(line);
+    for (int option; status == COMMAND_GO_ON && (option = getopt_long(argc, argv, letters, all, NULL)) != -1;) {
+        command_option found;
         if (option == '?' || option == ':')
-            return refuse_option(line, all, option == ':', argv[optind - 1]);
-        if (optarg && optarg == argv[optind - 1] && is_option(optarg))
-            return trouble("%s takes a value, and \"%s\" is an option", argv[optind - 2], optarg);
-        if (!read_option(line, option))
-            return EXIT_TROUBLE;
-        *has_output = *has_output || option == 'o' || (output && option == output);
+            return refuse_option(c, all, option == ':', argv[optind - 1]);
+        *has_output = *has_output || (option_found(c, option, &found) && option_letter(found.name) == 'o');
+        status = read_option(c, option, argv, arguments);
     }
-    return COMMAND_GO_ON;
+    return status;
 }
 
-static int refuse_surplus(const command_line *line, const char *word, bool has_output)
+static int refuse_surplus(const command *c, const char *word, bool has_output)
 {
-    const int output = find_output(line);
+    command_option output;
     const file_kinds kind = 1u << file_kind_of(word);
-    const bool no_output = word[0] == '-' || kind & (line->inputs[0] | FILE_KIND(RECORDING));
-    if (output && !has_output && !no_output && is_meant_for(line->options[output - OWN_OPTION].read, word))
-        return trouble("%s takes %s, not also \"%s\", did you mean -o %s?", line->name, line->takes, word, word);
-    if (line->several)
+    const bool no_output = word[0] == '-' || kind & (c->inputs[0] | FILE_KIND(RECORDING));
+    if (!has_output && !no_output && find_lettered(c, 'o', &output) && is_meant_for(output.read, word))
+        return trouble("%s takes %s, not also \"%s\", did you mean -o %s?", c->name, c->takes, word, word);
+    if (c->several)
         return trouble("%s takes %s, not also \"%s\"; for several: for f in %s; do %s %s \"$f\" -o \"$f.png\"; done",
-                       line->name, line->takes, word, line->several, hint_program(), line->name);
-    return trouble("%s takes %s, not also \"%s\"; %s %s --help tells more", line->name, line->takes, word,
-                   hint_program(), line->name);
+                       c->name, c->takes, word, c->several, hint_program(), c->name);
+    return trouble("%s takes %s, not also \"%s\"; %s %s --help tells more", c->name, c->takes, word, hint_program(),
+                   c->name);
 }
 
 /* A file of a recording stands for its folder where that is taken. */
-static bool refuse_part(const command_line *line, const char *path, file_kind kind)
+static bool refuse_part(const command *c, const char *path, file_kind kind)
 {
     const char *slash = strrchr(path, '/');
     char folder[PATH_MAX] = ".";
     if (slash)
         snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
     return file_kind_of(folder) == KIND_RECORDING &&
-           !refuse("%s is %s, and %s takes %s: %s", path, file_kind_rows[kind].words, line->name, line->takes, folder);
+           !refuse("%s is %s, and %s takes %s: %s", path, file_kind_rows[kind].words, c->name, c->takes, folder);
 }
 
 /* Folders are no stream, nor is what may be made. */
-static bool check_standard_input(const command_line *line, file_kinds taken)
+static bool check_standard_input(const command *c, file_kinds taken)
 {
     const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(DIGESTS);
-    return (taken & files && !(taken & FILE_KIND(MISSING)) && !line->no_standard_input) ||
-           refuse("\"-\" is standard input, and %s takes %s; ./- is a file or folder of that name", line->name,
-                  line->takes);
+    return (taken & files && !(taken & FILE_KIND(MISSING)) && !c->no_standard_input) ||
+           refuse("\"-\" is standard input, and %s takes %s; ./- is a file or folder of that name", c->name, c->takes);
 }
 
-static bool check_input(const command_line *line, const char *path, file_kinds taken)
+static bool check_input(const command *c, const char *path, file_kinds taken)
 {
     if (file_is_standard(path))
-        return check_standard_input(line, taken);
+        return check_standard_input(c, taken);
     const file_kind kind = file_kind_of(path);
     const file_kind_row *row = &file_kind_rows[kind];
     if (kind == KIND_UNKNOWN || taken >> kind & 1)
         return true;
     if (kind == KIND_MISSING)
         return refuse("%s: there is no such file or folder", path);
-    if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_part(line, path, kind))
+    if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_part(c, path, kind))
         return false;
-    return refuse("%s is %s, and %s takes %s; %s%s%s%s%s", path, row->words, line->name, line->takes,
+    return refuse("%s is %s, and %s takes %s; %s%s%s%s%s", path, row->words, c->name, c->takes,
                   row->command ? hint_program() : "", row->command ? " " : "", row->command ? row->command : "",
                   row->command ? " " : "", row->use);
 }
 
-static bool check_inputs(const command_line *line, char **paths, int count)
+static bool check_inputs(const command *c, char **paths, int count)
 {
-    if (count > 1 && line->inputs[1] && file_is_standard(paths[0]) && file_is_standard(paths[1]))
+    if (count > 1 && c->inputs[1] && file_is_standard(paths[0]) && file_is_standard(paths[1]))
         return refuse("standard input can be read once, and \"-\" names it twice");
     for (int i = 0; i < count && i < 2; i++)
-        if (line->inputs[i] && !check_input(line, paths[i], line->inputs[i]))
+        if (c->inputs[i] && !check_input(c, paths[i], c->inputs[i]))
             return false;
     return true;
 }
 
-int command_line_read(const command_line *line, int argc, char **argv)
+int command_read(const command *c, void *arguments, int argc, char **argv)
 {
     bool has_output = false;
-    const int status = read_options(line, argc, argv, &has_output);
+    const int status = read_options(c, argc, argv, arguments, &has_output);
     const int count = argc - optind;
     if (status != COMMAND_GO_ON)
         return status;
-    if (count > line->most)
-        return refuse_surplus(line, argv[optind + line->most], has_output);
-    if (count < line->least)
-        return trouble("%s takes %s; %s %s --help tells more", line->name, line->takes, hint_program(), line->name);
-    if (!check_names(line->name, argv + optind, count) || (line->renderer && !check_renderer(line->renderer)))
+    if (count > c->most)
+        return refuse_surplus(c, argv[optind + c->most], has_output);
+    if (count < c->least)
+        return trouble("%s takes %s; %s %s --help tells more", c->name, c->takes, hint_program(), c->name);
+    if (!check_names(c->name, argv + optind, count))
         return EXIT_TROUBLE;
-    return check_inputs(line, argv + optind, count) ? COMMAND_GO_ON : EXIT_TROUBLE;
+    return check_inputs(c, argv + optind, count) ? COMMAND_GO_ON : EXIT_TROUBLE;
 }

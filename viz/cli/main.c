@@ -1,93 +1,60 @@
 /* SPDX-License-Identifier: MIT */
 /* main.c - octreel's command line: a table of commands, and help on each. */
 #include "command.h"
+#include "context.h"
 #include "file_kind.h"
+#include "help.h"
 #include "hint.h"
-#include "options.h"
-#include "session_text.h"
+#include "texts.h"
 
 #include <stdio.h>
 #include <string.h>
 
-typedef struct command {
-    const char *name;
-    int (*run)(int argc, char **argv);
-    const char *line; /* what it does, in one line */
-} command;
-
-static const command commands[] = {
-    {"record", cmd_record, "film a session: every tick of the game becomes one PNG frame"},
-    {"play", cmd_play, "make a page of a session that plays it in a browser, and films nothing"},
-    {"join", cmd_join, "make a recording that was filmed in chunks whole"},
-    {"verify", cmd_verify, "play a recording again: is it still what its session makes?"},
-    {"audit", cmd_audit, "judge what a program answered to queries: how much of it is wrong, and where"},
-    {"pick", cmd_pick, "say what is drawn at a pixel of a frame"},
-    {"inspect", cmd_inspect, "build a tree from a point cloud, draw its subdivision, print its statistics"},
-    {"diff", cmd_diff, "compare two pictures, folders of them or recordings, exactly or within a tolerance"},
-    {"digest", cmd_digest, "write digests of many frames, a small reference for diff"},
-    {"accept", cmd_accept, "take over new frames as the reference"},
+static const command *const commands[] = {
+    &command_record, &command_play,    &command_join, &command_verify, &command_audit,
+    &command_pick,   &command_inspect, &command_diff, &command_digest, &command_accept,
 };
 
-#define COMMANDS (sizeof commands / sizeof commands[0])
+const command *command_at(size_t n)
+{
+    return n < sizeof commands / sizeof commands[0] ? commands[n] : NULL;
+}
 
-/* What help is about beside commands. */
-static const struct {
-    const char *name, *text, *line;
-} topics[] = {
-    {"session", session_text, "what a session file holds: a world, points, keys, edits, queries"},
+static const help_topic topics[] = {
+    {"session", "what a session file holds: a world, points, keys, edits, queries", session_text},
 };
 
-#define TOPICS (sizeof topics / sizeof topics[0])
-
-static void print_row(FILE *out, const char *help, const char *name, const char *line)
+const help_topic *help_topic_at(size_t n)
 {
-    fprintf(out, "  %s%-*s  %s\n", help, 14 - (int)strlen(help), name, line);
+    return n < sizeof topics / sizeof topics[0] ? &topics[n] : NULL;
 }
 
-static int print_help(FILE *out)
+const command command_octreel = {
+    .name = "octreel",
+    .line = "an octree you can watch",
+    .usage = "COMMAND [OPTION ...]",
+    .about = "Film a tree of points: every tick of a session becomes one PNG frame, drawn without a display. Look at "
+             "how a point cloud subdivides, ask what is at a pixel, compare frames and say why they differ, and judge "
+             "the answers of other spatial indices.\n",
+    .statuses = {"done", "a finding", "trouble; stopped by a signal, that signal's (130 for Ctrl-C)"},
+    .examples = "octreel record -o flight\n"
+                "octreel inspect scan.pcd -o cloud.png\n"
+                "octreel diff reference frames -o evidence\n",
+};
+
+const command *command_named(const char *name)
 {
-    hint_write_commands(out, "octreel - an octree you can watch\n\nusage: octreel COMMAND [OPTION ...]\n\n");
-    for (size_t i = 0; i < COMMANDS; i++)
-        print_row(out, "", commands[i].name, commands[i].line);
-    print_row(out, "help ", "COMMAND", "what a command takes; so does COMMAND --help");
-    for (size_t i = 0; i < TOPICS; i++)
-        print_row(out, "help ", topics[i].name, topics[i].line);
-    print_row(out, "", "--version", "the version, and who would draw");
-    fputs("\nExit status: 0 done, 1 finding, 2 trouble; stopped by a signal, that signal's (130 for Ctrl-C).\n", out);
-    return out == stdout ? EXIT_DONE : EXIT_TROUBLE;
+    for (size_t i = 0; command_at(i); i++)
+        if (strcmp(name, command_at(i)->name) == 0)
+            return command_at(i);
+    return NULL;
 }
 
-/* Whether a context of this kind can be opened, and its renderer. */
-static bool print_renderer(draw_context kind)
+const help_topic *help_topic_named(const char *name)
 {
-    const renderer_choice choice = {.context = kind};
-    octreel_error error;
-    renderer *r = renderer_open(16, 16, &choice, &error);
-    if (!r) {
-        printf("%s: %s\n", draw_context_name(kind), error.text);
-        return false;
-    }
-    const renderer_info info = renderer_about(r);
-    printf("%s: %s, %s\n", info.context, info.renderer, info.version);
-    renderer_close(r);
-    return true;
-}
-
-static int print_version(void)
-{
-    int found = 0;
-    printf("octreel %s\n", OCTREEL_VERSION);
-    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++)
-        if (draw_context_built((draw_context)kind))
-            found += print_renderer((draw_context)kind);
-    return found ? EXIT_DONE : EXIT_TROUBLE;
-}
-
-static const command *find_command(const char *name)
-{
-    for (size_t i = 0; i < COMMANDS; i++)
-        if (strcmp(name, commands[i].name) == 0)
-            return &commands[i];
+    for (size_t i = 0; help_topic_at(i); i++)
+        if (strcmp(name, help_topic_at(i)->name) == 0)
+            return help_topic_at(i);
     return NULL;
 }
 
@@ -97,10 +64,10 @@ static int refuse_word(const char *word, bool help)
     static const char *const other_words[] = {"help", "--help", "--version"};
     char meant[HINT_TEXT];
     hint h = hint_for(word, strlen(word));
-    for (size_t i = 0; i < COMMANDS; i++)
-        hint_offer(&h, commands[i].name);
-    for (size_t i = 0; help && i < TOPICS; i++)
-        hint_offer(&h, topics[i].name);
+    for (size_t i = 0; command_at(i); i++)
+        hint_offer(&h, command_at(i)->name);
+    for (size_t i = 0; help && help_topic_at(i); i++)
+        hint_offer(&h, help_topic_at(i)->name);
     for (size_t i = 0; !help && i < sizeof other_words / sizeof other_words[0]; i++)
         hint_offer(&h, other_words[i]);
     const file_kind kind = help ? KIND_UNKNOWN : file_kind_of(word);
@@ -116,33 +83,34 @@ static int refuse_word(const char *word, bool help)
 /* On nothing, a command or a topic. */
 static int help(int argc, char **argv)
 {
-    static char option[] = "--help";
     if (argc == 1)
-        return print_help(stdout);
+        return help_print(stdout, &command_octreel);
     if (argc > 2)
         return trouble("help takes one command, not also \"%s\"", argv[2]);
-    for (size_t i = 0; i < TOPICS; i++)
-        if (strcmp(argv[1], topics[i].name) == 0)
-            return fputs(topics[i].text, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
-    const command *found = find_command(argv[1]);
-    return found ? found->run(2, (char *[]){argv[0], option, NULL}) : refuse_word(argv[1], true);
+    const help_topic *topic = help_topic_named(argv[1]);
+    const command *found = command_named(argv[1]);
+    if (topic)
+        return fputs(topic->text, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
+    return found ? help_print(stdout, found) : refuse_word(argv[1], true);
 }
 
 static int run(int argc, char **argv)
 {
-    if (argc < 2)
-        return print_help(stderr);
+    if (argc < 2) {
+        help_print(stderr, &command_octreel);
+        return EXIT_TROUBLE;
+    }
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
         return help(argc - 1, argv + 1);
     if (strcmp(argv[1], "--version") == 0)
-        return print_version();
-    const command *found = find_command(argv[1]);
+        return help_print_version();
+    const command *found = command_named(argv[1]);
     return found ? found->run(argc - 1, argv + 1) : refuse_word(argv[1], false);
 }
 
 static void say_context(const char *name, const char *instead_of, const char *why)
 {
-    fprintf(stderr, "octreel: %s draws, since %s does not: %s\n", name, instead_of, why);
+    note("%s draws, since %s does not: %s", name, instead_of, why);
 }
 
 /* Output that could not be written is a failure, whatever the command returned. */

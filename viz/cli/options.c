@@ -27,6 +27,23 @@ static void say(const char *format, va_list arguments)
     fputc('\n', stderr);
 }
 
+static bool quiet;
+
+bool is_quiet(void)
+{
+    return quiet;
+}
+
+void note(const char *format, ...)
+{
+    va_list arguments;
+    if (quiet)
+        return;
+    va_start(arguments, format);
+    say(format, arguments);
+    va_end(arguments);
+}
+
 int trouble(const char *format, ...)
 {
     va_list arguments;
@@ -68,16 +85,32 @@ bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, 
     return refuse("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", name, min, max, text);
 }
 
+char option_letter(const char *name)
+{
+    static const char *const lettered[] = {"output", "quiet", "help"};
+    for (size_t i = 0; i < sizeof lettered / sizeof lettered[0]; i++)
+        if (strcmp(name, lettered[i]) == 0)
+            return *name;
+    return 0;
+}
+
 const char *option_typed(const command_option *option, char text[OPTION_TYPED])
 {
-    snprintf(text, OPTION_TYPED, "--%s", option->name);
-    return strcmp(option->name, "output") == 0 ? "-o" : text;
+    const char letter = option_letter(option->name);
+    snprintf(text, OPTION_TYPED, "%s%s", letter ? "-" : "--", letter ? (char[]){letter, 0} : option->name);
+    return text;
 }
 
 bool read_flag(const command_option *option, const char *text, void *into)
 {
     (void)option, (void)text;
     return *(bool *)into = true;
+}
+
+bool read_quiet(const command_option *option, const char *text, void *into)
+{
+    (void)option, (void)text, (void)into;
+    return quiet = true;
 }
 
 bool read_text(const command_option *option, const char *text, void *into)
@@ -173,9 +206,16 @@ bool read_color(const command_option *option, const char *text, void *into)
     return true;
 }
 
-static const char *fill_at(int index)
+const char *draw_fill_at(int index)
 {
     return draw_fill_name((draw_fill)index);
+}
+
+const char *draw_fill_words_at(int index)
+{
+    static const char *const words[] = {
+        [DRAW_FILL_INTEGERS] = "the program itself", [DRAW_FILL_GL] = "OpenGL, which is slower"};
+    return words[index];
 }
 
 bool read_fill(const command_option *option, const char *text, void *into)
@@ -184,10 +224,10 @@ bool read_fill(const command_option *option, const char *text, void *into)
     hint h = hint_for(text, strlen(text));
     if (draw_fill_parse(text, into))
         return true;
-    for (int i = 0; fill_at(i); i++)
-        hint_offer(&h, fill_at(i));
+    for (int i = 0; draw_fill_at(i); i++)
+        hint_offer(&h, draw_fill_at(i));
     return refuse("--%s takes no \"%s\"%sthere are %s", option->name, text, hint_text(&h, "", meant),
-                  json_list_names(fill_at, known, sizeof known));
+                  json_list_names(draw_fill_at, known, sizeof known));
 }
 
 bool check_standard_output(const output_file *outputs, size_t count, bool json)
@@ -208,23 +248,29 @@ bool is_standard_output_taken(const output_file *outputs, size_t count)
 
 /* ---- Options of a view -------------------------------------------------------------------------------------- */
 
-size_t list_view_options(struct option *options)
+static bool read_view_text(const command_option *option, const char *text, void *into)
 {
-    size_t count = 0;
-    const view_option *option;
-    for (int i = 0; (option = view_option_at((size_t)i)) && i < VIEW_OPTIONS; i++)
-        if (option->name)
-            options[count++] =
-                (struct option){option->name, option->value ? required_argument : no_argument, NULL, VIEW_OPTION + i};
-    return count;
+    (void)option;
+    *(const char **)into = text ? text : "";
+    return true;
 }
 
-bool take_view_option(view_options *given, int option)
+/* Those of recording.json alone are passed over. */
+bool view_option_row(size_t n, command_option *option)
 {
-    if (option < VIEW_OPTION || option >= VIEW_OPTION + VIEW_OPTIONS)
-        return false;
-    given->values[option - VIEW_OPTION] = optarg ? optarg : "";
-    return true;
+    const view_option *row;
+    for (size_t i = 0; (row = view_option_at(i)); i++)
+        if (row->name && n-- == 0) {
+            *option = (command_option){row->name,
+                                       row->value,
+                                       row->help,
+                                       .read = read_view_text,
+                                       .offset = offsetof(view_options, values) + i * sizeof(const char *),
+                                       .names = row->member.names,
+                                       .words = row->words};
+            return true;
+        }
+    return false;
 }
 
 const char *first_view_option(const view_options *given)
@@ -253,28 +299,6 @@ bool read_view(const view_options *given, view *v)
     return true;
 }
 
-/* In lines of their own, below what an option does. */
-static void list_choices(FILE *out, const view_option *option)
-{
-    for (int i = 0; option->member.names(i); i++)
-        fprintf(out, "\n                        %-10s %s", option->member.names(i), option->words(i));
-}
-
-void print_view_options(FILE *out)
-{
-    const view_option *option;
-    for (size_t i = 0; (option = view_option_at(i)); i++) {
-        char name[32];
-        if (!option->name)
-            continue;
-        snprintf(name, sizeof name, "--%s %s", option->name, option->value ? option->value : "");
-        fprintf(out, "      %-17s %s", name, option->help);
-        if (option->member.names)
-            list_choices(out, option);
-        fputc('\n', out);
-    }
-}
-
 /* ---- Options of the renderer --------------------------------------------------------------------------------- */
 
 static const char *context_at(int n)
@@ -282,16 +306,40 @@ static const char *context_at(int n)
     return draw_context_name((draw_context)n);
 }
 
-bool read_context(const char *text, renderer_choice *choice)
+static const char *context_words_at(int n)
 {
-    if (draw_context_parse(text, &choice->context))
-        return true;
+    static const char *const words[DRAW_CONTEXTS] = {[DRAW_AUTO] = "the first of the others that there is",
+                                                     [DRAW_OSMESA] = "Mesa's OSMesa, in memory",
+                                                     [DRAW_EGL] = "EGL without a display"};
+    return words[n];
+}
+
+static bool read_context(const command_option *option, const char *text, void *into)
+{
     char known[64], meant[HINT_TEXT];
     hint h = hint_for(text, strlen(text));
+    if (draw_context_parse(text, into))
+        return true;
     for (int i = 0; context_at(i); i++)
         hint_offer(&h, context_at(i));
-    return refuse("there is no context \"%s\"%sthere are %s", text, hint_text(&h, "", meant),
+    return refuse("there is no %s \"%s\"%sthere are %s", option->name, text, hint_text(&h, "", meant),
                   json_list_names(context_at, known, sizeof known));
+}
+
+bool renderer_option_row(size_t n, command_option *option)
+{
+    static const command_option rows[] = {
+        {"context", "NAME", "what draws off-screen (default auto): one of", .read = read_context,
+         OPTION_VALUE(renderer_choice, context), .names = context_at, .words = context_words_at},
+        {"any-renderer", NULL,
+         "with --context egl: draw with a graphics card too. Frames are then the same for the same card and driver; "
+         "those of llvmpipe are the same everywhere",
+         .read = read_flag, OPTION_VALUE(renderer_choice, any_renderer)},
+    };
+    if (n >= sizeof rows / sizeof rows[0])
+        return false;
+    *option = rows[n];
+    return true;
 }
 
 bool check_renderer(const renderer_choice *choice)
@@ -299,14 +347,4 @@ bool check_renderer(const renderer_choice *choice)
     if (!choice->any_renderer || choice->context == DRAW_EGL)
         return true;
     return refuse("--any-renderer goes with --context egl alone: no other context has another renderer");
-}
-
-void print_renderer_options(FILE *out)
-{
-    char known[64];
-    fprintf(out, "      --context NAME    what draws off-screen: %s", json_list_names(context_at, known, sizeof known));
-    fputs(" (default auto: the first of these that there is)\n"
-          "      --any-renderer    with --context egl: draw with a graphics card too. Frames are then the same for\n"
-          "                        the same card and driver; those of llvmpipe are the same everywhere\n",
-          out);
 }

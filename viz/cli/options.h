@@ -4,14 +4,19 @@
 #define CLI_OPTIONS_H
 
 #include "file.h"
+#include "json_table.h"
 #include "renderer.h"
 #include "image_compare.h"
 
-#include <getopt.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+
+typedef struct command_option command_option;
+
+/* The n-th option of a table; false beyond the last. */
+typedef bool option_table_row(size_t n, command_option *option);
 
 /* Exit statuses. */
 enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
@@ -22,20 +27,34 @@ int trouble(const char *format, ...);
 /* The same for readers of values: returns false. */
 bool refuse(const char *format, ...);
 
-/* An option of one command: how its value is read, and where it goes. */
-typedef struct command_option command_option;
+/* Whether --quiet was given: nothing is said but what was asked for and errors. */
+bool is_quiet(void);
 
-/* Read a value. False, with the sentence printed, where `text` does not fit. */
+/* Print "octreel: " and a sentence on stderr that is no error, unless all is to be quiet. */
+void note(const char *format, ...);
+
+/* Read a value of an option. False, with the sentence printed, where `text` does not fit. */
 typedef bool command_option_reader(const command_option *option, const char *text, void *into);
 
+/* What is said about an option, how its value is read, and where it goes. */
 struct command_option {
-    const char *name; /* without dashes; "output" has the short form -o. Null ends a table */
+    const char *name;  /* without dashes. Null: `help` is a paragraph between options, or `more` is set; a zeroed row
+                        * ends  a table */
+    const char *value; /* what stands for its value; null: it takes none. FILE and DIR are files and folders, LIST
+                        * several of `names` with commas between */
+    const char *help;
     command_option_reader *read;
-    size_t offset, size; /* of the value in the command's arguments */
-    uint64_t min, max;   /* of a whole number */
+    size_t offset, size;    /* of the value in the command's arguments */
+    uint64_t min, max;      /* of a whole number */
+    json_name *names;       /* what the value may be; null: anything that `read` takes */
+    json_name *words;       /* what each of these is; null: it is told elsewhere */
+    option_table_row *more; /* the options of a table that commands share stand here; what they read goes to `offset` */
 };
 
-#define OPTION_VALUE(type, member) offsetof(type, member), sizeof(((type *)NULL)->member)
+#define OPTION_VALUE(type, member) .offset = offsetof(type, member), .size = sizeof(((type *)NULL)->member)
+
+/* The letter that may stand for the option, 0: none. */
+char option_letter(const char *name);
 
 /* As it is typed: "--every", "-o". */
 #define OPTION_TYPED 32
@@ -51,15 +70,27 @@ command_option_reader read_file;    /* the same, of another file: not a folder, 
                                      * output */
 command_option_reader read_whole;   /* an integer type */
 command_option_reader read_color;   /* image_color, as RRGGBB or #RRGGBB */
-command_option_reader read_fill;    /* draw_fill, by its name; FILL_HELP is its help */
+command_option_reader read_fill;    /* draw_fill, by its name */
+command_option_reader read_quiet;   /* nothing: --quiet */
+
+#define JSON_OPTION(type, member, text)                                                                                \
+    {                                                                                                                  \
+        "json", NULL, text, .read = read_flag, OPTION_VALUE(type, member)                                              \
+    }
+
+#define FILL_OPTION(type, member)                                                                                      \
+    {                                                                                                                  \
+        "fill", "WITH",                                                                                                \
+            "what fills the picture (default integers; with --any-renderer it is gl in any case); the pixels are the " \
+            "same: one of",                                                                                            \
+            .read = read_fill, OPTION_VALUE(type, member), .names = draw_fill_at, .words = draw_fill_words_at          \
+    }
 
 /* Whether a path without an option can be meant for -o, by the option's reader. */
 bool is_meant_for(command_option_reader *reader, const char *path);
 
-#define FILL_HELP                                                                                                      \
-    "      --fill WITH       integers (default) fill the picture, or gl does, which is slower; the pixels are the "    \
-    "same.\n"                                                                                                          \
-    "                        With --any-renderer it is gl in any case\n"
+/* The keys of a game, which --keys takes. */
+#define KEYS_HELP "w s +-y, d a +-x, e f +-z, n nearest, . wait, q end"
 
 /* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
 bool check_names(const char *command, char *const *names, int count);
@@ -75,20 +106,19 @@ bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, 
 
 /* The options of a view are the same for every command that draws. They are collected while the command line is read,
  * and then become a view. */
-#define VIEW_OPTION 256 /* the first of getopt's numbers for them */
-#define VIEW_OPTIONS 32 /* at most */
+#define MOST_VIEW_OPTIONS 32
 typedef struct view_options {
-    const char *values[VIEW_OPTIONS]; /* as they were typed, at the numbers of view_option_at(); null: not given */
+    const char *values[MOST_VIEW_OPTIONS]; /* as they were typed, at the numbers of view_option_at(); null: not given */
 } view_options;
+
+option_table_row view_option_row;
+#define VIEW_OPTIONS(type, member)                                                                                     \
+    {                                                                                                                  \
+        .more = view_option_row, OPTION_VALUE(type, member)                                                            \
+    }
 
 /* Whether one was given. */
 bool gives_view_option(const view_options *given, const char *name);
-
-/* Write them where getopt_long will read them, VIEW_OPTIONS at most; returns their number. */
-size_t list_view_options(struct option *options);
-
-/* Take an option that getopt_long found; false when it is not an option of a view. */
-bool take_view_option(view_options *given, int option);
 
 /* The name of the first of them that was given; null: none was. */
 const char *first_view_option(const view_options *given);
@@ -96,13 +126,16 @@ const char *first_view_option(const view_options *given);
 /* Apply them to a command's default view; false, with the sentence printed, when a value does not fit. */
 bool read_view(const view_options *given, view *v);
 
-/* The part of a --help text that those options share. */
-void print_view_options(FILE *out);
-
 /* The renderer: --context and --any-renderer. */
-enum { OPTION_CONTEXT = VIEW_OPTION - 2, OPTION_ANY_RENDERER };
-bool read_context(const char *text, renderer_choice *choice);
-bool check_renderer(const renderer_choice *choice); /* once all options are read */
-void print_renderer_options(FILE *out);
+option_table_row renderer_option_row;
+#define RENDERER_OPTIONS(type, member)                                                                                 \
+    {                                                                                                                  \
+        .more = renderer_option_row, OPTION_VALUE(type, member)                                                        \
+    }
+
+/* Once all options are read: false, with the sentence printed, where they do not go together. */
+bool check_renderer(const renderer_choice *choice);
+
+json_name draw_fill_at, draw_fill_words_at;
 
 #endif

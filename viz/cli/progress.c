@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* progress.c - a progress bar, and pending signals. */
 #include "progress.h"
+#include "options.h"
 
 #include <inttypes.h>
 #include <stdarg.h>
@@ -41,7 +42,7 @@ static int count_columns(void)
 
 progress progress_start(const char *unit)
 {
-    return (progress){.unit = unit, .started = now(), .visible = is_terminal()};
+    return (progress){.unit = unit, .started = now(), .visible = !is_quiet() && is_terminal()};
 }
 
 double progress_seconds(const progress *p)
@@ -49,19 +50,29 @@ double progress_seconds(const progress *p)
     return now() - p->started;
 }
 
+/* What is left of a longer line before is written over. */
+static void clear_rest(progress *p, int length, int columns)
+{
+    const int longer = p->length < columns ? p->length : columns;
+    fprintf(stderr, "%*s", longer > length ? longer - length : 0, "");
+    p->length = length;
+}
+
 /* One line, whatever the width: the bar shrinks before the text is cut. */
-static void print_line(const progress *p, const char *text)
+static void print_line(progress *p, const char *text)
 {
     char bar[BAR + 1];
     const int columns = count_columns() - 1, room = columns - (int)strlen(text) - (int)strlen("[] ");
     const int length = room < BAR ? room : BAR;
+    int written = 0;
     fputc('\r', stderr);
     if (length >= LEAST_BAR && p->fraction >= 0) {
         memset(bar, '.', (size_t)length);
         memset(bar, '#', (size_t)(p->fraction * length));
-        fprintf(stderr, "[%.*s] ", length, bar);
+        written = fprintf(stderr, "[%.*s] ", length, bar);
     }
-    fprintf(stderr, "%.*s\033[K", columns, text);
+    written += fprintf(stderr, "%.*s", columns, text);
+    clear_rest(p, written, columns);
     fflush(stderr);
 }
 
@@ -98,8 +109,11 @@ void progress_say(progress *p, const char *format, ...)
 
 void progress_end(progress *p)
 {
-    if (p->visible && p->shown > 0)
-        fprintf(stderr, "\r\033[K");
+    if (!p->visible || p->shown <= 0)
+        return;
+    fputc('\r', stderr);
+    clear_rest(p, 0, count_columns() - 1);
+    fputc('\r', stderr);
 }
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */

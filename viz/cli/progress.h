@@ -7,11 +7,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A bar on stderr where that is a terminal and not a dumb one, as TERM says; nothing otherwise. */
+/* A bar on stderr where that is a terminal and not a dumb one, as TERM says, and nothing is to be quiet; nothing
+ * otherwise. It is written over without escape sequences. */
 typedef struct progress {
     const char *unit;
     double started, shown; /* seconds of the monotonic clock; 0: not yet */
     double fraction;       /* that was shown last, 0 to 1; below 0: there is no bar */
+    int length;            /* of the line that is there */
     bool visible;
 } progress;
 

@@ -3,7 +3,6 @@
  */
 #include "query_options.h"
 #include "number.h"
-#include "options.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,37 +16,15 @@ static const struct {
     const char *value, *help;     /* in --help */
     const char *takes;            /* in the sentence about what does not fit */
 } rows[] = {
-    {OCTREE_QUERY_NEAREST, OCTREE_QUERY_KNEAREST, "X,Y,Z[,K]", "the point nearest to a place, or the K nearest",
+    {OCTREE_QUERY_NEAREST, OCTREE_QUERY_KNEAREST, "X,Y,Z[,K]",
+     "print and draw the point nearest to a place, or the K nearest",
      "a place, and a number of neighbours where it is not one, as in 1,2,3 or 1,2,3,8"},
-    {OCTREE_QUERY_RADIUS, OCTREE_QUERY_RADIUS, "X,Y,Z,R", "the points within R of a place",
+    {OCTREE_QUERY_RADIUS, OCTREE_QUERY_RADIUS, "X,Y,Z,R", "print and draw the points within R of a place",
      "a centre and a radius as in 1,2,3,10"},
-    {OCTREE_QUERY_RANGE, OCTREE_QUERY_RANGE, "X0,Y0,Z0,X1,Y1,Z1", "the points in a box",
+    {OCTREE_QUERY_RANGE, OCTREE_QUERY_RANGE, "X0,Y0,Z0,X1,Y1,Z1",
+     "print and draw the points in a box; queries can be given several times",
      "two corners as in -10,-10,-10,10,10,10"},
 };
-
-enum { ROWS = sizeof rows / sizeof rows[0] };
-
-size_t list_query_options(struct option *options)
-{
-    for (int i = 0; i < ROWS; i++)
-        options[i] = (struct option){octree_query_name(rows[i].kind), required_argument, NULL, QUERY_OPTION + i};
-    return ROWS;
-}
-
-bool is_query_option(int option)
-{
-    return option >= QUERY_OPTION && option < QUERY_OPTION + ROWS;
-}
-
-void print_query_options(FILE *out)
-{
-    for (int i = 0; i < ROWS; i++) {
-        char option[40];
-        snprintf(option, sizeof option, "--%s %s", octree_query_name(rows[i].kind), rows[i].value);
-        fprintf(out, "      %-26s print and draw %s%s\n", option, rows[i].help,
-                i == ROWS - 1 ? "; queries can be given several times" : "");
-    }
-}
 
 static size_t numbers_of(octree_query_kind kind)
 {
@@ -78,10 +55,11 @@ static bool set_members(octree_query *query, const double *at)
     return fits;
 }
 
-bool read_query(query_options *queries, int option, const char *text)
+static bool read_query(const command_option *option, const char *text, void *into)
 {
-    const int row = option - QUERY_OPTION;
-    const char *name = octree_query_name(rows[row].kind);
+    query_options *queries = into;
+    const size_t row = option->min; /* of the table */
+    const char *name = option->name;
     octree_query query = {.kind = rows[row].kind};
     double values[MOST_NUMBERS];
     if (queries->count == MOST_QUERIES)
@@ -98,5 +76,14 @@ bool read_query(query_options *queries, int option, const char *text)
     if (status != OCTREE_OK)
         return refuse("--%s: %s in \"%s\"", name, octree_status_text(status), text);
     queries->items[queries->count++] = query;
+    return true;
+}
+
+bool query_option_row(size_t n, command_option *option)
+{
+    if (n >= sizeof rows / sizeof rows[0])
+        return false;
+    *option =
+        (command_option){octree_query_name(rows[n].kind), rows[n].value, rows[n].help, .read = read_query, .min = n};
     return true;
 }

@@ -4,11 +4,8 @@
 #define CLI_QUERY_OPTIONS_H
 
 #include "octree/game.h"
+#include "options.h"
 
-#include <getopt.h>
-#include <stdio.h>
-
-#define QUERY_OPTION 512 /* the first of getopt's numbers for them */
 #define MOST_QUERIES 100
 
 /* The queries that were given, in their order. */
@@ -17,16 +14,10 @@ typedef struct query_options {
     size_t count;
 } query_options;
 
-/* Write the options where getopt_long will read them, at most one for each kind of query; returns their number. */
-size_t list_query_options(struct option *options);
-
-/* Whether an option that getopt_long found is one of them. */
-bool is_query_option(int option);
-
-/* Read one. False, with the sentence printed, where `text` does not fit. */
-bool read_query(query_options *queries, int option, const char *text);
-
-/* Their part of a --help text. */
-void print_query_options(FILE *out);
+option_table_row query_option_row;
+#define QUERY_OPTIONS(type, member)                                                                                    \
+    {                                                                                                                  \
+        .more = query_option_row, OPTION_VALUE(type, member)                                                           \
+    }
 
 #endif

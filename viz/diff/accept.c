@@ -268,7 +268,7 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
     const int lock = file_kind_of(options->reference) == KIND_FOLDER ? -1 : file_lock_folder_of(options->reference);
     const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && check_ended(&a.frames, error) &&
                     (a.is_new || check_ended(&a.reference, error)) && compare(&a, error) && write_all(&a, error);
-    if (ok)
+    if (ok && out)
         tell(&a);
     free(a.actions);
     diff_release(&a.result);

@@ -22,7 +22,8 @@ typedef struct accept_options {
 } accept_options;
 
 /* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is; but
- * of a recording that is accepted whole, all files are taken over. What was done is said on `out` at the end. False
+ * of a recording that is accepted whole, all files are taken over. What was done is said on `out` at the end; it may be
+ * null. False
  * with an error: before anything is written when a side, a new frame or a name is invalid.
  *
  * A file of digests is read, changed and renamed while its folder is locked, after pictures are in the store: of two

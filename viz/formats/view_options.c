@@ -49,6 +49,13 @@ static const char *fit_at(int n)
     return (size_t)n < sizeof names / sizeof names[0] ? names[n] : NULL;
 }
 
+static const char *fit_words_at(int n)
+{
+    static const char *const words[] = {[FIT_WORLD] = "all of the world, which is the default of record",
+                                        [FIT_POINTS] = "the points shown at tick 0, which is the default of inspect"};
+    return (size_t)n < sizeof words / sizeof words[0] ? words[n] : NULL;
+}
+
 /* "there is no camera "x"; there are iso, top ...", or "... "iss", did you mean iso? ..." */
 static bool no_such(const char *what, const char *text, int length, json_name *names, octreel_error *error)
 {
@@ -147,9 +154,9 @@ static bool parse_camera_from(const view_option *option, const char *text, view 
 
 static bool parse_fit(const view_option *option, const char *text, view *v, octreel_error *error)
 {
-    const int found = json_find_name(fit_at, text);
+    const int found = json_find_name(option->member.names, text);
     if (found < 0)
-        return no_such(option->takes, text, (int)strlen(text), fit_at, error);
+        return no_such(option->takes, text, (int)strlen(text), option->member.names, error);
     v->fit = (view_fit)found;
     return true;
 }
@@ -404,8 +411,8 @@ static const view_option rows[] = {
     {MEMBER("height", &json_int, height), .member.required = true, .member.min = 1, .member.max = VIEW_MAX_SIDE},
     {"camera", "NAME", "camera", "(default iso) one of", parse_choice, MEMBER("camera", &json_choice, camera),
      .member.required = true, .member.names = camera_at, .words = camera_words_at},
-    {"fit", "WHAT", "fit", "what the camera frames (points: those shown at tick 0); record: world, inspect: points",
-     parse_fit, .member.name = "fit", .member.codec = JSON_CODEC(read_fit, write_fit, fits_box)},
+    {"fit", "WHAT", "fit", "what the camera frames: one of", parse_fit, .member.name = "fit",
+     .member.codec = JSON_CODEC(read_fit, write_fit, fits_box), .member.names = fit_at, .words = fit_words_at},
     {"look", "AZ,EL", "an azimuth from -360 to 360 and an elevation from -90 to 90 as in 30,22",
      "where the eye is: degrees from -y towards +x, and above the ground (iso: 30,22)", parse_look,
      MEMBER("look", JSON_CODEC(read_look, write_look, NULL), look.azimuth), .member.given = offsetof(view, look.given),

@@ -55,7 +55,7 @@ bool choices_write(FILE *out)
     json_write_begin_object(w);
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
-        if (option->member.name && option->member.names && option->member.names != view_layer_at)
+        if (option->member.codec == &json_choice || option->member.codec == &json_later_choice)
             write_names(w, option->member.name, option->member.names);
     }
     json_member_begin_array(w, "layers");

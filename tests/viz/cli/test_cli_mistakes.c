@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cli_mistakes.c - slips on the command line, each one sentence that names the way on, and makes nothing; and
  * help. */
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -220,12 +221,27 @@ static void help_is_on_commands_and_sessions(void **state)
     command_release(&help);
 }
 
+/* The words of a text, a blank between two. */
+static char *words_of(const char *text)
+{
+    char *words = malloc(strlen(text) + 2), *to = words;
+    assert_non_null(words);
+    for (; *text; text++)
+        if (!strchr(" \n", *text))
+            *to++ = *text;
+        else if (to > words && to[-1] != ' ')
+            *to++ = ' ';
+    *to = 0;
+    return words;
+}
+
+/* `help` is words_of() it. */
 static void assert_explains(const char *help, const char *name, const char *words)
 {
     char line[160];
-    snprintf(line, sizeof line, "\n                        %-10s %s\n", name, words);
+    snprintf(line, sizeof line, " %s %s ", name, words);
     if (strstr(help, line) == NULL)
-        fail_msg("there is no line%s", line);
+        fail_msg("nothing says%s", line);
 }
 
 static void help_explains_every_choice_and_key(void **state)
@@ -234,12 +250,14 @@ static void help_explains_every_choice_and_key(void **state)
     (void)state;
     for (size_t c = 0; c < 2; c++) {
         command_result help = run_octreel(NULL, "%s --help", commands[c]);
+        char *words = words_of(help.out);
         for (int i = 0; i < LAYER_COUNT; i++)
-            assert_explains(help.out, layer_rows[i].name, layer_rows[i].help);
+            assert_explains(words, layer_rows[i].name, layer_rows[i].help);
         for (size_t i = 0; view_option_at(i); i++)
             for (int n = 0; view_option_at(i)->member.names && view_option_at(i)->member.names(n); n++)
-                assert_explains(help.out, view_option_at(i)->member.names(n), view_option_at(i)->words(n));
-        assert_true(c == 1 || strstr(help.out, ". wait, q end") != NULL);
+                assert_explains(words, view_option_at(i)->member.names(n), view_option_at(i)->words(n));
+        assert_true(c == 1 || strstr(words, ". wait, q end") != NULL);
+        free(words);
         command_release(&help);
     }
 }

@@ -23,16 +23,16 @@ static command_result film_on(void **state, const command_setting *terminal)
     return result;
 }
 
-/* What each part of it, up to "\033[K", takes on the screen. Returns the longest. */
+/* What each part of it, up to the start of the line, takes on the screen. Returns the longest. */
 static size_t measure(const char *text)
 {
     size_t longest = 0;
     for (const char *at = text; *at != '\0';) {
         assert_int_equal(*at++, '\r');
-        const char *end = strstr(at, "\033[K");
-        assert_non_null(end);
-        longest = (size_t)(end - at) > longest ? (size_t)(end - at) : longest;
-        at = end + 3;
+        const size_t length = strcspn(at, "\r\033");
+        assert_int_not_equal(at[length], '\033'); /* not every terminal knows such sequences */
+        longest = length > longest ? length : longest;
+        at += length;
     }
     return longest;
 }

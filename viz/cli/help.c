@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+#include "help.h"
+#include "hint.h"
+#include "prose.h"
+#include "renderer.h"
+
+#include <string.h>
+
+/* ---- Options ------------------------------------------------------------------------------------------------ */
+
+enum { OPTION_COLUMN = 24, CHOICE_WIDTH = 12 };
+
+static void fill(FILE *out, const char *text, int column)
+{
+    prose_fill(out, text, strlen(text), column, column);
+}
+
+/* In lines of their own, below what an option does. */
+static void print_choices(FILE *out, const command_option *option)
+{
+    for (int i = 0; option->names(i); i++) {
+        fprintf(out, "%*s%-*s", OPTION_COLUMN, "", CHOICE_WIDTH, option->names(i));
+        fill(out, option->words(i), OPTION_COLUMN + CHOICE_WIDTH);
+    }
+}
+
+/* What is explained from `column` on: in the next line, where there is no room for two blanks. */
+static void explain(FILE *out, int width, const char *text, int column)
+{
+    const bool fits = width + 2 <= column;
+    fprintf(out, "%s%*s", fits ? "" : "\n", fits ? column - width : column, "");
+    fill(out, text, column);
+}
+
+/* "  -o, --output DIR      where the recording goes" */
+static void print_option(FILE *out, const command_option *option)
+{
+    const char letter = option_letter(option->name), short_form[] = {'-', letter, ',', 0};
+    const int width = fprintf(out, "  %-3s --%s%s%s", letter ? short_form : "", option->name, option->value ? " " : "",
+                              option->value ? option->value : "");
+    explain(out, width, option->help, OPTION_COLUMN);
+    if (option->words)
+        print_choices(out, option);
+}
+
+static void print_options(FILE *out, const command *c)
+{
+    command_option option;
+    bool had = false;
+    for (size_t n = 0; command_option_at(c, n, &option); n++) {
+        if (!option.name) {
+            fputs(had ? "\n" : "", out);
+            fill(out, option.help, 0);
+        } else {
+            print_option(out, &option);
+        }
+        had = true;
+    }
+}
+
+/* ---- Commands ----------------------------------------------------------------------------------------------- */
+
+static void print_row(FILE *out, const char *help, const char *name, const char *line)
+{
+    explain(out, fprintf(out, "  %s%s", help, name), line, 18);
+}
+
+static void print_commands(FILE *out)
+{
+    for (size_t i = 0; command_at(i); i++)
+        print_row(out, "", command_at(i)->name, command_at(i)->line);
+    print_row(out, "help ", "COMMAND", "what a command takes; so does COMMAND --help");
+    for (size_t i = 0; help_topic_at(i); i++)
+        print_row(out, "help ", help_topic_at(i)->name, help_topic_at(i)->line);
+    print_row(out, "", "--version", "the version, and who would draw");
+}
+
+const char *command_status(const command *c, int status)
+{
+    static const char *const usual[] = {[EXIT_DONE] = "done", [EXIT_TROUBLE] = "trouble"};
+    return c->statuses[status] ? c->statuses[status] : usual[status];
+}
+
+static void print_statuses(FILE *out, const command *c)
+{
+    char text[512] = "Exit status:";
+    for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
+        if (command_status(c, i))
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%s %d %s", i ? ";" : "", i,
+                     command_status(c, i));
+    putc('\n', out);
+    fill(out, text, 0);
+}
+
+/* As the program was called. */
+static void print_examples(FILE *out, const char *examples)
+{
+    fputs("\nExamples:\n", out);
+    for (const char *line = examples; *line; line += strcspn(line, "\n") + 1) {
+        char example[256];
+        snprintf(example, sizeof example, "  %.*s\n", (int)strcspn(line, "\n"), line);
+        hint_write_commands(out, example);
+    }
+}
+
+int help_print(FILE *out, const command *c)
+{
+    const bool whole = c == &command_octreel;
+    fprintf(out, "usage: %s%s%s %s\n\n", hint_program(), whole ? "" : " ", whole ? "" : c->name, c->usage);
+    prose_print(out, c->about);
+    putc('\n', out);
+    if (whole)
+        print_commands(out);
+    else
+        print_options(out, c);
+    if (c->more) {
+        putc('\n', out);
+        prose_print(out, c->more);
+    }
+    print_statuses(out, c);
+    if (c->examples)
+        print_examples(out, c->examples);
+    return EXIT_DONE;
+}
+
+/* ---- The version -------------------------------------------------------------------------------------------- */
+
+/* Whether a context of this kind can be opened, and its renderer. */
+static bool print_renderer(draw_context kind)
+{
+    const renderer_choice choice = {.context = kind};
+    octreel_error error;
+    renderer *r = renderer_open(16, 16, &choice, &error);
+    if (!r) {
+        printf("%s: %s\n", draw_context_name(kind), error.text);
+        return false;
+    }
+    const renderer_info info = renderer_about(r);
+    printf("%s: %s, %s\n", info.context, info.renderer, info.version);
+    renderer_close(r);
+    return true;
+}
+
+int help_print_version(void)
+{
+    int found = 0;
+    printf("octreel %s\n", OCTREEL_VERSION);
+    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++)
+        if (draw_context_built((draw_context)kind))
+            found += print_renderer((draw_context)kind);
+    return found ? EXIT_DONE : EXIT_TROUBLE;
+}

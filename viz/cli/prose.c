@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+#include "prose.h"
+
+#include <string.h>
+
+/* ---- Blocks ------------------------------------------------------------------------------------------------- */
+
+static size_t line_length(const char *line)
+{
+    return strcspn(line, "\n");
+}
+
+static int indent_of(const char *line)
+{
+    return (int)strspn(line, " ");
+}
+
+static bool is_empty(const char *line)
+{
+    return line_length(line) == (size_t)indent_of(line);
+}
+
+static const char *next_line(const char *line)
+{
+    line += line_length(line);
+    return *line ? line + 1 : line;
+}
+
+static bool is_heading(const char *line)
+{
+    for (size_t i = 0; i < line_length(line); i++)
+        if (line[i] >= 'a' && line[i] <= 'z')
+            return false;
+    return true;
+}
+
+/* Where the text of an item begins; null in a line that begins none. */
+static const char *item_text(const char *line)
+{
+    const char *term = line + indent_of(line), *gap = strstr(term, "  ");
+    return gap && gap < line + line_length(line) ? gap + indent_of(gap) : NULL;
+}
+
+/* Whether a line goes on with the block that was begun. */
+static bool continues(const prose_block *block, const char *line)
+{
+    const int indent = indent_of(line);
+    if (!*line || is_empty(line))
+        return false;
+    if (block->kind == PROSE_ITEM)
+        return indent > block->indent + 2;
+    return block->kind == PROSE_VERBATIM ? indent >= block->indent
+                                         : indent == block->indent && (indent == 0 || !item_text(line));
+}
+
+static const char *skip_empty(const char *at)
+{
+    while (*at && is_empty(at))
+        at = next_line(at);
+    return at;
+}
+
+bool prose_next(const char **at, prose_block *block)
+{
+    const char *line = skip_empty(*at), *end, *text;
+    if (!*line)
+        return false;
+    *block = (prose_block){PROSE_PARAGRAPH, indent_of(line), .text = line};
+    if (block->indent == 0 && is_heading(line)) {
+        block->kind = PROSE_HEADING;
+    } else if (block->indent >= 4) {
+        block->kind = PROSE_VERBATIM;
+    } else if (block->indent > 0 && (text = item_text(line))) {
+        block->kind = PROSE_ITEM;
+        block->term = line + block->indent;
+        block->term_length = (size_t)(strstr(block->term, "  ") - block->term);
+        block->text = text;
+    }
+    for (end = next_line(line); block->kind != PROSE_HEADING; end = next_line(end)) {
+        const char *more = block->kind == PROSE_VERBATIM ? skip_empty(end) : end;
+        if (!continues(block, more))
+            break;
+        end = more;
+    }
+    block->length = (size_t)(end - block->text);
+    *at = end;
+    return true;
+}
+
+const char *prose_word(const char **at, const char *end, size_t *length)
+{
+    const char *word = *at;
+    while (word < end && (*word == ' ' || *word == '\n'))
+        word++;
+    for (*at = word; *at < end && **at != ' ' && **at != '\n';)
+        ++*at;
+    *length = (size_t)(*at - word);
+    return *length ? word : NULL;
+}
+
+const char *prose_line(const char **at, const char *end, int indent, size_t *length)
+{
+    const char *line = *at;
+    if (line >= end)
+        return NULL;
+    *at = next_line(line);
+    line += indent_of(line) < indent ? indent_of(line) : indent;
+    *length = line_length(line);
+    return line;
+}
+
+/* ---- Filled lines ------------------------------------------------------------------------------------------- */
+
+void prose_fill(FILE *out, const char *text, size_t length, int column, int indent)
+{
+    const char *at = text, *word;
+    size_t size;
+    bool begins = true;
+    while ((word = prose_word(&at, text + length, &size))) {
+        if (!begins && column + 1 + (int)size > PROSE_WIDTH) {
+            fprintf(out, "\n%*s", indent, "");
+            column = indent;
+        } else if (!begins) {
+            putc(' ', out);
+            column++;
+        }
+        fwrite(word, 1, size, out);
+        column += (int)size;
+        begins = false;
+    }
+    putc('\n', out);
+}
+
+/* The width of the terms of items that follow one another: text stands in one column beside the short ones. */
+enum { SHORT_TERM = 14 };
+
+static void print_item(FILE *out, const prose_block *block)
+{
+    const int column = block->indent + SHORT_TERM;
+    const int width = fprintf(out, "%*s%.*s  ", block->indent, "", (int)block->term_length, block->term);
+    if (width <= column)
+        fprintf(out, "%*s", column - width, "");
+    else
+        fprintf(out, "\n%*s", column, "");
+    prose_fill(out, block->text, block->length, column, column);
+}
+
+static void print_lines(FILE *out, const prose_block *block)
+{
+    const char *at = block->text, *line;
+    size_t length;
+    while ((line = prose_line(&at, block->text + block->length, 0, &length)))
+        fprintf(out, "%.*s\n", (int)length, line);
+}
+
+/* Items follow one another without an empty line, and a heading is above what it heads. */
+static bool parted(prose_kind before, prose_kind kind)
+{
+    return before != PROSE_HEADING && !(before == PROSE_ITEM && kind == PROSE_ITEM);
+}
+
+void prose_print(FILE *out, const char *text)
+{
+    prose_block block;
+    prose_kind before = PROSE_HEADING;
+    for (const char *at = text; prose_next(&at, &block); before = block.kind) {
+        if (parted(before, block.kind))
+            putc('\n', out);
+        if (block.kind == PROSE_ITEM)
+            print_item(out, &block);
+        else if (block.kind == PROSE_PARAGRAPH)
+            fprintf(out, "%*s", block.indent, ""),
+                prose_fill(out, block.text, block.length, block.indent, block.indent);
+        else
+            print_lines(out, &block);
+    }
+}
