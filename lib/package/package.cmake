@@ -16,7 +16,7 @@ function(show_only target prefix)
     set(map ${CMAKE_CURRENT_BINARY_DIR}/${target}.map)
     file(CONFIGURE OUTPUT ${map} CONTENT "{ global: ${prefix}*; local: *; };\n")
     target_link_options(${target} PRIVATE LINKER:--version-script=${map})
-    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${map})
+    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${map} SHOWN_ONLY ${prefix})
     return()
   endif()
   # The sanitizers and link-time optimisation keep notes about symbols, which this would belie.
@@ -24,6 +24,7 @@ function(show_only target prefix)
   if(OCTREEL_SANITIZE OR OCTREEL_FUZZ OR CMAKE_INTERPROCEDURAL_OPTIMIZATION OR NOT flto EQUAL -1 OR NOT CMAKE_OBJCOPY)
     return()
   endif()
+  set_target_properties(${target} PROPERTIES SHOWN_ONLY ${prefix})
   set(whole ${CMAKE_CURRENT_BINARY_DIR}/${target}.whole.o)
   add_custom_command(TARGET ${target} POST_BUILD VERBATIM
                      COMMAND ${CMAKE_LINKER} -r --whole-archive $<TARGET_FILE:${target}> -o ${whole}
@@ -39,14 +40,10 @@ function(install_package target name)
   cmake_parse_arguments(USES "" "" "REQUIRES;LIBS" ${ARGN})
   list(JOIN USES_REQUIRES " " REQUIRES)
   list(JOIN USES_LIBS " " LIBS)
-  set(REQUIRES_PRIVATE "")
-  set(LIBS_PRIVATE "")
   get_target_property(type ${target} TYPE)
   set(ARCHIVE TRUE) # and then what it uses is needed by whoever links it, --static or not
   if(type STREQUAL SHARED_LIBRARY)
     set(ARCHIVE FALSE)
-    set(REQUIRES_PRIVATE "${REQUIRES}")
-    set(LIBS_PRIVATE "${LIBS}")
     set(REQUIRES "")
     set(LIBS "")
   endif()
@@ -62,11 +59,15 @@ function(install_package target name)
 
   set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} INSTALL_RPATH "\$ORIGIN"
                                              SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  install(TARGETS ${target} EXPORT ${name}-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig_folder})
+  # The component lib${name} runs programs, and lib${name}-dev builds them; documents are read.
+  set(dev COMPONENT lib${name}-dev)
+  install(TARGETS ${target} EXPORT ${name}-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+          LIBRARY COMPONENT lib${name} NAMELINK_COMPONENT lib${name}-dev ARCHIVE ${dev} RUNTIME COMPONENT lib${name})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${dev} FILES_MATCHING PATTERN "*.h")
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig_folder} ${dev})
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/${name}-config-version.cmake
-          DESTINATION ${cmake_folder})
-  install(FILES ${PROJECT_SOURCE_DIR}/lib/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name})
-  install(EXPORT ${name}-targets NAMESPACE ${name}:: DESTINATION ${cmake_folder})
+          DESTINATION ${cmake_folder} ${dev})
+  install(EXPORT ${name}-targets NAMESPACE ${name}:: DESTINATION ${cmake_folder} ${dev})
+  install(FILES ${PROJECT_SOURCE_DIR}/lib/LICENSE ${PROJECT_SOURCE_DIR}/lib/CHANGELOG.md
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT documents)
 endfunction()
