@@ -205,6 +205,39 @@ octree_status octree_reworld(octree *tree, const octree_box *world);
  * Nodes and answers stay the same. Errors: NULL_ARGUMENT, NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_compact(octree *tree);
 
+/* ---- Follow ------------------------------------------------------------------------------------------------- */
+
+typedef enum octree_change_kind { OCTREE_INSERTED, OCTREE_REMOVED, OCTREE_MOVED } octree_change_kind;
+
+/* A change that was made. */
+typedef struct octree_change {
+    octree_change_kind kind;
+    uint64_t id;
+    double from[3], to[3]; /* by value; 0 where there is none */
+} octree_change;
+
+/* Where somebody has got to in the changes of a tree. All zero: nowhere yet. */
+typedef struct octree_mark {
+    size_t log;
+    uint64_t at;
+} octree_mark;
+
+typedef void (*octree_change_visitor)(const octree_change *change, void *context);
+
+/* Visit the changes of the contents since a mark was set, in the order in which they were made, those of a batch in the
+ * order given, and set the mark to now. False, with nothing visited, where they are not known: then look at the whole
+ * tree; from the new mark on the tree keeps its changes, so that the next call can tell them. They are not known with a
+ * mark that is zero or another tree's; after octree_clear, octree_tune, octree_reworld and octree_compact; when memory
+ * was short; and when they were more than a quarter of the points (or 1024) since anybody asked: the tree then keeps
+ * none until it is asked again. `name` is that of the log where the tree has none yet: not 0, and one that nobody else
+ * gives, say at random; it tells a tree from one that came to its address later.
+ *
+ * A tree that nobody asks keeps nothing. It may be asked beside queries and from many threads, each with a mark of its
+ * own. False for null. Cost: O(changes visited); of a change that is kept 64 bytes, up to four times as many while it
+ * grows, and some nanoseconds. */
+bool octree_changes_since(const octree *tree, size_t name, octree_mark *mark, octree_change_visitor visit,
+                          void *context);
+
 /* ---- Ask ---------------------------------------------------------------------------------------------------- */
 
 /* Called with each point that answers a query. The point is owned by the tree and valid during the call. Return

@@ -108,6 +108,8 @@ enum { FEW = 20 }; /* as many times more points are stored than a few */
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted)
 {
+    if (tree && change_log_is_on(&tree->changes))
+        return change_log_batch(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
     const bool is_few = tree && points && count > 0 && count < tree->root.count / FEW &&
                         count <= UINT32_MAX - tree->root.count && float_mode_is_default();
     const octree_status status = (is_few ? insert_few : insert_all)(tree, points, count, statuses, inserted);
@@ -147,6 +149,8 @@ static octree_status remove_valid(batch *b)
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed)
 {
+    if (tree && change_log_is_on(&tree->changes))
+        return change_log_batch(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
     octree_status status = batch_begin(&b);
     if (status == OCTREE_OK)
@@ -314,6 +318,8 @@ static octree_status move_valid(batch *b)
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved)
 {
+    if (tree && change_log_is_on(&tree->changes))
+        return change_log_batch(tree, OCTREE_MOVED, points, to, count, statuses, moved);
     if (count && !to)
         return OCTREE_NULL_ARGUMENT;
     batch b = {.tree = tree, .points = points, .to = to, .count = count, .statuses = statuses};

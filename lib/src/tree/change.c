@@ -184,6 +184,8 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
         return status;
     const octree_status inserted =
         insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id}, true);
+    if (change_log_is_on(&tree->changes) && inserted == OCTREE_OK)
+        change_log_add(tree, OCTREE_INSERTED, id, NULL, position);
     tune_if_due(tree);
     return inserted;
 }
@@ -255,6 +257,8 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
     if (!reserve_merge(tree, &found, &spare))
         return OCTREE_NO_MEMORY;
     remove_found(tree, &found, &spare);
+    if (change_log_is_on(&tree->changes))
+        change_log_add(tree, OCTREE_REMOVED, id, position, NULL);
     return OCTREE_OK;
 }
 
@@ -279,7 +283,7 @@ static octree_status move_across(octree *tree, const found_point *found, const o
     return OCTREE_OK;
 }
 
-octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
+static octree_status move_point(octree *tree, const double from[3], uint64_t id, const double to[3])
 {
     octree_status status = check_position(tree, from);
     if (status == OCTREE_OK)
@@ -299,4 +303,12 @@ octree_status octree_move(octree *tree, const double from[3], uint64_t id, const
     leaf_replace(path_end(&p), found.index, &moved);
     tree->version++;
     return OCTREE_OK;
+}
+
+octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
+{
+    const octree_status status = move_point(tree, from, id, to);
+    if (status == OCTREE_OK && change_log_is_on(&tree->changes))
+        change_log_add(tree, OCTREE_MOVED, id, from, to);
+    return status;
 }

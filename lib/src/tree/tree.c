@@ -92,6 +92,7 @@ octree_status octree_clear(octree *tree)
     node_release(&tree->store, &tree->root); /* hashed leaves are not in the pools */
     pool_release(&tree->store.nodes);
     pool_release(&tree->store.points);
+    change_log_stop(&tree->changes, &tree->store.memory);
     tree->root = (node){0};
     tree->tuning.due = TUNE_LEAST;
     tree->version++;
@@ -138,6 +139,8 @@ static octree_status fill(octree *tree, const octree_point *points, size_t count
 /* Two trees of one allocator exchange their contents; `tree` keeps its own tuning and counts a change. */
 static void exchange(octree *tree, octree *other)
 {
+    change_log_stop(&tree->changes, &tree->store.memory);
+    other->changes.first = other->changes.next = tree->changes.next;
     const octree old = *tree;
     *tree = *other;
     *other = old;

@@ -7,6 +7,7 @@
 #ifndef OCTREE_TREE_H
 #define OCTREE_TREE_H
 
+#include "change_log.h"
 #include "leaf.h"
 #include "plane.h"
 
@@ -22,6 +23,7 @@ struct octree {
     axis axes[3];
     double scale; /* the power of two that brings the world's extent near 1 (metric.h) */
     uint64_t version;
+    change_log changes;
     tuning tuning;
     node root;
     store store;

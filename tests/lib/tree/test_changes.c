@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: MIT */
+/* test_changes.c - who follows a tree by its changes has its contents, whatever was done to it, or is told to look. */
+#include "fixture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "brute.h"
+#include "counting_allocator.h"
+
+/* Somebody who keeps a copy of a tree's contents. */
+typedef struct follower {
+    octree_mark mark;
+    size_t name;
+    brute copy;
+    size_t told, looked; /* how often each way was taken */
+    size_t changes;      /* that were told */
+} follower;
+
+static void take_change(const octree_change *c, void *context)
+{
+    follower *f = context;
+    f->changes++;
+    if (c->kind != OCTREE_INSERTED)
+        assert_true(brute_remove(&f->copy, c->from, c->id));
+    if (c->kind != OCTREE_REMOVED)
+        brute_insert(&f->copy, c->to, c->id);
+}
+
+static brute contents_of(const octree *tree)
+{
+    brute all = {0};
+    const octree_box world = octree_definition(tree).world;
+    assert_int_equal(octree_range(tree, &world, brute_collect, &all), OCTREE_OK);
+    return all;
+}
+
+static bool follow(follower *f, const octree *tree)
+{
+    const bool known = octree_changes_since(tree, f->name, &f->mark, take_change, f);
+    brute now = contents_of(tree);
+    if (known) {
+        assert_true(brute_equal(&f->copy, &now));
+        brute_free(&now);
+        f->told++;
+        return true;
+    }
+    brute_free(&f->copy);
+    f->copy = now;
+    f->looked++;
+    return false;
+}
+
+static void ignore_change(const octree_change *c, void *context)
+{
+    (void)c, (void)context;
+    fail_msg("a change is told that is not known");
+}
+
+/* ---- Random changes ----------------------------------------------------------------------------------------- */
+
+enum { BATCH = 40 };
+
+typedef struct play {
+    octree *tree;
+    uint64_t random, next_id;
+} play;
+
+static void random_place(play *p, double at[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        at[axis] = (double)random_below(&p->random, 65) - 32;
+    if (random_below(&p->random, 30) == 0)
+        at[0] = 1000; /* outside: refused */
+}
+
+/* Some that are stored, some that are not, some twice. */
+static size_t random_batch(play *p, octree_point points[BATCH], double to[BATCH][3])
+{
+    brute all = contents_of(p->tree);
+    const size_t count = random_below(&p->random, BATCH);
+    for (size_t i = 0; i < count; i++) {
+        points[i].id = p->next_id++;
+        random_place(p, points[i].position);
+        random_place(p, to[i]);
+        if (all.count && random_below(&p->random, 6))
+            points[i] = all.points[random_below(&p->random, all.count)];
+        if (i && random_below(&p->random, 8) == 0)
+            points[i] = points[i - 1];
+    }
+    brute_free(&all);
+    return count;
+}
+
+static void change_many(play *p)
+{
+    octree_point points[BATCH];
+    double to[BATCH][3];
+    octree_status own[BATCH], *statuses = random_below(&p->random, 2) ? own : NULL;
+    const size_t count = random_batch(p, points, to);
+    switch (random_below(&p->random, 4)) {
+    case 0:
+        assert_int_equal(octree_remove_many(p->tree, points, count, statuses, NULL), OCTREE_OK);
+        break;
+    case 1:
+        assert_int_equal(octree_move_many(p->tree, points, (const double(*)[3])to, count, statuses, NULL), OCTREE_OK);
+        break;
+    default:
+        for (size_t i = 0; i < count; i++)
+            memcpy(points[i].position, to[i], sizeof to[i]);
+        assert_int_equal(octree_insert_many(p->tree, points, count, statuses, NULL), OCTREE_OK);
+    }
+}
+
+static void change_one(play *p)
+{
+    octree_point points[BATCH];
+    double to[BATCH][3];
+    const size_t count = random_batch(p, points, to);
+    for (size_t i = 0; i < count; i++)
+        switch (random_below(&p->random, 3)) {
+        case 0:
+            octree_remove(p->tree, points[i].position, points[i].id);
+            break;
+        case 1:
+            octree_move(p->tree, points[i].position, points[i].id, to[i]);
+            break;
+        default:
+            octree_insert(p->tree, to[i], points[i].id);
+        }
+}
+
+/* What changes all of the tree, or only how it is stored. */
+static void change_all(play *p)
+{
+    const octree_box world = cube(-40, 40);
+    switch (random_below(&p->random, 4)) {
+    case 0:
+        octree_clear(p->tree);
+        break;
+    case 1:
+        octree_compact(p->tree);
+        break;
+    case 2:
+        octree_reworld(p->tree, &world);
+        break;
+    default:
+        octree_tune(p->tree, NULL);
+    }
+}
+
+static void followers_have_the_contents_after_random_changes(void **state)
+{
+    (void)state;
+    size_t told = 0, looked = 0;
+    for (uint64_t seed = 0; seed < 8; seed++) {
+        octree_def def = define(cube(-32, 32), seed % 2 ? OCTREE_AUTO : 4, 6, OCTREE_GROW);
+        play p = {.random = seed};
+        follower f[2] = {{.name = 1}, {.name = 2}};
+        assert_int_equal(octree_create(&def, &p.tree), OCTREE_OK);
+        for (int round = 0; round < 150; round++) {
+            const uint64_t kind = random_below(&p.random, 40);
+            (kind == 0 ? change_all : kind < 20 ? change_many : change_one)(&p);
+            follow(&f[0], p.tree);
+            if (random_below(&p.random, 3) == 0)
+                follow(&f[1], p.tree);
+        }
+        for (int i = 0; i < 2; i++) {
+            told += f[i].told;
+            looked += f[i].looked;
+            brute_free(&f[i].copy);
+        }
+        octree_destroy(p.tree);
+    }
+    assert_true(looked > 20);
+    assert_true(told > 10 * looked);
+}
+
+/* A refusal by a full leaf is no change, and what a batch refuses neither. */
+static void what_is_refused_is_no_change(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 1, 0, OCTREE_REFUSE);
+    follower f = {.name = 1};
+    const octree_point two[2] = {{{0, 0, 0}, 1}, {{0.5, 0, 0}, 2}};
+    assert_false(follow(&f, tree));
+    assert_int_equal(octree_insert_many(tree, two, 2, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_insert(tree, two[1].position, 2), OCTREE_FULL);
+    assert_int_equal(octree_remove(tree, two[1].position, 2), OCTREE_NOT_FOUND);
+    assert_int_equal(octree_move(tree, two[1].position, 2, two[0].position), OCTREE_NOT_FOUND);
+    assert_true(follow(&f, tree));
+    assert_int_equal(f.changes, 1);
+    brute_free(&f.copy);
+    octree_destroy(tree);
+}
+
+/* ---- What is not known -------------------------------------------------------------------------------------- */
+
+static void nothing_is_known_without_a_mark_or_a_name(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
+    octree_mark mark = {0}, other = {0};
+    assert_false(octree_changes_since(NULL, 1, &mark, ignore_change, NULL));
+    assert_false(octree_changes_since(tree, 0, &mark, ignore_change, NULL));
+    assert_false(octree_changes_since(tree, 1, NULL, ignore_change, NULL));
+    assert_false(octree_changes_since(tree, 1, &mark, NULL, NULL));
+    assert_false(octree_changes_since(tree, 1, &mark, ignore_change, NULL));
+    assert_true(octree_changes_since(tree, 1, &mark, ignore_change, NULL));
+    assert_false(octree_changes_since(tree, 2, &other, ignore_change, NULL));
+    assert_true(octree_changes_since(tree, 2, &other, ignore_change, NULL));
+    octree_destroy(tree);
+}
+
+/* Even where the other tree has as many changes: their logs have different names. */
+static void a_mark_of_another_tree_knows_nothing(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW), *other = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
+    octree_mark mark = {0}, fresh = {0};
+    assert_false(octree_changes_since(tree, 7, &mark, ignore_change, NULL));
+    assert_false(octree_changes_since(other, 8, &fresh, ignore_change, NULL));
+    const double at[3] = {0, 0, 0};
+    assert_int_equal(octree_insert(tree, at, 1), OCTREE_OK);
+    assert_int_equal(octree_insert(other, at, 2), OCTREE_OK);
+    assert_false(octree_changes_since(other, 7, &mark, ignore_change, NULL));
+    octree_destroy(tree);
+    octree_destroy(other);
+}
+
+static size_t memory_of(const octree *tree)
+{
+    octree_stats stats;
+    assert_int_equal(octree_statistics(tree, &stats), OCTREE_OK);
+    return stats.memory;
+}
+
+/* And from then on no memory is taken, nor is it while nobody asks. */
+static void too_many_changes_are_not_known(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
+    const octree_point point = {{0, 0, 0}, 1};
+    follower f = {.name = 1};
+    assert_int_equal(octree_insert(tree, point.position, point.id), OCTREE_OK);
+    const size_t memory = memory_of(tree);
+    for (int batch = 0; batch < 2; batch++) {
+        follow(&f, tree);
+        for (int i = 0; i < 512; i++) {
+            if (i == 1)
+                assert_true(memory_of(tree) > memory);
+            assert_int_equal(octree_move(tree, point.position, 1, point.position), OCTREE_OK);
+            assert_int_equal(octree_move(tree, point.position, 1, point.position), OCTREE_OK);
+        }
+        assert_true(follow(&f, tree));
+        for (int i = 0; i < 1025; i++)
+            assert_int_equal(octree_move(tree, point.position, 1, point.position), OCTREE_OK);
+        assert_int_equal(memory_of(tree), memory);
+        assert_false(follow(&f, tree));
+        assert_true(follow(&f, tree));
+    }
+    brute_free(&f.copy);
+    octree_destroy(tree);
+}
+
+/* Without memory for the log, a change is made all the same, and is not known. */
+static void a_log_without_memory_stands_in_no_ones_way(void **state)
+{
+    (void)state;
+    size_t unknown = 0;
+    for (size_t n = 0; n < 12; n++) {
+        counting_allocator counts = {0};
+        octree *tree = make_counted_tree(&counts, cube(-1, 1), 64, 5, OCTREE_GROW);
+        follower f = {.name = 1};
+        for (uint64_t id = 0; id < 12; id++)
+            assert_int_equal(octree_insert(tree, (double[3]){0, 0, 0}, id), OCTREE_OK);
+        follow(&f, tree);
+        counting_allocator_fail_at(&counts, n);
+        for (uint64_t id = 0; id < 12; id++) /* within its leaf: no move needs memory */
+            assert_int_equal(octree_move(tree, (double[3]){0, 0, 0}, id, (double[3]){0, 0, 0.001}), OCTREE_OK);
+        for (uint64_t id = 0; id < 12; id++)
+            assert_int_equal(octree_move(tree, (double[3]){0, 0, 0.001}, id, (double[3]){0, 0, 0}), OCTREE_OK);
+        counting_allocator_heal(&counts);
+        unknown += !follow(&f, tree);
+        brute_free(&f.copy);
+        octree_destroy(tree);
+        assert_all_returned(&counts);
+    }
+    assert_true(unknown >= 1 && unknown < 12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(followers_have_the_contents_after_random_changes),
+        cmocka_unit_test(what_is_refused_is_no_change),
+        cmocka_unit_test(nothing_is_known_without_a_mark_or_a_name),
+        cmocka_unit_test(a_mark_of_another_tree_knows_nothing),
+        cmocka_unit_test(too_many_changes_are_not_known),
+        cmocka_unit_test(a_log_without_memory_stands_in_no_ones_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
