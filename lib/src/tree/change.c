@@ -179,13 +179,13 @@ octree_status insert_point(octree *tree, const octree_point *point, bool divides
 
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 {
+    if (tree && change_log_is_on(&tree->changes))
+        return change_log_single(tree, OCTREE_INSERTED, position, id, position);
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
     const octree_status inserted =
         insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id}, true);
-    if (change_log_is_on(&tree->changes) && inserted == OCTREE_OK)
-        change_log_add(tree, OCTREE_INSERTED, id, NULL, position);
     tune_if_due(tree);
     return inserted;
 }
@@ -247,6 +247,8 @@ static void remove_found(octree *tree, const found_point *found, node *spare)
 
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 {
+    if (tree && change_log_is_on(&tree->changes))
+        return change_log_single(tree, OCTREE_REMOVED, position, id, position);
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
@@ -257,8 +259,6 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
     if (!reserve_merge(tree, &found, &spare))
         return OCTREE_NO_MEMORY;
     remove_found(tree, &found, &spare);
-    if (change_log_is_on(&tree->changes))
-        change_log_add(tree, OCTREE_REMOVED, id, position, NULL);
     return OCTREE_OK;
 }
 
@@ -283,8 +283,10 @@ static octree_status move_across(octree *tree, const found_point *found, const o
     return OCTREE_OK;
 }
 
-static octree_status move_point(octree *tree, const double from[3], uint64_t id, const double to[3])
+octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
 {
+    if (tree && change_log_is_on(&tree->changes))
+        return change_log_single(tree, OCTREE_MOVED, from, id, to);
     octree_status status = check_position(tree, from);
     if (status == OCTREE_OK)
         status = check_position(tree, to);
@@ -303,12 +305,4 @@ static octree_status move_point(octree *tree, const double from[3], uint64_t id,
     leaf_replace(path_end(&p), found.index, &moved);
     tree->version++;
     return OCTREE_OK;
-}
-
-octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
-{
-    const octree_status status = move_point(tree, from, id, to);
-    if (status == OCTREE_OK && change_log_is_on(&tree->changes))
-        change_log_add(tree, OCTREE_MOVED, id, from, to);
-    return status;
 }

@@ -51,24 +51,59 @@ static bool make_room(change_log *log, arena *memory)
     return true;
 }
 
-void change_log_add(octree *tree, octree_change_kind kind, uint64_t id, const double from[3], const double to[3])
+static void add_change(octree *tree, const octree_change *made)
 {
     change_log *log = &tree->changes;
     if (atomic_exchange_explicit(&log->asked, false, memory_order_relaxed))
         log->seen = log->next;
-    if (log->next - log->seen >= most_changes(tree) || !make_room(log, &tree->store.memory)) {
+    if (log->next - log->seen < most_changes(tree) && make_room(log, &tree->store.memory))
+        log->items[log->next++ & (log->room - 1)] = *made;
+    else
         change_log_stop(log, &tree->store.memory);
-        return;
-    }
-    octree_change *c = &log->items[log->next++ & (log->room - 1)];
-    *c = (octree_change){.kind = kind, .id = id};
-    if (kind != OCTREE_INSERTED)
-        memcpy(c->from, from, sizeof c->from);
-    if (kind != OCTREE_REMOVED)
-        memcpy(c->to, to, sizeof c->to);
 }
 
-/* ---- Batches ------------------------------------------------------------------------------------------------ */
+/* ---- Changes made ------------------------------------------------------------------------------------------------ */
+
+static size_t suspend(change_log *log)
+{
+    const size_t name = atomic_load_explicit(&log->name, memory_order_relaxed);
+    atomic_store_explicit(&log->name, 0, memory_order_relaxed);
+    return name;
+}
+
+static void resume(change_log *log, size_t name)
+{
+    atomic_store_explicit(&log->name, name, memory_order_relaxed);
+}
+
+static octree_status make_change(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
+                                 const double to[3])
+{
+    switch (kind) {
+    case OCTREE_INSERTED:
+        return octree_insert(tree, to, id);
+    case OCTREE_REMOVED:
+        return octree_remove(tree, from, id);
+    default:
+        return octree_move(tree, from, id, to);
+    }
+}
+
+octree_status change_log_single(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
+                                const double to[3])
+{
+    octree_change made = {.kind = kind, .id = id}; /* a copy: the places may be the tree's own */
+    if (from && kind != OCTREE_INSERTED)
+        memcpy(made.from, from, sizeof made.from);
+    if (to && kind != OCTREE_REMOVED)
+        memcpy(made.to, to, sizeof made.to);
+    const size_t name = suspend(&tree->changes);
+    const octree_status status = make_change(tree, kind, from, id, to);
+    resume(&tree->changes, name);
+    if (status == OCTREE_OK)
+        add_change(tree, &made);
+    return status;
+}
 
 static octree_status make_batch(octree *tree, octree_change_kind kind, const octree_point *points,
                                 const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
@@ -86,31 +121,53 @@ static octree_status make_batch(octree *tree, octree_change_kind kind, const oct
 static void note_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
                        size_t count, const octree_status *statuses)
 {
-    for (size_t i = 0; i < count && change_log_is_on(&tree->changes); i++)
+    for (size_t i = 0; i < count && change_log_is_on(&tree->changes); i++) {
+        octree_change made = {.kind = kind, .id = points[i].id};
+        if (kind != OCTREE_INSERTED)
+            memcpy(made.from, points[i].position, sizeof made.from);
+        if (kind != OCTREE_REMOVED)
+            memcpy(made.to, kind == OCTREE_MOVED ? to[i] : points[i].position, sizeof made.to);
         if (statuses[i] == OCTREE_OK)
-            change_log_add(tree, kind, points[i].id, points[i].position,
-                           kind == OCTREE_MOVED ? to[i] : points[i].position);
+            add_change(tree, &made);
+    }
+}
+
+/* What a batch was: its points may be the tree's own, and the caller may want no statuses. */
+typedef struct batch_copy {
+    octree_point *points;
+    octree_status *statuses;
+    size_t count;
+} batch_copy;
+
+/* None without memory, and none of too many. */
+static batch_copy copy_batch(octree *tree, const octree_point *points, size_t count)
+{
+    arena *memory = &tree->store.memory;
+    if (!points || count == 0 || count > most_changes(tree))
+        return (batch_copy){0};
+    batch_copy made = {arena_take(memory, count * sizeof *points), arena_take(memory, count * sizeof *made.statuses),
+                       count};
+    if (made.points)
+        memcpy(made.points, points, count * sizeof *points);
+    return made;
 }
 
 octree_status change_log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
                                size_t count, octree_status *statuses, size_t *done)
 {
-    change_log *log = &tree->changes;
     arena *memory = &tree->store.memory;
-    const size_t name = atomic_load_explicit(&log->name, memory_order_relaxed);
     const uint64_t version = tree->version;
-    octree_status *own = NULL;
-    if (!statuses && count > 0 && count <= most_changes(tree))
-        own = arena_take(memory, count * sizeof *own);
-    octree_status *told = statuses ? statuses : own;
-    atomic_store_explicit(&log->name, 0, memory_order_relaxed);
+    const batch_copy own = copy_batch(tree, points, count);
+    octree_status *told = statuses ? statuses : own.statuses;
+    const size_t name = suspend(&tree->changes);
     const octree_status status = make_batch(tree, kind, points, to, count, told, done);
-    atomic_store_explicit(&log->name, name, memory_order_relaxed);
-    if (tree->version != version && told && count <= most_changes(tree))
-        note_batch(tree, kind, points, to, count, told);
+    resume(&tree->changes, name);
+    if (tree->version != version && own.points && told)
+        note_batch(tree, kind, own.points, to, count, told);
     else if (tree->version != version)
-        change_log_stop(log, memory);
-    arena_give(memory, own, count * sizeof *own);
+        change_log_stop(&tree->changes, memory);
+    arena_give(memory, own.points, own.count * sizeof *own.points);
+    arena_give(memory, own.statuses, own.count * sizeof *own.statuses);
     return status;
 }
 

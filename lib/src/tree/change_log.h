@@ -26,11 +26,12 @@ static inline bool change_log_is_on(const change_log *log)
     return atomic_load_explicit(&log->name, memory_order_relaxed) != 0;
 }
 
-/* Note a change that was made. */
-void change_log_add(octree *tree, octree_change_kind kind, uint64_t id, const double from[3], const double to[3]);
+/* Make a change of this kind by octree_insert(), octree_remove() or octree_move(), which find the log off meanwhile,
+ * and note it. What has one place alone is given it twice. */
+octree_status change_log_single(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
+                                const double to[3]);
 
-/* Make a batch of this kind, octree_insert_many() and its like, which finds the log off meanwhile, and note what it
- * changed. */
+/* The same of a batch, by octree_insert_many() and its like. */
 octree_status change_log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
                                size_t count, octree_status *statuses, size_t *done);
 

@@ -194,6 +194,27 @@ static void what_is_refused_is_no_change(void **state)
     octree_destroy(tree);
 }
 
+/* As from a node that was looked at. */
+static void a_point_may_be_removed_by_its_place_in_the_tree(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
+    follower f = {.name = 1};
+    octree_node leaf;
+    assert_int_equal(octree_insert(tree, (double[3]){0, 0, 0}, 1), OCTREE_OK);
+    assert_int_equal(octree_insert(tree, (double[3]){0.5, 0, 0}, 2), OCTREE_OK);
+    assert_int_equal(octree_insert(tree, (double[3]){0.75, 0, 0}, 3), OCTREE_OK);
+    follow(&f, tree);
+    assert_int_equal(octree_node_at(tree, OCTREE_ROOT, &leaf), OCTREE_OK);
+    assert_int_equal(octree_remove(tree, leaf.points[0].position, leaf.points[0].id), OCTREE_OK);
+    assert_true(follow(&f, tree));
+    assert_int_equal(octree_node_at(tree, OCTREE_ROOT, &leaf), OCTREE_OK);
+    assert_int_equal(octree_remove_many(tree, leaf.points, 1, NULL, NULL), OCTREE_OK);
+    assert_true(follow(&f, tree));
+    brute_free(&f.copy);
+    octree_destroy(tree);
+}
+
 /* ---- What is not known -------------------------------------------------------------------------------------- */
 
 static void nothing_is_known_without_a_mark_or_a_name(void **state)
@@ -294,6 +315,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(followers_have_the_contents_after_random_changes),
         cmocka_unit_test(what_is_refused_is_no_change),
+        cmocka_unit_test(a_point_may_be_removed_by_its_place_in_the_tree),
         cmocka_unit_test(nothing_is_known_without_a_mark_or_a_name),
         cmocka_unit_test(a_mark_of_another_tree_knows_nothing),
         cmocka_unit_test(too_many_changes_are_not_known),
