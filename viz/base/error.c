@@ -29,7 +29,13 @@ bool error_no_memory(octreel_error *error)
     return error_set(error, "there is no memory");
 }
 
-bool memory_sufficed(octreel_error *error)
+bool system_served(octreel_error *error)
 {
-    return errno != ENOMEM || error_no_memory(error);
+    static const int troubles[] = {EIO, EMFILE, ENFILE, ENOSPC, EDQUOT, EINTR};
+    if (errno == ENOMEM)
+        return error_no_memory(error);
+    for (size_t i = 0; i < sizeof troubles / sizeof *troubles; i++)
+        if (errno == troubles[i])
+            return error_set(error, "a file cannot be read: %s", strerror(errno));
+    return true;
 }

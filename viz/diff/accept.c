@@ -140,8 +140,8 @@ static bool decide(accepting *a, octreel_error *error)
         return error_no_memory(error);
     for (size_t i = 0; i < a->result.count; i++) {
         diff_pair *pair = &a->result.pairs[i];
-        if (pair->no_memory)
-            return error_no_memory(error);
+        if (pair->unserved)
+            return pair->trouble ? error_set(error, "%s", pair->trouble) : error_no_memory(error);
         a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair) : KEPT;
         a->counts[a->actions[i]]++;
         if ((a->actions[i] == CHANGED || a->actions[i] == ADDED) && !check_frame(a, pair, error))

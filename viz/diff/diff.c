@@ -163,7 +163,7 @@ static bool compare_bytes(diff_pair *pair)
 static void find_unreadable(diff_pair *pair, const octreel_error *error)
 {
     octreel_error ignored;
-    pair->no_memory = !memory_sufficed(&ignored);
+    pair->unserved = !system_served(&ignored);
     pair->finding = FOUND_UNREADABLE;
     pair->trouble = strdup(error->text); /* null without memory: reports say so */
 }
@@ -381,7 +381,7 @@ static bool compare_ticks(const diff_side *a, const diff_side *b, diff_result *r
     errno = 0;
     result->by_ticks = true;
     result->verdict = ok && same_bytes(paths[0], paths[1]) ? DIFF_SAME : DIFF_DIFFERENT;
-    ok = ok && (result->verdict == DIFF_SAME || memory_sufficed(error));
+    ok = ok && (result->verdict == DIFF_SAME || system_served(error));
     free(paths[0]);
     free(paths[1]);
     return ok;

@@ -61,7 +61,7 @@ typedef struct diff_pair {
     pixel_mask mask;             /* what the layers that are left out cover */
     char *trouble;               /* the error of what is unreadable; owned */
     char *no_picture;            /* why the store has none of the reference; owned */
-    bool no_memory;              /* it may be readable */
+    bool unserved;               /* by the system: it may be readable */
 } diff_pair;
 
 typedef struct diff_result {

@@ -95,7 +95,7 @@ static bool check_first_frame(verifying *v, octreel_error *error)
         check_size(v, path);
     }
     free(path);
-    return memory_sufficed(error);
+    return system_served(error);
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
@@ -193,7 +193,7 @@ static bool check_tick(void *context, const film_step *step, octreel_error *erro
     bool ok = check_line(v, step, error);
     if (ok && !v->stopped && step->filmed)
         ok = check_frame(v, step, error);
-    if (ok && v->stopped && !memory_sufficed(error))
+    if (ok && v->stopped && !system_served(error))
         v->stopped = ok = false;
     if (!ok || v->stopped)
         return false;
@@ -284,10 +284,11 @@ static bool verify_all(verifying *v, octreel_error *error)
         return false;
     v->filmed_session = v->replay.session_digest;
     v->report->has_frames = v->replay.film.every > 0;
+    errno = 0;
     if (v->report->has_frames)
         who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
-    return (!v->report->has_frames || check_first_frame(v, error)) && (v->stopped || play_again(v, error)) &&
-           check_extra_frames(v, error);
+    return system_served(error) && (!v->report->has_frames || check_first_frame(v, error)) &&
+           (v->stopped || play_again(v, error)) && check_extra_frames(v, error);
 }
 
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error)

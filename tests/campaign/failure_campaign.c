@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* memory_campaign.c - each allocation of each command failed in turn, of those that are not Mesa's own.
+/* failure_campaign.c - each allocation and each call of the system of each command failed in turn, of those that are
+ * not Mesa's own; a call by each error in turn, among them a full disk, and less than was asked for.
  *
- * A command that has no memory ends with status 2 and one sentence, or, where it can do without, as if it had had it.
- * Where frames differ the verdict stands, and why they do may be told in less detail.
+ * A command that meets trouble ends with status 2 and one sentence, or, where it can do without, as if there had been
+ * none. Where frames differ the verdict stands, and why they do may be told in less detail.
  * It is ended by no signal, does not hang, and leaves under their final names only files that were there before or
- * that it writes when it has memory. */
+ * that it writes without trouble. */
+#include <errno.h>
 #include <getopt.h>
 #include <inttypes.h>
 #include <stdint.h>
@@ -18,7 +20,7 @@
 #include "fixture.h"
 #include "program.h"
 
-const char program_name[] = "octreel-memory-campaign";
+const char program_name[] = "octreel-failure-campaign";
 
 enum { MOST = 100000, MOST_FINDINGS = 10, VERDICT = 20 /* bytes that hold it, of what diff says */ };
 
@@ -69,19 +71,29 @@ static const struct {
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-/* Of the command line: of all allocations, from the first on every so many-th. */
+/* What fails: its name here, that of its number for what is preloaded, and by which errors. */
+static const struct family {
+    const char *name, *variable;
+    int errors[4], error_count;
+} families[] = {
+    {"memory", "FAIL_MEMORY", {ENOMEM}, 1},
+    {"calls", "FAIL_CALL", {EIO, ENOSPC, EMFILE, EINTR}, 4},
+};
+
+enum { FAMILIES = sizeof families / sizeof families[0] };
+
+/* Of the command line: of all that can fail, from the first on every so many-th. */
 static struct {
     uint64_t first, every;
-    const char *only; /* command; null: all */
-} asked = {1, 1, NULL};
+    const char *only, *of; /* command and family; null: all */
+} asked = {1, 1, NULL, NULL};
 
 static void read_options(int argc, char **argv)
 {
-    static const struct option known[] = {{"first", required_argument, NULL, 'f'},
-                                          {"every", required_argument, NULL, 'e'},
-                                          {"command", required_argument, NULL, 'c'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {0}};
+    static const struct option known[] = {
+        {"first", required_argument, NULL, 'f'},   {"every", required_argument, NULL, 'e'},
+        {"command", required_argument, NULL, 'c'}, {"of", required_argument, NULL, 'o'},
+        {"help", no_argument, NULL, 'h'},          {0}};
     for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
         switch (option) {
         case 'f':
@@ -93,10 +105,13 @@ static void read_options(int argc, char **argv)
         case 'c':
             asked.only = optarg;
             break;
+        case 'o':
+            asked.of = optarg;
+            break;
         case 'h':
-            puts("usage: octreel-memory-campaign [--first N] [--every N] [--command NAME]\n"
-                 "Fail the first, or N-th, allocation of octreel's commands in turn, and of those behind it each, or\n"
-                 "each N-th. Exit status: 0 no findings, 1 findings, 2 trouble.");
+            puts("usage: octreel-failure-campaign [--of memory|calls] [--first N] [--every N] [--command NAME]\n"
+                 "Fail the first, or N-th, allocation and call of the system of octreel's commands in turn, and of\n"
+                 "those behind it each, or each N-th. Exit status: 0 no findings, 1 findings, 2 trouble.");
             for (size_t i = 0; i < COMMANDS; i++)
                 printf("  %-17s octreel %s\n", commands[i].name, commands[i].line);
             finish(EXIT_DONE);
@@ -109,13 +124,14 @@ static void read_options(int argc, char **argv)
 
 /* ---- One run --------------------------------------------------------------------------------------------------- */
 
-/* In "<folder>/run", a new copy of "<folder>/given", with `what` failing from n on; 0: nothing fails. */
-static command_result run_one(const char *folder, const char *line, const char *what, uint64_t n)
+/* In "<folder>/run", a new copy of "<folder>/given", where the n-th of what the variable names fails; 0: nothing does.
+ */
+static command_result run_one(const char *folder, const char *line, const char *variable, uint64_t n, int error)
 {
     return run_script(
         "unset CI; cd %s && rm -rf run failed && cp -r given run && cd run && FAILED=../failed %s=%" PRIu64
-        " LD_PRELOAD=../memory.so %s %s",
-        folder, what, n, octreel_program(), line);
+        " FAIL_ERROR=%d LD_PRELOAD=../failing.so %s %s",
+        folder, variable, n, error, octreel_program(), line);
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -133,8 +149,8 @@ static bool may_be_anything(const char *name)
            strcmp(name, "renderer.json") == 0;
 }
 
-/* `whole` is null where there is none with memory. Lines are added to a log, and pages and reports tell what there is:
- * each may be shorter than with memory. So may be the session of a stream, which frames name. */
+/* `whole` is null where there is none without trouble. Lines are added to a log, and pages and reports tell what there
+ * is: each may be shorter than without trouble. So may be the session of a stream, which frames name. */
 static bool is_whole_so_far(const char *name, const char *bytes, size_t size, const char *whole)
 {
     if (ends_with(name, ".png"))
@@ -159,7 +175,8 @@ static bool is_same(const char *path, const char *bytes, size_t size)
     return same;
 }
 
-/* Each final file is as before or as with memory. Returns the first that is not, below the folder; or an empty text. */
+/* Each final file is as before or as without trouble. Returns the first that is not, below the folder; or an empty
+ * text. */
 static place find_torn(const char *folder, const char *below)
 {
     place torn = {""};
@@ -200,7 +217,7 @@ static bool is_one_sentence(const char *said)
     return strncmp(said, "octreel: ", 9) == 0 && end && end[1] == 0;
 }
 
-/* Why a run is wrong; null where it is not. `without` had all memory. */
+/* Why a run is wrong; null where it is not. `without` met no trouble. */
 static const char *judge(const command_result *run, const command_result *without, const char *torn)
 {
     if (run->status >= 128)
@@ -212,44 +229,52 @@ static const char *judge(const command_result *run, const command_result *withou
     if (run->status == without->status)
         return ends_with(run->err, without->err) && strcmp(run->out, without->out) == 0 ? NULL : "said something else";
     if (run->status != EXIT_TROUBLE)
-        return "found what it had no memory to find";
+        return "found what it could not find";
     return is_one_sentence(run->err) ? NULL : "did not say one sentence";
 }
 
 /* What was done there, and said. */
-static void tell(const char *folder, const char *name, uint64_t n, const command_result *run, const char *why)
+static void tell(const char *folder, const char *name, const char *variable, uint64_t n, int error,
+                 const command_result *run, const char *why)
 {
     char path[600];
     snprintf(path, sizeof path, "%s/failed", folder);
     char *calls = file_read(path, NULL);
-    printf("%s: without its allocation %" PRIu64 " it %s: status %d, \"%s\"\n%s", name, n, why, run->status, run->err,
-           calls);
+    printf("%s: with %s=%" PRIu64 " and \"%s\" it %s: status %d, \"%s\"\n%s", name, variable, n, strerror(error), why,
+           run->status, run->err, calls);
     fflush(stdout);
     free(calls);
 }
 
+/* Returns whether there was an n-th. */
+static bool fail_one(const char *folder, size_t command, const struct family *family, uint64_t n, int error,
+                     const command_result *without, size_t *findings)
+{
+    char failed[600];
+    command_result run = run_one(folder, commands[command].line, family->variable, n, error);
+    snprintf(failed, sizeof failed, "%s/failed", folder);
+    const bool there = file_exists(failed);
+    const place torn = there ? find_torn(folder, "") : (place){""};
+    const char *why = there ? judge(&run, without, torn.path) : NULL;
+    if (why && (*findings)++ < MOST_FINDINGS)
+        tell(folder, *torn.path ? torn.path : commands[command].name, family->variable, n, error, &run, why);
+    command_release(&run);
+    return there;
+}
+
 /* Returns how many were wrong. */
-static size_t fail_each(const char *folder, const char *name, const char *line)
+static size_t fail_each(const char *folder, size_t command, const struct family *family)
 {
     size_t findings = 0, runs = 0;
-    command_result without = run_one(folder, line, "FAIL_MEMORY", 0);
+    command_result without = run_one(folder, commands[command].line, family->variable, 0, 0);
     const command_result kept = run_script("cd %s && rm -rf whole && mv run whole", folder);
     assert_int_equal(kept.status, 0);
     assert_true(without.status <= 1);
-    for (uint64_t n = asked.first; n <= MOST; n += asked.every, runs++) {
-        char failed[600];
-        command_result run = run_one(folder, line, "FAIL_MEMORY", n);
-        snprintf(failed, sizeof failed, "%s/failed", folder);
-        const bool there = file_exists(failed);
-        const place torn = there ? find_torn(folder, "") : (place){""};
-        const char *why = there ? judge(&run, &without, torn.path) : NULL;
-        if (why && findings++ < MOST_FINDINGS)
-            tell(folder, *torn.path ? torn.path : name, n, &run, why);
-        command_release(&run);
-        if (!there)
-            break;
-    }
-    printf("%-17s %zu allocations failed, %zu findings\n", name, runs, findings);
+    bool there = true;
+    for (uint64_t n = asked.first; n <= MOST && there; n += asked.every)
+        for (int i = 0; i < family->error_count && there; i++, runs += there)
+            there = fail_one(folder, command, family, n, family->errors[i], &without, &findings);
+    printf("%-17s %5zu failures of %-6s %zu findings\n", commands[command].name, runs, family->name, findings);
     assert_true(runs > 0 || asked.first > MOST);
     fflush(stdout);
     command_release(&without);
@@ -259,22 +284,24 @@ static size_t fail_each(const char *folder, const char *name, const char *line)
 /* No path with a blank can be preloaded: the library is copied, and named from where a command runs. */
 static void prepare(const temp_folder *own)
 {
-    const shell_word library = shell_quote(OCTREEL_FAILING_MEMORY);
+    const shell_word library = shell_quote(OCTREEL_FAILING);
     command_result made =
-        run_script("octreel=%s; cd %s && cp %s memory.so && %s", octreel_program(), own->name, library.text, PREPARE);
+        run_script("octreel=%s; cd %s && cp %s failing.so && %s", octreel_program(), own->name, library.text, PREPARE);
     if (made.status != 0)
         fail_msg("%s", made.err);
     command_release(&made);
 }
 
-static void no_memory_is_trouble_and_leaves_nothing_torn(void **state)
+static void a_failure_is_trouble_and_leaves_nothing_torn(void **state)
 {
     const temp_folder *own = *state;
     size_t findings = 0;
     prepare(own);
-    for (size_t i = 0; i < COMMANDS; i++)
-        if (!asked.only || strcmp(asked.only, commands[i].name) == 0)
-            findings += fail_each(own->name, commands[i].name, commands[i].line);
+    for (size_t of = 0; of < FAMILIES; of++)
+        for (size_t i = 0; i < COMMANDS; i++)
+            if ((!asked.only || strcmp(asked.only, commands[i].name) == 0) &&
+                (!asked.of || strcmp(asked.of, families[of].name) == 0))
+                findings += fail_each(own->name, i, &families[of]);
     assert_int_equal(findings, 0);
 }
 
@@ -286,9 +313,9 @@ static void threads_that_cannot_be_started_are_done_without(void **state)
     const temp_folder *own = *state;
     prepare(own);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        command_result with = run_one(own->name, lines[i], "FAIL_THREAD", 0);
+        command_result with = run_one(own->name, lines[i], "FAIL_THREAD", 0, 0);
         for (uint64_t n = 1; n <= 2; n++) {
-            command_result without = run_one(own->name, lines[i], "FAIL_THREAD", n);
+            command_result without = run_one(own->name, lines[i], "FAIL_THREAD", n, 0);
             assert_true(file_exists(place_in(own, "failed").path) || n > 1 || i == 2);
             assert_int_equal(without.status, 0);
             assert_string_equal(without.out, with.out);
@@ -307,7 +334,7 @@ int main(int argc, char **argv)
 {
     read_options(argc, argv);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(no_memory_is_trouble_and_leaves_nothing_torn, make_folder,
+        cmocka_unit_test_setup_teardown(a_failure_is_trouble_and_leaves_nothing_torn, make_folder,
                                         nested_folder_remove),
         cmocka_unit_test_setup_teardown(threads_that_cannot_be_started_are_done_without, make_folder,
                                         nested_folder_remove),

@@ -1,0 +1,348 @@
+/* SPDX-License-Identifier: MIT */
+/* failing.c - preloaded into a program: the n-th allocation or call of the system that it makes itself fails, or each
+ * thread from the n-th on.
+ *
+ * FAIL_MEMORY, FAIL_CALL or FAIL_THREAD is n, and FAIL_ERROR the errno of a call. What fails makes the file FAILED,
+ * with the calls that led to it. An allocation or call is the program's own where the first code on the way to it that
+ * is not of HELPERS is the program's: what the C library, libpng and jansson need for it counts, and what Mesa and the
+ * loader of libraries need does not, which end a program where they please. A program that hangs is ended.
+ *
+ * A stream whose transfer fails is given another file below it, which takes or gives nothing: what was written before
+ * is there, what is still in its buffer is lost, and whoever closes it learns of it, as on a full disk.
+ */
+#define _GNU_SOURCE
+#include <dirent.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <execinfo.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { CALLS = 64, PAGES = 4096, PATIENCE = 60 /* seconds */ };
+
+static const char *const HELPERS[] = {"libc.", "libm.", "libpng", "libz.", "libjansson", "liblzf", "failing."};
+static const char *const OWN[] = {"octreel", "liboctree"}; /* how names of the program's own files begin */
+
+typedef enum owner { UNKNOWN, PROGRAM, HELPER, OTHER } owner;
+
+/* Which fails, and how many there were. */
+typedef struct nth {
+    unsigned long at; /* 0: none */
+    bool all_later;
+    atomic_ulong count;
+} nth;
+
+static nth memory, call, thread = {.all_later = true};
+static int call_error = EIO;
+static const char *failed;
+static bool ready;
+static _Thread_local bool inside;
+
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *old, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
+
+/* ---- Whose ---------------------------------------------------------------------------------------------------- */
+
+static bool begins_with_any(const char *name, const char *const *words, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(name, words[i], strlen(words[i])) == 0)
+            return true;
+    return false;
+}
+
+static owner look_up(const void *code)
+{
+    Dl_info info;
+    if (!dladdr(code, &info) || !info.dli_fname)
+        return OTHER;
+    const char *slash = strrchr(info.dli_fname, '/'), *name = slash ? slash + 1 : info.dli_fname;
+    if (begins_with_any(name, OWN, sizeof OWN / sizeof *OWN))
+        return PROGRAM;
+    return begins_with_any(name, HELPERS, sizeof HELPERS / sizeof *HELPERS) ? HELPER : OTHER;
+}
+
+/* Looking up takes a while, and Mesa allocates much: pages of code are kept in mind. */
+static owner owner_of(const void *code)
+{
+    static _Atomic uintptr_t known[PAGES]; /* a page and its owner */
+    const uintptr_t page = (uintptr_t)code & ~(uintptr_t)4095;
+    _Atomic uintptr_t *entry = &known[(page >> 12) % PAGES];
+    const uintptr_t there = *entry;
+    if ((there & ~(uintptr_t)4095) == page)
+        return (owner)(there & 4095);
+    const owner found = look_up(code);
+    *entry = page | (uintptr_t)found;
+    return found;
+}
+
+static bool is_own(const void *caller)
+{
+    void *calls[CALLS];
+    owner first = owner_of(caller);
+    if (first != HELPER)
+        return first == PROGRAM;
+    const int count = backtrace(calls, CALLS);
+    for (int i = 0; i < count && first == HELPER; i++)
+        first = owner_of(calls[i]);
+    return first == PROGRAM;
+}
+
+/* ---- Failing -------------------------------------------------------------------------------------------------- */
+
+static void note(void)
+{
+    void *calls[CALLS];
+    const int file = failed ? open(failed, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666) : -1;
+    if (file < 0)
+        return;
+    backtrace_symbols_fd(calls, backtrace(calls, CALLS), file);
+    close(file);
+}
+
+/* `caller` null: whoever asks counts. */
+static bool fails(nth *what, const void *caller)
+{
+    if (!ready || what->at == 0 || inside)
+        return false;
+    inside = true;
+    const unsigned long number = !caller || is_own(caller) ? atomic_fetch_add(&what->count, 1) + 1 : 0;
+    const bool now = number == what->at || (what->all_later && number > what->at);
+    if (now)
+        note();
+    inside = false;
+    if (now)
+        errno = what == &call ? call_error : ENOMEM;
+    return now;
+}
+
+static unsigned long read_number(const char *name)
+{
+    const char *text = getenv(name);
+    return text ? strtoul(text, NULL, 10) : 0;
+}
+
+__attribute__((constructor)) static void prepare(void)
+{
+    void *calls[1];
+    backtrace(calls, 1); /* it allocates once */
+    failed = getenv("FAILED");
+    memory.at = read_number("FAIL_MEMORY");
+    thread.at = read_number("FAIL_THREAD");
+    call.at = read_number("FAIL_CALL");
+    if (getenv("FAIL_ERROR"))
+        call_error = (int)read_number("FAIL_ERROR");
+    alarm(PATIENCE);
+    ready = true;
+}
+
+/* The function of that name that would be called without this file. */
+static void find_next(const char *name, void *function)
+{
+    void *symbol = dlsym(RTLD_NEXT, name);
+    memcpy(function, &symbol, sizeof symbol);
+}
+
+#define CALLER __builtin_extract_return_addr(__builtin_return_address(0))
+
+void *malloc(size_t size)
+{
+    return fails(&memory, CALLER) ? NULL : __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size)
+{
+    return fails(&memory, CALLER) ? NULL : __libc_calloc(count, size);
+}
+
+void *realloc(void *old, size_t size)
+{
+    return fails(&memory, CALLER) ? NULL : __libc_realloc(old, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    return fails(&memory, CALLER) ? NULL : __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void **made, size_t alignment, size_t size)
+{
+    void *block = fails(&memory, CALLER) ? NULL : __libc_memalign(alignment, size);
+    if (block)
+        *made = block;
+    return block ? 0 : ENOMEM;
+}
+
+int pthread_create(pthread_t *made, const pthread_attr_t *how, void *(*run)(void *), void *context)
+{
+    int (*create)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+    find_next("pthread_create", &create);
+    return fails(&thread, NULL) ? EAGAIN : create(made, how, run, context);
+}
+
+/* ---- Calls of the system ---------------------------------------------------------------------------------------- */
+
+/* Those that fail without having done anything. */
+#define PLAIN_CALLS(X)                                                                                                 \
+    X(int, rename, -1, (const char *from, const char *to), (from, to))                                                 \
+    X(int, link, -1, (const char *from, const char *to), (from, to))                                                   \
+    X(int, unlink, -1, (const char *path), (path))                                                                     \
+    X(int, remove, -1, (const char *path), (path))                                                                     \
+    X(int, mkdir, -1, (const char *path, mode_t mode), (path, mode))                                                   \
+    X(int, rmdir, -1, (const char *path), (path))                                                                      \
+    X(int, truncate, -1, (const char *path, off_t size), (path, size))                                                 \
+    X(int, ftruncate, -1, (int file, off_t size), (file, size))                                                        \
+    X(int, stat, -1, (const char *path, struct stat *out), (path, out))                                                \
+    X(int, lstat, -1, (const char *path, struct stat *out), (path, out))                                               \
+    X(int, fstat, -1, (int file, struct stat *out), (file, out))                                                       \
+    X(int, access, -1, (const char *path, int mode), (path, mode))                                                     \
+    X(int, flock, -1, (int file, int operation), (file, operation))                                                    \
+    X(off_t, lseek, -1, (int file, off_t by, int whence), (file, by, whence))                                          \
+    X(int, fseeko, -1, (FILE * stream, off_t by, int whence), (stream, by, whence))                                    \
+    X(off_t, ftello, -1, (FILE * stream), (stream))                                                                    \
+    X(DIR *, opendir, NULL, (const char *path), (path))                                                                \
+    X(struct dirent *, readdir, NULL, (DIR * folder), (folder))                                                        \
+    X(int, socketpair, -1, (int domain, int type, int protocol, int two[2]), (domain, type, protocol, two))            \
+    X(ssize_t, send, -1, (int socket, const void *bytes, size_t size, int how), (socket, bytes, size, how))            \
+    X(int, poll, -1, (struct pollfd * files, nfds_t count, int wait), (files, count, wait))                            \
+    X(pid_t, fork, -1, (void), ())
+
+#define PLAIN_CALL(type, name, failure, parameters, arguments)                                                         \
+    type name parameters                                                                                               \
+    {                                                                                                                  \
+        type(*next) parameters;                                                                                        \
+        find_next(#name, &next);                                                                                       \
+        return fails(&call, CALLER) ? failure : next arguments;                                                        \
+    }
+PLAIN_CALLS(PLAIN_CALL)
+
+/* What reads and writes may also do less than is asked for: under EINTR it does. */
+ssize_t read(int file, void *bytes, size_t size)
+{
+    ssize_t (*next)(int, void *, size_t);
+    find_next("read", &next);
+    if (!fails(&call, CALLER))
+        return next(file, bytes, size);
+    return call_error == EINTR && size > 1 ? next(file, bytes, 1) : -1;
+}
+
+int open(const char *path, int how, ...)
+{
+    int (*next)(const char *, int, ...);
+    find_next("open", &next);
+    va_list rest;
+    va_start(rest, how);
+    const mode_t mode = how & O_CREAT ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    return fails(&call, CALLER) ? -1 : next(path, how, mode);
+}
+
+/* What is closed is closed, and what it had to write may be lost. */
+int close(int file)
+{
+    int (*next)(int);
+    find_next("close", &next);
+    const bool failing = fails(&call, CALLER);
+    const int result = next(file);
+    if (failing)
+        errno = call_error;
+    return failing ? -1 : result;
+}
+
+static void put_below(FILE *stream, const char *path, int how)
+{
+    const int file = fileno(stream);
+    const int other = file < 0 ? -1 : open(path, how | O_CLOEXEC);
+    if (other >= 0) {
+        dup2(other, file);
+        close(other);
+    }
+}
+
+static void spoil_reading(FILE *stream)
+{
+    inside = true;
+    put_below(stream, "/proc/self/mem", O_RDONLY); /* where nothing is mapped: EIO */
+    inside = false;
+}
+
+static void spoil_writing(FILE *stream)
+{
+    inside = true;
+    put_below(stream, "/dev/full", O_WRONLY);
+    inside = false;
+}
+
+/* Its first transfer may fail. */
+static FILE *opened(FILE *stream, const char *mode, const void *caller)
+{
+    if (stream && fails(&call, caller))
+        (*mode == 'r' ? spoil_reading : spoil_writing)(stream);
+    return stream;
+}
+
+FILE *fopen(const char *restrict path, const char *restrict mode)
+{
+    FILE *(*next)(const char *, const char *);
+    find_next("fopen", &next);
+    return fails(&call, CALLER) ? NULL : opened(next(path, mode), mode, CALLER);
+}
+
+FILE *fdopen(int file, const char *mode)
+{
+    FILE *(*next)(int, const char *);
+    find_next("fdopen", &next);
+    return fails(&call, CALLER) ? NULL : opened(next(file, mode), mode, CALLER);
+}
+
+size_t fread(void *restrict bytes, size_t size, size_t count, FILE *restrict stream)
+{
+    size_t (*next)(void *, size_t, size_t, FILE *);
+    find_next("fread", &next);
+    if (fails(&call, CALLER))
+        spoil_reading(stream);
+    return next(bytes, size, count, stream);
+}
+
+size_t fwrite(const void *restrict bytes, size_t size, size_t count, FILE *restrict stream)
+{
+    size_t (*next)(const void *, size_t, size_t, FILE *);
+    find_next("fwrite", &next);
+    if (fails(&call, CALLER))
+        spoil_writing(stream);
+    return next(bytes, size, count, stream);
+}
+
+int fflush(FILE *stream)
+{
+    int (*next)(FILE *);
+    find_next("fflush", &next);
+    if (stream && fails(&call, CALLER))
+        spoil_writing(stream);
+    return next(stream);
+}
+
+int fclose(FILE *stream)
+{
+    int (*next)(FILE *);
+    find_next("fclose", &next);
+    const bool failing = fails(&call, CALLER);
+    const int result = next(stream);
+    if (failing)
+        errno = call_error;
+    return failing ? EOF : result;
+}
