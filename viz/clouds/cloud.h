@@ -57,8 +57,9 @@ typedef struct cloud_watch {
 } cloud_watch;
 
 /* Read a regular file, or "-", standard input, into *out; `watch` may be null. False with the reason in *error; *out is
- * then empty. A file without any point is an error. Cost: O(size) in time and memory; a compressed PCD is bounded by 88
- * times its size, before its points. */
+ * then empty. A file without any point is an error. Cost: O(size) in time and memory: at most 12 bytes for each of the
+ * file's, itself included, and 1 MB. Of compressed files it is 800 for each byte of a PCD's, whose coding makes at most
+ * 88 of one, and 22000 for each of a LAZ's: more than 256 points a byte are refused. */
 bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error);
 
 /* The same for a file that is in memory already. `name` is its name: for errors, and for its ending. */

@@ -3,6 +3,7 @@
 #include "array.h"
 #include "number.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -39,6 +40,27 @@ static bool add_values(cloud_file *file, size_t row, const double *numbers)
         if (!point_values_append(values, &(point_value){0}))
             return false;
     return point_values_append(values, &value);
+}
+
+bool cloud_expect(cloud_file *file, uint64_t count)
+{
+    cloud *points = file->out;
+    if (count <= file->room)
+        return true;
+    void *grown = count <= SIZE_MAX / sizeof *points->positions
+                      ? realloc(points->positions, (size_t)count * sizeof *points->positions)
+                      : NULL;
+    if (!grown)
+        return cloud_fail(file, "out of memory for %" PRIu64 " points", count);
+    points->positions = grown;
+    file->room = (size_t)count;
+    return true;
+}
+
+bool cloud_expect_rows(cloud_file *file, uint64_t count, uint64_t columns)
+{
+    const uint64_t most = file->size / columns;
+    return cloud_expect(file, count < most ? count : most);
 }
 
 bool cloud_add(cloud_file *file, const double *position)

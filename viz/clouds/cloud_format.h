@@ -75,6 +75,11 @@ void cloud_drop_values(cloud_file *file);
 /* After the last point. */
 void cloud_end_values(cloud_file *file);
 
+/* Make room for so many points, of which the caller knows that they are there; or for as many as may be, where each has
+ * so many columns or properties, of a byte at least. False when there is no memory. */
+bool cloud_expect(cloud_file *file, uint64_t count);
+bool cloud_expect_rows(cloud_file *file, uint64_t count, uint64_t columns);
+
 /* Append a point, numbers[CLOUD_CHANNELS], of which x, y, z and the file's channels are read; one whose position is not
  * finite is skipped instead. False when there is no memory. */
 bool cloud_add(cloud_file *file, const double *numbers);

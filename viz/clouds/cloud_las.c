@@ -248,16 +248,22 @@ static bool add_unpacked(void *context, const unsigned char *record)
     return add_record(reader, record, (size_t)reader->first);
 }
 
-/* The decompressor finds the points itself. */
+/* The decompressor finds the points itself. Ten million equal points are 68 kB, 147 a byte. */
 static bool read_compressed(las_reader *reader)
 {
+    enum { MOST_A_BYTE = 256 };
+    const cloud_file *file = reader->file;
     reader->first = read_whole(reader, AT_POINTS, 4);
+    if (reader->count / MOST_A_BYTE > file->size)
+        return cloud_fail_byte(file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
+                               "%" PRIu64 " compressed points are announced, and %zu bytes hold at most %d each",
+                               reader->count, file->size, MOST_A_BYTE);
     return laz_read(reader->file, reader->format, reader->count, add_unpacked, reader);
 }
 
 static bool read_plain(las_reader *reader)
 {
-    if (!find_points(reader) || !check_end(reader))
+    if (!find_points(reader) || !check_end(reader) || !cloud_expect(reader->file, reader->count))
         return false;
     for (uint64_t i = 0; i < reader->count; i++) {
         const size_t at = (size_t)(reader->first + i * reader->length);

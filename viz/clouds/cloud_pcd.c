@@ -322,7 +322,7 @@ static bool read_line(const pcd_reader *reader, cloud_span line, double numbers[
 
 static bool read_ascii(pcd_reader *reader)
 {
-    if (!cloud_check_text(reader->file))
+    if (!cloud_check_text(reader->file) || !cloud_expect_rows(reader->file, reader->points, reader->columns))
         return false;
     for (uint64_t i = 0; i < reader->points; i++) {
         cloud_span line;
@@ -343,6 +343,8 @@ static bool read_ascii(pcd_reader *reader)
 /* Read the points from packed bytes: the number at place k of point i is at first[k] + i * step[k]. */
 static bool add_points(const pcd_reader *reader, const unsigned char *bytes, const size_t *first, const size_t *step)
 {
+    if (!cloud_expect(reader->file, reader->points))
+        return false;
     for (size_t i = 0; i < reader->points; i++) {
         double numbers[CLOUD_CHANNELS];
         cloud_tell(reader->file, i, i, reader->points);

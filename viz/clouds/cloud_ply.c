@@ -319,6 +319,8 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
     double numbers[CLOUD_CHANNELS];
     if (element->property_count == 0)
         return true;
+    if (has_points && !cloud_expect_rows(reader->file, element->count, element->property_count))
+        return false;
     for (uint64_t row = 0; row < element->count; row++) {
         cloud_tell(reader->file, row, row, element->count);
         if (!read_row(reader, element, row, numbers) && !(reader->encoding == PLY_ASCII && forgive(reader)))
