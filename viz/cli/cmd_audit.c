@@ -26,7 +26,8 @@ static const command_option options[] = {
     {"allow", "LIMITS",
      "what is no finding: ratio=1.01, neighbours up to so many times as far; recall=0.99, answers that miss points, as "
      "long as so much of all true points is named; or both with a comma. Nothing allows ids that no point has, points "
-     "named twice, left out or outside",
+     "named twice, left out or outside, nor what is wrong with nodes; and a neighbour query that names none has an "
+     "infinite ratio",
      .read = read_limits, OPTION_VALUE(arguments, limits)},
     {"html", "FILE|DIR",
      "write a page, DIR/audit.html: recall and ratio over the ticks, where each point leads to its frame, and the "
@@ -34,7 +35,7 @@ static const command_option options[] = {
      .read = read_name, OPTION_VALUE(arguments, html)},
     {"junit", "FILE", "write JUnit's XML, a test case for each kind of query", .read = read_file,
      OPTION_VALUE(arguments, junit)},
-    JSON_OPTION(arguments, json, "print JSON; a ratio of null is infinite: the true one is at the target"),
+    JSON_OPTION(arguments, json, "print JSON; a ratio of null is infinite: the true one is at the target, or none is named"),
     {0},
 };
 

@@ -125,52 +125,74 @@ void add_foreign_met(scene *s, const layer_source *in, view_layer own)
 static const char *short_words(octree_node_fault_kind kind)
 {
     static const char *const words[OCTREE_NODE_FAULTS] = {
-        [OCTREE_NODE_OUTSIDE_PARENT] = " outside parent", [OCTREE_NODE_UNKNOWN_POINT] = " unknown point",
-        [OCTREE_NODE_OUTSIDE_POINT] = " point outside",   [OCTREE_NODE_REPEATED_POINT] = " point twice",
-        [OCTREE_NODE_LOST_POINT] = " in no node",         [OCTREE_NODE_UNKNOWN_NODE] = "",
-        [OCTREE_NODE_PRUNED_POINT] = " wrongly pruned"};
+        [OCTREE_NODE_OUTSIDE_PARENT] = "outside parent", [OCTREE_NODE_UNKNOWN_POINT] = "unknown point",
+        [OCTREE_NODE_OUTSIDE_POINT] = "point outside",   [OCTREE_NODE_REPEATED_POINT] = "point twice",
+        [OCTREE_NODE_LOST_POINT] = "in no node",         [OCTREE_NODE_UNKNOWN_NODE] = "",
+        [OCTREE_NODE_PRUNED_POINT] = "wrongly pruned"};
     return words[kind];
-}
-
-static void add_fault_label(scene *s, uint64_t id, const double at[3], octree_node_fault_kind kind, view_layer own)
-{
-    scene_label label = {.id = id, .in_world = true, .style = layer_style(own, STROKE_DASHED, 1)};
-    memcpy(label.at, at, sizeof label.at);
-    snprintf(label.text, sizeof label.text, "%s", short_words(kind));
-    scene_add_label(s, label);
 }
 
 /* Of a point that no node holds: no other marker of the layer is the same. */
 #define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
+#define LOST_MARK 6 /* half units */
 
-static void add_lost_point(scene *s, const layer_source *in, const octree_node_fault *fault, view_layer own)
+/* The first of the nodes from a place on that has a fault, of those that are marked; node_count where there is none. */
+static size_t next_fault(const octree_foreign_state *foreign, size_t place, size_t marked)
 {
-    octree_point point;
-    if (!octree_game_find(in->game, fault->point, &point))
-        return;
-    scene_add_mark(s, LOST_ELEMENT | point.id, point.position, SHAPE_CROSS, layer_style(own, STROKE_SOLID, 6));
-    add_fault_label(s, LOST_ELEMENT | point.id, point.position, fault->kind, own);
+    while (place < foreign->node_count && !foreign->nodes[place].faults)
+        place++;
+    return marked < OCTREE_LISTED_NODE_FAULTS ? place : foreign->node_count;
 }
 
-/* Each node once, with its first fault. */
-void add_foreign_faults(scene *s, const layer_source *in, view_layer own)
+static bool find_lost_point(const layer_source *in, size_t listed, octree_point *point)
+{
+    const octree_node_fault *fault = &in->tick->foreign.listed[listed];
+    return fault->kind == OCTREE_NODE_LOST_POINT && octree_game_find(in->game, fault->point, point);
+}
+
+void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
-    const scene_style style = layer_style(own, STROKE_DASHED, 2);
-    for (size_t i = 0, marked = 0; i < foreign->node_count && marked < OCTREE_LISTED_NODE_FAULTS; i++) {
-        const octree_foreign_place *place = &foreign->nodes[i];
-        octree_node_fault_kind kind = 0;
-        if (!place->faults)
+    octree_point point;
+    for (size_t i = next_fault(foreign, 0, 0), marked = 1; i < foreign->node_count;
+         i = next_fault(foreign, i + 1, marked++))
+        add_box(s, &foreign->nodes[i], layer_style(own, STROKE_DASHED, 2));
+    for (size_t i = 0; i < foreign->listed_count; i++) {
+        if (!find_lost_point(in, i, &point))
             continue;
-        while (!(place->faults >> kind & 1))
+        scene_add_mark(s, LOST_ELEMENT | point.id, point.position, SHAPE_CROSS,
+                       layer_style(own, STROKE_SOLID, LOST_MARK));
+        text_space_keep_mark(taken, s, point.position, LOST_MARK);
+    }
+}
+
+/* Whether there was room. */
+static bool add_fault_words(scene *s, uint64_t id, const double at[3], octree_node_fault_kind kind, view_layer own,
+                            text_space *taken)
+{
+    scene_label label = {.id = id, .style = layer_style(own, STROKE_SOLID, 1)};
+    snprintf(label.text, sizeof label.text, "%s", short_words(kind));
+    return text_add_beside(taken, s, label, at, LOST_MARK);
+}
+
+size_t name_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken)
+{
+    const octree_foreign_state *foreign = &in->tick->foreign;
+    octree_point point;
+    size_t left_out = 0;
+    for (size_t i = next_fault(foreign, 0, 0), marked = 1; i < foreign->node_count;
+         i = next_fault(foreign, i + 1, marked++)) {
+        octree_node_fault_kind kind = 0;
+        while (!(foreign->nodes[i].faults >> kind & 1))
             kind++;
-        marked++;
-        add_box(s, place, style);
-        add_fault_label(s, foreign_element(place->node->id), place->node->box.max, kind, own);
+        const octree_foreign_node *node = foreign->nodes[i].node;
+        left_out += !add_fault_words(s, foreign_element(node->id), node->box.max, kind, own, taken);
     }
     for (size_t i = 0; i < foreign->listed_count; i++)
-        if (foreign->listed[i].kind == OCTREE_NODE_LOST_POINT)
-            add_lost_point(s, in, &foreign->listed[i], own);
+        if (find_lost_point(in, i, &point))
+            left_out +=
+                !add_fault_words(s, LOST_ELEMENT | point.id, point.position, OCTREE_NODE_LOST_POINT, own, taken);
+    return left_out;
 }
 
 /* ---- In words ----------------------------------------------------------------------------------------------- */
@@ -207,8 +229,8 @@ void say_foreign_fault(description *d, const described *element)
 {
     const uint64_t id = element->id & ~LOST_ELEMENT;
     octree_point point = {.id = id};
-    if (element->kind == SCENE_LABEL)
-        say(d, " on ");
+    if (element->kind == SCENE_LABEL || element->kind == SCENE_PANEL)
+        say(d, element->kind == SCENE_PANEL ? "the ground of words about " : " on ");
     if ((element->id & LOST_ELEMENT) != LOST_ELEMENT) {
         say_foreign_node(d, element->id);
         return;

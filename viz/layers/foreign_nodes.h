@@ -28,16 +28,20 @@ static inline uint64_t foreign_node_of(uint64_t id)
 bool shows_own_tree(const layer_source *in);
 bool shows_foreign_tree(const layer_source *in);
 
-/* All nodes, within the view's filter, lod and budget; those that queries met, for the layers visited, pruned and hit;
- * and those that are wrong, crossed out, with points that are in none. */
+/* All nodes, within the view's filter, lod and budget; and those that queries met, for the layers visited, pruned and
+ * hit. */
 void add_foreign_nodes(scene *s, const layer_source *in);
 void add_foreign_met(scene *s, const layer_source *in, view_layer own);
-void add_foreign_faults(scene *s, const layer_source *in, view_layer own);
+
+/* The nodes that are wrong and the points that are in none, for the layer `own`; then, for as many as have room, what
+ * is wrong, of a node its first fault. Returns for how many there was none. */
+void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken);
+size_t name_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken);
 
 /* "node 5 of the program: leaf "leaf" at depth 2 under node 7, 3 points listed, box ...", and what is wrong with it. */
 void say_foreign_node(description *d, uint64_t element);
 
-/* An element of add_foreign_faults(). */
+/* An element of these. */
 void say_foreign_fault(description *d, const described *element);
 
 /* The first of the tick's faults, such as "node 60 lists point 4 outside its box"; empty where there is none. */

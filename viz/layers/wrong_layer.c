@@ -24,6 +24,8 @@ static uint64_t ring_id(size_t place)
     return UINT64_MAX - place;
 }
 
+#define MORE_ID UINT64_MAX /* of a label */
+
 /* Lines: the answer and which of its extra points. */
 static uint64_t line_id(size_t place, size_t extra)
 {
@@ -55,23 +57,12 @@ static void place_of(const octree_answer *answer, double place[3])
         scene_box_middle(&answer->box, place);
 }
 
-/* Words are written beside a mark, and not on it. `half` is half its size. */
-static void keep_clear(scene *s, text_space *taken, const double at[3], unsigned half)
-{
-    double pixel[2];
-    if (taken->count == TEXT_SPACE_MOST || !camera_pixel(&s->camera, at, pixel))
-        return;
-    const double reach = half * s->unit / 2.0;
-    const double box[4] = {pixel[0] - reach, pixel[1] - reach, pixel[0] + reach, pixel[1] + reach};
-    memcpy(taken->taken[taken->count++], box, sizeof box);
-}
-
 static void mark_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style,
                         text_space *taken)
 {
     scene_add_points(s, points, count, shape, style);
     for (size_t i = 0; i < count && i < FEW_MARKS; i++)
-        keep_clear(s, taken, points[i].position, style.width);
+        text_space_keep_mark(taken, s, points[i].position, style.width);
 }
 
 static void mark_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *taken)
@@ -89,45 +80,49 @@ static void mark_answer(scene *s, const octree_answer *answer, size_t place, uns
     mark_points(s, made->extra, made->extra_count, SHAPE_WEDGE, extra, taken);
     place_of(answer, at);
     scene_add_mark(s, ring_id(place), at, SHAPE_RING, layer_style(LAYER_WRONG, STROKE_SOLID, ring));
-    keep_clear(s, taken, at, ring);
+    text_space_keep_mark(taken, s, at, ring);
 }
 
-/* Beside the ring, on the side where there is room; nothing where there is none. */
-static void add_words(scene *s, const octree_answer *answer, size_t place, text_space *taken)
+/* Whether there was room for them. */
+static bool add_words(scene *s, const octree_answer *answer, size_t place, text_space *taken)
 {
     char words[JUDGEMENT_WORDS];
-    double at[3], pixel[2], corner[2];
+    double at[3];
     scene_label label = {.id = place, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
     snprintf(label.text, sizeof label.text, "%s", judgement_words(&answer->judgement, words));
     place_of(answer, at);
-    if (!camera_pixel(&s->camera, at, pixel))
-        return;
-    const double aside = (RING / 2.0 + 3) * s->unit + (double)strlen(label.text) * s->text.width / 2;
-    const double above = RING / 2.0 * s->unit + s->text.height;
-    const double ways[][2] = {{aside, 0}, {-aside, 0}, {0, -above}, {0, above}};
-    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
-        const double middle[2] = {pixel[0] + ways[i][0], pixel[1] + ways[i][1]};
-        if (!text_space_take(taken, s, label.text, middle, corner))
-            continue;
-        memcpy(label.at, corner, sizeof corner);
-        text_add_on_ground(s, &label, ROLE_BACKGROUND);
-        return;
-    }
+    return text_add_beside(taken, s, label, at, RING);
 }
 
+/* In the corner at the right: how many words had no room. */
+static void add_more(scene *s, size_t count, text_space *taken)
+{
+    const camera_window w = layout_space(s);
+    scene_label label = {.id = MORE_ID, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
+    snprintf(label.text, sizeof label.text, "and %zu more wrong", count);
+    const double half = (double)strlen(label.text) * s->text.width / 2;
+    const double middle[2] = {w.x + w.width - half - s->text.width, w.y + s->text.height};
+    if (count > 0 && text_space_take(taken, s, label.text, middle, label.at))
+        text_add_on_ground(s, &label, ROLE_BACKGROUND);
+}
+
+/* The words of answers have their room before those of nodes. */
 static void add(scene *s, const layer_source *in, view_layer own)
 {
-    size_t worst;
+    size_t worst, left_out = 0;
     const bool few = judgement_count(in->answers, in->answer_count, &worst) <= FEW_RINGS;
     text_space taken = {.count = 0};
-    if (shows_foreign_tree(in))
-        add_foreign_faults(s, in, own);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.fault)
             mark_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &taken);
+    if (shows_foreign_tree(in))
+        mark_foreign_faults(s, in, own, &taken);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.fault && (few || i == worst))
-            add_words(s, &in->answers[i], i, &taken);
+            left_out += !add_words(s, &in->answers[i], i, &taken);
+    if (shows_foreign_tree(in))
+        left_out += name_foreign_faults(s, in, own, &taken);
+    add_more(s, left_out, &taken);
 }
 
 static void add_legend(legend *l, const layer_source *in)
@@ -161,7 +156,7 @@ static size_t find_answer(const octree_tick *tick, uint64_t id, bool missed)
     return i;
 }
 
-static void say_answer(description *d, size_t place)
+static void say_answer(description *d, uint64_t place)
 {
     const octree_tick *tick = d->tick;
     char words[JUDGEMENT_WORDS];
@@ -188,6 +183,8 @@ static void describe(description *d, const described *element)
     } else if (element->kind == SCENE_SEGMENT) {
         say(d, "the line to a point that is wrongly in ");
         say_answer(d, element->id >> 32);
+    } else if (element->id == MORE_ID) {
+        say(d, element->kind == SCENE_PANEL ? "the ground of a number of words" : ", words that have no room");
     } else {
         say(d, element->kind == SCENE_PANEL ? "the ground of words about " : ", about ");
         say_answer(d, element->id);

@@ -80,7 +80,7 @@ double audit_tick_recall(const audit_tick *tick);
 /* How wrong the answers of a kind may be. `ratio` allows neighbours that are farther, as long as none is more than so
  * many times as far as the true one of its rank; `recall` allows points that are missed, as long as so much of all true
  * points is named, and the farther neighbours that are named for them. Nothing allows ids that no point has, points
- * that are named twice, left out or outside, nor more neighbours than there are. */
+ * that are named twice, left out or outside, nor more neighbours than there are, nor faults of nodes. */
 typedef struct audit_limits {
     bool by_ratio, by_recall; /* neither: every answer must be right */
     double ratio, recall;

@@ -131,6 +131,7 @@ typedef struct chart {
     const audit_kind *kind;
     bool ratio; /* else recall */
     double from, to;
+    double finite;       /* below `to` where some are infinite: these stand there */
     const double *limit; /* null: none */
 } chart;
 
@@ -144,21 +145,25 @@ static bool is_worse(const chart *c, const audit_tick *a, const audit_tick *than
     return c->ratio ? a->ratio > than->ratio : audit_tick_recall(a) < audit_tick_recall(than);
 }
 
-/* From 1 to the worst that is finite, and the limit. */
+/* From 1 to the worst that is finite, and the limit; and beyond that, where others are not. */
 static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *limits)
 {
     chart c = {.kind = kind, .ratio = ratio, .from = 1, .to = 1};
     if (ratio ? limits->by_ratio : limits->by_recall)
         c.limit = ratio ? &limits->ratio : &limits->recall;
     double worst = c.limit ? *c.limit : 1;
+    bool beyond = false;
     for (size_t i = 0; i < kind->tick_count; i++) {
         const double value = value_of(&c, &kind->ticks[i]);
+        beyond = beyond || isinf(value);
         worst = !isinf(value) && (ratio ? value > worst : value < worst) ? value : worst;
     }
-    if (ratio)
-        c.to = worst > 1 ? worst : 2;
-    else
+    if (!ratio)
         c.from = worst < 1 ? worst : 0;
+    else
+        c.to = worst > 1 ? worst : 2;
+    c.finite = c.to;
+    c.to += beyond ? (c.to - c.from) / 4 : 0;
     return c;
 }
 
@@ -181,7 +186,7 @@ static void write_scale(const page *p, const chart *c, double value)
     const double y = y_of(c, value);
     fprintf(p->out, "<path class=\"axis\" d=\"M%d %.1fH%d\"/>", LEFT, y, WIDTH - RIGHT);
     fprintf(p->out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", LEFT - 8, y + 4,
-            number_text(value, 6, number));
+            value > c->finite ? "infinite" : number_text(value, 6, number));
 }
 
 static void write_ticks_scale(const page *p, const chart *c)
@@ -225,7 +230,9 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
     fprintf(p->out, "<h3>%s, by tick</h3>\n<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"%s by tick\">\n",
             ratio ? "Ratio of distances" : "Recall", WIDTH, HEIGHT, ratio ? "Ratio of distances" : "Recall");
     write_scale(p, &c, c.from);
-    write_scale(p, &c, c.to);
+    write_scale(p, &c, c.finite);
+    if (c.to > c.finite)
+        write_scale(p, &c, c.to);
     if (c.limit)
         fprintf(p->out, "<path class=\"limit\" d=\"M%d %.1fH%d\"/>\n", LEFT, y_of(&c, *c.limit), WIDTH - RIGHT);
     write_ticks_scale(p, &c);
@@ -242,20 +249,48 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
-static void write_worst(const page *p, const audit_case *c, bool neighbors, text_stream *words)
+/* " (frame, page)": links to a tick's, as far as there are these. */
+static void write_links(const page *p, uint64_t tick)
 {
     char name[FRAME_NAME];
-    fputs("<li>", p->out);
-    const bool linked = begin_link(p, c->tick, false);
-    fprintf(p->out, "tick %" PRIu64 "%s, answers[%zu]", c->tick, linked ? "</a>" : "", c->place);
-    if (p->has_viewer && has_frame(p, c->tick, name) && begin_link(p, c->tick, true))
-        fputs(" (to play)</a>", p->out);
-    fputs(": ", p->out);
+    const bool frame = has_frame(p, tick, name), viewer = p->base && p->has_viewer;
+    fputs(frame || viewer ? " (" : "", p->out);
+    if (frame && begin_link(p, tick, false))
+        fputs("frame</a>", p->out);
+    fputs(frame && viewer ? ", " : "", p->out);
+    if (viewer && begin_link(p, tick, true))
+        fputs("page</a>", p->out);
+    fputs(frame || viewer ? ")" : "", p->out);
+}
+
+/* In a sentence, and as in ticks.jsonl, with all digits. */
+static void write_worst(const page *p, const audit_case *c, bool neighbors, text_stream *words)
+{
+    fprintf(p->out, "<li>tick %" PRIu64, c->tick);
+    write_links(p, c->tick);
+    fprintf(p->out, ", answer %zu of the tick: ", c->place + 1);
     audit_print_case(words->stream, c, neighbors);
     write_escaped_stream(p->out, words, escape_xml_text);
-    fputs("<pre>", p->out);
+    fputs("<details><summary>as in ticks.jsonl</summary><pre>", p->out);
     write_escaped(p->out, c->answer, escape_xml_text);
-    fputs("</pre></li>\n", p->out);
+    fputs("</pre></details></li>\n", p->out);
+}
+
+static void write_nodes(const page *p, const audit_nodes *nodes)
+{
+    fprintf(p->out, "<section%s><h2>nodes</h2>\n<p>", nodes->faults ? " class=\"fails\"" : "");
+    audit_print_nodes_head(p->out, nodes);
+    fputs(nodes->faults ? "</p>\n<ul>\n" : "</p>\n", p->out);
+    for (int i = 0; i < OCTREE_NODE_FAULTS; i++) {
+        if (!nodes->kinds[i])
+            continue;
+        fputs("<li>", p->out);
+        audit_print_fault(p->out, nodes, (octree_node_fault_kind)i);
+        if (nodes->first[i].known)
+            write_links(p, nodes->first[i].tick);
+        fputs("</li>\n", p->out);
+    }
+    fputs(nodes->faults ? "</ul>\n</section>\n" : "</section>\n", p->out);
 }
 
 static bool write_kind(const page *p, int of)
@@ -304,7 +339,9 @@ static bool write_head(const page *p)
         fputs("</p>\n", p->out);
     }
     fputs(p->base
-              ? "<p>A point is the worst of its ticks and leads to its frame; larger ones are wrong.</p>\n"
+              ? "<p>A point is the worst of its ticks and leads to its frame; larger ones are wrong. The page lets you "
+                "play "
+                "from a tick on.</p>\n"
               : "<p>A session has no frames: record it, and audit the recording, for points that lead to them.</p>\n",
           p->out);
     return ok;
@@ -319,11 +356,8 @@ bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
     for (int i = 0; ok && i < OCTREE_QUERY_KINDS; i++)
         if (verdict->report->kinds[i].asked)
             ok = write_kind(&p, i);
-    if (verdict->report->nodes.given) {
-        fprintf(out, "<section%s><h2>nodes</h2>\n<p>", verdict->report->nodes.faults ? " class=\"fails\"" : "");
-        audit_print_nodes(out, &verdict->report->nodes);
-        fputs("</p></section>\n", out);
-    }
+    if (verdict->report->nodes.given)
+        write_nodes(&p, &verdict->report->nodes);
     fwrite(audit_page_tail, 1, audit_page_tail_size, out);
     free(p.base);
     return ok;

@@ -17,12 +17,12 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
     return text;
 }
 
-/* Where six digits would hide a difference from 1 all are printed. */
+/* Six digits, or as many as it takes to show a difference from 1. */
 static const char *share_text(double share, char text[NUMBER_TEXT])
 {
-    number_text(share, 6, text);
-    if (share < 1 && text[0] == '1')
-        number_print(share, text);
+    int digits = 6;
+    while (number_text(share, digits, text)[0] == '1' && share < 1)
+        digits++;
     return text;
 }
 
@@ -48,7 +48,7 @@ static void print_points(FILE *out, const char *what, const octree_point *points
     char texts[3][NUMBER_TEXT];
     for (size_t i = 0; i < told; i++) {
         for (int axis = 0; axis < 3; axis++)
-            number_print(points[i].position[axis], texts[axis]);
+            number_text(points[i].position[axis], 9, texts[axis]);
         fprintf(out, "%s%s%" PRIu64 " at (%s, %s, %s)", i ? ", " : what, i ? "" : " ", points[i].id, texts[0], texts[1],
                 texts[2]);
     }
@@ -103,6 +103,8 @@ void audit_print_all(FILE *out, const audit_verdict *v)
     if (report->nodes.faults)
         fprintf(out, ", %" PRIu64 " fault%s of nodes", report->nodes.faults, plural(report->nodes.faults));
     print_within(out, v->limits, audit_passes(report, v->limits));
+    if (report->nodes.faults && (v->limits->by_ratio || v->limits->by_recall))
+        fputs("; nothing allows faults of nodes", out);
 }
 
 void audit_print_kind(FILE *out, const audit_verdict *v, int of)
@@ -123,10 +125,19 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
     print_within(out, v->limits, audit_kind_passes(kind, v->limits));
 }
 
-/* " (tick 2, node 30, point 1)" */
-static void print_first(FILE *out, const audit_nodes *nodes, octree_node_fault_kind kind)
+void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
+{
+    fprintf(out, "nodes: %" PRIu64 " fault%s", nodes->faults, plural(nodes->faults));
+    if (nodes->faults)
+        fprintf(out, " in %" PRIu64 " tick%s, first at tick %" PRIu64, nodes->ticks, plural(nodes->ticks),
+                nodes->first_wrong);
+}
+
+void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_node_fault_kind kind)
 {
     const octree_node_fault *fault = &nodes->first[kind].fault;
+    fprintf(out, "%" PRIu64 " time%s: %s", nodes->kinds[kind], plural(nodes->kinds[kind]),
+            octree_node_fault_words(kind));
     if (!nodes->first[kind].known)
         return;
     fprintf(out, " (tick %" PRIu64, nodes->first[kind].tick);
@@ -139,16 +150,11 @@ static void print_first(FILE *out, const audit_nodes *nodes, octree_node_fault_k
 
 void audit_print_nodes(FILE *out, const audit_nodes *nodes)
 {
-    fprintf(out, "nodes: %" PRIu64 " fault%s", nodes->faults, plural(nodes->faults));
-    if (nodes->faults == 0)
-        return;
-    fprintf(out, " in %" PRIu64 " tick%s, first at tick %" PRIu64, nodes->ticks, plural(nodes->ticks),
-            nodes->first_wrong);
+    audit_print_nodes_head(out, nodes);
     for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
         if (nodes->kinds[i]) {
-            fprintf(out, "; %" PRIu64 " time%s: %s", nodes->kinds[i], plural(nodes->kinds[i]),
-                    octree_node_fault_words((octree_node_fault_kind)i));
-            print_first(out, nodes, (octree_node_fault_kind)i);
+            fputs("; ", out);
+            audit_print_fault(out, nodes, (octree_node_fault_kind)i);
         }
 }
 

@@ -41,6 +41,8 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT]);
 void audit_print_all(FILE *out, const audit_verdict *verdict);
 void audit_print_kind(FILE *out, const audit_verdict *verdict, int kind);
 void audit_print_nodes(FILE *out, const audit_nodes *nodes);
+void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);                         /* "nodes: 3 faults" */
+void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_node_fault_kind kind); /* how often, and the first */
 void audit_print_limits(FILE *out, const audit_limits *limits);
 
 /* What is wrong with a case, and the points that it missed and named wrongly. */

@@ -115,6 +115,36 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
     return true;
 }
 
+void text_space_keep_mark(text_space *t, const scene *s, const double at[3], unsigned half)
+{
+    double pixel[2];
+    const double reach = half * s->unit / 2.0;
+    if (t->count == TEXT_SPACE_MOST || !camera_pixel(&s->camera, at, pixel))
+        return;
+    const double box[4] = {pixel[0] - reach, pixel[1] - reach, pixel[0] + reach, pixel[1] + reach};
+    memcpy(t->taken[t->count++], box, sizeof box);
+}
+
+bool text_add_beside(text_space *t, scene *s, scene_label label, const double at[3], unsigned half)
+{
+    double pixel[2];
+    const camera_window w = layout_space(s);
+    if (!camera_pixel(&s->camera, at, pixel) || pixel[0] < w.x || pixel[1] < w.y || pixel[0] > w.x + w.width ||
+        pixel[1] > w.y + w.height)
+        return true;
+    const double aside = (half / 2.0 + 3) * s->unit + (double)strlen(label.text) * s->text.width / 2;
+    const double above = half / 2.0 * s->unit + s->text.height;
+    const double ways[][2] = {{aside, 0}, {-aside, 0}, {0, -above}, {0, above}};
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+        const double middle[2] = {pixel[0] + ways[i][0], pixel[1] + ways[i][1]};
+        if (!text_space_take(t, s, label.text, middle, label.at))
+            continue;
+        text_add_on_ground(s, &label, ROLE_BACKGROUND);
+        return true;
+    }
+    return false;
+}
+
 void text_add_on_ground(scene *s, const scene_label *label, theme_role ground)
 {
     const int unit = s->unit, letters = (int)strlen(label->text);

@@ -41,6 +41,13 @@ typedef struct text_space {
  * or cover another text. */
 bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2]);
 
+/* Keep clear of a mark at a place of the world, so many half units wide to each side. */
+void text_space_keep_mark(text_space *t, const scene *s, const double at[3], unsigned half);
+
+/* Add a label on its ground beside such a mark, on the side where there is room. False where there is none; true also
+ * where the mark is not in the space view. */
+bool text_add_beside(text_space *t, scene *s, scene_label label, const double at[3], unsigned half);
+
 /* Add a label on a filled rectangle, so that lines and points do not make it hard to read. The rectangle has the
  * label's id and layer. */
 void text_add_on_ground(scene *s, const scene_label *label, theme_role ground);

@@ -264,8 +264,8 @@ typedef struct octree_judgement {
                                    UNKNOWN and SKIPPED */
     size_t extra_count;
     size_t rank;  /* neighbours: the first that is wrong, the nearest is 1; 0: none */
-    double ratio; /* neighbours: how many times as far as the true one of its rank one of them is, at worst; 1 where all
-                     are as near, infinite where the true one is at the target */
+    double ratio; /* neighbours: how many times as far as the true one of its rank one of those named is, at worst; 1
+                     where all are as near, infinite where the true one is at the target, or none is named at all */
 } octree_judgement;
 
 typedef struct octree_answer {

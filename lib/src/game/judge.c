@@ -323,7 +323,7 @@ static bool is_farther(const judge_state *s, const judged_point *a, const judged
 static void judge_ranks(judge_state *s, const judged_point *named, const judged_point *truth, size_t count)
 {
     octree_judgement *made = s->made;
-    made->ratio = 1;
+    made->ratio = count == 0 && made->expected > 0 ? INFINITY : 1;
     for (size_t i = 0; i < count; i++) {
         if (compare_distances(&named[i], &truth[i]) <= 0)
             continue;

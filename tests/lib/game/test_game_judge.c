@@ -60,6 +60,10 @@ static void every_fault_has_its_reason(void **state)
     assert_true(j.fault == OCTREE_FAULT_DUPLICATE && j.fault_id == 1 && j.missed_count == 1 && j.missed[0].id == 2);
     j = judge_one(three, IDS(6, 1));
     assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 3 && j.missed_count == 1 && j.missed[0].id == 2);
+    j = judge_one(three, NULL, 0);
+    assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 1 && j.missed_count == 3 && isinf(j.ratio));
+    j = judge_one(three, IDS(77));
+    assert_true(j.fault == OCTREE_FAULT_UNKNOWN && j.missed_count == 3 && isinf(j.ratio));
     j = judge_one(three, IDS(6, 1, 2, 3));
     assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 4 && j.missed_count == 0 && j.ratio == 1);
     j = judge_one(three, IDS(6, 2, 3));

@@ -85,7 +85,8 @@ static void json_is_one_object(void **state)
 /* Of two nearest points and two balls one each is wrong: 3.6 times as far, and an id that no point has. */
 static void what_is_allowed_is_no_finding_and_is_said(void **state)
 {
-    static const char farther[] = START FIRST SECOND("[3]", "[1,3]"), missing[] = START FIRST SECOND("[1]", "[1]");
+    static const char farther[] = START FIRST SECOND("[3]", "[1,3]"), missing[] = START FIRST SECOND("[1]", "[1]"),
+                      none[] = START FIRST SECOND("[]", "[1,3]");
     static const struct {
         const char *session, *allowed;
         int status;
@@ -98,6 +99,8 @@ static void what_is_allowed_is_no_finding_and_is_said(void **state)
         {missing, "recall=0.8", 0},
         {missing, "recall=0.9", 1},
         {missing, "ratio=9", 1},
+        {none, "ratio=9,recall=0", 1},
+        {none, "recall=0", 0},
         {wrong, "ratio=9,recall=0", 1}, /* the id that no point has */
         {right, "recall=1,ratio=1", 0},
     };
@@ -177,6 +180,8 @@ static void points_of_the_page_lead_to_their_frames(void **state)
     assert_non_null(strstr(beside, "<a href=\"./a%20film/index.html#t=1\"><circle class=\"point\""));
     assert_non_null(strstr(within, "<a href=\"./frame_000002.png\"><circle"));
     assert_non_null(strstr(within, "<title>tick 2: ratio 3.60555, 1 of 1 wrong</title>"));
+    assert_non_null(strstr(within, "<li>tick 2 (<a href=\"./frame_000002.png\">frame</a>, <a "
+                                   "href=\"./index.html#t=2\">page</a>), answer 1 of the tick: a neighbour"));
     assert_null(strstr(within, "<script"));
     free(beside);
     free(within);
@@ -212,6 +217,7 @@ static void a_chart_of_many_ticks_keeps_the_worst(void **state)
         points++;
     assert_int_equal(points, 2 * 400);
     assert_non_null(strstr(result.out, "<title>tick 1002: ratio infinite, 1 of 1 wrong"));
+    assert_non_null(strstr(result.out, "text-anchor=\"end\">infinite</text>"));
     assert_non_null(strstr(result.out, "<title>tick 1002: recall 0, 1 of 1 wrong"));
     command_release(&result);
 }
@@ -224,13 +230,47 @@ static void faults_of_nodes_are_a_finding(void **state)
                                         "[9,9,9]},\"points\":[1,2]}]}\n");
     command_result result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 faults of nodes, beyond what is allowed\n"));
+    assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 faults of nodes, beyond what is allowed; nothing "
+                                       "allows faults of nodes\n"));
     assert_non_null(strstr(result.out, "nodes: 3 faults in 3 ticks, first at tick 1; 3 times: a point is in no node "
                                        "(tick 1, point 3)"));
     command_release(&result);
     result = run_octreel(NULL, "audit %s --junit -", session.path);
     assert_int_equal(xml_count(result.out, "testcase"), 1);
     assert_int_equal(xml_count(result.out, "failure"), 1);
+    command_release(&result);
+}
+
+/* The first fault of each kind leads to its tick; numbers are those that people write. */
+static void faults_of_nodes_lead_to_their_ticks(void **state)
+{
+    const place session =
+        write_session_text(state, START "{\"tick\":1,\"nodes\":[{\"id\":7,\"box\":{\"min\":[0,0,0],\"max\":"
+                                        "[9,9,9]},\"points\":[1,2,2]}]}\n");
+    const place film = place_in(*state, "film");
+    command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, film.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s --html %s", film.path, film.path);
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+    char *page = file_read(place_in(*state, "film/audit.html").path, NULL);
+    assert_non_null(strstr(page, "<li>3 times: it lists a point more than once (tick 1, node 7, point 2) (<a "
+                                 "href=\"./frame_000001.png\">frame</a>, <a href=\"./index.html#t=1\">page</a>)</li>"));
+    free(page);
+}
+
+/* The answer has them all. */
+static void numbers_of_the_page_are_as_people_write_them(void **state)
+{
+    static const char text[] = "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":"
+                               "[[0.1234567890123456,0,0,1],[1,0,0,2]],\"queries\":"
+                               "[{\"nearest\":[0,0,0],\"answer\":[2]}]}";
+    const place session = write_session_text(state, text);
+    command_result result = run_octreel(NULL, "audit %s --html -", session.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "missed 1 at (0.123456789, 0, 0)"));
+    assert_non_null(strstr(result.out, "<details><summary>as in ticks.jsonl</summary><pre>{"));
     command_release(&result);
 }
 
@@ -313,6 +353,8 @@ int main(void)
         IN_FOLDER(a_page_of_a_session_leads_nowhere_and_says_so),
         IN_FOLDER(a_chart_of_many_ticks_keeps_the_worst),
         IN_FOLDER(faults_of_nodes_are_a_finding),
+        IN_FOLDER(faults_of_nodes_lead_to_their_ticks),
+        IN_FOLDER(numbers_of_the_page_are_as_people_write_them),
         IN_FOLDER(sessions_without_answers_are_trouble),
         IN_FOLDER(recordings_keep_answers_and_judgements),
         IN_FOLDER(diff_names_the_answers_that_became_wrong),

@@ -200,6 +200,46 @@ static void words_that_have_no_room_are_left_out(void **state)
     octree_game_destroy(game);
 }
 
+/* Of nodes that have one corner together as of points that are at one place: no words cover others, and what has no
+ * room is counted. */
+static void words_at_one_place_do_not_cover_each_other(void **state)
+{
+    (void)state;
+    enum { SAME = 12 };
+    static const uint64_t unknown[] = {77}, far[] = {4};
+    octree_foreign_node nodes[SAME];
+    octree_query queries[3];
+    for (size_t i = 0; i < SAME; i++)
+        nodes[i] = (octree_foreign_node){
+            .id = i, .box = {{-9, -9, -9}, {1, 0, 1}}, .has_points = true, .points = {unknown, 1}};
+    for (size_t i = 0; i < 3; i++)
+        queries[i] = nearest_of(far, 1);
+    const octree_foreign_tree tree = {.nodes = nodes, .node_count = SAME};
+    octree_session session = session_of(queries, 3);
+    session.foreign = &tree;
+    session.foreign_count = 1;
+    octree_game *game = start_game(&session);
+    const view v = view_of(640, 360, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
+    scene s = {0};
+    build_tick(&s, &v, game);
+    text_space taken = {.count = 0};
+    size_t words = 0, left_out = 0;
+    for (size_t i = 0; i < s.labels.count; i++) {
+        const scene_label *label = &s.labels.items[i];
+        double corner[2];
+        if (label->style.layer != LAYER_WRONG)
+            continue;
+        const double middle[2] = {label->at[0] + (double)strlen(label->text) * s.text.width / 2,
+                                  label->at[1] + s.text.height / 2.0};
+        assert_true(!label->in_world && text_space_take(&taken, &s, label->text, middle, corner));
+        words += sscanf(label->text, "and %zu more wrong", &left_out) != 1;
+    }
+    assert_true(left_out > 0);
+    assert_int_equal(words + left_out, 3 + SAME + 4); /* and all points, of which no node has one */
+    octree_game_destroy(game);
+    scene_release(&s);
+}
+
 /* Nothing is added for right answers but lines of the legend, and nothing at all where no program answered. */
 static void what_is_right_or_unanswered_stays_as_it_was(void **state)
 {
@@ -232,6 +272,7 @@ int main(void)
         cmocka_unit_test(an_answer_without_a_point_is_ringed_at_its_target),
         cmocka_unit_test(of_many_wrong_answers_the_worst_is_seen_first),
         cmocka_unit_test(words_that_have_no_room_are_left_out),
+        cmocka_unit_test(words_at_one_place_do_not_cover_each_other),
         cmocka_unit_test(what_is_right_or_unanswered_stays_as_it_was),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
