@@ -164,6 +164,7 @@ const command command_audit = {
     .examples = "octreel audit flight\n"
                 "octreel audit flight --html flight --junit audit.xml\n"
                 "octreel audit game.json --allow ratio=1.01,recall=0.99 --json\n",
+    .files = "  DIR/audit.html  the page of --html DIR\n",
     .least = 1,
     .most = 1,
     .takes = "the folder of one recording, or one session",

@@ -283,6 +283,8 @@ const command command_diff = {
                 "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
                 "octreel digest frames -o frames.digests && octreel diff frames.digests frames\n",
+    .files = "  DIR/report.html  the page, which holds all that it shows\n"
+             "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  of each frame that differs\n",
     .least = 2,
     .most = 2,
     .takes = "two sides, each a PNG, a folder of PNGs, a recording or a file of digests",

@@ -275,6 +275,7 @@ const command command_record = {
                 "octreel record --resume -o frames\n"
                 "octreel record session.json --ticks 1000:2000 -o frames\n"
                 "mygame | octreel record - -o frames\n",
+    .files = "  DIR  the recording; octreel-recording(5) says what is in it\n",
     .most = 1,
     .takes = "one session",
     .inputs = {FILE_KIND(SESSION)},

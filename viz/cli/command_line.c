@@ -18,7 +18,7 @@ static bool common_option_row(size_t n, command_option *option)
 {
     static const command_option rows[] = {
         {"quiet", NULL, "say nothing but errors and what is asked for: no progress, no notes", .read = read_quiet},
-        {"help", NULL, "print this, and do nothing else", .read = read_flag},
+        {"help", NULL, "say what the command takes, and do nothing else", .read = read_flag},
         {"version", NULL, "print the version, and do nothing else", .read = read_flag},
     };
     if (n >= sizeof rows / sizeof rows[0])

@@ -5,6 +5,7 @@
 #include "file_kind.h"
 #include "help.h"
 #include "hint.h"
+#include "manual.h"
 #include "texts.h"
 
 #include <stdio.h>
@@ -22,6 +23,7 @@ const command *command_at(size_t n)
 
 static const help_topic topics[] = {
     {"session", "what a session file holds: a world, points, keys, edits, queries", session_text},
+    {"recording", "what the folder of a recording holds: frames, ticks, the view", recording_text},
 };
 
 const help_topic *help_topic_at(size_t n)
@@ -80,9 +82,23 @@ static int refuse_word(const char *word, bool help)
                    hint_text(&h, "", meant), hint_program());
 }
 
+/* The manual of octreel, a command or a topic, for man(1). */
+static int print_manual(const char *name)
+{
+    const help_topic *topic = help_topic_named(name);
+    const command *found = strcmp(name, command_octreel.name) == 0 ? &command_octreel : command_named(name);
+    if (topic)
+        manual_write_topic(stdout, topic);
+    else if (found)
+        manual_write(stdout, found);
+    return topic || found ? EXIT_DONE : refuse_word(name, true);
+}
+
 /* On nothing, a command or a topic. */
 static int help(int argc, char **argv)
 {
+    if (argc == 3 && strcmp(argv[1], "--man") == 0)
+        return print_manual(argv[2]);
     if (argc == 1)
         return help_print(stdout, &command_octreel);
     if (argc > 2)

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_manuals.c - manuals say what --help says, of every option, and man and mandoc have nothing against them. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+
+static const char *const pages[] = {"octreel", "record", "play",   "join",   "verify",  "audit",    "pick",
+                                    "inspect", "diff",   "digest", "accept", "session", "recording"};
+
+enum { PAGES = sizeof pages / sizeof pages[0] };
+
+static bool is_topic(const char *page)
+{
+    return strcmp(page, "session") == 0 || strcmp(page, "recording") == 0;
+}
+
+/* "  -o, --output DIR" in help, "\fB\-\-output\fR" in a manual. */
+static void assert_has_options(const char *manual, const char *help, const char *page)
+{
+    size_t found = 0;
+    for (const char *line = help; *line; line += strcspn(line, "\n") + 1) {
+        char name[40], macro[80];
+        if (strlen(line) < 9 || strncmp(line + 6, "--", 2) != 0 || sscanf(line + 8, "%39[a-z-]", name) != 1)
+            continue;
+        size_t used = (size_t)snprintf(macro, sizeof macro, "\\fB\\-\\-\\fR\\fB");
+        for (const char *at = name; *at; at++)
+            used += (size_t)snprintf(macro + used, sizeof macro - used, *at == '-' ? "\\%c" : "%c", *at);
+        if (!strstr(manual, macro))
+            fail_msg("the manual of %s lacks --%s", page, name);
+        found++;
+    }
+    assert_true(found >= 3); /* those that every command has */
+}
+
+static void every_option_is_in_the_manual(void **state)
+{
+    (void)state;
+    for (size_t i = 1; !is_topic(pages[i]); i++) {
+        command_result manual = run_octreel(NULL, "help --man %s", pages[i]);
+        command_result help = run_octreel(NULL, "help %s", pages[i]);
+        assert_done(&manual);
+        assert_has_options(manual.out, help.out, pages[i]);
+        command_release(&manual);
+        command_release(&help);
+    }
+}
+
+static void every_manual_has_its_sections(void **state)
+{
+    static const char *const sections[] = {"NAME",        "SYNOPSIS", "DESCRIPTION", "OPTIONS",
+                                           "EXIT STATUS", "EXAMPLES", "ENVIRONMENT", "SEE ALSO"};
+    (void)state;
+    for (size_t i = 0; i < PAGES; i++) {
+        command_result manual = run_octreel(NULL, "help --man %s", pages[i]);
+        assert_int_equal(strncmp(manual.out, ".TH \"octreel", 12), 0);
+        for (size_t n = 0; n < sizeof sections / sizeof sections[0]; n++) {
+            char heading[32];
+            snprintf(heading, sizeof heading, "\n.SH %s\n", sections[n]);
+            const bool wanted = !is_topic(pages[i]) || strcmp(sections[n], "DESCRIPTION") == 0;
+            if (wanted && !strstr(manual.out, heading))
+                fail_msg("the manual of %s has no section %s", pages[i], sections[n]);
+        }
+        command_release(&manual);
+    }
+    command_result none = run_octreel(NULL, "help --man recrd");
+    assert_trouble(&none, "did you mean record?");
+}
+
+/* A program that judges manuals says nothing. */
+static void assert_content(void **state, const char *program, const char *command)
+{
+    const temp_folder *own = *state;
+    if (!program_is_there(program)) {
+        print_message("%s is not installed: nobody judges the manuals\n", program);
+        skip();
+    }
+    for (size_t i = 0; i < PAGES; i++) {
+        command_result said = run_script("cd %s && %s help --man %s > page && %s page 2>&1 >/dev/null", own->name,
+                                         octreel_program(), pages[i], command);
+        if (*said.out || *said.err)
+            fail_msg("%s: %s%s", pages[i], said.out, said.err);
+        command_release(&said);
+    }
+}
+
+/* As lintian does. */
+static void man_has_no_warning(void **state)
+{
+    assert_content(state, "groff", "LC_ALL=C.UTF-8 groff -man -ww -Tutf8 -rLL=80n");
+}
+
+static void mandoc_has_no_warning(void **state)
+{
+    assert_content(state, "mandoc", "mandoc -Tlint -Wwarning");
+}
+
+/* Names within quotes before a colon. */
+static void assert_names_are_told(const char *json, const char *text)
+{
+    for (const char *at = strchr(json, '"'); at; at = strchr(at, '"')) {
+        const size_t length = strcspn(at + 1, "\"") + 2;
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        at += length;
+        if (*at == ':' && !strstr(text, name))
+            fail_msg("octreel help recording does not tell of %s", name);
+    }
+}
+
+/* A game with all that a tick can have: queries, answers that are wrong, nodes of a program's own tree, and a gap. */
+static void every_member_of_a_recording_is_told(void **state)
+{
+    static const char session[] =
+        "{\"octreel\":\"session\",\"version\":1,\"keys\":\"wd\",\"ticks\":3,\"points\":[[1,1,1],[2,2,2],[3,3,3]],"
+        "\"player\":{\"position\":[0,0,0],\"step\":1,\"box_size\":2,\"sweep\":true},\"queries\":["
+        "{\"nearest\":[0,0,0],\"answer\":[3],\"skip\":2},{\"knearest\":2,\"at\":[0,0,0],\"answer\":[9]},"
+        "{\"radius\":9,\"at\":[1,1,1],\"answer\":[1,77],\"mode\":\"float\",\"epsilon\":0.1},"
+        "{\"range\":{\"min\":[0,0,0],\"max\":[9,9,9]},\"answer\":[1],\"visited\":[5],\"pruned\":[6]}],"
+        "\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[2,2,2]},\"points\":[1,3]},"
+        "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[5,5,5]}}]}\n"
+        "{\"tick\":2,\"edits\":[{\"remove\":99}]}\n{\"tick\":3,\"gap\":\"none\"}\n";
+    const temp_folder *own = *state;
+    command_result told = run_octreel(NULL, "help recording");
+    file_write_text(place_in(*state, "s.json").path, session);
+    command_result filmed = run_octreel(
+        NULL,
+        "record -q %s/s.json --size 32x32 -o %s/film --slice z=1 --depths 1:2 --leaves --region 0,0,0,9,9,9 --look 1,2 "
+        "--center 1,2,3 --zoom 2 --color-points height --shade edl --tree both --diagram beside --labels",
+        own->name, own->name);
+    assert_done(&filmed);
+    command_release(&filmed);
+    static const char *const files[] = {"ticks.jsonl", "recording.json", "renderer.json"};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        size_t size;
+        char *json = file_read(place_below(place_in(*state, "film").path, files[i]).path, &size);
+        assert_names_are_told(json, told.out);
+        free(json);
+    }
+    command_release(&told);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_option_is_in_the_manual),
+        cmocka_unit_test(every_manual_has_its_sections),
+        IN_FOLDER(man_has_no_warning),
+        IN_FOLDER(mandoc_has_no_warning),
+        IN_FOLDER(every_member_of_a_recording_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: MIT */
+/* manual.c - writes the macros of man(7) that groff, man-db and mandoc all know. */
+#include "manual.h"
+#include "prose.h"
+
+#include <ctype.h>
+#include <string.h>
+
+enum { LINE = 78 };
+
+/* ---- Text --------------------------------------------------------------------------------------------------- */
+
+/* A character as it stands: typesetting would make others of some, such as a true minus of none. */
+static void put_literal(FILE *out, char c)
+{
+    static const char from[] = "\\-'`^~";
+    static const char *const to[] = {"\\e", "\\-", "\\(aq", "\\(ga", "\\(ha", "\\(ti"};
+    const char *found = strchr(from, c);
+    fputs(found ? to[found - from] : (char[]){c, 0}, out);
+}
+
+/* No line of text may begin as a macro does. */
+static void begin_line(FILE *out, char first)
+{
+    if (first == '.' || first == '\'')
+        fputs("\\&", out);
+}
+
+static void put_code(FILE *out, const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++)
+        put_literal(out, text[i]);
+}
+
+static void put_bold(FILE *out, const char *text, size_t length)
+{
+    fputs("\\fB", out);
+    put_code(out, text, length);
+    fputs("\\fR", out);
+}
+
+/* The length of an option's name that a word begins with: "--size" of "--size,", "-o"; 0: it begins with none. */
+static size_t option_length(const char *word, size_t length)
+{
+    size_t end = 0;
+    while (end < length && (isalnum((unsigned char)word[end]) || word[end] == '-'))
+        end++;
+    const bool named = end > 2 && word[0] == '-' && word[1] == '-' && isalpha((unsigned char)word[2]);
+    return named || (end == 2 && word[0] == '-' && isalpha((unsigned char)word[1])) ? end : 0;
+}
+
+/* A word of a sentence, of which hyphens are hyphens, and options bold, and what is within `` is code. */
+static void put_word(FILE *out, const char *word, size_t length, bool *code)
+{
+    const size_t before = strspn(word, "(\""), quoted = before < length ? before : 0;
+    const size_t option = *code ? 0 : option_length(word + quoted, length - quoted);
+    put_code(out, word, quoted);
+    if (option)
+        put_bold(out, word + quoted, option);
+    for (size_t i = quoted + option; i < length; i++)
+        if (word[i] == '`')
+            fputs((*code = !*code) ? "\\fB" : "\\fR", out);
+        else if (*code)
+            put_literal(out, word[i]);
+        else if (word[i] == '\'' || (word[i] == '-' && i > 0 && isalpha((unsigned char)word[i - 1])))
+            putc(word[i], out);
+        else
+            put_literal(out, word[i]);
+}
+
+/* Words in lines that are not long. */
+static void put_words(FILE *out, const char *text, size_t length)
+{
+    const char *at = text, *word;
+    size_t size, column = 0;
+    bool code = false;
+    while ((word = prose_word(&at, text + length, &size))) {
+        char set[512] = "";
+        FILE *memory = fmemopen(set, sizeof set, "w");
+        if (!memory)
+            return;
+        put_word(memory, word, size, &code);
+        fclose(memory);
+        const size_t width = strlen(set);
+        if (column && column + 1 + width > LINE)
+            putc('\n', out), column = 0;
+        if (column)
+            putc(' ', out), column++;
+        else
+            begin_line(out, *set);
+        fputs(set, out);
+        column += width;
+    }
+    putc('\n', out);
+}
+
+static void put_sentence(FILE *out, const char *text)
+{
+    put_words(out, text, strlen(text));
+}
+
+static void put_lines(FILE *out, const char *text, size_t length, int indent)
+{
+    const char *at = text, *line;
+    size_t size;
+    fputs(".EX\n", out);
+    while ((line = prose_line(&at, text + length, indent, &size))) {
+        begin_line(out, *line);
+        put_code(out, line, size);
+        putc('\n', out);
+    }
+    fputs(".EE\n", out);
+}
+
+static void put_section(FILE *out, const char *name, size_t length)
+{
+    fputs(".SH ", out);
+    put_code(out, name, length);
+    putc('\n', out);
+}
+
+static void put_item(FILE *out, const prose_block *block)
+{
+    fputs(".TP\n", out);
+    put_bold(out, block->term, block->term_length);
+    putc('\n', out);
+    put_words(out, block->text, block->length);
+}
+
+static void put_text(FILE *out, const char *text)
+{
+    prose_block block;
+    bool begins = true; /* of a section, which is a paragraph itself */
+    for (const char *at = text; prose_next(&at, &block);) {
+        switch (block.kind) {
+        case PROSE_HEADING:
+            put_section(out, block.text, block.length - (block.text[block.length - 1] == '\n'));
+            break;
+        case PROSE_ITEM:
+            put_item(out, &block);
+            break;
+        case PROSE_VERBATIM:
+            fputs(begins ? ".RS 4\n" : ".PP\n.RS 4\n", out);
+            put_lines(out, block.text, block.length, block.indent);
+            fputs(".RE\n", out);
+            break;
+        case PROSE_PARAGRAPH:
+            fputs(begins ? "" : ".PP\n", out);
+            put_words(out, block.text, block.length);
+            break;
+        }
+        begins = block.kind == PROSE_HEADING;
+    }
+}
+
+/* ---- Sections ----------------------------------------------------------------------------------------------- */
+
+/* "octreel-record"; "octreel" of octreel itself. */
+static void put_page_name(FILE *out, const char *name)
+{
+    fputs("octreel", out);
+    if (strcmp(name, command_octreel.name) != 0)
+        fprintf(out, "\\-%s", name);
+}
+
+static void put_title(FILE *out, const char *name, int section, const char *line)
+{
+    fputs(".TH \"", out);
+    put_page_name(out, name);
+    fprintf(out, "\" %d %s \"Octreel %s\" Octreel\n.nh\n.ad l\n.SH NAME\n", section, OCTREEL_DATE, OCTREEL_VERSION);
+    put_page_name(out, name);
+    fputs(" \\- ", out);
+    put_sentence(out, line);
+}
+
+/* What is typed as it is is bold, what it stands for is not. */
+static void put_usage(FILE *out, const char *usage)
+{
+    for (const char *at = usage; *at;) {
+        const size_t option = at == usage || strchr(" [", at[-1]) ? option_length(at, strlen(at)) : 0;
+        const size_t name = strspn(at, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+        if (option)
+            put_bold(out, at, option);
+        else if (name)
+            fprintf(out, "\\fI%.*s\\fR", (int)name, at);
+        else
+            put_literal(out, *at);
+        at += option ? option : name ? name : 1;
+    }
+    putc('\n', out);
+}
+
+static void put_option(FILE *out, const command_option *o)
+{
+    const char letter[] = {'-', option_letter(o->name), 0};
+    fputs(".TP\n", out);
+    if (letter[1]) {
+        put_bold(out, letter, 2);
+        fputs(", ", out);
+    }
+    put_bold(out, "--", 2);
+    put_bold(out, o->name, strlen(o->name));
+    if (o->value) {
+        fputs(" \\fI", out);
+        put_code(out, o->value, strlen(o->value));
+        fputs("\\fR", out);
+    }
+    putc('\n', out);
+    put_sentence(out, o->help);
+    if (!o->words)
+        return;
+    fputs(".RS\n.PD 0\n", out); /* close together */
+    for (int i = 0; o->names(i); i++) {
+        fputs(".TP\n", out);
+        put_bold(out, o->names(i), strlen(o->names(i)));
+        putc('\n', out);
+        put_sentence(out, o->words(i));
+    }
+    fputs(".PD\n.RE\n", out);
+}
+
+static void put_options(FILE *out, const command *c)
+{
+    command_option option;
+    for (size_t n = 0; command_option_at(c, n, &option); n++) {
+        if (option.name) {
+            put_option(out, &option);
+            continue;
+        }
+        fputs(n ? ".PP\n" : "", out);
+        put_sentence(out, option.help);
+    }
+}
+
+static void put_statuses(FILE *out, const command *c)
+{
+    for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
+        if (command_status(c, i)) {
+            fprintf(out, ".TP\n\\fB%d\\fR\n", i);
+            put_sentence(out, command_status(c, i));
+        }
+}
+
+/* Whether anything that is said about a command names another, as in "octreel join". */
+static bool mentions(const command *c, const char *words)
+{
+    const char *const texts[] = {c->about, c->more, c->examples, c->files};
+    command_option o;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        if (texts[i] && strstr(texts[i], words))
+            return true;
+    for (size_t n = 0; command_option_at(c, n, &o); n++)
+        if (o.help && strstr(o.help, words))
+            return true;
+    return false;
+}
+
+/* A page that is another than `own`. */
+static void put_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
+{
+    if (own && strcmp(name, own) == 0)
+        return;
+    fputs(*begun ? ",\n.BR " : ".BR ", out);
+    put_page_name(out, name);
+    fprintf(out, " (%d)", section);
+    *begun = true;
+}
+
+static void put_see_also(FILE *out, const command *c)
+{
+    char words[64];
+    bool begun = false;
+    put_section(out, "SEE ALSO", 8);
+    put_reference(out, command_octreel.name, 1, c->name, &begun);
+    for (size_t i = 0; command_at(i); i++) {
+        snprintf(words, sizeof words, "octreel %s", command_at(i)->name);
+        if (c == &command_octreel || mentions(c, words))
+            put_reference(out, command_at(i)->name, 1, c->name, &begun);
+    }
+    for (size_t i = 0; help_topic_at(i); i++)
+        put_reference(out, help_topic_at(i)->name, 5, NULL, &begun);
+    putc('\n', out);
+}
+
+/* ---- Pages -------------------------------------------------------------------------------------------------- */
+
+static void put_commands(FILE *out)
+{
+    put_section(out, "COMMANDS", 8);
+    for (size_t i = 0; command_at(i); i++) {
+        fputs(".TP\n.BR ", out);
+        put_page_name(out, command_at(i)->name);
+        fputs(" (1)\n", out);
+        put_sentence(out, command_at(i)->line);
+    }
+}
+
+void manual_write(FILE *out, const command *c)
+{
+    static const char environment[] = "  TERM      where it is empty or \"dumb\", no progress is shown\n"
+                                      "  NO_COLOR  changes nothing: there are neither colours nor escape sequences\n";
+    put_title(out, c->name, 1, c->line);
+    put_section(out, "SYNOPSIS", 8);
+    fprintf(out, "\\fBoctreel%s%s\\fR ", c == &command_octreel ? "" : " ", c == &command_octreel ? "" : c->name);
+    put_usage(out, c->usage);
+    put_section(out, "DESCRIPTION", 11);
+    put_text(out, c->about);
+    if (c == &command_octreel)
+        put_commands(out);
+    put_section(out, "OPTIONS", 7);
+    put_options(out, c);
+    if (c->more) {
+        put_section(out, "NOTES", 5);
+        put_text(out, c->more);
+    }
+    put_section(out, "EXIT STATUS", 11);
+    put_statuses(out, c);
+    put_section(out, "ENVIRONMENT", 11);
+    put_text(out, c->environment ? c->environment : "");
+    put_text(out, environment);
+    if (c->files) {
+        put_section(out, "FILES", 5);
+        put_text(out, c->files);
+    }
+    put_section(out, "EXAMPLES", 8);
+    put_lines(out, c->examples, strlen(c->examples), 0);
+    put_see_also(out, c);
+}
+
+void manual_write_topic(FILE *out, const help_topic *topic)
+{
+    bool begun = false;
+    put_title(out, topic->name, 5, topic->line);
+    put_section(out, "DESCRIPTION", 11);
+    put_text(out, topic->text);
+    put_section(out, "SEE ALSO", 8);
+    put_reference(out, command_octreel.name, 1, NULL, &begun);
+    for (size_t i = 0; command_at(i); i++)
+        if (strstr(topic->text, command_at(i)->name))
+            put_reference(out, command_at(i)->name, 1, NULL, &begun);
+    for (size_t i = 0; help_topic_at(i); i++)
+        put_reference(out, help_topic_at(i)->name, 5, topic->name, &begun);
+    putc('\n', out);
+}
