@@ -8,7 +8,7 @@
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
-enum { OPTION_COLUMN = 24, CHOICE_WIDTH = 12 };
+enum { COMMAND_COLUMN = 18, OPTION_COLUMN = 24, CHOICE_WIDTH = 12 };
 
 static void fill(FILE *out, const char *text, int column)
 {
@@ -24,21 +24,13 @@ static void print_choices(FILE *out, const command_option *option)
     }
 }
 
-/* What is explained from `column` on: in the next line, where there is no room for two blanks. */
-static void explain(FILE *out, int width, const char *text, int column)
-{
-    const bool fits = width + 2 <= column;
-    fprintf(out, "%s%*s", fits ? "" : "\n", fits ? column - width : column, "");
-    fill(out, text, column);
-}
-
 /* "  -o, --output DIR      where the recording goes" */
 static void print_option(FILE *out, const command_option *option)
 {
     const char letter = option_letter(option->name), short_form[] = {'-', letter, ',', 0};
     const int width = fprintf(out, "  %-3s --%s%s%s", letter ? short_form : "", option->name, option->value ? " " : "",
                               option->value ? option->value : "");
-    explain(out, width, option->help, OPTION_COLUMN);
+    prose_beside(out, width, option->help, strlen(option->help), OPTION_COLUMN);
     if (option->words)
         print_choices(out, option);
 }
@@ -62,7 +54,7 @@ static void print_options(FILE *out, const command *c)
 
 static void print_row(FILE *out, const char *help, const char *name, const char *line)
 {
-    explain(out, fprintf(out, "  %s%s", help, name), line, 18);
+    prose_beside(out, fprintf(out, "  %s%s", help, name), line, strlen(line), COMMAND_COLUMN);
 }
 
 static void print_commands(FILE *out)

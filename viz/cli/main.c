@@ -6,6 +6,7 @@
 #include "help.h"
 #include "hint.h"
 #include "manual.h"
+#include "prose.h"
 #include "texts.h"
 
 #include <stdio.h>
@@ -106,8 +107,12 @@ static int help(int argc, char **argv)
     const help_topic *topic = help_topic_named(argv[1]);
     const command *found = command_named(argv[1]);
     if (topic)
-        return fputs(topic->text, stdout) < 0 ? EXIT_TROUBLE : EXIT_DONE;
-    return found ? help_print(stdout, found) : refuse_word(argv[1], true);
+        prose_print(stdout, topic->text);
+    else if (!found)
+        return refuse_word(argv[1], true);
+    else
+        help_print(stdout, found);
+    return EXIT_DONE;
 }
 
 static int run(int argc, char **argv)

@@ -131,18 +131,20 @@ void prose_fill(FILE *out, const char *text, size_t length, int column, int inde
     putc('\n', out);
 }
 
+void prose_beside(FILE *out, int width, const char *text, size_t length, int column)
+{
+    const bool fits = width + 2 <= column;
+    fprintf(out, "%s%*s", fits ? "" : "\n", fits ? column - width : column, "");
+    prose_fill(out, text, length, column, column);
+}
+
 /* The width of the terms of items that follow one another: text stands in one column beside the short ones. */
 enum { SHORT_TERM = 14 };
 
 static void print_item(FILE *out, const prose_block *block)
 {
-    const int column = block->indent + SHORT_TERM;
-    const int width = fprintf(out, "%*s%.*s  ", block->indent, "", (int)block->term_length, block->term);
-    if (width <= column)
-        fprintf(out, "%*s", column - width, "");
-    else
-        fprintf(out, "\n%*s", column, "");
-    prose_fill(out, block->text, block->length, column, column);
+    const int width = fprintf(out, "%*s%.*s", block->indent, "", (int)block->term_length, block->term);
+    prose_beside(out, width, block->text, block->length, block->indent + SHORT_TERM);
 }
 
 static void print_lines(FILE *out, const prose_block *block)

@@ -40,6 +40,10 @@ const char *prose_line(const char **at, const char *end, int indent, size_t *len
 /* Write words in lines that begin with `indent` blanks, the first at `column`; ends the last. */
 void prose_fill(FILE *out, const char *text, size_t length, int column, int indent);
 
+/* Write words beside a term, `width` blanks and letters that are written already: from `column` on, in the next line
+ * where there is no room for two blanks between. */
+void prose_beside(FILE *out, int width, const char *text, size_t length, int column);
+
 /* Write a whole text so. */
 void prose_print(FILE *out, const char *text);
 
