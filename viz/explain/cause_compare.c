@@ -129,23 +129,71 @@ static json_t *asked_of(json_t *answer)
     return json_pack("{so}", kind, asked);
 }
 
+/* A session's query without what a program told of it: which of its nodes it met, and its answer. */
+static json_t *untold(json_t *query)
+{
+    json_t *asked = json_copy(query);
+    json_object_del(asked, "answer");
+    for (int met = 0; met < OCTREE_MET_KINDS; met++)
+        json_object_del(asked, octree_met_name((octree_met)met));
+    return asked;
+}
+
 /* By which the elements of a list are paired. */
 static json_t *list_asked(const char *where, json_t *list)
 {
+    const bool answers = strcmp(where, "answers") == 0;
     json_t *asked = json_array(), *element;
     size_t i;
-    if (strcmp(where, "answers") != 0) {
+    if (!answers && strcmp(where, "queries") != 0) {
         json_decref(asked);
         return list ? json_incref(list) : json_array();
     }
-    json_array_foreach(list, i, element) json_array_append_new(asked, asked_of(element));
+    json_array_foreach(list, i, element) json_array_append_new(asked, answers ? asked_of(element) : untold(element));
     return asked;
+}
+
+/* Of nodes that were met their numbers are told, where these differ. */
+static void compare_told(const cause_place *place, json_t *a, json_t *b)
+{
+    json_t *counts[2] = {json_object(), json_object()};
+    bool other = false, counted = false;
+    for (int met = 0; met < OCTREE_MET_KINDS; met++) {
+        const char *name = octree_met_name((octree_met)met);
+        json_t *const lists[2] = {json_object_get(a, name), json_object_get(b, name)};
+        if (is_same(place, lists[0], lists[1]))
+            continue;
+        other = true;
+        counted = counted || json_array_size(lists[0]) != json_array_size(lists[1]);
+        for (int i = 0; i < 2; i++)
+            json_object_set_new(counts[i], name, json_integer((json_int_t)json_array_size(lists[i])));
+    }
+    if (other)
+        add(place, "queries.met", CAUSE_OTHER, CAUSE_NO_ID, counted ? counts[0] : NULL, counted ? counts[1] : NULL);
+    json_decref(counts[0]);
+    json_decref(counts[1]);
+    json_t *const answers[2] = {json_object_get(a, "answer"), json_object_get(b, "answer")};
+    if (!is_same(place, answers[0], answers[1]))
+        add(place, "queries.answer", CAUSE_OTHER, CAUSE_NO_ID, answers[0], answers[1]);
+}
+
+static void compare_queries(const cause_place *place, json_t *a, json_t *b)
+{
+    json_t *const asked[2] = {untold(a), untold(b)};
+    if (is_same(place, asked[0], asked[1]))
+        compare_told(place, a, b);
+    else
+        add(place, "queries", CAUSE_OTHER, CAUSE_NO_ID, a, b);
+    json_decref(asked[0]);
+    json_decref(asked[1]);
 }
 
 static void compare_pair(const cause_place *place, const char *where, json_t *a, json_t *b)
 {
     if (strcmp(where, "answers") == 0)
         compare_values(place, where, a, b);
+    else if (strcmp(where, "queries") == 0)
+        compare_queries(place, a, b);
     else if (!is_same(place, a, b))
         add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
 }

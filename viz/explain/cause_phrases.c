@@ -38,6 +38,8 @@ static const phrase phrases[] = {
     {"sampled.velocities.seed", "seed of the velocities", OPTION},
     {"edits", "edit", PLAIN},
     {"queries", "query", .plural = "queries", EVERY},
+    {"queries.met", "query", .plural = "queries", .moved = "met other nodes"},
+    {"queries.answer", "answer of the program", .plural = "answers of the program", .moved = "changed"},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
     {"nodes", "node of the program", .plural = "nodes of the program"},
     /* Views; the nouns of their options are in view_options.c. */

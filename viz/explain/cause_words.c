@@ -24,15 +24,21 @@ static void print_number(FILE *out, double number)
     fputs(text, out);
 }
 
-/* "(1, 2, 3)"; of a segment "(0, 0, 0) to (9, 9, 9)". */
+/* Of longer lists, such as ids, the first are told: nobody reads them. */
+enum { LONGEST_LIST = 4 };
+
+/* "(1, 2, 3)"; of a segment "(0, 0, 0) to (9, 9, 9)"; "(1, 2, 3, 4 and 8 more)". */
 static void print_list(FILE *out, const json_t *list)
 {
     const bool nested = json_is_array(json_array_get(list, 0));
+    const size_t count = json_array_size(list), told = count > LONGEST_LIST + 1 ? LONGEST_LIST : count;
     fputs(nested ? "" : "(", out);
-    for (size_t i = 0; i < json_array_size(list); i++) {
+    for (size_t i = 0; i < told; i++) {
         fputs(i == 0 ? "" : nested ? " to " : ", ", out);
         print_value(out, json_array_get(list, i));
     }
+    if (count > told)
+        fprintf(out, " and %zu more", count - told);
     fputs(nested ? "" : ")", out);
 }
 
@@ -148,10 +154,8 @@ static void print_subject(FILE *out, const cause_fact *fact)
         print_value(out, value);
 }
 
-/* Longer lists, such as the scale of points, are in JSON alone: nobody reads them. */
-enum { LONGEST_LIST = 4 };
-
-/* " (8, was 4)", " (point 3: (7, -7, 7), was (7, 7, 7))". Counts of what something cost are in JSON alone. */
+/* " (8, was 4)", " (point 3: (7, -7, 7), was (7, 7, 7))". Counts of what something cost are in JSON alone, and so are
+ * longer lists, such as the scale of points. */
 static void print_values(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -250,6 +254,19 @@ static void print_many(FILE *out, const phrase *p, const cause_group *group, boo
     fputc(')', out);
 }
 
+/* "the query met other nodes at tick 3 (visited 12, was 9)"; "17 queries met other nodes, the first at tick 3 (...)".
+ */
+static void print_deed(FILE *out, const phrase *p, const cause_group *group)
+{
+    const cause_fact *first = &group->listed[0];
+    if (group->found == 1)
+        fprintf(out, "the %s %s", p->noun, verb_of(p, group->change));
+    else
+        fprintf(out, "%" PRIu64 " %s %s, the first", group->found, p->plural, verb_of(p, group->change));
+    print_when(out, p, first);
+    print_values(out, p, group, first);
+}
+
 /* Facts without an id or a word to name them by are printed one by one. */
 static bool has_subject(const cause_fact *fact)
 {
@@ -262,7 +279,10 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
     const phrase p = cause_phrase(group);
     const size_t told = count_told(group, brief);
     if (verb_of(&p, group->change)) {
-        print_verb(out, &p, group, brief);
+        if (has_subject(&group->listed[0]))
+            print_verb(out, &p, group, brief);
+        else
+            print_deed(out, &p, group);
         return;
     }
     if (group->found > 1 && has_subject(&group->listed[0])) {
@@ -347,45 +367,66 @@ static bool any_option(const cause_facts *facts)
     return false;
 }
 
-/* "4 more wrong answers from tick 41 on". Whether there is anything to say. */
-static bool print_span(FILE *out, const cause_span *span, const char *what, bool first)
+/* "4 more wrong answers from tick 41 on". */
+static void print_span(FILE *out, const cause_span *span, const char *what)
 {
-    if (span->count == 0)
-        return false;
-    fprintf(out, "%s%" PRIu64 " %s%s", first ? "" : ", ", span->count, what, plural(span->count));
+    fprintf(out, "%" PRIu64 " %s%s", span->count, what, plural(span->count));
     fprintf(out, span->first == span->last ? " at tick %" PRIu64 : " from tick %" PRIu64 " on", span->first);
-    return true;
 }
 
 /* "other wrong answers at tick 2"; "other wrong answers in 3 ticks from tick 2 on". */
-static bool print_other(FILE *out, const cause_span *span, bool first)
+static void print_other(FILE *out, const cause_span *span, const char *what)
 {
-    if (span->count == 0)
-        return false;
-    fprintf(out, "%sother wrong answers", first ? "" : ", ");
+    (void)what;
+    fputs("other wrong answers", out);
     if (span->count > 1)
         fprintf(out, " in %" PRIu64 " ticks from tick %" PRIu64 " on", span->count, span->first);
     else
         fprintf(out, " at tick %" PRIu64, span->first);
-    return true;
 }
 
-/* Before all else: it is what an index is compared for. */
-static void print_wrong(FILE *out, const cause_answers *wrong)
+/* Either all that begins at the first tick that differs, or what begins after it. Whether there is anything. */
+static bool print_wrong(FILE *out, const cause *c, bool later)
 {
-    const bool more = print_span(out, &wrong->more, "more wrong answer", true);
-    const bool fewer = print_span(out, &wrong->fewer, "fewer wrong answer", !more);
-    const bool other = print_other(out, &wrong->other, !more && !fewer);
-    if (more || fewer || other)
-        fputs("; ", out);
+    const struct {
+        const cause_span *span;
+        const char *what; /* null: as many, but others */
+    } rows[] = {
+        {&c->wrong.more, "more wrong answer"}, {&c->wrong.fewer, "fewer wrong answer"}, {&c->wrong.other, NULL}};
+    bool any = false;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (rows[i].span->count == 0 || (rows[i].span->first > c->first) != later)
+            continue;
+        fputs(any ? ", " : later ? "; " : "", out);
+        (rows[i].what ? print_span : print_other)(out, rows[i].span, rows[i].what);
+        any = true;
+    }
+    return any;
 }
 
+/* How many of the session's facts, which are sorted, begin after the first tick that differs; none where all do. */
+static size_t count_later(const cause *c)
+{
+    size_t count = 0;
+    while (c->differing && count < c->session.count) {
+        const cause_group *group = &c->session.groups[c->session.count - count - 1];
+        if (group->listed[0].tick == CAUSE_NO_TICK || group->listed[0].tick <= c->first)
+            break;
+        count++;
+    }
+    return count < c->session.count ? count : 0;
+}
+
+/* Wrong answers are what an index is compared for: they come before all else of their tick. What begins after the first
+ * tick that differs is no cause of that, and comes last. */
 void cause_print_headline(FILE *out, const cause *c)
 {
     const bool options = any_option(&c->session);
-    print_wrong(out, &c->wrong);
+    const size_t later = count_later(c), soon = c->session.count - later;
+    if (print_wrong(out, c, false))
+        fputs("; ", out);
     if (c->session.count) {
-        cause_print_facts(out, &c->session, true);
+        cause_print_facts(out, &(cause_facts){.groups = c->session.groups, .count = soon}, true);
         fputs(options ? ": " : "; ", out);
         (options ? print_extent : print_first)(out, c);
         if (c->view.count == 0 && c->drawn < (c->differing ? c->first : CAUSE_NO_TICK))
@@ -397,4 +438,9 @@ void cause_print_headline(FILE *out, const cause *c)
         if (!c->session.count)
             fputs(": the same ticks, looked at in another way", out);
     }
+    if (later) {
+        fputs("; ", out);
+        cause_print_facts(out, &(cause_facts){.groups = c->session.groups + soon, .count = later}, true);
+    }
+    print_wrong(out, c, true);
 }

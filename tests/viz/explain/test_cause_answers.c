@@ -71,13 +71,26 @@ static void assert_headline(const char *before, const char *now, const char *exp
     cause_release(&c);
 }
 
+static void assert_headline_ends(const char *before, const char *now, const char *expected)
+{
+    cause c;
+    char *text = headline_of(before, now, &c);
+    const size_t length = strlen(text), end = strlen(expected);
+    if (length < end || strcmp(text + length - end, expected) != 0)
+        fail_msg("\"%s\" does not end with \"%s\"", text, expected);
+    free(text);
+    cause_release(&c);
+}
+
 static void more_and_fewer_wrong_answers_are_counted_from_their_first_tick(void **state)
 {
     (void)state;
-    assert_headline("111111", "111121", "1 more wrong answer at tick 4; another query at tick 4");
+    assert_headline("111111", "111121", "1 more wrong answer at tick 4; the answer of the program changed at tick 4");
     assert_headline("111111", "112212", "3 more wrong answers from tick 2 on; ");
     assert_headline("122222", "111111", "5 fewer wrong answers from tick 1 on; ");
-    assert_headline("121111", "112212", "3 more wrong answers from tick 2 on, 1 fewer wrong answer at tick 1; ");
+    assert_headline("121111", "112212",
+                    "1 fewer wrong answer at tick 1; 4 answers of the program changed, the first at tick 1");
+    assert_headline_ends("121111", "112212", "; 3 more wrong answers from tick 2 on");
     assert_headline("1-----", "122---", "2 more wrong answers from tick 1 on; ");
 }
 

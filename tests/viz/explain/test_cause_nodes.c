@@ -46,6 +46,80 @@ static void a_node_more_is_told(void **state)
                    "(f49a4f94454fc709, was bb7cba137201538c)");
 }
 
+/* ---- Nodes that queries met ----------------------------------------------------------------------------------- */
+
+enum { ASKED = 3 };
+static octree_query asked[2][ASKED];
+static const uint64_t met_one[] = {5}, met_two[] = {5, 6}, met_other[] = {6}, met_many[] = {5, 6, 5, 6, 5, 6, 5};
+
+/* A ball about one place at each of some ticks, and the nodes that it met there. */
+static void ask(variant *v, int side, size_t count, const uint64_t *met, size_t met_count, double x)
+{
+    give(v, &right);
+    for (size_t i = 0; i < count; i++)
+        asked[side][i] = (octree_query){.tick = i,
+                                        .kind = OCTREE_QUERY_RADIUS,
+                                        .target = {x, 0, 0},
+                                        .radius = 1,
+                                        .met = {[OCTREE_MET_VISITED] = {met, met_count}}};
+    v->session.queries = asked[side];
+    v->session.query_count = count;
+}
+
+static void meet_one(variant *v)
+{
+    ask(v, 0, 1, met_one, 1, 0);
+}
+
+static void meet_two(variant *v)
+{
+    ask(v, 1, 1, met_two, 2, 0);
+}
+
+static void meet_another(variant *v)
+{
+    ask(v, 1, 1, met_other, 1, 0);
+}
+
+static void meet_one_always(variant *v)
+{
+    ask(v, 0, ASKED, met_one, 1, 0);
+}
+
+static void meet_two_always(variant *v)
+{
+    ask(v, 1, ASKED, met_two, 2, 0);
+}
+
+static void meet_many_elsewhere(variant *v)
+{
+    ask(v, 1, 1, met_many, 7, 0.5);
+}
+
+/* The query is the same. */
+static void other_nodes_met_are_told_by_their_number(void **state)
+{
+    (void)state;
+    assert_says_of(meet_one, meet_two,
+                   "the query met other nodes at tick 0 (visited 2, was 1); tick 0: another number of the program's "
+                   "nodes visited (2, was 1)");
+    assert_says_of(meet_one, meet_another,
+                   "the query met other nodes at tick 0; the same happens in all ticks that both have");
+    assert_says_of(meet_one_always, meet_two_always,
+                   "3 queries met other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of the "
+                   "program's nodes visited (2, was 1)");
+}
+
+static void long_lists_are_not_told_whole(void **state)
+{
+    (void)state;
+    assert_says_of(
+        meet_one, meet_many_elsewhere,
+        "another query at tick 0 (radius 1, at (0.5, 0, 0), was (0, 0, 0), visited (5, 6, 5, 6 and 3 more), "
+        "was (5)); tick 0: another center in the radius query ((0.5, 0, 0), was (0, 0, 0)), another number of "
+        "the program's nodes visited (2, was 1)");
+}
+
 static void a_fault_more_is_told_with_its_tick(void **state)
 {
     (void)state;
@@ -60,6 +134,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_node_more_is_told),
         cmocka_unit_test(a_fault_more_is_told_with_its_tick),
+        cmocka_unit_test(other_nodes_met_are_told_by_their_number),
+        cmocka_unit_test(long_lists_are_not_told_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
