@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* test_readme_job.c - the README's job for GitHub: its lines are run as they stand there, but for the one that installs
- * with apt and builds. */
+/* test_readme_job.c - the README's job for GitHub, and the action that it uses: their lines are run as they stand
+ * there, with frames of ours for those of somebody's game. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
+#include "workflow.h"
+#include "yaml.h"
 
-/* A folder as the job finds it, and the job. */
+/* A checkout of somebody's repository as the job finds it, and the job. */
 typedef struct job {
     void *folder; /* a temp_folder */
-    char *yaml;
+    json_t *yaml;
+    workflow run;
 } job;
 
-/* The README's block of YAML; the caller frees it. */
-static char *read_block(void)
+/* The README's block of YAML. */
+static json_t *read_block(void)
 {
     static const char fence[] = "\n```yaml\n";
     char *readme = file_read(OCTREEL_ROOT "/README.md", NULL), *begin = strstr(readme, fence);
@@ -26,21 +28,30 @@ static char *read_block(void)
     begin += sizeof fence - 1;
     char *end = strstr(begin, "```");
     assert_non_null(end);
-    char *block = strndup(begin, (size_t)(end - begin));
+    *end = 0;
+    json_t *block = yaml_read(begin);
     free(readme);
     return block;
 }
 
-/* What is checked out and built: the program where the lines look for it, and the session. */
-static void check_out(const job *j, const char *name)
+static void in_folder(const job *j, const char *line)
 {
-    const char *folder = ((temp_folder *)j->folder)->name;
-    const shell_word examples = shell_quote(OCTREEL_ROOT "/tests/examples");
     command_result result =
-        run_script("cd '%s' && mkdir -p %s/build/bin %s/tests && ln -s %s %s/build/bin/octreel && cp -R %s %s/tests",
-                   folder, name, name, octreel_program(), name, examples.text, name);
+        run_script("cd %s && PATH=\"$PWD/bin:$PATH\" && %s", ((temp_folder *)j->folder)->name, line);
     assert_done(&result);
     command_release(&result);
+}
+
+/* The game, which films a session beside it, and what was accepted of it. */
+static void check_out(const job *j)
+{
+    static const char game[] = "#!/bin/sh\nexec octreel record my.json --size 160x90 --every 5 -o \"$2\" >game.log\n";
+    char line[4096];
+    file_write_text(place_in(j->folder, "my-game").path, game);
+    snprintf(line, sizeof line,
+             "mkdir bin && ln -s %s bin/octreel && cp %s . && chmod +x my-game && ./my-game --film golden",
+             octreel_program(), shell_quote(OCTREEL_ROOT "/tests/examples/my.json").text);
+    in_folder(j, line);
 }
 
 static int prepare_job(void **state)
@@ -50,103 +61,217 @@ static int prepare_job(void **state)
     if (j == NULL || temp_folder_make(&j->folder) != 0)
         return -1;
     j->yaml = read_block();
-    check_out(j, "old");
-    check_out(j, "new");
+    check_out(j);
+    workflow_open(&j->run, j->folder, OCTREEL_ROOT "/.github/actions");
     return 0;
-}
-
-/* The change that the job is about: another key at tick 5. */
-static void change_session(const job *j)
-{
-    command_result result = run_script("cd '%s/new/tests/examples' && sed 's/wwddeen/wwddaen/' my.json >changed && "
-                                       "! cmp -s changed my.json && mv changed my.json",
-                                       ((temp_folder *)j->folder)->name);
-    assert_done(&result);
-    command_release(&result);
 }
 
 static int forget_job(void **state)
 {
     job *j = *state;
+    workflow_close(&j->run);
+    json_decref(j->yaml);
     const int status = nested_folder_remove(&j->folder);
-    free(j->yaml);
     free(j);
     return status;
 }
 
-/* Run each step as the runner of a container does, up to one that fails. Returns its status. */
-static int run_steps(const job *j)
+static int run_job(job *j)
 {
-    static const char run[] = "- run: ";
-    int status = 0, steps = 0;
-    for (const char *at = j->yaml; status == 0 && (at = strstr(at, run)) != NULL;) {
-        at += sizeof run - 1;
-        char *line = strndup(at, strcspn(at, "\n"));
-        assert_non_null(line);
-        if (strstr(line, "viz/setup") == NULL) {
-            file_write_text(place_in(j->folder, "step").path, line);
-            command_result result = run_script("cd %s && GITHUB_STEP_SUMMARY=\"$PWD/summary\" sh -e step",
-                                               ((temp_folder *)j->folder)->name);
-            status = result.status;
-            if (status != 0)
-                assert_string_equal(result.err, "");
-            command_release(&result);
-            steps++;
-        }
-        free(line);
-    }
-    assert_true(steps == 3 || status != 0);
-    return status;
+    const json_t *frames = json_object_get(json_object_get(j->yaml, "jobs"), "frames");
+    return workflow_run(&j->run, json_object_get(frames, "steps"));
+}
+
+/* Another key at tick 5. */
+static void change_game(const job *j)
+{
+    in_folder(j, "sed 's/wwddeen/wwddaen/' my.json >changed && ! cmp -s changed my.json && mv changed my.json");
+}
+
+static void assert_says(const char *text, const char *part)
+{
+    if (strstr(text, part) == NULL)
+        fail_msg("\"%s\" does not say \"%s\"", text, part);
 }
 
 static void assert_summary_says(const job *j, const char *part)
 {
     char *summary = file_read(place_in(j->folder, "summary").path, NULL);
-    if (strstr(summary, part) == NULL)
-        fail_msg("\"%s\" does not say \"%s\"", summary, part);
+    assert_says(summary, part);
     free(summary);
 }
 
+/* The folder that the last step with an action of others hands to it. */
+static const char *uploaded(const job *j)
+{
+    const json_t *last = json_array_get(j->run.used, json_array_size(j->run.used) - 1);
+    assert_string_equal(json_string_value(json_object_get(last, "uses")), "actions/upload-artifact@v4");
+    return json_string_value(json_object_get(json_object_get(last, "with"), "path"));
+}
+
+static void assert_uploads(const job *j, const char *file)
+{
+    const place folder = place_in(j->folder, uploaded(j));
+    if (!file_exists(place_below(folder.path, file).path))
+        fail_msg("%s is not in the evidence, %s", file, folder.path);
+}
+
+/* ---- The job -------------------------------------------------------------------------------------------------- */
+
 static void job_passes_where_nothing_differs(void **state)
 {
-    const job *j = *state;
-    assert_int_equal(run_steps(j), 0);
-    assert_summary_says(j, "### octreel diff: same: 40 frames");
+    job *j = *state;
+    assert_int_equal(run_job(j), 0);
+    assert_string_equal(j->run.complained, "");
+    assert_summary_says(j, "### octreel diff: same: 8 frames");
+    assert_int_equal(json_array_size(j->run.used), 1); /* the checkout: there is nothing to upload */
 }
 
 /* What is kept is what was left, and the summary is added to what there is already. */
 static void job_fails_where_a_frame_differs_and_keeps_the_evidence(void **state)
 {
-    const job *j = *state;
-    static const char path[] = "name: why, path: ";
-    change_session(j);
+    job *j = *state;
+    change_game(j);
     file_write_text(place_in(j->folder, "summary").path, "Of an earlier step.\n");
-    assert_int_equal(run_steps(j), 1);
+    assert_int_equal(run_job(j), 1);
+    assert_string_equal(j->run.complained, "");
     assert_summary_says(j, "Of an earlier step.\n### octreel diff: different: ");
-    assert_summary_says(j, "\n| <code>frame_000005.png</code> | ");
-    const char *kept = strstr(j->yaml, path);
-    assert_non_null(kept);
-    char *folder = strndup(kept + sizeof path - 1, strcspn(kept + sizeof path - 1, "}\n"));
-    assert_true(file_exists(place_below(place_in(j->folder, folder).path, "report.html").path));
-    assert_true(file_exists(place_below(place_in(j->folder, folder).path, "frame_000005.difference.png").path));
-    free(folder);
+    assert_summary_says(j, "<code>frame_000005.png</code>");
+    assert_says(j->run.said, "\n::error title=octreel diff::octreel diff: different: ");
+    assert_uploads(j, "report.html");
+    assert_uploads(j, "frame_000005.difference.png");
 }
 
-static void job_is_yaml(void **state)
+/* ---- The action ----------------------------------------------------------------------------------------------- */
+
+/* Names that a shell would run, were they put into a line of it. */
+static const char *const hostile[] = {
+    "two words",
+    "$(touch owned)",
+    "`touch owned`",
+    "'; touch owned; '",
+    "\"; touch owned; \"",
+    "; touch owned",
+    "--help",
+    "*",
+    "$HOME",
+};
+
+static json_t *action_inputs(const char *reference, const char *frames, const char *evidence, const char *allow)
 {
-    const job *j = *state;
-    command_result result = run_shell("python3 -c 'import yaml' 2>/dev/null");
-    const bool is_there = result.status == 0;
+    return json_pack("{s:s, s:s, s:s, s:s}", "reference", reference, "frames", frames, "evidence", evidence, "allow",
+                     allow);
+}
+
+static int run_action(job *j, json_t *inputs)
+{
+    const int status = workflow_run_action(&j->run, "diff", inputs, "it");
+    json_decref(inputs);
+    return status;
+}
+
+static const char *output_of(const job *j, const char *name)
+{
+    char expression[64];
+    snprintf(expression, sizeof expression, "steps.it.outputs.%s", name);
+    return json_string_value(json_object_get(j->run.values, expression));
+}
+
+static void action_takes_any_name_of_a_folder(void **state)
+{
+    job *j = *state;
+    char line[4096], evidence[64];
+    change_game(j);
+    in_folder(j, "./my-game --film frames");
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
+        snprintf(evidence, sizeof evidence, "%s of it", hostile[i]);
+        snprintf(line, sizeof line, "cp -R golden ./%s", shell_quote(hostile[i]).text);
+        in_folder(j, line);
+        if (run_action(j, action_inputs(hostile[i], "frames", evidence, "")) != 1)
+            fail_msg("%s: %s", hostile[i], j->run.complained);
+        assert_string_equal(output_of(j, "status"), "1");
+        assert_string_equal(uploaded(j), evidence);
+        assert_uploads(j, "report.html");
+        assert_false(file_exists(place_in(j->folder, "owned").path));
+    }
+    assert_string_equal(j->run.complained, "");
+}
+
+/* Nothing in them is run or stands for names of files, and octreel says what is wrong with them. */
+static void action_reads_what_is_allowed_as_words(void **state)
+{
+    job *j = *state;
+    in_folder(j, "cp -R golden frames && : >--help");
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
+        if (strcmp(hostile[i], "--help") == 0)
+            continue;
+        assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", hostile[i])), 2);
+        assert_string_equal(output_of(j, "status"), "2");
+        assert_false(file_exists(place_in(j->folder, "owned").path));
+    }
+    assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", "--max-delta 0.1\n  --max-pixels\t3\n")),
+                     0);
+}
+
+static void action_says_what_is_allowed_and_what_is_forgiven(void **state)
+{
+    job *j = *state;
+    change_game(j);
+    in_folder(j, "./my-game --film frames");
+    assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", "--max-delta 1")), 0);
+    assert_string_equal(output_of(j, "status"), "0");
+    assert_says(output_of(j, "summary"), "octreel diff: same");
+    assert_says(output_of(j, "summary"), "forgiven");
+}
+
+static void action_tells_trouble(void **state)
+{
+    job *j = *state;
+    assert_int_equal(run_action(j, action_inputs("golden", "no\nframes", "why", "")), 2);
+    assert_string_equal(output_of(j, "status"), "2");
+    assert_says(output_of(j, "summary"), "there is no such file or folder");
+    assert_says(j->run.said, "\n::error title=octreel diff::octreel: ");
+    assert_summary_says(j, "### octreel diff: trouble\n");
+    assert_int_equal(json_array_size(j->run.used), 0);
+}
+
+/* A frame's name that looks like one of the runner's commands is said while those are off. */
+static void action_keeps_names_from_being_commands(void **state)
+{
+    job *j = *state;
+    in_folder(j, "rm golden/*.json* && cp -R golden frames && cp golden/frame_000005.png \"$(printf 'golden/x\\n::add-mask::a.png')\"");
+    assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", "")), 1);
+    const char *off = strstr(j->run.said, "::stop-commands::"), *name = strstr(j->run.said, "\n::add-mask::");
+    char on[64] = "\n::";
+    assert_non_null(off);
+    strncat(on, off + sizeof "::stop-commands::" - 1, 32);
+    assert_true(name == NULL || (name > off && name < strstr(j->run.said, on)));
+}
+
+/* Where there is no octreel, what the action came with builds one: here a setup that only says so. */
+static void action_builds_its_own_program(void **state)
+{
+    job *j = *state;
+    static const char setup[] = "#!/bin/sh\necho \"setup $*\"\nmkdir -p \"$2/bin\"\nmv bin/octreel \"$2/bin\"\n";
+    in_folder(j, "cp -R golden frames && mkdir -p source/.github/actions source/viz");
+    file_write_text(place_in(j->folder, "source/viz/setup").path, setup);
+    command_result result =
+        run_script("cd %s && chmod +x source/viz/setup && cp -R %s source/.github/actions && pwd",
+                   ((temp_folder *)j->folder)->name, shell_quote(OCTREEL_ROOT "/.github/actions/diff").text);
+    assert_int_equal(result.status, 0);
+    char actions[1200];
+    snprintf(actions, sizeof actions, "%.*s/source/.github/actions", (int)strcspn(result.out, "\n"), result.out);
     command_release(&result);
-    if (!is_there)
+    j->run.actions = actions;
+    if (program_is_there("octreel"))
         skip();
-    file_write_text(place_in(j->folder, "job.yml").path, j->yaml);
-    result = run_script("python3 -c 'import sys, yaml\nsteps = yaml.safe_load(open(sys.argv[1]))[\"jobs\"][\"frames\"]"
-                        "[\"steps\"]\nprint(len(steps), steps[-1][\"if\"], steps[-1][\"with\"][\"path\"])' %s",
-                        place_in(j->folder, "job.yml").path);
-    assert_done(&result);
-    assert_string_equal(result.out, "7 failure() why\n");
-    command_release(&result);
+    in_folder(
+        j, "mv bin/octreel octreel && mkdir hidden && printf '#!/bin/sh\\nexit 1\\n' >hidden/sudo && mv octreel bin");
+    json_t *inputs = action_inputs("golden", "frames", "why", "");
+    json_object_set_new(inputs, "octreel", json_string(""));
+    in_folder(j, "mv bin/octreel octreel && sed -i 's|bin/octreel|octreel|' source/viz/setup");
+    assert_int_equal(run_action(j, inputs), 0);
+    assert_true(file_exists(place_in(j->folder, "temp/octreel/bin/octreel").path));
 }
 
 #define JOB(test) cmocka_unit_test_setup_teardown(test, prepare_job, forget_job)
@@ -156,7 +281,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         JOB(job_passes_where_nothing_differs),
         JOB(job_fails_where_a_frame_differs_and_keeps_the_evidence),
-        JOB(job_is_yaml),
+        JOB(action_takes_any_name_of_a_folder),
+        JOB(action_reads_what_is_allowed_as_words),
+        JOB(action_says_what_is_allowed_and_what_is_forgiven),
+        JOB(action_tells_trouble),
+        JOB(action_keeps_names_from_being_commands),
+        JOB(action_builds_its_own_program),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/* test_workflow.c - the workflow of this project: its lines are run as they stand there, on a machine where what
+ * installs, builds and tests only writes down that it was called. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "workflow.h"
+#include "yaml.h"
+
+#define WORKFLOW OCTREEL_ROOT "/.github/workflows/ci.yml"
+#define ACTIONS OCTREEL_ROOT "/.github/actions"
+
+typedef struct machine {
+    void *folder; /* a temp_folder */
+    json_t *jobs;
+    char *done; /* a line for each call */
+} machine;
+
+/* Programs that are made up. octreel is one, and where something is built. */
+static const char fakes[] = "for name in apt-cache apt-get cmake ctest dpkg-query lintian octreel setup; do\n"
+                            "    printf '#!/bin/sh\\necho \"%s $*\" >>\"%s/done\"\\n' $name \"$PWD\" >bin/$name\n"
+                            "    chmod +x bin/$name\n"
+                            "done\n"
+                            "printf 'mkdir -p build/bin\\ncp %s/bin/octreel build/bin\\n' \"$PWD\" >>bin/setup\n"
+                            "printf 'echo install ok installed\\n' >>bin/dpkg-query\n";
+
+static int prepare_machine(void **state)
+{
+    machine *m = calloc(1, sizeof *m);
+    *state = m;
+    if (m == NULL || temp_folder_make(&m->folder) != 0)
+        return -1;
+    json_t *workflow = yaml_read_file(WORKFLOW);
+    m->jobs = json_incref(json_object_get(workflow, "jobs"));
+    json_decref(workflow);
+    const shell_word root = shell_quote(OCTREEL_ROOT);
+    file_write_text(place_in(m->folder, "fakes").path, fakes);
+    command_result result = run_script("cd %s && mkdir -p bin viz tests && cp -R %s/viz/setup %s/viz/demo viz && "
+                                       "cp -R %s/tests/run %s/tests/examples tests && sh -e fakes",
+                                       ((temp_folder *)m->folder)->name, root.text, root.text, root.text, root.text);
+    assert_done(&result);
+    command_release(&result);
+    return 0;
+}
+
+static int forget_machine(void **state)
+{
+    machine *m = *state;
+    json_decref(m->jobs);
+    free(m->done);
+    const int status = nested_folder_remove(&m->folder);
+    free(m);
+    return status;
+}
+
+/* viz/setup asks for each package, which takes its time; it has a test of its own. */
+static void fake_setup(const machine *m)
+{
+    const char *folder = ((temp_folder *)m->folder)->name;
+    command_result result = run_script("cd %s && mv bin/setup viz/setup", folder);
+    assert_done(&result);
+    command_release(&result);
+}
+
+/* Run a job where its matrix has these values; what was called is in m->done. */
+static void run_job(machine *m, const char *name, const char *key, const char *value)
+{
+    char expression[64];
+    const json_t *job = json_object_get(m->jobs, name);
+    workflow w;
+    workflow_open(&w, m->folder, ACTIONS);
+    workflow_set(&w, "strategy.job-index", "0");
+    snprintf(expression, sizeof expression, "matrix.%s", key);
+    workflow_set(&w, expression, value);
+    remove(place_in(m->folder, "done").path);
+    const int status = workflow_run(&w, json_object_get(job, "steps"));
+    if (status != 0 || w.steps == 0)
+        fail_msg("job %s, %s %s: status %d: %s", name, key, value, status, w.complained);
+    workflow_close(&w);
+    free(m->done);
+    m->done = file_read(place_in(m->folder, "done").path, NULL);
+}
+
+static void assert_called(const machine *m, const char *part)
+{
+    if (strstr(m->done, part) == NULL)
+        fail_msg("not called: %s\n%s", part, m->done);
+}
+
+static void tests_are_built_and_run(void **state)
+{
+    machine *m = *state;
+    fake_setup(m);
+    run_job(m, "tests", "image", "debian:12");
+    assert_called(m, "setup tests ");
+    assert_called(m, "ctest --test-dir ");
+}
+
+/* A job a part, and together they are all that the README's command does. */
+static void each_part_of_all_tests_is_a_job(void **state)
+{
+    static const struct {
+        const char *part, *argument;
+    } parts[] = {
+        {"build", "-DOCTREEL_REQUIRE_ORACLES=ON"},
+        {"build-sanitize", "-DOCTREEL_SANITIZE=ON"},
+        {"build-clang", "-DBUILD_SHARED_LIBS=ON"},
+        {"build-fuzz", "-DOCTREEL_FUZZ=ON"},
+    };
+    machine *m = *state;
+    fake_setup(m);
+    const json_t *strategy = json_object_get(json_object_get(m->jobs, "all"), "strategy");
+    const json_t *named = json_object_get(json_object_get(strategy, "matrix"), "part");
+    assert_int_equal(json_array_size(named), sizeof parts / sizeof *parts);
+    command_result all = run_script("cd %s && PATH=\"$PWD/bin:$PATH\" && ./tests/run --all && cat done",
+                                    ((temp_folder *)m->folder)->name);
+    assert_int_equal(all.status, 0);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        char folder[64];
+        assert_string_equal(json_string_value(json_array_get(named, i)), parts[i].part);
+        run_job(m, "all", "part", parts[i].part);
+        snprintf(folder, sizeof folder, "/%s --output-on-failure --no-tests=error -C all", parts[i].part);
+        assert_called(m, folder);
+        assert_called(m, parts[i].argument);
+        for (char *save = NULL, *line = strtok_r(m->done, "\n", &save); line; line = strtok_r(NULL, "\n", &save))
+            if (strstr(all.out, line) == NULL)
+                fail_msg("./tests/run --all does not do this: %s", line);
+    }
+    command_release(&all);
+}
+
+static void page_is_filmed_and_compared(void **state)
+{
+    machine *m = *state;
+    fake_setup(m);
+    run_job(m, "page", "none", "");
+    assert_called(m, "octreel record --replace -o ");
+    assert_called(m, "octreel diff --output=octreel-evidence ");
+}
+
+static void packages_are_made_and_judged_and_installed(void **state)
+{
+    machine *m = *state;
+    run_job(m, "packages", "image", "debian:12");
+    assert_called(m, "--target package ");
+    assert_called(m, "lintian --fail-on error,warning build/packages/");
+    assert_called(m, "apt-get install -y ./build/packages/");
+    assert_called(m, "octreel record ");
+}
+
+/* What somebody names comes to a shell in variables, and no job may do more than read. */
+static void steps_hold_no_expressions_in_their_lines(void **state)
+{
+    const machine *m = *state;
+    const char *name;
+    json_t *job, *action = yaml_read_file(ACTIONS "/diff/action.yml"), *step;
+    json_object_set(m->jobs, "the action", json_object_get(action, "runs"));
+    json_object_foreach(m->jobs, name, job)
+    {
+        size_t i;
+        json_array_foreach(json_object_get(job, "steps"), i, step)
+        {
+            const json_t *run = json_object_get(step, "run");
+            if (run && strstr(json_string_value(run), "${{"))
+                fail_msg("%s: an expression in a line: %s", name, json_string_value(run));
+        }
+    }
+    json_decref(action);
+    json_t *workflow = yaml_read_file(WORKFLOW);
+    assert_true(json_equal(json_object_get(workflow, "permissions"), json_pack("{s:s}", "contents", "read")));
+    json_decref(workflow);
+}
+
+/* The test's reader of YAML agrees with PyYAML, which takes every scalar for a text here. */
+static void files_are_read_as_others_read_them(void **state)
+{
+    static const char *const files[] = {WORKFLOW, ACTIONS "/diff/action.yml"};
+    const machine *m = *state;
+    command_result result = run_shell("python3 -c 'import yaml' 2>/dev/null");
+    const bool is_there = result.status == 0;
+    command_release(&result);
+    if (!is_there)
+        skip();
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        json_t *ours = yaml_read_file(files[i]);
+        const place dumped = place_in(m->folder, "ours");
+        assert_int_equal(json_dump_file(ours, dumped.path, 0), 0);
+        json_decref(ours);
+        result = run_script("python3 -c 'import json, sys, yaml\n"
+                            "theirs = yaml.load(open(sys.argv[1]), yaml.BaseLoader)\n"
+                            "print(theirs == json.load(open(sys.argv[2])))' %s %s",
+                            shell_quote(files[i]).text, dumped.path);
+        assert_done(&result);
+        assert_string_equal(result.out, "True\n");
+        command_release(&result);
+    }
+}
+
+#define ON_MACHINE(test) cmocka_unit_test_setup_teardown(test, prepare_machine, forget_machine)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ON_MACHINE(tests_are_built_and_run),
+        ON_MACHINE(each_part_of_all_tests_is_a_job),
+        ON_MACHINE(page_is_filmed_and_compared),
+        ON_MACHINE(packages_are_made_and_judged_and_installed),
+        ON_MACHINE(steps_hold_no_expressions_in_their_lines),
+        ON_MACHINE(files_are_read_as_others_read_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
