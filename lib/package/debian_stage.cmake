@@ -5,6 +5,8 @@ cmake_policy(VERSION 3.22)
 set(work ${CPACK_TOPLEVEL_DIRECTORY}/debian_stage)
 file(REMOVE_RECURSE ${work})
 file(MAKE_DIRECTORY ${work}/debian)
+file(GLOB former ${CPACK_PACKAGE_DIRECTORY}/*.deb) # of an earlier version, say
+file(REMOVE ${former})
 
 # run(COMMAND...): in the folder of work; all its output is in `said`.
 function(run)
@@ -29,13 +31,18 @@ file(WRITE ${work}/changelog.Debian
      " -- ${CPACK_PACKAGE_CONTACT}  ${said}\n")
 file(WRITE ${work}/triggers "activate-noawait ldconfig\n")
 
-set(control "Source: octreel\n")
+file(WRITE ${work}/debian/control "Source: octreel\n")
+foreach(component ${CPACK_COMPONENTS_ALL})
+  string(TOUPPER ${component} key)
+  set(package ${CPACK_DEBIAN_${key}_PACKAGE_NAME})
+  file(APPEND ${work}/debian/control "\nPackage: ${package}\nArchitecture: any\n")
+endforeach()
+
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} key)
   set(package ${CPACK_DEBIAN_${key}_PACKAGE_NAME})
   set(staged ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component})
   set(documents ${staged}/usr/share/doc/${package})
-  string(APPEND control "\nPackage: ${package}\nArchitecture: any\n")
 
   # Letters of others are in what draws.
   file(READ ${CPACK_OCTREEL_SOURCE}/lib/LICENSE terms)
@@ -64,7 +71,6 @@ foreach(component ${CPACK_COMPONENTS_ALL})
 endforeach()
 
 # What the binaries are linked with, by the symbols that they use.
-file(WRITE ${work}/debian/control "${control}")
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} key)
   set(staged ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component})
