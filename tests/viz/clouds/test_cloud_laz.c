@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_cloud_laz.c - compressed LAS gives the bits of uncompressed LAS. The library's writer makes the files. */
+#include "commands.h"
 #include "las_files.h"
 #include "temp_folder.h"
 
@@ -126,11 +127,60 @@ static void laz_that_is_cut_off_is_refused(void **state)
     }
 }
 
+/* COPC 1.0: seven nodes, each a chunk of as many points as it has, and the hierarchy behind them; and a LAS file of the
+ * same points. */
+static void copc_is_what_las_is(void **state)
+{
+    (void)state;
+    cloud plain = read_cloud(OCTREEL_CLOUDS "/small.las"), packed = read_cloud(OCTREEL_CLOUDS "/small.copc.laz");
+    assert_int_equal(plain.count + plain.skipped, 24);
+    assert_same_clouds(&plain, &packed);
+    cloud_release(&plain);
+    cloud_release(&packed);
+}
+
+static void laz_comes_through_a_pipe(void **state)
+{
+    (void)state;
+    command_result file = run_octreel(NULL, "inspect %s --json", OCTREEL_CLOUDS "/small.copc.laz");
+    command_result pipe = run_script("cat %s | %s inspect - --json | sed 's/standard input/small.copc.laz/'",
+                                     OCTREEL_CLOUDS "/small.copc.laz", octreel_program());
+    assert_done(&file);
+    assert_done(&pipe);
+    assert_string_equal(pipe.out, file.out);
+    command_release(&file);
+    command_release(&pipe);
+}
+
+/* Nothing is decompressed: the file says that it is 1e9 points. */
+static void more_points_than_bytes_can_hold_are_refused(void **state)
+{
+    char path[2][256], sentence[256];
+    octreel_error error = {""};
+    cloud c;
+    static unsigned char data[8192];
+    const bytes file = make_some(2, 0);
+    make_files(*state, &file, path[0], path[1]);
+    FILE *stream = fopen(path[1], "rb");
+    assert_non_null(stream);
+    const size_t size = fread(data, 1, sizeof data, stream);
+    assert_int_equal(fclose(stream), 0);
+    memcpy(data + 107, (unsigned char[]){0x00, 0xca, 0x9a, 0x3b}, 4);
+    snprintf(sentence, sizeof sentence,
+             "a.laz:byte 107: 1000000000 compressed points are announced, and %zu bytes hold at most 256 each", size);
+    assert_false(cloud_parse("a.laz", data, size, &c, &error));
+    assert_string_equal(error.text, sentence);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(laz_of_every_point_format_is_what_las_is, temp_folder_make, temp_folder_remove),
         cmocka_unit_test_setup_teardown(laz_that_is_cut_off_is_refused, temp_folder_make, temp_folder_remove),
+        cmocka_unit_test(copc_is_what_las_is),
+        cmocka_unit_test(laz_comes_through_a_pipe),
+        cmocka_unit_test_setup_teardown(more_points_than_bytes_can_hold_are_refused, temp_folder_make,
+                                        temp_folder_remove),
     };
     return cmocka_run_group_tests_name("cloud_laz", tests, NULL, NULL);
 }
