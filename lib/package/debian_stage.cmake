@@ -6,7 +6,9 @@ set(work ${CPACK_TOPLEVEL_DIRECTORY}/debian_stage)
 file(REMOVE_RECURSE ${work})
 file(MAKE_DIRECTORY ${work}/debian)
 file(GLOB former ${CPACK_PACKAGE_DIRECTORY}/*.deb) # of an earlier version, say
-file(REMOVE ${former})
+if(former)
+  file(REMOVE ${former})
+endif()
 
 # run(COMMAND...): in the folder of work; all its output is in `said`.
 function(run)
