@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
 #include "command.h"
+#include "contact_sheet.h"
 #include "explain.h"
 #include "hint.h"
 #include "ignored_layers.h"
@@ -22,8 +23,8 @@ typedef struct arguments {
     const char *store;                     /* null: there is none */
     uint64_t causes;                       /* how many are explained */
     bool causes_said;
-    size_t lines; /* how many frames are listed: no fewer than are asked for by --causes */
-    bool json;
+    size_t lines; /* how many groups are listed: no fewer than are asked for by --causes */
+    bool json, each, annotate;
 } arguments;
 
 static bool read_delta(const command_option *option, const char *text, void *into)
@@ -107,9 +108,13 @@ static const command_option options[] = {
              "it in each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone "
              "differs. The verdict is about the frames, whatever their sessions are."},
     {"causes", "N",
-     "explain the first N frames and ticks that differ, and list as many of them, at least 10 (default 10; a page "
+     "explain the first N frames and ticks that differ, and list as many findings, at least 10 (default 10; a page "
      "explains 50), \"all\", or 0 for none",
      .read = read_causes, .size = sizeof(uint64_t), .max = UINT32_MAX},
+    {"each", NULL,
+     "a finding for each frame. Else frames that differ for one cause are one, told and shown once, by the first of "
+     "them; where no cause is known, those in which the same pixels differ by as much",
+     .read = read_flag, OPTION_VALUE(arguments, each)},
     {.help = "What is read and written:"},
     {"store", "DIR",
      "of a file of digests: pictures that octreel accept --store has put there show what was expected; no verdict "
@@ -118,16 +123,21 @@ static const command_option options[] = {
     {"background", "RRGGBB", "what transparent pixels are laid over (default ffffff, white)", .read = read_color,
      OPTION_VALUE(arguments, options.background)},
     {"output", "DIR",
-     "leave evidence: report.html, a page that holds all it shows, and of each frame that differs NAME.expected.png, "
-     "NAME.actual.png and NAME.difference.png (what counts glows, be it by one level; what is forgiven is blue)",
+     "leave evidence: report.html, a page that holds all it shows, and in which findings are ticked for octreel accept "
+     "--from; of the first frame of each finding NAME.expected.png, NAME.actual.png and NAME.difference.png (what "
+     "counts glows, be it by one level; what is forgiven is blue); and contact.png, all of them small",
      .read = read_folder, OPTION_VALUE(arguments, folder)},
-    JSON_OPTION(arguments, json, "print JSON"),
+    JSON_OPTION(arguments, json, "print JSON, as share/octreel/diff.schema.json says"),
     {"junit", "FILE", "write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions read it",
      .read = read_file, OPTION_VALUE(arguments, junit)},
     {"markdown", "FILE",
      "write a summary for a CI job's page: the verdict and a table of what differs (FILE may be -, standard output, "
      "for one of the two, unless --json goes there)",
      .read = read_file, OPTION_VALUE(arguments, markdown)},
+    {"annotate", NULL,
+     "print GitHub's commands that show what differs beside a change, to standard error; so it is where the "
+     "environment has GITHUB_ACTIONS set",
+     .read = read_flag, OPTION_VALUE(arguments, annotate)},
     {0},
 };
 
@@ -199,14 +209,16 @@ static int report(const arguments *a, diff_report *all)
     octreel_error error;
     bool ok = true;
     if (a->folder) {
-        ok = evidence_collect(&e, a->folder, all->result, &error);
+        ok = evidence_collect(&e, a->folder, all->result, all->groups, &error);
         all->evidence = &e;
-        ok = ok && diff_report_page(all, &error);
+        ok = ok && contact_sheet_write(all, &error) && diff_report_page(all, &error);
     }
     ok = ok && write_report(a->junit, diff_report_junit, all, &error) &&
          write_report(a->markdown, diff_report_markdown, all, &error);
     if (ok)
         print_report(a, all);
+    if (ok && a->annotate && !diff_report_github(stderr, all))
+        ok = error_no_memory(&error);
     evidence_release(&e);
     if (!ok)
         return trouble("%s", error.text);
@@ -238,13 +250,17 @@ static int compare(const arguments *a, const char *paths[2])
     diff_side sides[2] = {{0}, {0}};
     diff_result result = {0};
     explanation why = {0};
+    frame_groups groups = {0};
     octreel_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
                     check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
                     (!a->store || picture_store_fetch(a->store, &sides[0], &result, &error)) &&
-                    explain(&sides[0], &sides[1], &result, a->causes, &why, &error);
-    diff_report all = {.a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines};
+                    explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
+                    frame_groups_make(&groups, &result, &why, a->each, &error);
+    diff_report all = {
+        .a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines, .groups = &groups};
     const int status = ok ? report(a, &all) : trouble("%s", error.text);
+    frame_groups_release(&groups);
     explanation_release(&why);
     diff_release(&result);
     diff_side_release(&sides[0]);
@@ -258,6 +274,7 @@ static int run(int argc, char **argv)
 {
     arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
     int status = command_read(&command_diff, &a, argc, argv);
+    a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
     a.lines = a.causes_said && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     if (a.folder && !a.causes_said)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */
@@ -282,9 +299,12 @@ const command command_diff = {
     .examples = "octreel diff before.png after.png\n"
                 "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
-                "octreel digest frames -o frames.digests && octreel diff frames.digests frames\n",
+                "octreel digest frames -o frames.digests && octreel diff frames.digests frames\n"
+                "octreel diff baseline.txt frames --store pictures -o evidence\n",
+    .environment = "  GITHUB_ACTIONS  when it is set, GitHub's commands are printed, as by --annotate\n",
     .files = "  DIR/report.html  the page, which holds all that it shows\n"
-             "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  of each frame that differs\n",
+             "  DIR/contact.png  the pictures of all findings, small\n"
+             "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  of the first frame of a finding\n",
     .least = 2,
     .most = 2,
     .takes = "two sides, each a PNG, a folder of PNGs, a recording or a file of digests",

@@ -2,10 +2,10 @@
 /* explain.c - two sides are explained pair by pair; recordings are played for it. */
 #include "explain.h"
 #include "cause_words.h"
+#include "pair_look.h"
+#include "parallel.h"
 #include "file.h"
 #include "frame_file.h"
-#include "image_digest.h"
-#include "png_read.h"
 #include "text.h"
 
 #include <errno.h>
@@ -21,8 +21,10 @@ bool explain_is_unlike(const diff_pair *pair)
 
 void explanation_release(explanation *e)
 {
-    for (size_t i = 0; i < e->count; i++)
+    for (size_t i = 0; i < e->count; i++) {
         free(e->pairs[i].text);
+        free(e->pairs[i].key);
+    }
     free(e->pairs);
     free(e->headline);
     free(e->trouble);
@@ -36,6 +38,11 @@ void explanation_release(explanation *e)
 const char *explanation_cause(const explanation *e, size_t i)
 {
     return e->pairs ? e->pairs[i].text : NULL;
+}
+
+const char *explanation_key(const explanation *e, size_t i)
+{
+    return e->pairs ? e->pairs[i].key : NULL;
 }
 
 diff_verdict explanation_verdict(const explanation *e, const diff_result *result)
@@ -131,193 +138,6 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
     return ok;
 }
 
-/* ---- One pair ------------------------------------------------------------------------------------------------ */
-
-/* What both frames say of themselves in their text chunks. */
-typedef struct origins {
-    frame_origin of[2];
-    bool told[2]; /* the frame says it */
-} origins;
-
-static origins read_origins(const diff_pair *pair)
-{
-    const diff_frame *const frames[2] = {pair->a, pair->b};
-    origins o = {0};
-    for (int i = 0; i < 2; i++)
-        o.told[i] = frames[i] && frames[i]->path && frame_read_origin(frames[i]->path, &o.of[i]);
-    return o;
-}
-
-static bool both_told(const origins *o)
-{
-    return o->told[0] && o->told[1];
-}
-
-/* Whether a frame has the pixels of the digest in its text chunk. */
-static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
-{
-    octreel_error ignored;
-    image about;
-    uint64_t pixels;
-    errno = 0;
-    if (!image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
-        return !system_served(&ignored); /* nothing is said of what is not known */
-    return pixels == origin->pixels;
-}
-
-/* What a frame is that is not the one which its recording made for this tick; "" where it is. */
-static const char *tell_foreign(const recorded *r, const frame_origin *origin, uint64_t tick, char text[64])
-{
-    if (origin->session != r->filmed && origin->session != r->replay.session_digest)
-        return "is a frame of another session";
-    if (origin->tick == tick)
-        return "";
-    snprintf(text, 64, "is the frame of tick %" PRIu64, origin->tick);
-    return text;
-}
-
-/* Name the frames that were exchanged, or changed after they were drawn. */
-static bool print_tampered(FILE *out, const explanation *e, const diff_pair *pair, const origins *o, uint64_t tick)
-{
-    const diff_frame *const frames[2] = {pair->a, pair->b};
-    bool any = false;
-    for (int i = 0; i < 2; i++) {
-        char text[64];
-        const char *what = o->told[i] && e->recordings ? tell_foreign(&e->sides[i], &o->of[i], tick, text) : "";
-        if (o->told[i] && !*what && !is_as_drawn(frames[i], &o->of[i]))
-            what = "was changed after it was drawn: its pixels are not those that it says";
-        if (*what)
-            fprintf(out, "%s%s %s", any ? "; " : "", frames[i]->path, what);
-        any = any || *what;
-    }
-    return any;
-}
-
-static bool same_renderer(const explanation *e)
-{
-    return strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0;
-}
-
-static void print_renderers(FILE *out, const explanation *e)
-{
-    fprintf(out, "; reference drawn by %s, frame by %s", e->sides[0].drawn_by, e->sides[1].drawn_by);
-}
-
-/* The sentence for frames of the same scene: who drew them, where that is known. */
-static void print_rendering(FILE *out, const explanation *e)
-{
-    fputs("rendering differs: the scene digests are equal", out);
-    if (e->recordings && same_renderer(e))
-        fprintf(out, "; both drawn by %s", e->sides[0].drawn_by);
-    else if (e->recordings)
-        print_renderers(out, e);
-}
-
-/* Why a recording has no frame of a tick. */
-static void print_missing(FILE *out, const recorded *r, uint64_t tick)
-{
-    const uint64_t last = octree_session_length(&r->replay.session.session);
-    if (tick > last)
-        fprintf(out, "the session of %s ends at tick %" PRIu64, r->side->path, last);
-    else if (octree_session_gap(&r->replay.session.session, tick))
-        fprintf(out, "%s has a gap there: %s", r->side->path,
-                octree_session_gap(&r->replay.session.session, tick)->why);
-    else if (!frame_is_due(tick, r->view.every))
-        fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
-    else
-        fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);
-}
-
-/* Nothing differs that the files beside the frames tell. */
-static void print_unknown(FILE *out, const diff_pair *pair, const origins *o)
-{
-    if (both_told(o))
-        fputs("another scene of the same session and view: drawn by another version of octreel, or the files beside "
-              "the frames were changed",
-              out);
-    for (int i = 0; i < 2; i++)
-        if (!o->told[i])
-            fprintf(out, "%s%s has none of octreel's texts, as after another program has saved it",
-                    i && !o->told[0] ? "; " : "", (i ? pair->b : pair->a)->path);
-}
-
-static void print_tick(FILE *out, const explanation *e, const diff_pair *pair, const origins *o, uint64_t tick)
-{
-    const cause_tick *told = cause_at(&e->cause, tick);
-    const bool facts = told && told->facts.count > 0, view = e->cause.view.count > 0;
-    fprintf(out, "tick %" PRIu64 ": ", tick);
-    if (facts)
-        cause_print_facts(out, &told->facts, false);
-    if (view) {
-        fputs(facts ? "; " : "", out);
-        cause_print_facts(out, &e->cause.view, false);
-    }
-    if (facts || view)
-        return;
-    if (e->cause.session.count > 0) {
-        fputs("the same happened in it; ", out);
-        cause_print_facts(out, &e->cause.session, true);
-    } else {
-        print_unknown(out, pair, o);
-    }
-}
-
-/* Frames without recordings: only their text chunks are known. */
-static void print_origins(FILE *out, const origins *o)
-{
-    const frame_origin *a = &o->of[0], *b = &o->of[1];
-    if (a->tick != b->tick)
-        fprintf(out, "the reference shows tick %" PRIu64 ", the frame tick %" PRIu64, a->tick, b->tick);
-    else if (a->session != b->session)
-        fprintf(out, "tick %" PRIu64 " of unlike sessions", a->tick);
-    else
-        fprintf(out, "tick %" PRIu64 " of one session in unlike scenes: another view, or another version of octreel",
-                a->tick);
-}
-
-/* What is drawn where they differ. */
-static void print_trace(FILE *out, const explanation *e, uint64_t tick)
-{
-    const cause_tick *told = cause_at(&e->cause, tick);
-    if (told && told->trace.count) {
-        fputs("; ", out);
-        trace_print(out, &told->trace);
-    }
-}
-
-static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, pair_cause *cause)
-{
-    const origins o = read_origins(pair);
-    const bool same_scene = both_told(&o) && o.of[0].scene == o.of[1].scene, both = pair->a && pair->b;
-    uint64_t tick = 0;
-    frame_parse_name(diff_pair_name(pair), &tick);
-    const bool tampered = print_tampered(out, e, pair, &o, tick);
-    cause->only_drawn = same_scene && !tampered && e->cause.view.count == 0;
-    if (cause->only_drawn)
-        print_rendering(out, e);
-    else if (e->recordings && both && !tampered)
-        print_tick(out, e, pair, &o, tick);
-    else if (e->recordings && !both)
-        print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
-    else if (both_told(&o) && !tampered)
-        print_origins(out, &o);
-    if (e->recordings && same_scene && !tampered && !cause->only_drawn && !same_renderer(e))
-        print_renderers(out, e);
-    if (e->recordings)
-        print_trace(out, e, tick);
-}
-
-/* Find the cause of a pair that differs. Its text is null where neither recordings nor text chunks in the frames tell
- * one. */
-static bool find_cause(const explanation *e, const diff_pair *pair, pair_cause *cause, octreel_error *error)
-{
-    text_stream s;
-    const bool begun = text_stream_begin(&s);
-    if (begun)
-        print_cause(s.stream, e, pair, cause);
-    return (text_stream_end(&s, &cause->text) && begun) || error_no_memory(error);
-}
-
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
 /* Whether all explained pairs show the same scenes, drawn differently. */
@@ -363,7 +183,7 @@ static void print_headline(FILE *out, const explanation *e, const diff_result *r
     if (known)
         cause_print_headline(out, &e->cause);
     else if (only_drawn(e))
-        print_rendering(out, e);
+        pair_print_rendering(out, e);
     else if (first < e->count && e->recordings)
         fprintf(out, "%s: %s", diff_pair_name(&result->pairs[first]), e->pairs[first].text);
 }
@@ -400,19 +220,39 @@ static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_re
             file_differs(a, b, "ticks.jsonl"));
 }
 
+/* All pairs while they are looked at. */
+typedef struct looking {
+    const explanation *e;
+    const diff_result *result;
+    pair_look *looks;
+} looking;
+
+static void look(size_t i, void *context)
+{
+    const looking *l = context;
+    const diff_pair *pair = &l->result->pairs[i];
+    if (explain_is_unlike(pair)) {
+        l->looks[i] = pair_look_at(l->e, pair);
+        l->e->pairs[i].key = pair_find_key(l->e, pair, &l->looks[i]);
+    }
+}
+
+/* Each pair has the key of its cause, and the first ones a sentence. */
 static bool explain_pairs(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
-    bool ok = true;
+    looking l = {e, result, calloc(result->count + 1, sizeof *l.looks)};
     e->pairs = calloc(result->count + 1, sizeof *e->pairs);
-    if (!e->pairs)
-        return error_no_memory(error);
-    e->count = result->count;
+    bool ok = (l.looks && e->pairs) || error_no_memory(error);
+    e->count = e->pairs ? result->count : 0;
+    if (ok)
+        parallel_for(result->count, look, &l);
     for (size_t i = 0; ok && i < result->count && most > 0; i++) {
         if (!explain_is_unlike(&result->pairs[i]))
             continue;
-        ok = find_cause(e, &result->pairs[i], &e->pairs[i], error);
+        ok = pair_find_cause(e, &result->pairs[i], &l.looks[i], &e->pairs[i], error);
         most--;
     }
+    free(l.looks);
     return ok;
 }
 

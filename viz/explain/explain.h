@@ -7,7 +7,7 @@
  *   different: 5 of 5 frames                                        report.c
  *   another leaf capacity (4, was 2): every tick from 0 differs     the headline: print_headline() in explain.c
  *     frame_000001.png: 312 of 14400 pixels differ; ...             report.c
- *       tick 1: node 0/3/7 split, point 12 moved from ...           a pair: print_cause() in explain.c
+ *       tick 1: node 0/3/7 split, point 12 moved from ...           a pair: print_cause() in pair_look.c
  *       ...; 312 pixels: 180 of node 0/3/7, 132 of point 12         its pixels: trace_print()
  * The facts in the second and the fourth line are found by cause.h and printed by cause_words.h and, as JSON,
  * cause_json.h.
@@ -22,6 +22,7 @@
 /* Why the frames of one pair differ. */
 typedef struct pair_cause {
     char *text;      /* one sentence; null where none is known; owned */
+    char *key;       /* the same in all pairs that differ for one cause; null where that is not asked; owned */
     bool only_drawn; /* both frames show the same scene, as they were drawn */
 } pair_cause;
 
@@ -46,8 +47,9 @@ bool explain(const diff_side *a, const diff_side *b, const diff_result *result, 
              octreel_error *error);
 void explanation_release(explanation *e);
 
-/* The sentence of the i-th pair, or null. */
+/* The sentence of the i-th pair, or null; and its key. */
 const char *explanation_cause(const explanation *e, size_t i);
+const char *explanation_key(const explanation *e, size_t i);
 
 /* The verdict of the result, or trouble where explaining failed. */
 diff_verdict explanation_verdict(const explanation *e, const diff_result *result);

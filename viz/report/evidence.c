@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* evidence.c - the folder of evidence, and the pictures in it. */
 #include "evidence.h"
+#include "contact_sheet.h"
 #include "file.h"
 #include "folder.h"
 #include "octree/digest.h"
@@ -21,8 +22,8 @@
 static const char marker_beginning[] = "octreel evidence 1\n";
 static const char marker_text[] = "octreel evidence 1\n"
                                   "What octreel diff found: open " EVIDENCE_PAGE ".\n"
-                                  "The next octreel diff -o into this folder removes the page and all pictures named\n"
-                                  "*.expected.png, *.actual.png and *.difference.png.\n";
+                                  "The next octreel diff -o into this folder removes the page, contact.png and all\n"
+                                  "pictures named *.expected.png, *.actual.png and *.difference.png.\n";
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
@@ -119,7 +120,11 @@ static bool has_marker(const char *folder)
 
 static bool is_ours(const char *name)
 {
-    return evidence_is_name(name) || strcmp(name, EVIDENCE_PAGE) == 0 || strcmp(name, EVIDENCE_PAGE ".part") == 0;
+    static const char *const files[] = {EVIDENCE_PAGE, EVIDENCE_PAGE ".part", CONTACT_SHEET, CONTACT_SHEET ".part"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (strcmp(name, files[i]) == 0)
+            return true;
+    return evidence_is_name(name);
 }
 
 static bool remove_entry(const char *folder, const char *name, octreel_error *error)
@@ -252,12 +257,13 @@ bool evidence_draw(const diff_pair *pair, const diff_options *options, const cha
 
 /* ---- All pairs ----------------------------------------------------------------------------------------------- */
 
-bool evidence_collect(evidence *e, const char *folder, const diff_result *result, octreel_error *error)
+bool evidence_collect(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
+                      octreel_error *error)
 {
     *e = (evidence){.folder = folder, .pictures = calloc(result->count, sizeof *e->pictures)};
     bool ok = e->pictures || error_no_memory(error);
     for (size_t i = 0; ok && i < result->count; i++)
-        if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME)
+        if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && frame_groups_shows(groups, i))
             ok = evidence_draw(&result->pairs[i], &result->options, folder, &e->pictures[i], error);
     if (!ok)
         evidence_release(e);

@@ -4,6 +4,7 @@
 #define REPORT_EVIDENCE_H
 
 #include "diff.h"
+#include "groups.h"
 
 #define EVIDENCE_PAGE "report.html"
 
@@ -42,8 +43,9 @@ typedef struct evidence {
  * is a folder that holds anything else, or that is or holds what is compared. */
 bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error);
 
-/* Draw each pair that differs, one after the other. */
-bool evidence_collect(evidence *e, const char *folder, const diff_result *result, octreel_error *error);
+/* Draw the first pair of each group that differs, one after the other. */
+bool evidence_collect(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
+                      octreel_error *error);
 void evidence_release(evidence *e);
 
 /* The path of a picture of the i-th pair: null when it is not there, or there is no memory; the caller frees it. */

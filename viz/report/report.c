@@ -20,29 +20,38 @@ void diff_print_summary(FILE *out, const diff_report *report)
     diff_print_verdict(out, report->result, explanation_verdict(report->why, report->result));
 }
 
-static void print_pairs(FILE *out, const diff_result *result, const explanation *why, size_t lines)
+/* The first frame of a group stands for all. */
+static void print_group(FILE *out, const diff_report *report, size_t group)
 {
-    size_t listed = 0;
-    for (size_t i = 0; i < result->count; i++) {
-        if (!diff_is_listed(result->pairs[i].finding))
-            continue;
-        if (listed++ >= lines)
-            continue;
-        fputs("  ", out);
-        diff_print_pair(out, &result->pairs[i]);
+    const frame_group *g = &report->groups->groups[group];
+    fputs("  ", out);
+    diff_print_pair(out, &report->result->pairs[g->first]);
+    fputc('\n', out);
+    if (explanation_cause(report->why, g->first))
+        print_line(out, "    ", explanation_cause(report->why, g->first));
+    if (g->count > 1) {
+        fprintf(out, "    and %zu more alike: ", g->count - 1);
+        frame_group_print(out, report->groups, report->result, group, true);
         fputc('\n', out);
-        if (explanation_cause(why, i))
-            print_line(out, "    ", explanation_cause(why, i));
     }
-    print_more(out, listed, lines, "--causes all lists all, and so does --json");
+}
+
+static void print_groups(FILE *out, const diff_report *report)
+{
+    for (size_t i = 0; i < report->groups->count && i < report->lines; i++)
+        print_group(out, report, i);
+    print_more(out, report->groups->count, report->lines, "--causes all lists all, and so does --json");
 }
 
 /* Recordings are explained up to a number of frames. */
-static void print_unexplained(FILE *out, const diff_result *result, const explanation *why)
+static void print_unexplained(FILE *out, const diff_report *report)
 {
+    const explanation *why = report->why;
     size_t more = 0;
-    for (size_t i = 0; why->recordings && i < result->count; i++)
-        more += explain_is_unlike(&result->pairs[i]) && !explanation_cause(why, i);
+    for (size_t i = 0; why->recordings && i < report->groups->count; i++) {
+        const size_t first = report->groups->groups[i].first;
+        more += explain_is_unlike(&report->result->pairs[first]) && !explanation_cause(why, first);
+    }
     if (more)
         fprintf(out, "  %zu of these %s left unexplained; --causes all tells more\n", more, more == 1 ? "is" : "are");
     if (*why->tracer.untraced)
@@ -122,8 +131,8 @@ void diff_report_text(FILE *out, const diff_report *report)
     fputc('\n', out);
     if (report->why->headline)
         print_line(out, "", report->why->headline);
-    print_pairs(out, report->result, report->why, report->lines);
-    print_unexplained(out, report->result, report->why);
+    print_groups(out, report);
+    print_unexplained(out, report);
     diff_print_tolerance(out, report);
     fputc('\n', out);
     if (report->evidence) {

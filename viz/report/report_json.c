@@ -2,6 +2,7 @@
 /* report_json.c - a comparison as JSON. */
 #include "report_json.h"
 #include "cause_json.h"
+#include "contact_sheet.h"
 #include "diff_words.h"
 
 #include <inttypes.h>
@@ -113,6 +114,8 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
     }
     if (pair->trouble)
         json_member_text(w, "trouble", pair->trouble);
+    if (pair->no_picture)
+        json_member_text(w, "no_picture", pair->no_picture);
     if (cause)
         json_member_text(w, "cause", cause);
 }
@@ -145,6 +148,33 @@ static void write_findings(json_writer *w, const diff_report *report)
     json_write_end_array(w);
 }
 
+/* Where names of frames are listed, groups are: a frame that a group has stands in no other. */
+void diff_json_group(json_writer *w, const diff_report *report, size_t group)
+{
+    const diff_result *result = report->result;
+    json_member_begin_array(w, "frames");
+    for (size_t i = report->groups->groups[group].first; i < result->count; i++)
+        if (report->groups->of[i] == group)
+            json_write_string(w, diff_pair_name(&result->pairs[i]));
+    json_write_end_array(w);
+}
+
+static void write_groups(json_writer *w, const diff_report *report)
+{
+    json_member_begin_array(w, "groups");
+    for (size_t i = 0; i < report->groups->count; i++) {
+        const size_t first = report->groups->groups[i].first;
+        const char *cause = explanation_cause(report->why, first);
+        json_write_begin_object(w);
+        json_member_text(w, "finding", diff_finding_name(report->result->pairs[first].finding));
+        if (cause)
+            json_member_text(w, "cause", cause);
+        diff_json_group(w, report, i);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
 static void write_counts(json_writer *w, const diff_result *result)
 {
     json_member_integer(w, "frames", result->count);
@@ -169,14 +199,18 @@ void diff_json_summary(json_writer *w, const diff_report *report)
     write_counts(w, result);
 }
 
-static void write_place(json_writer *w, const evidence *e)
+static void write_place(json_writer *w, const diff_report *report)
 {
-    char *page = path_join(e->folder, EVIDENCE_PAGE);
+    const evidence *e = report->evidence;
+    char *page = path_join(e->folder, EVIDENCE_PAGE), *sheet = path_join(e->folder, CONTACT_SHEET);
     json_member_begin_object(w, "evidence");
     json_member_text(w, "folder", e->folder);
     if (page)
         json_member_text(w, "page", page);
+    if (sheet && frame_groups_count_unlike(report->groups, report->result) > 0)
+        json_member_text(w, "contact_sheet", sheet);
     json_write_end_object(w);
+    free(sheet);
     free(page);
 }
 
@@ -184,10 +218,13 @@ void diff_report_json(FILE *out, const diff_report *report)
 {
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
+    json_member_text(w, "octreel", "diff");
+    json_member_integer(w, "version", DIFF_REPORT_JSON_VERSION);
     diff_json_summary(w, report);
     if (report->evidence)
-        write_place(w, report->evidence);
+        write_place(w, report);
     write_findings(w, report);
+    write_groups(w, report);
     if (report->why->recordings) {
         json_write_key(w, "cause");
         cause_write_json(w, report->why);

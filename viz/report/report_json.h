@@ -12,4 +12,7 @@ void diff_json_summary(json_writer *writer, const diff_report *report);
 /* The i-th pair: its name, its finding and what belongs to that, as members likewise. */
 void diff_json_finding(json_writer *writer, const diff_report *report, size_t i);
 
+/* The names of a group's frames, as one member likewise. */
+void diff_json_group(json_writer *writer, const diff_report *report, size_t group);
+
 #endif

@@ -10,6 +10,24 @@
 
 #include <stdlib.h>
 
+/* All that is known of the first frame of a group. */
+static void print_words(FILE *out, const diff_report *report, size_t i)
+{
+    const size_t group = report->groups->of[i];
+    diff_print_difference(out, &report->result->pairs[i]);
+    if (explanation_cause(report->why, i))
+        fprintf(out, ". Cause: %s", explanation_cause(report->why, i));
+    if (report->groups->groups[group].count > 1) {
+        fputs(". Alike: ", out);
+        frame_group_print(out, report->groups, report->result, group, true);
+    }
+}
+
+static const char *name_of_first(const diff_report *report, size_t i)
+{
+    return diff_pair_name(&report->result->pairs[report->groups->groups[report->groups->of[i]].first]);
+}
+
 static bool write_fault(FILE *out, const diff_report *report, size_t i)
 {
     const diff_pair *pair = &report->result->pairs[i];
@@ -20,9 +38,10 @@ static bool write_fault(FILE *out, const diff_report *report, size_t i)
     if (!text_stream_begin(&s))
         return false;
     fprintf(s.stream, "%s: ", diff_verdict_name(verdict));
-    diff_print_difference(s.stream, pair);
-    if (explanation_cause(report->why, i))
-        fprintf(s.stream, ". Cause: %s", explanation_cause(report->why, i));
+    if (frame_groups_shows(report->groups, i))
+        print_words(s.stream, report, i);
+    else
+        fprintf(s.stream, "like %s", name_of_first(report, i));
     if (!text_stream_end(&s, &words))
         return false;
     fprintf(out, "      <%s type=\"%s\"", element, diff_finding_name(pair->finding));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* report_markdown.c - a comparison for the page of a CI job: see report.h. */
-#include "report.h"
+#include "contact_sheet.h"
 #include "diff_words.h"
 #include "text.h"
 
@@ -38,22 +38,35 @@ static void write_pixels(FILE *out, const diff_pair *pair)
             d->counted.worst_x, d->counted.worst_y);
 }
 
-static bool write_row(FILE *out, const diff_report *report, size_t i, bool causes)
+static bool write_others(FILE *out, const diff_report *report, size_t group)
 {
+    text_stream s;
+    if (report->groups->groups[group].count == 1)
+        return true;
+    fprintf(out, " and %zu more: ", report->groups->groups[group].count - 1);
+    if (!text_stream_begin(&s))
+        return false;
+    frame_group_print(s.stream, report->groups, report->result, group, true);
+    return write_escaped_stream(out, &s, escape_markdown);
+}
+
+static bool write_row(FILE *out, const diff_report *report, size_t group, bool causes)
+{
+    const size_t i = report->groups->groups[group].first;
     const diff_pair *pair = &report->result->pairs[i];
     const char *cause = explanation_cause(report->why, i);
-    bool ok = true;
     fputs("| ", out);
     write_name(out, diff_pair_name(pair));
+    bool ok = write_others(out, report, group);
     fputs(" | ", out);
     if (pair->finding == FOUND_PIXELS) {
         write_pixels(out, pair);
     } else {
         text_stream s;
-        ok = text_stream_begin(&s);
-        if (ok)
+        ok = text_stream_begin(&s) && ok;
+        if (s.stream)
             diff_print_difference(s.stream, pair);
-        ok = ok && write_escaped_stream(out, &s, escape_markdown);
+        ok = write_escaped_stream(out, &s, escape_markdown) && ok;
         fputs(" |", out);
     }
     fputs(" |", out);
@@ -68,15 +81,16 @@ static bool write_row(FILE *out, const diff_report *report, size_t i, bool cause
 
 static bool write_table(FILE *out, const diff_report *report)
 {
-    const diff_result *result = report->result;
     const bool causes = has_causes(report->why);
     size_t rows = 0;
     bool ok = true;
     fprintf(out, "\n| frame | difference | worst |%s\n|---|---|---|%s\n", causes ? " cause |" : "",
             causes ? "---|" : "");
-    for (size_t i = 0; ok && i < result->count; i++)
-        if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && rows++ < DIFF_REPORT_ROWS)
+    for (size_t i = 0; ok && i < report->groups->count; i++) {
+        const diff_pair *first = &report->result->pairs[report->groups->groups[i].first];
+        if (diff_finding_verdict(first->finding) != DIFF_SAME && rows++ < DIFF_REPORT_ROWS)
             ok = write_row(out, report, i, causes);
+    }
     if (rows > DIFF_REPORT_ROWS)
         fprintf(out, "\nand %zu more\n", rows - DIFF_REPORT_ROWS);
     return ok;
@@ -130,7 +144,10 @@ bool diff_report_markdown(FILE *out, const diff_report *report)
     if (report->evidence) {
         fputs("\nEvidence: <code>", out);
         write_text(out, report->evidence->folder);
-        fputs("/" EVIDENCE_PAGE "</code>\n", out);
+        fputs("/" EVIDENCE_PAGE "</code>", out);
+        if (any_differs(report->result))
+            fputs(", at a glance <code>" CONTACT_SHEET "</code>", out);
+        fputs("\n", out);
     }
     return true;
 }

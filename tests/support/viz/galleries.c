@@ -62,6 +62,14 @@ comparison_of assert_compared(const char *a, const char *b, const diff_options *
     return made;
 }
 
+const frame_groups *group_frames(comparison_of *made, bool each)
+{
+    octreel_error error;
+    frame_groups_release(&made->groups);
+    assert_true(frame_groups_make(&made->groups, &made->result, &made->why, each, &error));
+    return &made->groups;
+}
+
 const char *cause_of(const comparison_of *made, const char *name)
 {
     const diff_pair *pair = diff_find(&made->result, name);
@@ -81,6 +89,7 @@ void give_cause(comparison_of *made, size_t i, const char *text)
 
 void comparison_release(comparison_of *made)
 {
+    frame_groups_release(&made->groups);
     explanation_release(&made->why);
     diff_release(&made->result);
     diff_side_release(&made->a);

@@ -3,7 +3,7 @@
 #ifndef GALLERIES_H
 #define GALLERIES_H
 
-#include "explain.h"
+#include "groups.h"
 #include "files.h"
 
 #define GALLERY_WIDTH 24
@@ -26,10 +26,14 @@ diff_side assert_side(const char *path);
 typedef struct comparison_of {
     diff_side a, b;
     diff_result result;
-    explanation why; /* zeroed until somebody explains */
+    explanation why;     /* zeroed until somebody explains */
+    frame_groups groups; /* likewise, until somebody groups */
 } comparison_of;
 
 comparison_of assert_compared(const char *a, const char *b, const diff_options *options);
+
+/* Group the frames by what is found and explained so far, or each by itself. */
+const frame_groups *group_frames(comparison_of *made, bool each);
 
 /* The sentence of a pair of this name, or null. */
 const char *cause_of(const comparison_of *made, const char *name);

@@ -36,7 +36,7 @@ static void assert_says(const command_result *result, const char *part)
 static void the_headline_comes_second_and_causes_below_their_frames(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
-    command_result result = run_octreel(NULL, "diff %s %s --causes 2", p.a.path, p.b.path);
+    command_result result = run_octreel(NULL, "diff %s %s --each --causes 2", p.a.path, p.b.path);
     assert_int_equal(result.status, 1);
     assert_string_equal(result.err, "");
     assert_says(&result,
@@ -50,7 +50,7 @@ static void the_headline_comes_second_and_causes_below_their_frames(void **state
 static void all_or_no_frames_are_explained_where_that_is_asked_for(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
-    command_result result = run_octreel(NULL, "diff %s %s --causes all", p.a.path, p.b.path);
+    command_result result = run_octreel(NULL, "diff %s %s --each --causes all", p.a.path, p.b.path);
     assert_says(&result, "\n    tick 4: ");
     assert_null(strstr(result.out, "unexplained"));
     command_release(&result);
@@ -177,7 +177,7 @@ static void without_a_renderer_the_rest_is_told(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
     const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
-    command_result result = run_octreel(&other, "diff %s %s", p.a.path, p.b.path);
+    command_result result = run_octreel(&other, "diff %s %s --each", p.a.path, p.b.path);
     assert_int_equal(result.status, 1);
     assert_string_equal(result.err, "");
     assert_says(&result, "another leaf capacity (4, was 2)");

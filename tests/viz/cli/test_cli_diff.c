@@ -142,7 +142,8 @@ static void json_tells_all_of_it(void **state)
     assert_int_equal(result.status, 1);
     json_t *object = json_read(result.out);
     assert_members(object,
-                   "verdict reference compared tolerance background color_spaces_ignored frames found findings");
+                   "octreel version verdict reference compared tolerance background color_spaces_ignored frames "
+                   "found findings groups");
     assert_string_equal(json_string_value(json_member(object, "verdict")), "different");
     assert_string_equal(json_string_value(json_member(json_member(object, "reference"), "kind")), "picture");
     const json_t *tolerance = json_member(object, "tolerance");
@@ -184,15 +185,15 @@ static void long_lists_are_cut_for_people_and_not_for_programs(void **state)
         gallery_write(place_below(a.path, name).path, 1, 0);
         gallery_write(place_below(b.path, name).path, 1, 1);
     }
-    command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
+    command_result result = run_octreel(NULL, "diff %s %s --each", a.path, b.path);
     assert_null(strstr(result.out, "\n  10.png"));
     assert_ends(&result, 1, "\n  09.png: 1 of 384 pixels differs");
-    result = run_octreel(NULL, "diff %s %s -o %s", a.path, b.path, place_in(*state, "evidence").path);
+    result = run_octreel(NULL, "diff %s %s --each -o %s", a.path, b.path, place_in(*state, "evidence").path);
     assert_null(strstr(result.out, "\n  10.png"));
     assert_ends(&result, 1, "\n  ... and 50 more; --causes all lists all, and so does --json\n");
-    result = run_octreel(NULL, "diff %s %s --causes 12", a.path, b.path);
+    result = run_octreel(NULL, "diff %s %s --each --causes 12", a.path, b.path);
     assert_ends(&result, 1, "\n  ... and 48 more; --causes all lists all, and so does --json\n");
-    result = run_octreel(NULL, "diff %s %s --causes all", a.path, b.path);
+    result = run_octreel(NULL, "diff %s %s --each --causes all", a.path, b.path);
     assert_null(strstr(result.out, " more"));
     assert_ends(&result, 1, "\n  59.png: ");
     result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);

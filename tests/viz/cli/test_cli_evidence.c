@@ -54,7 +54,8 @@ static void evidence_and_reports_are_written_beside_the_verdict(void **state)
     assert_file_says(place_below(t.out.path, "report.html").path, "\"frame\": \"2.png\", \"finding\": \"pixels\"");
     snprintf(part, sizeof part, "difference: %s/2.difference.png\n", t.out.path);
     assert_file_says(t.xml.path, part);
-    snprintf(part, sizeof part, "\nEvidence: <code>%s/report.html</code>\n", t.out.path);
+    snprintf(part, sizeof part, "\nEvidence: <code>%s/report.html</code>, at a glance <code>contact.png</code>\n",
+             t.out.path);
     assert_file_says(t.markdown.path, part);
     assert_int_equal(temp_folder_count(*state), 5);
 }
@@ -100,7 +101,7 @@ static void json_names_the_pictures(void **state)
     assert_int_equal(result.status, 1);
     json_t *object = json_read(result.out);
     const json_t *whole = json_member(object, "evidence");
-    assert_members(whole, "folder page");
+    assert_members(whole, "folder page contact_sheet");
     assert_string_equal(json_string_value(json_member(whole, "folder")), t.out.path);
     assert_true(file_exists(json_string_value(json_member(whole, "page"))));
     const json_t *finding = json_array_get(json_member(object, "findings"), 0);
@@ -140,7 +141,7 @@ static void overlong_names_have_evidence_too(void **state)
         json_decref(object);
         command_release(&result);
         listing left = folder_list(out.path);
-        assert_int_equal(left.count, 8); /* six pictures, the page and the marker */
+        assert_int_equal(left.count, 9); /* six pictures, the page, the sheet and the marker */
         listing_release(&left);
     }
 }

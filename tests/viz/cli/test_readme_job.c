@@ -136,7 +136,7 @@ static void job_fails_where_a_frame_differs_and_keeps_the_evidence(void **state)
     assert_int_equal(run_job(j), 1);
     assert_string_equal(j->run.complained, "");
     assert_summary_says(j, "Of an earlier step.\n### octreel diff: different: ");
-    assert_summary_says(j, "<code>frame_000005.png</code>");
+    assert_summary_says(j, "<code>frame_000005.png</code> and 6 more: ticks 10 to 35");
     assert_says(j->run.said, "\n::error title=octreel diff::octreel diff: different: ");
     assert_uploads(j, "report.html");
     assert_uploads(j, "frame_000005.difference.png");

@@ -18,7 +18,8 @@ static comparison_of leave_evidence(const char *a, const char *b, const diff_opt
     comparison_of made = assert_compared(a, b, options);
     octreel_error error = {""};
     evidence e;
-    if (!evidence_prepare(folder, &made.a, &made.b, &error) || !evidence_collect(&e, folder, &made.result, &error))
+    if (!evidence_prepare(folder, &made.a, &made.b, &error) ||
+        !evidence_collect(&e, folder, &made.result, group_frames(&made, true), &error))
         fail_msg("%s", error.text);
     evidence_release(&e);
     return made;
@@ -207,7 +208,7 @@ static void picture_that_cannot_be_written_is_named(void **state)
         assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error));
         const place taken = place_below(folder.path, names[i]); /* by a folder, which nothing is renamed over */
         assert_int_equal(mkdir(taken.path, 0777), 0);
-        assert_false(evidence_collect(&e, folder.path, &made.result, &error));
+        assert_false(evidence_collect(&e, folder.path, &made.result, group_frames(&made, true), &error));
         if (!strstr(error.text, taken.path))
             fail_msg("\"%s\" does not name %s", error.text, taken.path);
         comparison_release(&made);

@@ -57,8 +57,10 @@ static void write_page_of(comparison_of *made, const char *folder, meddler *medd
 {
     octreel_error error = {""};
     evidence e;
-    const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e, LIST_LINES};
-    if (!evidence_prepare(folder, &made->a, &made->b, &error) || !evidence_collect(&e, folder, &made->result, &error))
+    const frame_groups *each = group_frames(made, true);
+    const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e, LIST_LINES, each};
+    if (!evidence_prepare(folder, &made->a, &made->b, &error) ||
+        !evidence_collect(&e, folder, &made->result, each, &error))
         fail_msg("%s", error.text);
     if (meddle)
         meddle(folder);

@@ -29,7 +29,7 @@ typedef bool reporter(FILE *out, const diff_report *report);
 
 static char *report_text(comparison_of *made, const evidence *e, reporter *write)
 {
-    const diff_report report = {&made->a, &made->b, &made->result, &made->why, e, LIST_LINES};
+    const diff_report report = {&made->a, &made->b, &made->result, &made->why, e, LIST_LINES, group_frames(made, true)};
     char *text;
     size_t size;
     FILE *out = open_memstream(&text, &size);
@@ -144,7 +144,7 @@ static void junit_names_the_pictures_that_were_left(void **state)
     octreel_error error = {""};
     evidence e;
     assert_true(evidence_prepare(folder.path, &made.a, &made.b, &error) &&
-                evidence_collect(&e, folder.path, &made.result, &error));
+                evidence_collect(&e, folder.path, &made.result, group_frames(&made, true), &error));
     char *xml = report_text(&made, &e, diff_report_junit);
     assert_int_equal(xml_count(xml, "system-out"), 3);
     snprintf(part, sizeof part, "difference: %s/2.difference.png\n[[ATTACHMENT|%s/2.difference.png]]\n", folder.path,

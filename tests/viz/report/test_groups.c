@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/* test_groups.c - frames that differ for one cause are told once: which they are, and how they are named. */
+#include "fixture.h"
+#include "galleries.h"
+#include "images.h"
+#include "png_write.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static comparison_of compare(const char *a, const char *b, uint64_t most)
+{
+    comparison_of made = assert_compared(a, b, NULL);
+    octreel_error error = {""};
+    if (!explain(&made.a, &made.b, &made.result, most, &made.why, &error))
+        fail_msg("%s", error.text);
+    return made;
+}
+
+/* Each group by its frames, a line each. */
+static char *tell(comparison_of *made, bool each, bool others)
+{
+    const frame_groups *g = group_frames(made, each);
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    for (size_t i = 0; i < g->count; i++) {
+        frame_group_print(out, g, &made->result, i, others);
+        fputc('\n', out);
+    }
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void assert_groups(comparison_of *made, bool each, const char *expected)
+{
+    char *text = tell(made, each, false);
+    assert_string_equal(text, expected);
+    free(text);
+}
+
+/* 1, 2 and 5 differ in the same pixels by as much; 3 in more; 4 is the same; 6, 7 are of another size; 8 is gone; 9 and
+ * 10 cannot be read. */
+static comparison_of make_all(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 3.png 4.png 5.png 6.png 7.png 8.png 9.png"),
+                b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 5.png 9.png");
+    static const int spoilt[] = {4, 4, 9, 0, 4};
+    image small;
+    octreel_error error;
+    for (int i = 0; i < 5; i++)
+        gallery_write(place_below(b.path, (char[]){(char)('1' + i), '.', 'p', 'n', 'g', 0}).path, (uint64_t)i,
+                      spoilt[i]);
+    assert_true(image_create(&small, 5, 4, 3));
+    assert_true(image_write_png(&small, place_below(b.path, "6.png").path, NULL, 0, &error) &&
+                image_write_png(&small, place_below(b.path, "7.png").path, NULL, 0, &error));
+    image_release(&small);
+    assert_int_equal(truncate(place_below(b.path, "9.png").path, 99), 0);
+    file_write_text(place_below(a.path, "a.png").path, "\x89PNG");
+    file_write_text(place_below(b.path, "a.png").path, "\x89PNG, too");
+    return compare(a.path, b.path, 10);
+}
+
+static void frames_are_grouped_by_what_makes_them_differ(void **state)
+{
+    comparison_of made = make_all(state);
+    assert_groups(&made, false, "1.png, 2.png, 5.png\n3.png\n6.png, 7.png\n8.png\n9.png\na.png\n");
+    assert_groups(&made, true, "1.png\n2.png\n3.png\n5.png\n6.png\n7.png\n8.png\n9.png\na.png\n");
+    assert_int_equal(frame_groups_count_unlike(&made.groups, &made.result), 9);
+    comparison_release(&made);
+}
+
+static void without_an_explanation_nothing_is_lumped_together(void **state)
+{
+    comparison_of made = make_all(state);
+    explanation_release(&made.why);
+    assert_groups(&made, false, "1.png\n2.png\n3.png\n5.png\n6.png\n7.png\n8.png\n9.png\na.png\n");
+    comparison_release(&made);
+}
+
+/* One pixel elsewhere, or by another colour, is another cause. */
+static void another_place_or_color_is_another_group(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "");
+    static const struct {
+        int x, y;
+        uint8_t by;
+    } spots[] = {{3, 3, 1}, {3, 4, 1}, {3, 3, 2}};
+    for (int i = 0; i < 3; i++) {
+        image picture = gallery_picture((uint64_t)i);
+        octreel_error error;
+        char name[8];
+        picture.pixels[3 * (spots[i].y * GALLERY_WIDTH + spots[i].x)] ^= spots[i].by;
+        snprintf(name, sizeof name, "%d.png", i + 1);
+        assert_true(image_write_png(&picture, place_below(b.path, name).path, NULL, 0, &error));
+        image_release(&picture);
+    }
+    comparison_of made = compare(a.path, b.path, 10);
+    assert_groups(&made, false, "1.png\n2.png\n3.png\n");
+    comparison_release(&made);
+}
+
+static void long_groups_are_told_in_runs(void **state)
+{
+    const place a = gallery_make(*state, "a", ""), b = gallery_make(*state, "b", "");
+    for (int i = 0; i < 20; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "frame_%06d.png", i);
+        gallery_write(place_below(a.path, name).path, 1, 0);
+        gallery_write(place_below(b.path, name).path, 1, i % 5 ? 1 : 0);
+    }
+    comparison_of made = compare(a.path, b.path, 10);
+    char *text = tell(&made, false, true);
+    assert_string_equal(text, "ticks 2 to 4, 6 to 9, 11 to 14, 16 to 19\n");
+    free(text);
+    comparison_release(&made);
+}
+
+#define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FOLDER(frames_are_grouped_by_what_makes_them_differ),
+        WITH_FOLDER(without_an_explanation_nothing_is_lumped_together),
+        WITH_FOLDER(another_place_or_color_is_another_group),
+        WITH_FOLDER(long_groups_are_told_in_runs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

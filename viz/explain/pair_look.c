@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: MIT */
+/* pair_look.c - why the frames of one pair differ: by what they say of themselves, and by their recordings. */
+#include "pair_look.h"
+#include "cause_words.h"
+#include "image_digest.h"
+#include "png_read.h"
+#include "text.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+
+static void read_origins(const diff_pair *pair, pair_look *l)
+{
+    const diff_frame *const frames[2] = {pair->a, pair->b};
+    for (int i = 0; i < 2; i++)
+        l->told[i] = frames[i] && frames[i]->path && frame_read_origin(frames[i]->path, &l->of[i]);
+}
+
+static bool both_told(const pair_look *l)
+{
+    return l->told[0] && l->told[1];
+}
+
+/* Whether a frame has the pixels of the digest in its text chunk. */
+static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
+{
+    octreel_error ignored;
+    image about;
+    uint64_t pixels;
+    errno = 0;
+    if (!image_digest_png(frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
+        return !system_served(&ignored); /* nothing is said of what is not known */
+    return pixels == origin->pixels;
+}
+
+static frame_fault find_foreign(const recorded *r, const frame_origin *origin, uint64_t tick)
+{
+    if (origin->session != r->filmed && origin->session != r->replay.session_digest)
+        return FAULT_SESSION;
+    return origin->tick == tick ? FAULT_NONE : FAULT_TICK;
+}
+
+static uint64_t tick_of(const diff_pair *pair)
+{
+    uint64_t tick = 0;
+    frame_parse_name(diff_pair_name(pair), &tick);
+    return tick;
+}
+
+pair_look pair_look_at(const explanation *e, const diff_pair *pair)
+{
+    const diff_frame *const frames[2] = {pair->a, pair->b};
+    pair_look l = {.told = {false}};
+    read_origins(pair, &l);
+    for (int i = 0; i < 2; i++) {
+        if (l.told[i] && e->recordings)
+            l.faults[i] = find_foreign(&e->sides[i], &l.of[i], tick_of(pair));
+        if (l.told[i] && l.faults[i] == FAULT_NONE && !is_as_drawn(frames[i], &l.of[i]))
+            l.faults[i] = FAULT_PIXELS;
+    }
+    l.same_scene = both_told(&l) && l.of[0].scene == l.of[1].scene;
+    return l;
+}
+
+static bool is_tampered(const pair_look *l)
+{
+    return l->faults[0] != FAULT_NONE || l->faults[1] != FAULT_NONE;
+}
+
+static bool is_only_drawn(const explanation *e, const pair_look *l)
+{
+    return l->same_scene && !is_tampered(l) && e->cause.view.count == 0;
+}
+
+/* Name the frames that were exchanged, or changed after they were drawn. */
+static void print_tampered(FILE *out, const diff_pair *pair, const pair_look *l)
+{
+    const diff_frame *const frames[2] = {pair->a, pair->b};
+    bool any = false;
+    for (int i = 0; i < 2; i++) {
+        if (l->faults[i] == FAULT_NONE)
+            continue;
+        fprintf(out, "%s%s ", any ? "; " : "", frames[i]->path);
+        if (l->faults[i] == FAULT_SESSION)
+            fputs("is a frame of another session", out);
+        else if (l->faults[i] == FAULT_TICK)
+            fprintf(out, "is the frame of tick %" PRIu64, l->of[i].tick);
+        else
+            fputs("was changed after it was drawn: its pixels are not those that it says", out);
+        any = true;
+    }
+}
+
+static bool same_renderer(const explanation *e)
+{
+    return strcmp(e->sides[0].drawn_by, e->sides[1].drawn_by) == 0;
+}
+
+static void print_renderers(FILE *out, const explanation *e)
+{
+    fprintf(out, "; reference drawn by %s, frame by %s", e->sides[0].drawn_by, e->sides[1].drawn_by);
+}
+
+void pair_print_rendering(FILE *out, const explanation *e)
+{
+    fputs("rendering differs: the scene digests are equal", out);
+    if (e->recordings && same_renderer(e))
+        fprintf(out, "; both drawn by %s", e->sides[0].drawn_by);
+    else if (e->recordings)
+        print_renderers(out, e);
+}
+
+/* Why a recording has no frame of a tick. */
+static void print_missing(FILE *out, const recorded *r, uint64_t tick)
+{
+    const uint64_t last = octree_session_length(&r->replay.session.session);
+    if (tick > last)
+        fprintf(out, "the session of %s ends at tick %" PRIu64, r->side->path, last);
+    else if (octree_session_gap(&r->replay.session.session, tick))
+        fprintf(out, "%s has a gap there: %s", r->side->path,
+                octree_session_gap(&r->replay.session.session, tick)->why);
+    else if (!frame_is_due(tick, r->view.every))
+        fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
+    else
+        fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);
+}
+
+/* Nothing differs that the files beside the frames tell. */
+static void print_unknown(FILE *out, const diff_pair *pair, const pair_look *l)
+{
+    if (both_told(l))
+        fputs("another scene of the same session and view: drawn by another version of octreel, or the files beside "
+              "the frames were changed",
+              out);
+    for (int i = 0; i < 2; i++)
+        if (!l->told[i])
+            fprintf(out, "%s%s has none of octreel's texts, as after another program has saved it",
+                    i && !l->told[0] ? "; " : "", (i ? pair->b : pair->a)->path);
+}
+
+static void print_tick(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l, uint64_t tick)
+{
+    const cause_tick *told = cause_at(&e->cause, tick);
+    const bool facts = told && told->facts.count > 0, view = e->cause.view.count > 0;
+    fprintf(out, "tick %" PRIu64 ": ", tick);
+    if (facts)
+        cause_print_facts(out, &told->facts, false);
+    if (view) {
+        fputs(facts ? "; " : "", out);
+        cause_print_facts(out, &e->cause.view, false);
+    }
+    if (facts || view)
+        return;
+    if (e->cause.session.count > 0) {
+        fputs("the same happened in it; ", out);
+        cause_print_facts(out, &e->cause.session, true);
+    } else {
+        print_unknown(out, pair, l);
+    }
+}
+
+/* Frames without recordings: only their text chunks are known. */
+static void print_origins(FILE *out, const pair_look *l)
+{
+    const frame_origin *a = &l->of[0], *b = &l->of[1];
+    if (a->tick != b->tick)
+        fprintf(out, "the reference shows tick %" PRIu64 ", the frame tick %" PRIu64, a->tick, b->tick);
+    else if (a->session != b->session)
+        fprintf(out, "tick %" PRIu64 " of unlike sessions", a->tick);
+    else
+        fprintf(out, "tick %" PRIu64 " of one session in unlike scenes: another view, or another version of octreel",
+                a->tick);
+}
+
+/* What is drawn where they differ. */
+static void print_trace(FILE *out, const explanation *e, uint64_t tick)
+{
+    const cause_tick *told = cause_at(&e->cause, tick);
+    if (told && told->trace.count) {
+        fputs("; ", out);
+        trace_print(out, &told->trace);
+    }
+}
+
+static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
+{
+    const bool both = pair->a && pair->b, tampered = is_tampered(l), drawn = is_only_drawn(e, l);
+    const uint64_t tick = tick_of(pair);
+    print_tampered(out, pair, l);
+    if (drawn)
+        pair_print_rendering(out, e);
+    else if (e->recordings && both && !tampered)
+        print_tick(out, e, pair, l, tick);
+    else if (e->recordings && !both)
+        print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
+    else if (both_told(l) && !tampered)
+        print_origins(out, l);
+    if (e->recordings && l->same_scene && !tampered && !drawn && !same_renderer(e))
+        print_renderers(out, e);
+    if (e->recordings)
+        print_trace(out, e, tick);
+}
+
+bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *l, pair_cause *cause,
+                     octreel_error *error)
+{
+    text_stream s;
+    const bool begun = text_stream_begin(&s);
+    cause->only_drawn = is_only_drawn(e, l);
+    if (begun)
+        print_cause(s.stream, e, pair, l);
+    return (text_stream_end(&s, &cause->text) && begun) || error_no_memory(error);
+}
+
+/* ---- What all pairs of one cause have alike ----------------------------------------------------------------- */
+
+/* Nothing tells a cause: one that changes the same pixels by as much in several frames is one. */
+static void print_tally(FILE *out, const diff_pair *pair)
+{
+    const image_tally *t = &pair->difference.unlike;
+    fprintf(out, "%" PRIu64 " %a %d %d %d %d %d %d %d", t->pixels, t->worst_delta, t->worst_x, t->worst_y,
+            t->largest_channel, t->min_x, t->min_y, t->max_x, t->max_y);
+}
+
+/* Two frames without recordings: by what they say of themselves. */
+static void print_origins_key(FILE *out, const pair_look *l)
+{
+    const frame_origin *a = &l->of[0], *b = &l->of[1];
+    fprintf(out, "%s session, %" PRIu64 " ticks on", a->session == b->session ? "the same" : "another",
+            b->tick - a->tick);
+}
+
+static void print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
+{
+    const bool known = e->cause.session.count > 0 || e->cause.view.count > 0, both = pair->a && pair->b;
+    fprintf(out, "%s, ", diff_finding_name(pair->finding));
+    if (pair->finding == FOUND_SIZE)
+        fprintf(out, "%dx%d %dx%d, ", pair->about[0].width, pair->about[0].height, pair->about[1].width,
+                pair->about[1].height);
+    if (is_tampered(l))
+        fprintf(out, "faults %d %d", (int)l->faults[0], (int)l->faults[1]);
+    else if (is_only_drawn(e, l))
+        fputs("drawn", out);
+    else if (e->recordings && !both)
+        print_missing(out, &e->sides[pair->a ? 1 : 0], tick_of(pair));
+    else if (e->recordings && known)
+        fputs("recordings", out);
+    else if (both_told(l))
+        print_origins_key(out, l);
+    else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
+        print_tally(out, pair);
+}
+
+char *pair_find_key(const explanation *e, const diff_pair *pair, const pair_look *l)
+{
+    text_stream s;
+    char *key;
+    if (text_stream_begin(&s))
+        print_key(s.stream, e, pair, l);
+    return text_stream_end(&s, &key) ? key : NULL;
+}

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT */
+#include "contact_sheet.h"
+#include "diff_words.h"
+#include "file.h"
+#include "glyphs.h"
+#include "lettering.h"
+#include "png_read.h"
+#include "png_write.h"
+#include "text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    CELL_WIDTH = 320,
+    CELL_HEIGHT = 180,
+    GAP = 12,
+    LINE = 18, /* of text */
+    HEAD = GAP + LINE + GAP / 2 + LINE,
+    ROW = 2 * LINE + CELL_HEIGHT + 2 * GAP,
+    WIDTH = EVIDENCE_PICTURES * (CELL_WIDTH + GAP) + GAP,
+    LETTERS = (WIDTH - 2 * GAP) / 8,
+};
+
+static const image_color ground = {24, 29, 39}, cell_ground = {14, 17, 24}, text_color = {230, 234, 241},
+                         faint_color = {152, 164, 184}, warm_color = {255, 178, 102};
+
+/* ---- Drawing ------------------------------------------------------------------------------------------------- */
+
+static void fill(image *sheet, int x, int y, int width, int height, image_color color)
+{
+    for (int row = y; row < y + height; row++)
+        for (int column = x; column < x + width; column++)
+            memcpy(sheet->pixels + 3 * ((size_t)row * (size_t)sheet->width + (size_t)column),
+                   (uint8_t[]){color.r, color.g, color.b}, 3);
+}
+
+/* At most `most` letters; a longer text ends in dots. */
+static void write_text(image *sheet, int x, int y, size_t most, const char *text, image_color color)
+{
+    const glyph_set *face = &glyph_sets[FACE_8X16];
+    const size_t length = strlen(text);
+    for (size_t i = 0; i < length && i < most; i++) {
+        const char letter = length > most && i + 3 >= most ? '.' : text[i];
+        const unsigned at = (unsigned char)letter - (unsigned)GLYPH_FIRST;
+        const unsigned n = at < GLYPH_COUNT ? at : '?' - GLYPH_FIRST;
+        for (const glyph_part *part = face->parts + face->first[n]; part < face->parts + face->first[n + 1]; part++)
+            fill(sheet, x + (int)i * face->width + part->x, y + part->y, part->width, part->height, color);
+    }
+}
+
+/* ---- Small pictures ------------------------------------------------------------------------------------------ */
+
+/* The pixels of a picture that become one of a cell. */
+typedef struct patch {
+    int x0, y0, x1, y1;
+} patch;
+
+static image_color mean_of(const image *of, const patch *p)
+{
+    uint64_t r = 0, g = 0, b = 0, count = (uint64_t)(p->x1 - p->x0) * (uint64_t)(p->y1 - p->y0);
+    for (int y = p->y0; y < p->y1; y++)
+        for (int x = p->x0; x < p->x1; x++) {
+            const image_color color = image_color_at(of, x, y);
+            r += color.r;
+            g += color.g;
+            b += color.b;
+        }
+    return (image_color){(uint8_t)((r + count / 2) / count), (uint8_t)((g + count / 2) / count),
+                         (uint8_t)((b + count / 2) / count)};
+}
+
+/* A single pixel that differs glows however small the picture is. */
+static image_color brightest_of(const image *of, const patch *p)
+{
+    image_color best = image_color_at(of, p->x0, p->y0);
+    for (int y = p->y0; y < p->y1; y++)
+        for (int x = p->x0; x < p->x1; x++) {
+            const image_color color = image_color_at(of, x, y);
+            if (color.r + color.g + color.b > best.r + best.g + best.b)
+                best = color;
+        }
+    return best;
+}
+
+/* From `at` in `across` to pixels of `length`: one at least. */
+static void find_span(int at, int across, int length, int *first, int *end)
+{
+    *first = (int)((int64_t)at * length / across);
+    *end = (int)((int64_t)(at + 1) * length / across);
+    *end += *end == *first;
+}
+
+/* As large as it fits, in the middle of its cell. */
+static void put_picture(image *sheet, int left, int top, const image *picture, evidence_picture kind)
+{
+    int width = CELL_WIDTH, height = (int)((int64_t)CELL_WIDTH * picture->height / picture->width);
+    if (height > CELL_HEIGHT) {
+        width = (int)((int64_t)CELL_HEIGHT * picture->width / picture->height);
+        height = CELL_HEIGHT;
+    }
+    width += width == 0;
+    height += height == 0;
+    left += (CELL_WIDTH - width) / 2;
+    top += (CELL_HEIGHT - height) / 2;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            patch p;
+            find_span(x, width, picture->width, &p.x0, &p.x1);
+            find_span(y, height, picture->height, &p.y0, &p.y1);
+            fill(sheet, left + x, top + y, 1, 1,
+                 kind == EVIDENCE_DIFFERENCE ? brightest_of(picture, &p) : mean_of(picture, &p));
+        }
+}
+
+/* ---- Rows ---------------------------------------------------------------------------------------------------- */
+
+/* A picture that cannot be read leaves its cell empty: the reports say why. */
+static void put_cell(image *sheet, const diff_report *report, size_t pair, evidence_picture kind, int left, int top)
+{
+    octreel_error ignored;
+    image picture;
+    char *path = evidence_path(report->evidence, report->result, pair, kind);
+    fill(sheet, left, top, CELL_WIDTH, CELL_HEIGHT, cell_ground);
+    if (path && image_read_png(path, &picture, &ignored)) {
+        put_picture(sheet, left, top, &picture, kind);
+        image_release(&picture);
+    } else {
+        write_text(sheet, left + GAP, top + GAP, CELL_WIDTH / 8, "no picture", faint_color);
+    }
+    free(path);
+}
+
+static void print_label(FILE *out, const diff_report *report, size_t group)
+{
+    frame_group_print(out, report->groups, report->result, group, false);
+}
+
+static void print_words(FILE *out, const diff_report *report, size_t group)
+{
+    const size_t first = report->groups->groups[group].first;
+    const char *cause = explanation_cause(report->why, first);
+    if (cause)
+        fputs(cause, out);
+    else
+        diff_print_difference(out, &report->result->pairs[first]);
+}
+
+static bool put_words(image *sheet, int top, void (*print)(FILE *, const diff_report *, size_t),
+                      const diff_report *report, size_t group, image_color color)
+{
+    text_stream s;
+    char *text;
+    if (text_stream_begin(&s))
+        print(s.stream, report, group);
+    if (!text_stream_end(&s, &text))
+        return false;
+    write_text(sheet, GAP, top, LETTERS, text ? text : "", color);
+    free(text);
+    return true;
+}
+
+static bool put_row(image *sheet, const diff_report *report, size_t group, int top)
+{
+    for (int i = 0; i < EVIDENCE_PICTURES; i++)
+        put_cell(sheet, report, report->groups->groups[group].first, (evidence_picture)i, GAP + i * (CELL_WIDTH + GAP),
+                 top + 2 * LINE);
+    return put_words(sheet, top, print_label, report, group, warm_color) &&
+           put_words(sheet, top + LINE, print_words, report, group, text_color);
+}
+
+static void print_verdict(FILE *out, const diff_report *report, size_t group)
+{
+    (void)group;
+    diff_print_summary(out, report);
+    if (report->why->headline)
+        fprintf(out, ": %s", report->why->headline);
+}
+
+static bool put_all(image *sheet, const diff_report *report, size_t unlike)
+{
+    size_t row = 0;
+    char more[64];
+    bool ok = put_words(sheet, GAP, print_verdict, report, 0, text_color);
+    for (int i = 0; i < EVIDENCE_PICTURES; i++)
+        write_text(sheet, GAP + i * (CELL_WIDTH + GAP), GAP + LINE + GAP / 2, 40, evidence_word((evidence_picture)i),
+                   faint_color);
+    for (size_t i = 0; ok && i < report->groups->count && row < CONTACT_SHEET_ROWS; i++)
+        if (diff_finding_verdict(report->result->pairs[report->groups->groups[i].first].finding) != DIFF_SAME)
+            ok = put_row(sheet, report, i, HEAD + GAP + (int)row++ * ROW);
+    snprintf(more, sizeof more, "and %zu more", unlike - row);
+    if (unlike > row)
+        write_text(sheet, GAP, HEAD + GAP + (int)row * ROW, LETTERS, more, faint_color);
+    return ok;
+}
+
+bool contact_sheet_write(const diff_report *report, octreel_error *error)
+{
+    const size_t unlike = frame_groups_count_unlike(report->groups, report->result);
+    const size_t rows = unlike < CONTACT_SHEET_ROWS ? unlike : CONTACT_SHEET_ROWS;
+    image sheet;
+    if (unlike == 0)
+        return true;
+    if (!image_create(&sheet, WIDTH, HEAD + GAP + (int)rows * ROW + (unlike > rows ? LINE + GAP : 0), 3))
+        return error_no_memory(error);
+    fill(&sheet, 0, 0, sheet.width, sheet.height, ground);
+    char *path = path_join(report->evidence->folder, CONTACT_SHEET);
+    const bool ok = (path && put_all(&sheet, report, unlike)) || error_no_memory(error);
+    const bool written = ok && image_write_png(&sheet, path, NULL, 0, error);
+    image_release(&sheet);
+    free(path);
+    return written;
+}

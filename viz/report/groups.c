@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+#include "groups.h"
+#include "diff_words.h"
+#include "frame_file.h"
+#include "text.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A pair while it is sorted to those of its cause. */
+typedef struct keyed_pair {
+    const char *key;
+    size_t pair;
+} keyed_pair;
+
+static int by_key(const void *a, const void *b)
+{
+    const keyed_pair *x = a, *y = b;
+    const int order = strcmp(x->key, y->key);
+    return order ? order : (x->pair > y->pair) - (x->pair < y->pair);
+}
+
+static const char *key_of(const diff_result *result, const explanation *why, size_t i)
+{
+    const char *key = explanation_key(why, i);
+    return key ? key : diff_finding_name(result->pairs[i].finding);
+}
+
+/* Without an explanation there is no key that tells causes apart: pixels that differ are each frame's own. */
+static bool is_alone(const diff_result *result, const explanation *why, size_t i)
+{
+    const diff_pair *pair = &result->pairs[i];
+    return pair->finding == FOUND_UNREADABLE || (!explanation_key(why, i) && pair->a && pair->b);
+}
+
+/* Number the groups in the order of their first pairs, and count what is in them. */
+static void number_groups(frame_groups *g, size_t pairs, const size_t *first)
+{
+    for (size_t i = 0; i < pairs; i++) {
+        if (first[i] == GROUP_NONE)
+            continue;
+        if (first[i] == i)
+            g->groups[g->count++] = (frame_group){i, 0};
+        g->of[i] = first[i] == i ? g->count - 1 : g->of[first[i]];
+        g->groups[g->of[i]].count++;
+    }
+}
+
+bool frame_groups_make(frame_groups *g, const diff_result *result, const explanation *why, bool each,
+                       octreel_error *error)
+{
+    const size_t pairs = result->count;
+    size_t count = 0, *first = malloc((pairs + 1) * sizeof *first);
+    keyed_pair *keyed = malloc((pairs + 1) * sizeof *keyed);
+    *g = (frame_groups){.groups = malloc((pairs + 1) * sizeof *g->groups), .of = malloc((pairs + 1) * sizeof *g->of)};
+    const bool ok = (first && keyed && g->groups && g->of) || error_no_memory(error);
+    for (size_t i = 0; ok && i < pairs; i++) {
+        const bool listed = diff_is_listed(result->pairs[i].finding);
+        g->of[i] = GROUP_NONE;
+        first[i] = listed ? i : GROUP_NONE;
+        if (listed && !each && !is_alone(result, why, i))
+            keyed[count++] = (keyed_pair){key_of(result, why, i), i};
+    }
+    if (ok && count > 0)
+        qsort(keyed, count, sizeof *keyed, by_key);
+    for (size_t i = 1; ok && i < count; i++)
+        if (strcmp(keyed[i].key, keyed[i - 1].key) == 0)
+            first[keyed[i].pair] = first[keyed[i - 1].pair];
+    if (ok)
+        number_groups(g, pairs, first);
+    free(keyed);
+    free(first);
+    return ok;
+}
+
+void frame_groups_release(frame_groups *g)
+{
+    free(g->groups);
+    free(g->of);
+    *g = (frame_groups){0};
+}
+
+bool frame_groups_shows(const frame_groups *g, size_t pair)
+{
+    return g->of[pair] != GROUP_NONE && g->groups[g->of[pair]].first == pair;
+}
+
+size_t frame_groups_count_unlike(const frame_groups *g, const diff_result *result)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < g->count; i++)
+        count += diff_finding_verdict(result->pairs[g->groups[i].first].finding) != DIFF_SAME;
+    return count;
+}
+
+/* ---- In words ------------------------------------------------------------------------------------------------ */
+
+static bool are_ticks(const frame_groups *g, const diff_result *result, size_t group)
+{
+    uint64_t tick;
+    for (size_t i = g->groups[group].first; i < result->count; i++)
+        if (g->of[i] == group && !frame_parse_name(diff_pair_name(&result->pairs[i]), &tick))
+            return false;
+    return true;
+}
+
+static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
+{
+    uint64_t tick;
+    if (ticks && frame_parse_name(diff_pair_name(pair), &tick))
+        fprintf(out, "%" PRIu64, tick);
+    else
+        write_escaped(out, diff_pair_name(pair), escape_nothing);
+}
+
+void frame_group_print(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
+{
+    const bool ticks = are_ticks(g, result, group);
+    const size_t first = g->groups[group].first + others, all = g->groups[group].count - others;
+    size_t runs = 0, shown = 0;
+    if (ticks)
+        fputs(all == 1 ? "tick " : "ticks ", out);
+    for (size_t i = first, end; i < result->count && runs < GROUP_RUNS; i = end) {
+        for (end = i; end < result->count && g->of[end] == group;)
+            end++;
+        if (end > i) {
+            fputs(runs++ ? ", " : "", out);
+            print_frame(out, &result->pairs[i], ticks);
+            if (end - i > 1)
+                fputs(end - i > 2 ? " to " : ", ", out);
+            if (end - i > 1)
+                print_frame(out, &result->pairs[end - 1], ticks);
+        }
+        shown += end - i;
+        end += end == i;
+    }
+    if (shown < all)
+        fprintf(out, " and %zu more", all - shown);
+}
