@@ -106,6 +106,13 @@ batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const oc
     return NULL;
 }
 
+void batch_settle(batch *b)
+{
+    if (b->unsettled)
+        b->change_count = changes_settle(b->changes, b->change_count);
+    b->unsettled = false;
+}
+
 void batch_release(batch *b)
 {
     if (!b)

@@ -29,7 +29,8 @@ typedef struct batch {
     gap_run *gaps; /* before the tick */
     size_t gap_count;
     bool is_gap;     /* there is nothing but those */
-    change *changes; /* by id */
+    change *changes; /* by id, one for each; */
+    bool unsettled;  /* or as they were made, for batch_settle() */
     size_t change_count;
     octree_query *queries;
     size_t query_count;
@@ -43,6 +44,9 @@ typedef struct batch {
 /* A tick with copies of the gaps before it, of the queries, the shapes and the nodes, and as yet without changes;
  * `about` and `foreign` may be null. Null when there is no memory. Cost: O(gaps, queries, shapes, nodes). */
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
+
+/* Let there be one change for each id. */
+void batch_settle(batch *b);
 
 /* The gaps alone. */
 batch *batch_make_gaps(const gap_list *gaps);

@@ -2,6 +2,7 @@
 /* contents.c - what points a program has, by a tree, a list, or what changed. */
 #include "contents.h"
 #include "array.h"
+#include "octree/digest.h"
 #include "session_file.h"
 #include "status.h"
 
@@ -9,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 void contents_release(contents *c)
 {
@@ -17,6 +19,7 @@ void contents_release(contents *c)
     points_release(&c->spare);
     point_table_release(&c->table);
     free(c->changes);
+    free(c->tree.heard);
     *c = (contents){0};
 }
 
@@ -51,18 +54,6 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
         return status_refuse(error, OCTREEL_OTHER_TREE,
                              "the tree's full_leaf is not that of the definition that the recorder was opened for");
     return OCTREEL_OK;
-}
-
-static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
-{
-    uint64_t clash = 0;
-    octreel_status status = check_tree(def, tree, error);
-    if (status != OCTREEL_OK)
-        return status;
-    status = points_read(&c->next, &c->spare, tree, &clash);
-    if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
-        return status_refuse(error, status, "%s: %" PRIu64, octreel_status_text(status), clash);
-    return status == OCTREEL_OK ? status : status_fail(error, status);
 }
 
 /* ---- By what changed ---------------------------------------------------------------------------------------- */
@@ -137,6 +128,128 @@ static octreel_status read_changes(contents *c, const octreel_tick_info *about, 
     return first;
 }
 
+void contents_undo(contents *c)
+{
+    while (c->change_count > c->kept)
+        change_undo(&c->changes[--c->change_count], &c->table);
+    c->tree.mark = (octree_mark){0}; /* what it told was of this tick */
+}
+
+/* ---- By what a tree tells of its changes ------------------------------------------------------------------------ */
+
+/* Of more changes, all of the points are looked at in less time. */
+static bool are_few(size_t changes, size_t points)
+{
+    return changes <= points / 8 + 16;
+}
+
+/* A name that no log has had. */
+static size_t next_name(followed_tree *f)
+{
+    struct timespec now = {0};
+    if (f->names == 0 && timespec_get(&now, TIME_UTC))
+        f->names = octree_digest_word(octree_digest_word((uintptr_t)f, (uint64_t)now.tv_nsec), (uint64_t)now.tv_sec);
+    const size_t name = (size_t)octree_digest_word(0, f->names++);
+    return name ? name : 1;
+}
+
+static void hear(const octree_change *said, void *context)
+{
+    followed_tree *f = context;
+    octree_change *heard = array_reserve(f->heard, f->heard_count + 1, &f->heard_room, sizeof *heard);
+    f->lost |= !heard;
+    if (!heard)
+        return;
+    f->heard = heard;
+    f->heard[f->heard_count++] = *said;
+}
+
+static bool ask_tree(followed_tree *f, const octree *tree)
+{
+    f->heard_count = 0;
+    f->lost = false;
+    if (f->whole || f->busy) /* what `now` has is older, or newer */
+        f->mark = (octree_mark){0};
+    f->whole = false;
+    return !f->busy && octree_changes_since(tree, next_name(f), &f->mark, hear, f) && !f->lost;
+}
+
+/* False when it cannot be made as things stand: the id is there already, or not there; and of ids that no file can
+ * have. */
+static bool make_heard(contents *c, const octree_change *said)
+{
+    const octree_point *there = point_table_find(&c->table, said->id);
+    change made = {.kind = said->kind == OCTREE_INSERTED  ? OCTREE_EDIT_INSERT
+                           : said->kind == OCTREE_REMOVED ? OCTREE_EDIT_REMOVE
+                                                          : OCTREE_EDIT_MOVE,
+                   .id = said->id};
+    if (said->id >= SESSION_ID_LIMIT || !there != (said->kind == OCTREE_INSERTED))
+        return false;
+    for (int i = 0; there && i < 3; i++)
+        if (there->position[i] != said->from[i])
+            return false; /* there are, or were, two points of this id */
+    memcpy(made.from, said->from, sizeof made.from);
+    memcpy(made.to, said->to, sizeof made.to);
+    change_make(&made, &c->table);
+    c->changes[c->change_count++] = made;
+    return true;
+}
+
+/* An insertion waits for the removal of the point with its id. False, and none is made, where a tree has two points of
+ * one id, or there is no memory: whoever looks at the whole tree finds out. */
+static bool make_all_heard(contents *c)
+{
+    followed_tree *f = &c->tree;
+    size_t waiting = 0;
+    bool made = (c->tabled || start_table(c)) && make_room(c, f->heard_count);
+    for (size_t i = 0; made && i < f->heard_count; i++) {
+        if (f->heard[i].kind == OCTREE_INSERTED && point_table_find(&c->table, f->heard[i].id))
+            f->heard[waiting++] = f->heard[i];
+        else
+            made = make_heard(c, &f->heard[i]);
+    }
+    for (size_t i = 0; made && i < waiting; i++)
+        made = make_heard(c, &f->heard[i]);
+    if (!made)
+        contents_undo(c);
+    return made;
+}
+
+/* Let `now` be what was taken last, in place of the table. */
+static bool list_taken(contents *c)
+{
+    while (c->change_count > 0)
+        change_undo(&c->changes[--c->change_count], &c->table);
+    c->kept = 0;
+    if (!point_table_list(&c->table, &c->now, &c->spare))
+        return false;
+    point_table_release(&c->table);
+    c->tabled = false;
+    return true;
+}
+
+static octreel_status read_whole_tree(contents *c, const octree *tree, octreel_error *error)
+{
+    uint64_t clash = 0;
+    c->tree.whole = true;
+    if (c->tabled && !list_taken(c))
+        return status_fail(error, OCTREEL_NO_MEMORY);
+    const octreel_status status = points_read(&c->next, &c->spare, tree, &clash);
+    if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
+        return status_refuse(error, status, "%s: %" PRIu64, octreel_status_text(status), clash);
+    return status == OCTREEL_OK ? status : status_fail(error, status);
+}
+
+static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
+{
+    const octreel_status status = check_tree(def, tree, error);
+    if (status != OCTREEL_OK)
+        return status;
+    if (ask_tree(&c->tree, tree) && are_few(c->tree.heard_count, octree_count(tree)) && make_all_heard(c))
+        return OCTREEL_OK;
+    return read_whole_tree(c, tree, error);
+}
+
 /* ---- By a list ---------------------------------------------------------------------------------------------- */
 
 /* Let the table be what was read. */
@@ -198,9 +311,10 @@ octreel_status contents_read(contents *c, const octree_def *def, const octree *t
     return read_list(c, about ? about->points : NULL, about ? about->point_count : 0, error);
 }
 
-bool contents_add_changes(const contents *c, batch *b)
+bool contents_add_changes(contents *c, batch *b)
 {
     const size_t most = c->tabled ? c->change_count : changes_between(&c->now, &c->next, NULL);
+    c->tree.busy = c->source == FROM_TREE && !c->tabled && !are_few(most, c->now.count);
     if (most == 0)
         return true;
     b->changes = most <= SIZE_MAX / sizeof *b->changes ? malloc(most * sizeof *b->changes) : NULL;
@@ -209,7 +323,10 @@ bool contents_add_changes(const contents *c, batch *b)
     b->bytes += most * sizeof *b->changes;
     if (c->tabled)
         memcpy(b->changes, c->changes, most * sizeof *b->changes);
-    b->change_count = c->tabled ? changes_settle(b->changes, most) : changes_between(&c->now, &c->next, b->changes);
+    else
+        changes_between(&c->now, &c->next, b->changes);
+    b->change_count = most;
+    b->unsettled = c->tabled;
     return true;
 }
 
@@ -217,12 +334,7 @@ void contents_take(contents *c)
 {
     c->source = c->read_source;
     c->change_count = c->settled = 0;
+    c->tree.whole = false;
     if (!c->tabled)
         points_swap(&c->now, &c->next); /* the next tick is compared with the last one that was taken */
-}
-
-void contents_undo(contents *c)
-{
-    while (c->change_count > c->kept)
-        change_undo(&c->changes[--c->change_count], &c->table);
 }

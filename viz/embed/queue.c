@@ -76,19 +76,23 @@ batch *queue_take(queue *q)
 void queue_done(queue *q, batch *b)
 {
     let_go(q, b);
+}
+
+void queue_begin(queue *q)
+{
     pthread_mutex_lock(&q->lock);
-    q->done++;
+    q->begun = true;
     change_and_unlock(q);
 }
 
-bool queue_wait_done(queue *q)
+bool queue_wait_begun(queue *q)
 {
     pthread_mutex_lock(&q->lock);
-    while (q->done == 0 && !q->broken)
+    while (!q->begun && !q->broken)
         pthread_cond_wait(&q->changed, &q->lock);
-    const bool done = q->done > 0;
+    const bool begun = q->begun;
     pthread_mutex_unlock(&q->lock);
-    return done;
+    return begun;
 }
 
 void queue_end(queue *q)

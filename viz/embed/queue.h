@@ -16,7 +16,7 @@ typedef struct queue {
     bool borrowed; /* the batches are not released by the queue */
     bool ended;    /* nothing more is put */
     bool broken;   /* nothing more is taken */
-    uint64_t done; /* batches that were filmed */
+    bool begun;    /* there is a recording to film into */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
@@ -34,8 +34,11 @@ batch *queue_take(queue *q);
 /* Let go of the batch that was taken last: it was filmed. */
 void queue_done(queue *q, batch *b);
 
-/* Wait until a batch was filmed, or the queue is broken. False then. */
-bool queue_wait_done(queue *q);
+/* There is a recording to film into: who waits for that is woken. */
+void queue_begin(queue *q);
+
+/* Wait for it, or until the queue is broken. False then. */
+bool queue_wait_begun(queue *q);
 
 void queue_end(queue *q);
 

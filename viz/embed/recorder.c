@@ -289,7 +289,7 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
     return read == OCTREEL_OK ? let_leaves_grow(r) : read;
 }
 
-/* Hand a batch to the thread that films, and wait for the first to be filmed. On failure the batch stays the
+/* Hand a batch to the thread that films, and with the first wait until that can. On failure the batch stays the
  * caller's. */
 static octreel_status film_batch(octreel_recorder *r, batch *b, bool *taken)
 {
@@ -297,7 +297,7 @@ static octreel_status film_batch(octreel_recorder *r, batch *b, bool *taken)
     *taken = status == OCTREEL_OK;
     if (status == OCTREEL_BUSY)
         return status_fail(&r->error, status);
-    if (*taken && (r->put++ > 0 || queue_wait_done(&r->queue)))
+    if (*taken && (r->put++ > 0 || queue_wait_begun(&r->queue)))
         return OCTREEL_OK;
     r->broken = true;
     r->error = r->filmer.error;

@@ -66,7 +66,10 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
     free(bodies);
     if (!f->live)
         return OCTREEL_CANNOT_DRAW;
-    return live_begin(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BAD_FOLDER;
+    if (!live_begin(f->live, &f->error))
+        return OCTREEL_BAD_FOLDER;
+    queue_begin(f->queue); /* what may go wrong from here on, such as a full disk, may at any tick */
+    return live_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
 /* The first points of all come by the changes of the first tick. */
@@ -126,6 +129,7 @@ static octreel_status film_gaps(session_filmer *f, const batch *b)
 static octreel_status film_batch(session_filmer *f, batch *b)
 {
     const bool begun = f->tick > 0;
+    batch_settle(b); /* here, and not in the program's thread */
     octreel_status status = film_gaps(f, b);
     if (status != OCTREEL_OK || b->is_gap)
         return status;

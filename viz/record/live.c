@@ -61,15 +61,18 @@ static octree_input first_tick(const octree_session *session)
     return input;
 }
 
-static bool begin_session(live_recording *live, octreel_error *error)
+static bool open_session(live_recording *live, octreel_error *error)
 {
-    const octree_session header = live->start.session;
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
     live->stream = fopen(live->path, "w+b");
-    if (!live->stream)
-        return fail_to_write(live, error);
+    return live->stream || fail_to_write(live, error);
+}
+
+static bool begin_session(live_recording *live, octreel_error *error)
+{
+    const octree_session header = live->start.session;
     session_write_header(&header, live->options.values, live->stream);
     if (!flush(live, error))
         return false;
@@ -237,19 +240,31 @@ static bool film_tick(live_recording *live, octreel_error *error)
            (!step.gap || !frame_is_due(step.tick, live->options.every) || note_gap(live, step.tick, error));
 }
 
-bool live_begin(live_recording *live, octreel_error *error)
+static void abandon(live_recording *live)
 {
     octreel_error late;
-    if (!recording_begin(&live->recording, &live->playback, error))
-        return false;
-    live->begun = begin_session(live, error) && film_tick(live, error);
-    if (live->begun)
-        return true;
     tick_log_close(&live->recording.log, false, &late);
     remove_live_file(live);
     folder_abandon(live->folder);
     replacement_undo(&live->recording.replaced);
+}
+
+bool live_begin(live_recording *live, octreel_error *error)
+{
+    if (!recording_begin(&live->recording, &live->playback, error))
+        return false;
+    if (open_session(live, error))
+        return true;
+    abandon(live);
     return false;
+}
+
+bool live_first(live_recording *live, octreel_error *error)
+{
+    live->begun = begin_session(live, error) && film_tick(live, error);
+    if (!live->begun)
+        abandon(live);
+    return live->begun;
 }
 
 static char next_key(const live_recording *live)

@@ -19,8 +19,11 @@ typedef struct live_recording live_recording;
  */
 live_recording *live_open(const octree_session *start, const film_options *options, octreel_error *error);
 
-/* Make the folder and film tick 0. Where it fails no files are left, and only live_close() is. */
+/* Make the folder and begin its files. Where it fails no files are left, and only live_close() is. */
 bool live_begin(live_recording *live, octreel_error *error);
+
+/* Film tick 0. Where it fails the same holds. */
+bool live_first(live_recording *live, octreel_error *error);
 
 /* Film the next tick; with key 0 its key is the session's. After a failure only live_close() is left. */
 bool live_tick(live_recording *live, const octree_input *input, octreel_error *error);

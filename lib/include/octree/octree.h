@@ -229,8 +229,9 @@ typedef void (*octree_change_visitor)(const octree_change *change, void *context
  * tree; from the new mark on the tree keeps its changes, so that the next call can tell them. They are not known with a
  * mark that is zero or another tree's; after octree_clear, octree_tune, octree_reworld and octree_compact; when memory
  * was short; and when they were more than a quarter of the points (or 1024) since anybody asked: the tree then keeps
- * none until it is asked again. `name` is that of the log where the tree has none yet: not 0, and one that nobody else
- * gives, say at random; it tells a tree from one that came to its address later.
+ * none until it is asked again. `name` is that of the log where the tree has none yet: not 0, and one that was never
+ * given before, say the next of a series that starts at random; it tells a tree from others, and from one that comes to
+ * its address later.
  *
  * A tree that nobody asks keeps nothing. It may be asked beside queries and from many threads, each with a mark of its
  * own. False for null. Cost: O(changes visited); of a change that is kept 64 bytes, up to four times as many while it
