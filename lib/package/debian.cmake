@@ -8,7 +8,7 @@ if(NOT OCTREEL_DEBIAN)
                     COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${debian_build} -G ${CMAKE_GENERATOR}
                             -D OCTREEL_DEBIAN=ON -D CMAKE_C_COMPILER=${CMAKE_C_COMPILER} -D CMAKE_BUILD_TYPE=Release
                             -D BUILD_SHARED_LIBS=ON -D BUILD_TESTING=OFF -D CMAKE_INSTALL_PREFIX=/usr
-                            -D CMAKE_SKIP_INSTALL_RPATH=ON
+                            -D CMAKE_SKIP_INSTALL_RPATH=ON -D CMAKE_BUILD_RPATH_USE_ORIGIN=ON
                     COMMAND ${CMAKE_COMMAND} --build ${debian_build} --parallel ${cores} --target package)
   return()
 endif()
