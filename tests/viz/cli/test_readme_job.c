@@ -137,7 +137,7 @@ static void job_fails_where_a_frame_differs_and_keeps_the_evidence(void **state)
     assert_string_equal(j->run.complained, "");
     assert_summary_says(j, "Of an earlier step.\n### octreel diff: different: ");
     assert_summary_says(j, "<code>frame_000005.png</code> and 6 more: ticks 10 to 35");
-    assert_says(j->run.said, "\n::error title=octreel diff::octreel diff: different: ");
+    assert_says(j->run.said, "\n::error file=frames/frame_000005.png,title=octreel diff%3A ");
     assert_uploads(j, "report.html");
     assert_uploads(j, "frame_000005.difference.png");
 }
