@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* report_page.c - report.html of a folder of evidence: see report.h.
  *
- * Between the page's two halves go the facts, a line of JSON for the whole and one for each frame that differs, and
+ * Between the page's two halves go the facts, a line of JSON for the whole and one for each group that differs, and
  * then the pictures. They stay on the disk until they are copied, a block at a time.
  */
 #include "diff_words.h"
@@ -14,7 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Pairs that are in the page, in their order. */
+/* First pairs of the groups that are in the page, in their order. */
 typedef struct page {
     const diff_report *report;
     FILE *out;
@@ -50,7 +50,8 @@ static void choose_pairs(page *p)
 {
     const diff_result *result = p->report->result;
     uint64_t room = DIFF_REPORT_PAGE_BYTES;
-    for (size_t i = 0; i < result->count; i++) {
+    for (size_t group = 0; group < p->report->groups->count; group++) {
+        const size_t i = p->report->groups->groups[group].first;
         if (diff_finding_verdict(result->pairs[i].finding) == DIFF_SAME)
             continue;
         if (p->count == DIFF_REPORT_PAGE_FRAMES) {
@@ -141,6 +142,23 @@ static void write_curve(json_writer *w, const diff_result *result)
     json_write_end_array(w);
 }
 
+/* Of each pair the number of its group in the page, or null. */
+static void write_entries(json_writer *w, const page *p)
+{
+    const frame_groups *g = p->report->groups;
+    json_member_begin_array(w, "entries");
+    for (size_t i = 0; i < p->report->result->count; i++) {
+        size_t n = 0;
+        while (g->of[i] != GROUP_NONE && n < p->count && p->pairs[n] != g->groups[g->of[i]].first)
+            n++;
+        if (g->of[i] != GROUP_NONE && n < p->count)
+            json_write_integer(w, n);
+        else
+            json_write_null(w);
+    }
+    json_write_end_array(w);
+}
+
 static bool write_whole(const page *p)
 {
     fact_line line;
@@ -152,6 +170,7 @@ static bool write_whole(const page *p)
     json_member_integer(&line.writer, "different", p->count + p->left_out);
     json_member_integer(&line.writer, "left_out", p->left_out);
     write_curve(&line.writer, p->report->result);
+    write_entries(&line.writer, p);
     return line_end(&line, p->out) && ok;
 }
 
@@ -181,9 +200,12 @@ static bool write_pair(const page *p, size_t n)
     text_stream words;
     if (text_stream_begin(&words))
         diff_print_difference(words.stream, pair);
-    const bool ok = write_words(&line.writer, "words", &words);
+    bool ok = write_words(&line.writer, "words", &words);
+    if (text_stream_begin(&words))
+        frame_group_print(words.stream, p->report->groups, p->report->result, p->report->groups->of[i], false);
+    ok = write_words(&line.writer, "frames_words", &words) && ok;
+    diff_json_group(&line.writer, p->report, p->report->groups->of[i]);
     write_files(&line.writer, p->report, i);
-    json_member_integer(&line.writer, "place", i); /* in the whole's "pixels" */
     json_member_bool(&line.writer, "embedded", p->embedded[n]);
     return line_end(&line, p->out) && ok;
 }

@@ -196,6 +196,32 @@ function sayHelp()
     at("help").close();
 }
 
+/* What is ticked by keys and buttons, and what would be saved as accept.txt. */
+async function sayTicks()
+{
+    let saved = Promise.resolve("nothing");
+    URL.createObjectURL = blob => {
+        saved = blob.text();
+        return "#saved";
+    };
+    const boxes = [...at("list").querySelectorAll("input")];
+    say("tickable", boxes.slice(0, 6).map(box => !box.disabled).join(" "));
+    say("ticked before", `${textOf("ticked")} ${at("save").disabled} ${textOf("accept-how")}`);
+    press("x");
+    boxes[2].click();
+    say("ticked", textOf("ticked"));
+    say("accept how", textOf("accept-how"));
+    HTMLAnchorElement.prototype.click = function() { say("saved as", this.download); };
+    at("save").click();
+    say("saved", (await saved).trim().replaceAll("\n", " "));
+    press("x");
+    say("ticked no more", textOf("ticked"));
+    at("tick-all").click();
+    say("ticked all", textOf("ticked"));
+    at("tick-all").click();
+    say("ticked none", textOf("ticked"));
+}
+
 /* Over how many frames there are bars, and where a click at the end of them leads. */
 async function sayCurve()
 {
@@ -230,6 +256,7 @@ async function drive()
     sayZoom();
     sayMarks();
     await sayAddress();
+    await sayTicks();
     sayHelp();
     say("loaded", performance.getEntriesByType("resource").filter(({name}) => !name.startsWith("data:")).length);
 }

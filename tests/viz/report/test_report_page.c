@@ -53,14 +53,14 @@ static void make_sides(place a, place b)
 /* What happens after the pictures and before the page. */
 typedef void meddler(const char *folder);
 
-static void write_page_of(comparison_of *made, const char *folder, meddler *meddle)
+static void write_page_of(comparison_of *made, const char *folder, bool each, meddler *meddle)
 {
     octreel_error error = {""};
     evidence e;
-    const frame_groups *each = group_frames(made, true);
-    const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e, LIST_LINES, each};
+    const frame_groups *groups = group_frames(made, each);
+    const diff_report report = {&made->a, &made->b, &made->result, &made->why, &e, LIST_LINES, groups};
     if (!evidence_prepare(folder, &made->a, &made->b, &error) ||
-        !evidence_collect(&e, folder, &made->result, each, &error))
+        !evidence_collect(&e, folder, &made->result, groups, &error))
         fail_msg("%s", error.text);
     if (meddle)
         meddle(folder);
@@ -79,7 +79,7 @@ static void write_page(const char *a, const char *b, const char *folder, const c
     }
     if (headline)
         made.why.headline = strdup(headline);
-    write_page_of(&made, folder, NULL);
+    write_page_of(&made, folder, true, NULL);
 }
 
 static int drive_page(void **state)
@@ -174,8 +174,7 @@ static void page_says_how_many_frames_were_left_out(void **state)
 {
     assert_said(state, "listed", "50");
     assert_said(state, "place", "1 of 50");
-    assert_said(state, "left out",
-                "6 more frames differ: this page has the first 50. The pictures of all lie beside it.");
+    assert_said(state, "left out", "6 more findings: this page has the first 50. The pictures of all lie beside it.");
 }
 
 static void keys_choose_how_to_look(void **state)
@@ -248,7 +247,25 @@ static void question_mark_lists_the_keys(void **state)
     assert_said(state, "help before", "false");
     assert_said(state, "help", "true");
     assert_said(state, "behind the help", "frame_000000.png");
-    assert_said(state, "keys listed", "n \xe2\x86\x92 p \xe2\x86\x90 Home End s b d t e a space [ ] z + - 0 m ?");
+    assert_said(state, "keys listed", "n \xe2\x86\x92 p \xe2\x86\x90 Home End s b d t e a space [ ] z + - 0 x m ?");
+}
+
+/* What cannot be read cannot be accepted. */
+static void findings_are_ticked_and_saved_for_accept(void **state)
+{
+    const driven *d = *state;
+    char how[512];
+    assert_said(state, "tickable", "true true true true false true");
+    assert_said(state, "ticked before", "0 ticked, 0 frames true ");
+    assert_said(state, "ticked", "2 ticked, 2 frames");
+    snprintf(how, sizeof how, "octreel accept %s/golden '%s/new & <b>' --from accept.txt",
+             ((temp_folder *)d->folder)->name, ((temp_folder *)d->folder)->name);
+    assert_said(state, "accept how", how);
+    assert_said(state, "saved as", "accept.txt");
+    assert_said(state, "saved", "frame_000000.png frame_000002.png");
+    assert_said(state, "ticked no more", "1 ticked, 1 frame");
+    assert_said(state, "ticked all", "49 ticked, 49 frames");
+    assert_said(state, "ticked none", "0 ticked, 0 frames");
 }
 
 static void page_loads_nothing(void **state)
@@ -293,6 +310,24 @@ static void page_of_few_differences_leaves_none_out(void **state)
     assert_opens_with(state, folder, "<h2 id=\"cause\">A reference without a frame</h2>");
 }
 
+/* One entry, one picture, and all names for accept.txt. */
+static void frames_of_one_cause_are_one_entry(void **state)
+{
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "old", "1.png 2.png 3.png"),
+                b = gallery_make(d->folder, "later", "1.png 2.png 3.png"), folder = place_in(d->folder, "alike");
+    octreel_error error;
+    for (int i = 0; i < 3; i++)
+        gallery_write(place_below(b.path, (char[]){(char)('1' + i), '.', 'p', 'n', 'g', 0}).path, (uint64_t)i, 7);
+    comparison_of made = assert_compared(a.path, b.path, NULL);
+    assert_true(explain(&made.a, &made.b, &made.result, 10, &made.why, &error));
+    write_page_of(&made, folder.path, false, NULL);
+    assert_false(file_exists(place_below(folder.path, "2.actual.png").path));
+    assert_opens_with(state, folder, "<dt>alike</dt><dd data-fact=\"alike\">3 frames: 1.png to 3.png</dd>");
+    assert_opens_with(state, folder, "<b>+2</b><small>7 pixels</small></button></li></ol>");
+    assert_opens_with(state, folder, "\"frames\": [\"1.png\", \"2.png\", \"3.png\"]");
+}
+
 /* Nobody reads so much: it is all holes. */
 static void enlarge(const char *folder)
 {
@@ -307,7 +342,7 @@ static void pictures_that_are_too_large_for_a_page_are_left_beside_it(void **sta
     for (int i = 1; i < 3; i++)
         gallery_write(place_below(b.path, i == 1 ? "1.png" : "2.png").path, 9, 0);
     comparison_of made = assert_compared(a.path, b.path, NULL);
-    write_page_of(&made, folder.path, enlarge);
+    write_page_of(&made, folder.path, true, enlarge);
     char *page = file_read(place_below(folder.path, "report.html").path, NULL);
     assert_null(strstr(page, "<img data-frame=\"0\""));
     assert_non_null(strstr(page, "<img data-frame=\"1\" data-picture=\"difference\" src=\"data:image/png;base64,"));
@@ -331,6 +366,8 @@ int main(void)
         cmocka_unit_test(bars_show_how_much_differs_over_the_frames),
         cmocka_unit_test(address_names_the_frame_and_leads_to_it),
         cmocka_unit_test(question_mark_lists_the_keys),
+        cmocka_unit_test(findings_are_ticked_and_saved_for_accept),
+        cmocka_unit_test(frames_of_one_cause_are_one_entry),
         cmocka_unit_test(page_loads_nothing),
         cmocka_unit_test(page_of_no_difference_says_so),
         cmocka_unit_test(page_of_few_differences_leaves_none_out),

@@ -15,9 +15,9 @@ class Curve {
     {
         this.canvas = figure.querySelector("canvas");
         this.pixels = findings.whole.pixels;
-        this.places = findings.frames.map(frame => frame.place);
+        this.entries = findings.whole.entries; /* of each frame its finding in the page, or null */
         this.most = this.pixels.reduce((most, pixels) => Math.max(most, pixels ?? 0), 0);
-        this.place = -1;
+        this.entry = -1;
         this.canvas.addEventListener("click", event => goTo(this.nearest(event.offsetX)));
         addEventListener("resize", () => this.draw());
         figure.hidden = this.pixels.length < 2;
@@ -33,17 +33,17 @@ class Curve {
             `${grouped(this.most)}; the first that differs is ${shortName(frames[0])}`);
     }
 
-    /* The frame of the page that is nearest to a place across the canvas. */
+    /* The finding of the frame that is nearest to a place across the canvas, of those that the page has. */
     nearest(x)
     {
         const place = Math.floor(x / this.canvas.clientWidth * this.pixels.length);
-        const far = i => Math.abs(this.places[i] - place);
-        return this.places.reduce((best, _, i) => far(i) < far(best) ? i : best, 0);
+        const far = i => this.entries[i] === null ? Infinity : Math.abs(i - place);
+        return this.entries[this.entries.reduce((best, _, i) => far(i) < far(best) ? i : best, 0)] ?? 0;
     }
 
-    show(frame)
+    show(entry)
     {
-        this.place = this.places[frame];
+        this.entry = entry;
         this.draw();
     }
 
@@ -61,7 +61,7 @@ class Curve {
         this.pixels.forEach((pixels, i) => {
             /* What has no number stands out as much as the most. */
             const tall = pixels === null ? height : Math.ceil(barHeight(pixels, this.most) * height);
-            context.fillStyle = i === this.place ? text : warm;
+            context.fillStyle = this.entries[i] === this.entry ? text : warm;
             context.fillRect(i * step, height - tall, wide, tall);
         });
     }

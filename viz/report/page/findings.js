@@ -42,6 +42,12 @@ function tallyOf(finding)
     return finding.counted?.pixels > 0 ? finding.counted : finding.unlike ?? {pixels: 0};
 }
 
+/* All frames of a finding, which are alike: the first one's pictures are shown. */
+function titleOf(finding)
+{
+    return finding.frames.length > 1 ? finding.frames_words : shortName(finding);
+}
+
 /* A recording's frame_000041.png is known by its tick. */
 function shortName(finding)
 {
@@ -112,6 +118,8 @@ function shownDelta(delta)
 function factsOf(finding)
 {
     const tally = tallyOf(finding), facts = [], forgiven = forgivenIn(finding);
+    if (finding.frames.length > 1)
+        facts.push(["alike", `${grouped(finding.frames.length)} frames: ${finding.frames_words}`]);
     if (tally.pixels > 0) {
         facts.push(["pixels", `${grouped(tally.pixels)} of ${grouped(finding.frame_size[0] * finding.frame_size[1])}, ` +
                               share(tally.pixels, finding.frame_size)]);

@@ -37,6 +37,7 @@ class Report {
         this.stage = new Stage(byId("stage"));
         this.stage.onchange = () => this.showStage();
         this.curve = new Curve(byId("curve"), findings, frame => this.goTo(frame));
+        this.ticks = new Ticks(findings);
     }
 
     /* ---- Where to ------------------------------------------------------------------------------------------- */
@@ -68,8 +69,8 @@ class Report {
     {
         const finding = this.findings.frames[this.frame];
         for (const entry of byId("list").children)
-            entry.firstChild.removeAttribute("aria-current");
-        const entry = byId("list").children[this.frame].firstChild;
+            entry.lastChild.removeAttribute("aria-current");
+        const entry = byId("list").children[this.frame].lastChild;
         entry.setAttribute("aria-current", "true");
         entry.scrollIntoView({block: "nearest", inline: "nearest"});
         byId("place").textContent = `${this.frame + 1} of ${this.last + 1}`;
@@ -184,6 +185,7 @@ const KEYS = [
     [["+", "="], "+", "larger", report => report.stage.seen && report.stage.zoomBy(ZOOM_STEP)],
     [["-"], "-", "smaller", report => report.stage.seen && report.stage.zoomBy(1 / ZOOM_STEP)],
     [["0"], "0", "the whole picture", report => report.stage.seen && report.stage.zoomTo(0)],
+    [["x"], "x", "tick it, to be accepted, or not", report => report.ticks.toggle(report.frame)],
     [["m"], "m", "marks of the worst place and of all that differs, on or off", report => report.stage.toggleMarks()],
     [["?"], "?", "these keys", () => byId("help").showModal()],
 ];
@@ -196,7 +198,7 @@ function actionOf(key)
 /* What the focused control would do with the key by itself goes before. */
 function isTaken(event)
 {
-    const control = event.target.closest?.("button, a");
+    const control = event.target.closest?.("button, a, input");
     return event.ctrlKey || event.altKey || event.metaKey || byId("help").open ||
         (control && [" ", "Enter"].includes(event.key));
 }
@@ -245,18 +247,22 @@ function describe({whole, frames})
     document.title = `${whole.verdict}: ${whole.compared.path} – octreel diff`;
 }
 
-function fillList(findings, goTo)
+function fillList(findings, boxes, goTo)
 {
     findings.frames.forEach((finding, i) => {
         const button = element("button", element("span", shortName(finding), {class: "name"}),
-                               {type: "button", title: finding.frame, "data-finding": finding.finding});
+                               {type: "button", title: titleOf(finding), "data-finding": finding.finding});
+        if (finding.frames.length > 1)
+            button.append(element("b", `+${grouped(finding.frames.length - 1)}`));
         button.append(element("small", shortWords(finding)));
         button.addEventListener("click", () => goTo(i));
-        byId("list").append(element("li", button));
+        const entry = element("li", boxes[i]);
+        entry.append(button);
+        byId("list").append(entry);
     });
     const {left_out: leftOut} = findings.whole, kept = findings.frames.length;
     byId("left-out").hidden = leftOut === 0;
-    byId("left-out").textContent = `${grouped(leftOut)} more ${leftOut === 1 ? "frame differs" : "frames differ"}: ` +
+    byId("left-out").textContent = `${grouped(leftOut)} more ${leftOut === 1 ? "finding" : "findings"}: ` +
         `this page has the first ${kept}. The pictures of all lie beside it.`;
 }
 
@@ -295,7 +301,7 @@ function openReport()
     }
     byId("report").hidden = false;
     const report = new Report(findings);
-    fillList(findings, frame => report.goTo(frame));
+    fillList(findings, report.ticks.boxes, frame => report.goTo(frame));
     listen(report);
     report.readAddress();
 }

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* accept.js - what a person ticks to be accepted, and accept.txt, which says it to octreel accept --from: a name a
+ * line. */
+"use strict";
+
+/* What a shell reads as this word. */
+const shellWord = text => /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+
+class Ticks {
+    constructor(findings)
+    {
+        this.findings = findings;
+        this.ticked = new Set();
+        this.boxes = findings.frames.map((finding, i) => this.makeBox(finding, i));
+        document.getElementById("tick-all").addEventListener("click", () => this.toggleAll());
+        document.getElementById("save").addEventListener("click", () => this.save());
+        document.getElementById("copy").addEventListener("click", () => this.copy());
+        this.show();
+    }
+
+    /* What cannot be read is no reference, and a name with a line end is no line. */
+    can(i)
+    {
+        const {finding, frames} = this.findings.frames[i];
+        return finding !== "unreadable" && !frames.some(name => /[\n\r]/.test(name));
+    }
+
+    makeBox(finding, i)
+    {
+        const box = element("input", "", {type: "checkbox", "aria-label": `Accept ${titleOf(finding)}`,
+                                          title: "accept (x)"});
+        box.disabled = !this.can(i);
+        box.addEventListener("change", () => this.set(i, box.checked));
+        return box;
+    }
+
+    set(i, on)
+    {
+        if (!this.can(i))
+            return;
+        this.ticked[on ? "add" : "delete"](i);
+        this.show();
+    }
+
+    toggle(i)
+    {
+        this.set(i, !this.ticked.has(i));
+    }
+
+    toggleAll()
+    {
+        const all = this.boxes.map((_, i) => i).filter(i => this.can(i));
+        this.ticked = new Set(this.ticked.size < all.length ? all : []);
+        this.show();
+    }
+
+    show()
+    {
+        const names = this.names().length, {compared, reference} = this.findings.whole;
+        const reason = reference.kind === "digests" ? " --reason \"...\"" : "";
+        this.boxes.forEach((box, i) => box.checked = this.ticked.has(i));
+        document.getElementById("ticked").textContent =
+            `${grouped(this.ticked.size)} ticked, ${grouped(names)} ${names === 1 ? "frame" : "frames"}`;
+        document.getElementById("accept-how").textContent = names === 0 ? "" :
+            `octreel accept ${shellWord(reference.path)} ${shellWord(compared.path)} --from accept.txt${reason}`;
+        for (const id of ["save", "copy"])
+            document.getElementById(id).disabled = names === 0;
+    }
+
+    names()
+    {
+        return [...this.ticked].sort((a, b) => a - b).flatMap(i => this.findings.frames[i].frames);
+    }
+
+    text()
+    {
+        return this.names().map(name => `${name}\n`).join("");
+    }
+
+    save()
+    {
+        const link = element("a", "", {href: URL.createObjectURL(new Blob([this.text()], {type: "text/plain"})),
+                                       download: "accept.txt"});
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href));
+    }
+
+    /* A page that was opened as a file may have no clipboard of its own. */
+    async copy()
+    {
+        try {
+            await navigator.clipboard.writeText(this.text());
+        } catch {
+            const area = document.body.appendChild(element("textarea", this.text(), {class: "hidden"}));
+            area.select();
+            document.execCommand("copy");
+            area.remove();
+        }
+        document.getElementById("spoken").textContent = "Copied";
+    }
+}
