@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "png_write.h"
+#include "deflate.h"
 #include "file.h"
 #include "text.h"
 
@@ -8,15 +9,13 @@
 #include <string.h>
 #include <zlib.h>
 
-/* Large enough for the whole of a usual frame: one IDAT chunk, which stdio passes on without copying. */
-#define COMPRESSED_BUFFER_SIZE ((size_t)1 << 16)
-
 /* A file being written: libpng's error pointer. */
 typedef struct output {
     const image_rows *rows;
     const image_text *texts;
     size_t text_count;
     file_writer file;
+    deflater *deflater;
     octreel_error *error;
 } output;
 
@@ -39,6 +38,11 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t size)
         png_error(png, strerror(errno));
 }
 
+static void write_pixels(void *png, const uint8_t *bytes, size_t size)
+{
+    png_write_chunk(png, (png_const_bytep) "IDAT", bytes, size);
+}
+
 static void set_header(png_structp png, png_infop info, const image_rows *rows)
 {
     const image_palette *palette = rows->palette;
@@ -54,11 +58,6 @@ static void set_header(png_structp png, png_infop info, const image_rows *rows)
         }
         png_set_PLTE(png, info, colors, palette->count);
     }
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-    png_set_compression_level(png, 1);
-    png_set_compression_strategy(png, indexed ? Z_RLE : Z_DEFAULT_STRATEGY);
-    png_set_compression_buffer_size(png, COMPRESSED_BUFFER_SIZE);
-    png_set_check_for_invalid_index(png, 0); /* done, faster, by refusal() */
 }
 
 static void set_texts(png_structp png, png_infop info, const image_text *texts, size_t count)
@@ -92,8 +91,9 @@ static bool write_chunks(png_structp png, png_infop info, const output *out)
     set_texts(png, info, out->texts, out->text_count);
     png_write_info(png, info);
     for (int y = 0; y < out->rows->height; y++)
-        png_write_row(png, out->rows->row(y, out->rows->context));
-    png_write_end(png, NULL);
+        deflater_add(out->deflater, out->rows->row(y, out->rows->context));
+    deflater_finish(out->deflater);
+    png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
     return true;
 }
 
@@ -101,9 +101,12 @@ static bool write_chunks(png_structp png, png_infop info, const output *out)
  * keyword. */
 static bool encode(output *out)
 {
+    const size_t pixel = out->rows->palette ? 1 : 3, row_size = (size_t)out->rows->width * pixel + 1;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, out, raise_error, raise_error);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    const bool whole = info ? write_chunks(png, info, out) : error_no_memory(out->error);
+    out->deflater = deflater_open(row_size, (size_t)out->rows->height, pixel, write_pixels, png);
+    const bool whole = info && out->deflater ? write_chunks(png, info, out) : error_no_memory(out->error);
+    deflater_close(out->deflater);
     png_destroy_write_struct(&png, &info);
     return whole;
 }

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* bytes.h - bytes, eight at a time. */
+#ifndef IMAGE_BYTES_H
+#define IMAGE_BYTES_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Eight bytes as a word whose lowest is the first, on every machine; compilers make one instruction of it. */
+static inline uint64_t bytes_load(const uint8_t *at)
+{
+    return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
+           (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 | (uint64_t)at[6] << 48 | (uint64_t)at[7] << 56;
+}
+
+static inline void bytes_store(uint8_t *to, uint64_t word)
+{
+    to[0] = (uint8_t)word;
+    to[1] = (uint8_t)(word >> 8);
+    to[2] = (uint8_t)(word >> 16);
+    to[3] = (uint8_t)(word >> 24);
+    to[4] = (uint8_t)(word >> 32);
+    to[5] = (uint8_t)(word >> 40);
+    to[6] = (uint8_t)(word >> 48);
+    to[7] = (uint8_t)(word >> 56);
+}
+
+/* How many bytes of a word that is not zero are zero before the first that is not. */
+static inline size_t bytes_zero_before(uint64_t word)
+{
+#ifdef __GNUC__
+    return (size_t)__builtin_ctzll(word) / 8;
+#else
+    size_t count = 0;
+    for (; (word & 0xff) == 0; word >>= 8)
+        count++;
+    return count;
+#endif
+}
+
+/* The highest bit of each byte that is zero. */
+static inline uint64_t bytes_zero(uint64_t word)
+{
+    const uint64_t low = UINT64_C(0x7f7f7f7f7f7f7f7f);
+    return ~(((word & low) + low) | word | low);
+}
+
+/* How many bytes are equal before the first two that differ. */
+static inline size_t bytes_alike(const uint8_t *a, const uint8_t *b, size_t size)
+{
+    size_t at = 0;
+    for (; at + 8 <= size; at += 8) {
+        const uint64_t unlike = bytes_load(a + at) ^ bytes_load(b + at);
+        if (unlike != 0)
+            return at + bytes_zero_before(unlike);
+    }
+    while (at < size && a[at] == b[at])
+        at++;
+    return at;
+}
+
+#endif

@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT */
+#include "deflate.h"
+#include "bytes.h"
+#include "deflate_block.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    CHUNK = 96 << 10, /* so many bytes are collected before they are looked at */
+    WORD = 8,         /* so many bytes after the last are read, and do not matter */
+
+    /* Rough sizes in bits, by which repeats are chosen: of a byte that has no repeat, and of a repeat of the pixel
+     * before, of the row above, and of anything else. */
+    BYTE_BITS = 3,
+    RUN_BITS = 6,
+    ABOVE_BITS = 12,
+    FAR_BITS = 16,
+    LONG_REPEAT = 32, /* is taken without looking for a better one */
+
+    HASH_BITS = 12,
+    HASHED = 6, /* bytes: two pixels of a picture without palette */
+    ADLER_BASE = 65521,
+};
+
+struct deflater {
+    size_t stride, rows, pixel;
+    size_t kept; /* bytes before the present one that are to stay in the window */
+    size_t room; /* of the window */
+    size_t end;  /* of the bytes in it */
+    size_t at;   /* the first that has no token yet */
+    bool begun;
+    bool above;            /* the row above can be repeated */
+    size_t block;          /* where the bytes of the block begin, */
+    bool block_whole;      /* if they are all in the window still */
+    size_t unsummed;       /* the first byte whose change is not in the sums */
+    size_t row;            /* where the row of that byte begins, */
+    size_t rows_left;      /* how many there are from this one on, */
+    int64_t row_change;    /* and how its bytes so far differ from those above: the sum, */
+    int64_t row_by_column; /* and that of each times its column */
+    int64_t sums[2];       /* of the Adler-32, without what they begin with */
+    deflate_blocks blocks;
+    uint32_t heads[1 << HASH_BITS]; /* of RGB: where bytes with this hash were met last */
+    uint8_t *window;                /* a row of zeros stands before the first row */
+};
+
+/* ---- Adler-32 ------------------------------------------------------------------------------------------------ */
+
+/* Both sums are linear, so a byte that is equal to the one above it costs nothing: the change from the byte above
+ * counts once for each of the m rows from this one on. The first sum has it m times, the second m * (m + 1) / 2 *
+ * stride less m times its column. */
+static void end_row(deflater *d)
+{
+    const int64_t m = (int64_t)d->rows_left--, plain = d->row_change % ADLER_BASE;
+    const int64_t twice = m * (m + 1) / 2 % ADLER_BASE * (int64_t)d->stride % ADLER_BASE;
+    d->sums[0] = (d->sums[0] + m * plain) % ADLER_BASE;
+    d->sums[1] = (d->sums[1] + twice * plain - m * (d->row_by_column % ADLER_BASE)) % ADLER_BASE;
+    d->row_change = d->row_by_column = 0;
+    d->row += d->stride;
+}
+
+static void add_change(deflater *d, size_t from, size_t end)
+{
+    const uint8_t *bytes = d->window + from, *above = bytes - d->stride;
+    int32_t plain = 0, by_place = 0;
+    for (int32_t i = 0; i < (int32_t)(end - from); i++) {
+        const int32_t change = bytes[i] - above[i];
+        plain += change;
+        by_place += change * i;
+    }
+    d->row_change += plain;
+    d->row_by_column += by_place + (int64_t)(from - d->row) * plain;
+}
+
+/* The bytes before `end` do not repeat the row above, as far as is known. */
+static void add_changes(deflater *d, size_t end)
+{
+    enum { MOST = 256 }; /* products with places fit 32 bits */
+    for (size_t at = d->unsummed, next; at < end; at = next) {
+        while (at - d->row >= d->stride)
+            end_row(d);
+        next = d->row + d->stride < end ? d->row + d->stride : end;
+        next = next - at < MOST ? next : at + MOST;
+        add_change(d, at, next);
+    }
+    d->unsummed = end;
+}
+
+static uint32_t find_adler32(deflater *d)
+{
+    end_row(d);
+    const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE; /* the second sum has the first's 1 so often */
+    const int64_t first = (d->sums[0] + 1 + ADLER_BASE) % ADLER_BASE;
+    const int64_t second = (d->sums[1] + each + ADLER_BASE) % ADLER_BASE;
+    return (uint32_t)second << 16 | (uint32_t)first;
+}
+
+/* ---- Tokens -------------------------------------------------------------------------------------------------- */
+
+static void end_block(deflater *d, bool last)
+{
+    deflate_write_block(&d->blocks, d->block_whole ? d->window + d->block : NULL, d->at - d->block, last);
+    d->block = d->at;
+    d->block_whole = true;
+}
+
+static void put_bytes(deflater *d, size_t count)
+{
+    deflate_add_bytes(&d->blocks, d->window + d->at, count);
+    d->at += count;
+}
+
+static void put_repeat(deflater *d, size_t length, size_t distance)
+{
+    if (distance == d->stride) {
+        add_changes(d, d->at);
+        d->unsummed += length;
+    }
+    while (length > 0) {
+        size_t part = length < DEFLATE_LONGEST ? length : DEFLATE_LONGEST;
+        if (length > part && length - part < DEFLATE_SHORTEST)
+            part -= DEFLATE_SHORTEST;
+        deflate_add_repeat(&d->blocks, part, distance);
+        d->at += part;
+        length -= part;
+        if (deflate_is_full(&d->blocks))
+            end_block(d, false);
+    }
+}
+
+/* How many bytes there are before the next at which a repeat may begin, of a group. */
+static inline size_t count_single(const deflater *d)
+{
+    const uint8_t *at = d->window + d->at;
+    const uint64_t word = bytes_load(at);
+    const uint64_t run = bytes_zero(word ^ bytes_load(at - d->pixel));
+    const uint64_t above = d->above ? bytes_zero(word ^ bytes_load(at - d->stride)) : 0;
+    const uint64_t three = (run & run >> 8 & run >> 16) | (above & above >> 8 & above >> 16);
+    const size_t count = bytes_zero_before(three | UINT64_C(0x80) << (8 * DEFLATE_GROUP)), left = d->end - d->at;
+    return count < left ? count : left;
+}
+
+typedef struct repeat {
+    size_t length, distance;
+    int64_t gain; /* in bits; none where it is not above 0, and then it is not to be used */
+} repeat;
+
+static inline repeat repeat_at(const deflater *d, size_t at, size_t distance, int64_t cost)
+{
+    const uint8_t *bytes = d->window + at;
+    const size_t length = bytes_alike(bytes, bytes - distance, d->end - at);
+    return (repeat){length, distance, (int64_t)length * BYTE_BITS - cost};
+}
+
+/* The place where the same bytes may have been met last; `at` where there is none. */
+static inline size_t last_place(deflater *d, size_t at)
+{
+    const uint64_t bytes = bytes_load(d->window + at) << (8 * (WORD - HASHED));
+    uint32_t *head = &d->heads[bytes * UINT64_C(0x9e3779b97f4a7c15) >> (64 - HASH_BITS)];
+    const size_t place = *head;
+    *head = (uint32_t)at;
+    return place > 0 && at - place <= DEFLATE_FARTHEST ? place : at;
+}
+
+/* The repeat that is likely to save most. */
+static inline repeat find_repeat(deflater *d, size_t at)
+{
+    repeat best = {.gain = 0};
+    if (d->above)
+        best = repeat_at(d, at, d->stride, ABOVE_BITS);
+    if (best.length >= LONG_REPEAT)
+        return best;
+    const repeat run = repeat_at(d, at, d->pixel, RUN_BITS);
+    if (run.gain > best.gain)
+        best = run;
+    if (d->pixel == 1 || best.length >= LONG_REPEAT)
+        return best;
+    const size_t place = last_place(d, at);
+    const repeat far = place < at ? repeat_at(d, at, at - place, FAR_BITS) : best;
+    return far.gain > best.gain ? far : best;
+}
+
+/* Indices are cheap one by one; it does not pay to look for their repeats in other places. */
+static void put_next(deflater *d)
+{
+    if (d->pixel == 1) {
+        const size_t count = count_single(d);
+        put_bytes(d, count);
+        if (count == DEFLATE_GROUP || d->at == d->end)
+            return;
+    }
+    repeat found = find_repeat(d, d->at);
+    if (found.gain > 0 && found.length < LONG_REPEAT && d->at + 1 < d->end) {
+        const repeat next = find_repeat(d, d->at + 1);
+        if (next.gain > found.gain) {
+            put_bytes(d, 1);
+            found = next;
+        }
+    }
+    if (found.gain > 0)
+        put_repeat(d, found.length, found.distance);
+    else
+        put_bytes(d, 1);
+}
+
+static void put_all(deflater *d)
+{
+    while (d->at < d->end) {
+        put_next(d);
+        if (deflate_is_full(&d->blocks))
+            end_block(d, false);
+    }
+    add_changes(d, d->at);
+}
+
+/* ---- The window ---------------------------------------------------------------------------------------------- */
+
+/* Move what is to stay to the window's beginning. */
+static void slide(deflater *d)
+{
+    if (d->end <= d->kept)
+        return;
+    const size_t by = d->end - d->kept;
+    memmove(d->window, d->window + by, d->kept);
+    d->block_whole = d->block_whole && d->block >= by;
+    d->block -= by; /* may wrap: only its distance is used then */
+    d->row -= by;
+    d->at -= by;
+    d->unsummed -= by;
+    d->end -= by;
+    for (size_t i = 0; d->pixel > 1 && i < 1 << HASH_BITS; i++)
+        d->heads[i] = d->heads[i] > by ? d->heads[i] - (uint32_t)by : 0;
+}
+
+void deflater_add(deflater *d, const uint8_t *pixels)
+{
+    if (d->end + d->stride > d->room) {
+        put_all(d);
+        slide(d);
+    }
+    d->window[d->end] = 0;
+    memcpy(d->window + d->end + 1, pixels, d->stride - 1);
+    d->end += d->stride;
+    if (d->begun)
+        return;
+    put_bytes(d, d->pixel); /* which stand before all that could be repeated */
+    put_all(d);
+    d->begun = true;
+    d->above = d->stride <= DEFLATE_FARTHEST;
+}
+
+deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink *sink, void *context)
+{
+    deflater *d = calloc(1, sizeof *d);
+    const size_t kept = row_size + (pixel > 1 ? DEFLATE_FARTHEST : 0), room = kept + CHUNK + row_size;
+    uint8_t *window = d ? calloc(room + WORD, 1) : NULL;
+    if (!window) {
+        free(d);
+        return NULL;
+    }
+    d->window = window;
+    d->stride = row_size;
+    d->rows = d->rows_left = rows;
+    d->pixel = pixel;
+    d->kept = kept;
+    d->room = room;
+    d->end = d->at = d->block = d->unsummed = d->row = row_size;
+    d->block_whole = true;
+    deflate_blocks_begin(&d->blocks, sink, context);
+    deflate_write_bytes(&d->blocks, (const uint8_t[]){0x78, 0x01}, 2); /* a window of 32 KiB, the fastest level */
+    return d;
+}
+
+void deflater_close(deflater *d)
+{
+    if (d)
+        free(d->window);
+    free(d);
+}
+
+void deflater_finish(deflater *d)
+{
+    put_all(d);
+    end_block(d, true);
+    const uint32_t sum = find_adler32(d);
+    const uint8_t bytes[] = {(uint8_t)(sum >> 24), (uint8_t)(sum >> 16), (uint8_t)(sum >> 8), (uint8_t)sum};
+    deflate_write_bytes(&d->blocks, bytes, sizeof bytes);
+    deflate_flush(&d->blocks);
+}

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT */
+#include "deflate_block.h"
+#include "bytes.h"
+
+#include <string.h>
+
+enum {
+    PRECODE_SYMBOLS = 19,
+    LONGEST_PRECODE = 7,
+    HEADER_ROOM = DEFLATE_LITERALS + DEFLATE_DISTANCES,
+    /* bytes: 48 bits a token and less than 16 a length of a code, and some to spare */
+    MOST_OF_BLOCK = 6 * (BLOCK_TOKENS + BLOCK_SPARE) + 2 * HEADER_ROOM + 64
+};
+
+static const uint16_t length_bases[] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
+                                        31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
+static const uint8_t length_extra[] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
+                                       2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
+static const uint16_t distance_bases[] = {1,    2,    3,    4,    5,    7,    9,    13,    17,    25,
+                                          33,   49,   65,   97,   129,  193,  257,  385,   513,   769,
+                                          1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
+static const uint8_t distance_extra[] = {0, 0, 0, 0, 1, 1, 2,  2,  3,  3,  4,  4,  5,  5,  6, 6,
+                                         7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13, 0};
+
+void deflate_blocks_begin(deflate_blocks *b, deflate_sink *sink, void *context)
+{
+    b->sink = sink;
+    b->context = context;
+    for (uint8_t symbol = 0; symbol < sizeof length_extra; symbol++)
+        for (int i = 0; i < 1 << length_extra[symbol] && length_bases[symbol] + i <= DEFLATE_LONGEST; i++)
+            b->length_symbols[length_bases[symbol] + i] = symbol;
+    for (uint8_t symbol = 0; symbol < DEFLATE_DISTANCES; symbol++)
+        for (int at = distance_bases[symbol] - 1, end = at + (1 << distance_extra[symbol]); at < end;
+             at += at < 256 ? 1 : 128)
+            b->distance_symbols[at < 256 ? at : 256 + (at >> 7)] = symbol;
+}
+
+void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance)
+{
+    const unsigned of_length = b->length_symbols[length];
+    const unsigned of_distance = b->distance_symbols[distance <= 256 ? distance - 1 : 256 + ((distance - 1) >> 7)];
+    b->tokens[b->count++] = (deflate_token){.symbol = (uint16_t)(DEFLATE_END + 1 + of_length),
+                                            .distance_extra = (uint16_t)(distance - distance_bases[of_distance]),
+                                            .length_extra = (uint8_t)(length - length_bases[of_length]),
+                                            .length_bits = length_extra[of_length],
+                                            .distance_symbol = (uint8_t)of_distance};
+}
+
+/* ---- Bits ---------------------------------------------------------------------------------------------------- */
+
+void deflate_flush(deflate_blocks *b)
+{
+    const size_t size = b->size;
+    b->size = 0;
+    if (size > 0)
+        b->sink(b->context, b->output, size);
+}
+
+/* The state of writing, in registers. */
+typedef struct bit_writer {
+    uint64_t bits;
+    int count;
+    uint8_t *to;
+} bit_writer;
+
+static inline bit_writer begin_bits(deflate_blocks *b)
+{
+    return (bit_writer){b->bits, b->bit_count, b->output + b->size};
+}
+
+static inline void end_bits(deflate_blocks *b, const bit_writer *w)
+{
+    b->bits = w->bits;
+    b->bit_count = w->count;
+    b->size = (size_t)(w->to - b->output);
+}
+
+/* At most 56 bits between two settle(). */
+static inline void put(bit_writer *w, uint32_t bits, int count)
+{
+    w->bits |= (uint64_t)bits << w->count;
+    w->count += count;
+}
+
+/* Move whole bytes to the output, which has room for a block. */
+static inline void settle(bit_writer *w)
+{
+    bytes_store(w->to, w->bits);
+    w->to += w->count >> 3;
+    w->bits >>= w->count & ~7;
+    w->count &= 7;
+}
+
+static inline void put_symbol(bit_writer *w, const huffman_code *code, unsigned symbol)
+{
+    put(w, code->bits[symbol], code->lengths[symbol]);
+}
+
+void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size)
+{
+    if (b->bit_count > 0) {
+        b->output[b->size++] = (uint8_t)b->bits;
+        b->bits = 0;
+        b->bit_count = 0;
+    }
+    while (size > 0) {
+        const size_t room = sizeof b->output - b->size, part = size < room ? size : room;
+        memcpy(b->output + b->size, bytes, part);
+        b->size += part;
+        bytes += part;
+        size -= part;
+        if (b->size == sizeof b->output)
+            deflate_flush(b);
+    }
+}
+
+/* ---- The code of codes --------------------------------------------------------------------------------------- */
+
+/* The lengths of both codes' codes, in runs: symbols of the precode, and the bits that follow each. */
+typedef struct header {
+    uint8_t symbols[HEADER_ROOM], extra[HEADER_ROOM];
+    size_t count;
+    size_t literal_count, distance_count, precode_count;
+    huffman_code precode;
+    uint32_t counts[PRECODE_SYMBOLS];
+} header;
+
+static const uint8_t extra_of_run[] = {2, 3, 7}; /* of symbols 16 to 18 */
+
+static void add_run(header *h, unsigned symbol, size_t extra)
+{
+    h->symbols[h->count] = (uint8_t)symbol;
+    h->extra[h->count++] = (uint8_t)extra;
+    h->counts[symbol]++;
+}
+
+static void add_runs(header *h, const uint8_t *lengths, size_t count)
+{
+    for (size_t at = 0, end; at < count; at = end) {
+        const uint8_t length = lengths[at];
+        end = at;
+        while (end < count && lengths[end] == length)
+            end++;
+        size_t left = end - at;
+        if (length != 0) {
+            add_run(h, length, 0);
+            left--;
+        }
+        const size_t most = length ? 6 : 138;
+        for (; left >= 3; left -= left < most ? left : most) {
+            const size_t part = left < most ? left : most;
+            if (length)
+                add_run(h, 16, part - 3);
+            else
+                add_run(h, part < 11 ? 17 : 18, part < 11 ? part - 3 : part - 11);
+        }
+        for (; left > 0; left--)
+            add_run(h, length, 0);
+    }
+}
+
+static const uint8_t precode_order[PRECODE_SYMBOLS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                       11, 4,  12, 3, 13, 2, 14, 1, 15};
+
+static size_t find_end(const uint8_t *lengths, size_t count, size_t least)
+{
+    while (count > least && lengths[count - 1] == 0)
+        count--;
+    return count;
+}
+
+static void make_header(header *h, const deflate_blocks *b)
+{
+    uint8_t lengths[HEADER_ROOM];
+    memset(h->counts, 0, sizeof h->counts);
+    h->count = 0;
+    h->literal_count = find_end(b->literals.lengths, DEFLATE_LITERALS - 2, DEFLATE_END + 1);
+    h->distance_count = find_end(b->distances.lengths, DEFLATE_DISTANCES, 1);
+    memcpy(lengths, b->literals.lengths, h->literal_count);
+    memcpy(lengths + h->literal_count, b->distances.lengths, h->distance_count);
+    add_runs(h, lengths, h->literal_count + h->distance_count);
+    huffman_build(&h->precode, h->counts, PRECODE_SYMBOLS, LONGEST_PRECODE);
+    h->precode_count = PRECODE_SYMBOLS;
+    while (h->precode_count > 4 && h->precode.lengths[precode_order[h->precode_count - 1]] == 0)
+        h->precode_count--;
+}
+
+static size_t header_bits(const header *h)
+{
+    size_t bits = 5 + 5 + 4 + 3 * h->precode_count;
+    for (unsigned i = 0; i < PRECODE_SYMBOLS; i++)
+        bits += h->counts[i] * (h->precode.lengths[i] + (i < 16 ? 0u : extra_of_run[i - 16]));
+    return bits;
+}
+
+static void put_header(bit_writer *w, const header *h)
+{
+    put(w, (uint32_t)(h->literal_count - DEFLATE_END - 1), 5);
+    put(w, (uint32_t)(h->distance_count - 1), 5);
+    put(w, (uint32_t)(h->precode_count - 4), 4);
+    for (size_t i = 0; i < h->precode_count; i++) {
+        settle(w);
+        put(w, h->precode.lengths[precode_order[i]], 3);
+    }
+    for (size_t i = 0; i < h->count; i++) {
+        const unsigned symbol = h->symbols[i];
+        settle(w);
+        put_symbol(w, &h->precode, symbol);
+        if (symbol >= 16)
+            put(w, h->extra[i], extra_of_run[symbol - 16]);
+    }
+    settle(w);
+}
+
+/* ---- Blocks -------------------------------------------------------------------------------------------------- */
+
+static size_t count_bits(const deflate_blocks *b, const uint8_t *literals, const uint8_t *distances)
+{
+    size_t bits = 0;
+    for (size_t i = 0; i < DEFLATE_LITERALS; i++)
+        bits += (size_t)b->literal_counts[i] * literals[i];
+    for (size_t i = 0; i < DEFLATE_DISTANCES; i++)
+        bits += (size_t)b->distance_counts[i] * distances[i];
+    return bits;
+}
+
+static void set_fixed(huffman_code *literals, huffman_code *distances)
+{
+    for (int i = 0; i < DEFLATE_LITERALS; i++)
+        literals->lengths[i] = (uint8_t)(i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8);
+    memset(distances->lengths, 5, DEFLATE_DISTANCES);
+}
+
+static void count_tokens(deflate_blocks *b)
+{
+    memset(b->literal_counts, 0, sizeof b->literal_counts);
+    memset(b->distance_counts, 0, sizeof b->distance_counts);
+    for (size_t i = 0; i < b->count; i++) {
+        b->literal_counts[b->tokens[i].symbol]++;
+        b->distance_counts[b->tokens[i].distance_symbol]++;
+    }
+    b->literal_counts[DEFLATE_END] = 1;
+}
+
+/* The same for bytes and repeats, since which of them comes next cannot be foreseen. */
+static void put_tokens(bit_writer *to, deflate_blocks *b)
+{
+    bit_writer w = *to;
+    b->distances.lengths[DEFLATE_DISTANCES] = 0;
+    b->distances.bits[DEFLATE_DISTANCES] = 0;
+    for (size_t i = 0; i < b->count; i++) {
+        const deflate_token t = b->tokens[i];
+        put_symbol(&w, &b->literals, t.symbol);
+        put(&w, t.length_extra, t.length_bits);
+        put_symbol(&w, &b->distances, t.distance_symbol);
+        put(&w, t.distance_extra, distance_extra[t.distance_symbol]);
+        settle(&w);
+    }
+    put_symbol(&w, &b->literals, DEFLATE_END);
+    settle(&w);
+    *to = w;
+}
+
+enum { STORED, FIXED, DYNAMIC };
+
+static void write_stored(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last)
+{
+    const uint8_t sizes[4] = {(uint8_t)size, (uint8_t)(size >> 8), (uint8_t)~size, (uint8_t)(~size >> 8)};
+    bit_writer w = begin_bits(b);
+    put(&w, (uint32_t)(last | STORED << 1), 3);
+    settle(&w);
+    end_bits(b, &w);
+    deflate_write_bytes(b, sizes, sizeof sizes);
+    deflate_write_bytes(b, bytes, size);
+}
+
+/* `h`: of the code that was made for the tokens; null for the fixed one. */
+static void write_coded(deflate_blocks *b, const header *h, bool last)
+{
+    bit_writer w = begin_bits(b);
+    put(&w, (uint32_t)(last | (h ? DYNAMIC : FIXED) << 1), 3);
+    if (h)
+        put_header(&w, h);
+    put_tokens(&w, b);
+    end_bits(b, &w);
+}
+
+void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last)
+{
+    header h;
+    huffman_code fixed[2];
+    if (b->size > sizeof b->output - MOST_OF_BLOCK)
+        deflate_flush(b);
+    count_tokens(b);
+    huffman_build(&b->literals, b->literal_counts, DEFLATE_LITERALS - 2, HUFFMAN_LONGEST);
+    huffman_build(&b->distances, b->distance_counts, DEFLATE_DISTANCES, HUFFMAN_LONGEST);
+    make_header(&h, b);
+    set_fixed(&fixed[0], &fixed[1]);
+    const size_t dynamic_bits = header_bits(&h) + count_bits(b, b->literals.lengths, b->distances.lengths);
+    const size_t fixed_bits = count_bits(b, fixed[0].lengths, fixed[1].lengths);
+    const size_t coded_bits = dynamic_bits < fixed_bits ? dynamic_bits : fixed_bits;
+    if (bytes && size <= 65535 && 8 * size + 32 + 7 < coded_bits) {
+        write_stored(b, bytes, size, last);
+    } else if (dynamic_bits < fixed_bits) {
+        write_coded(b, &h, last);
+    } else {
+        huffman_number(&fixed[0], DEFLATE_LITERALS);
+        huffman_number(&fixed[1], DEFLATE_DISTANCES);
+        b->literals = fixed[0];
+        b->distances = fixed[1];
+        write_coded(b, NULL, last);
+    }
+    b->count = 0;
+}

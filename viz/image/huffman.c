@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+#include "huffman.h"
+
+#include <string.h>
+
+/* A symbol and its count in one number, so that they are sorted by count and then by symbol. */
+enum { SYMBOL_BITS = 9, SYMBOL_MASK = (1 << SYMBOL_BITS) - 1 };
+
+/* Shell's sort: the few that there are would not pay for a better one. */
+static void sort(uint32_t *keys, size_t count)
+{
+    static const size_t gaps[] = {132, 57, 23, 10, 4, 1};
+    for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; g++)
+        for (size_t i = gaps[g]; i < count; i++) {
+            const uint32_t key = keys[i];
+            size_t at = i;
+            for (; at >= gaps[g] && keys[at - gaps[g]] > key; at -= gaps[g])
+                keys[at] = keys[at - gaps[g]];
+            keys[at] = key;
+        }
+}
+
+/* The symbols with a count, rarest first. */
+static size_t list_symbols(const uint32_t *counts, size_t count, uint32_t *keys)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < count; i++)
+        if (counts[i] > 0)
+            keys[used++] = counts[i] << SYMBOL_BITS | (uint32_t)i;
+    for (size_t i = 0; used < 2; i++)
+        if (counts[i] == 0)
+            keys[used++] = (uint32_t)i;
+    sort(keys, used);
+    return used;
+}
+
+/* Moffat and Katajainen, "In-place calculation of minimum-redundancy codes": from weights in ascending order to the
+ * lengths of their codes, which descend. */
+static void find_lengths(uint32_t *a, size_t n)
+{
+    a[0] += a[1];
+    for (size_t root = 0, leaf = 2, next = 1; next + 1 < n; next++) {
+        uint32_t sum = 0;
+        for (int i = 0; i < 2; i++)
+            if (leaf >= n || (root < next && a[root] < a[leaf])) {
+                sum += a[root];
+                a[root++] = (uint32_t)next;
+            } else {
+                sum += a[leaf++];
+            }
+        a[next] = sum;
+    }
+    a[n - 2] = 0;
+    for (size_t i = n - 2; i-- > 0;)
+        a[i] = a[a[i]] + 1;
+    size_t available = 1, used = 0, next = n, root = n - 1; /* root: of the inner nodes those before it are left */
+    for (uint32_t depth = 0; available > 0; depth++, available = 2 * used, used = 0) {
+        for (; root > 0 && a[root - 1] == depth; root--)
+            used++;
+        for (; available > used; available--)
+            a[--next] = depth;
+    }
+}
+
+/* How many codes have each length; those that are too long are shortened, and others made longer for them, until all
+ * codes of `longest` bits are used up exactly. */
+static void limit_lengths(const uint32_t *lengths, size_t count, int longest, uint32_t *of_length)
+{
+    uint32_t space = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int length = lengths[i] > (uint32_t)longest ? longest : (int)lengths[i];
+        of_length[length]++;
+        space += (uint32_t)1 << (longest - length);
+    }
+    for (; space > (uint32_t)1 << longest; space--) {
+        int length = longest - 1;
+        while (of_length[length] == 0)
+            length--;
+        of_length[longest]--;
+        of_length[length]--;
+        of_length[length + 1] += 2;
+    }
+}
+
+void huffman_number(huffman_code *code, size_t count)
+{
+    uint32_t of_length[HUFFMAN_LONGEST + 1] = {0}, next[HUFFMAN_LONGEST + 1] = {0}, first = 0;
+    for (size_t i = 0; i < count; i++)
+        of_length[code->lengths[i]]++;
+    of_length[0] = 0;
+    for (int length = 1; length <= HUFFMAN_LONGEST; length++)
+        next[length] = first = (first + of_length[length - 1]) << 1;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits = 0, from = next[code->lengths[i]]++;
+        for (int n = code->lengths[i]; n > 0; n--, from >>= 1)
+            bits = bits << 1 | (from & 1);
+        code->bits[i] = (uint16_t)bits;
+    }
+}
+
+void huffman_build(huffman_code *code, const uint32_t *counts, size_t count, int longest)
+{
+    uint32_t keys[HUFFMAN_MOST_SYMBOLS], lengths[HUFFMAN_MOST_SYMBOLS], of_length[HUFFMAN_LONGEST + 1] = {0};
+    const size_t used = list_symbols(counts, count, keys);
+    for (size_t i = 0; i < used; i++)
+        lengths[i] = keys[i] >> SYMBOL_BITS;
+    find_lengths(lengths, used);
+    limit_lengths(lengths, used, longest, of_length);
+    memset(code->lengths, 0, count);
+    size_t at = 0;
+    for (int length = longest; length > 0; length--)
+        for (uint32_t n = of_length[length]; n > 0; n--)
+            code->lengths[keys[at++] & SYMBOL_MASK] = (uint8_t)length;
+    huffman_number(code, count);
+}
