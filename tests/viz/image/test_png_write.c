@@ -51,7 +51,7 @@ static void assert_plain_rows(const png_chunk *packed, const image *image)
         assert_int_equal(rows.data[y * (row_size + 1)], 0);
         assert_memory_equal(rows.data + y * (row_size + 1) + 1, image->pixels + y * row_size, row_size);
     }
-    assert_int_equal(packed->data[1] >> 6, 0); /* zlib's own note of a fast level */
+    assert_int_equal(packed->data[1] >> 6, 0); /* the stream's note of a fast encoder */
 }
 
 static void assert_header(const png_chunk *header, const image *image)
