@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Debian packages, in BUILD/packages: cmake --build BUILD --target package. They are made from a build of their own, with
 # shared libraries and the prefix /usr, whatever BUILD itself is.
+set(OCTREEL_MAINTAINER "The Octreel authors <octreel@users.noreply.github.com>"
+    CACHE STRING "Who answers for the packages: NAME <ADDRESS>")
 set(debian_build ${PROJECT_BINARY_DIR}/packages)
 if(NOT OCTREEL_DEBIAN)
   cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
@@ -8,6 +10,7 @@ if(NOT OCTREEL_DEBIAN)
                     COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${debian_build} -G ${CMAKE_GENERATOR}
                             -D OCTREEL_DEBIAN=ON -D CMAKE_C_COMPILER=${CMAKE_C_COMPILER} -D CMAKE_BUILD_TYPE=Release
                             -D BUILD_SHARED_LIBS=ON -D BUILD_TESTING=OFF -D CMAKE_INSTALL_PREFIX=/usr
+                            -D OCTREEL_MAINTAINER=${OCTREEL_MAINTAINER}
                             -D CMAKE_SKIP_INSTALL_RPATH=ON -D CMAKE_BUILD_RPATH_USE_ORIGIN=ON
                     COMMAND ${CMAKE_COMMAND} --build ${debian_build} --parallel ${cores} --target package)
   return()
@@ -29,11 +32,6 @@ if("${system}" MATCHES "VERSION_ID=\"?([0-9.]+)")
   string(REPLACE debian deb release "1~${CMAKE_MATCH_2}${release_number}")
 endif()
 
-set(maintainer "The Octreel authors <octreel@users.noreply.github.com>")
-if(NOT "$ENV{DEBEMAIL}" STREQUAL "")
-  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>") # as Debian's own tools know who packages
-endif()
-set(OCTREEL_MAINTAINER "${maintainer}" CACHE STRING "Who answers for the packages: NAME <ADDRESS>")
 
 # add_package(COMPONENT NAME SECTION DESCRIPTION DEPENDS): of a component. What its binaries are linked with comes to it.
 macro(add_package component name section description depends)
@@ -69,6 +67,7 @@ Records a game in an octree as PNG frames, one a tick, without a display; plays
 it again, says what is drawn at a pixel, and shows how a cloud of points is
 divided. It compares pictures exactly and says why two recordings differ, for
 tests of graphics; and it judges the answers of other spatial indexes." "${renderer}")
+set(CPACK_DEBIAN_OCTREEL_PACKAGE_SUGGESTS ffmpeg) # frames become a film
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR Octreel)

@@ -85,3 +85,4 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     list(JOIN depends ", " CPACK_DEBIAN_${key}_PACKAGE_DEPENDS)
   endif()
 endforeach()
+run(chmod -R u=rwX,go=rX ${CPACK_TEMPORARY_INSTALL_DIRECTORY}) # whatever the umask is
