@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+#include "executors.h"
 #include "fixture.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "octree/sample.h"
 
@@ -18,6 +20,8 @@ octree_def define(octree_box world, size_t capacity, size_t depth, octree_full_l
     def.leaf_capacity = capacity;
     def.max_depth = depth;
     def.full_leaf = full_leaf;
+    if (getenv("OCTREE_TEST_EXECUTOR"))
+        def.executor = shuffled_executor();
     return def;
 }
 

@@ -17,7 +17,7 @@
 /* The box [low, high] on every axis. */
 octree_box cube(double low, double high);
 
-/* A definition with malloc for its memory. */
+/* A definition with malloc for its memory; with a shuffled executor where OCTREE_TEST_EXECUTOR is set. */
 octree_def define(octree_box world, size_t capacity, size_t depth, octree_full_leaf full_leaf);
 
 /* A new tree; the test fails when there is none. */

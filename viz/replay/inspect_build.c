@@ -3,6 +3,7 @@
  * while the tree grows, and it can be told how far it is. The nodes are a function of the contents: they are the same.
  */
 #include "inspect.h"
+#include "parallel.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -135,7 +136,9 @@ bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, 
                    octreel_error *error)
 {
     *result = (inspection){.points = c->count, .skipped = c->skipped, .why_skipped = c->why_skipped};
-    octree_status status = octree_create(def, &result->tree);
+    octree_def on_all_cores = *def;
+    on_all_cores.executor.run = parallel_run;
+    octree_status status = octree_create(&on_all_cores, &result->tree);
     if (status == OCTREE_OK)
         status = insert_all(c, def, progress, context, result);
     if (status == OCTREE_OK) {

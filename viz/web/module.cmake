@@ -70,7 +70,7 @@ list(APPEND wasm_includes -isystem ${wasm_folder}/include)
 # absent.c stands for what a page does not have; of the rest the linker takes what is used.
 file(GLOB wasm_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/src/*/*.c base/*.c image/image.c scene/*.c layers/*.c
      frame/*.c draw/*.c clouds/point_world.c formats/*.c record/playback.c record/picture.c replay/pick.c web/*.c)
-list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read)\\.c$")
+list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read|parallel)\\.c$")
 list(APPEND wasm_sources ${GLYPHS})
 set(wasm_objects "")
 foreach(source ${wasm_sources})

@@ -104,6 +104,18 @@ typedef struct octree_allocator {
     void *context;
 } octree_allocator;
 
+typedef void octree_task(size_t number, void *context);
+
+/* Threads of the caller's: `run` calls the task once with each number below `count`, at most 64, on any threads and in
+ * any order, and returns when all have returned. Bulk changes, octree_nearest_batch, octree_digest and octree_check of
+ * some thousand points and more are divided into tasks; nodes, statuses, answers and digests are the same for any
+ * number of threads. Tasks call the allocator, one at a time. Null: the calling thread. The context outlives the tree.
+ */
+typedef struct octree_executor {
+    void (*run)(octree_task *task, size_t count, void *task_context, void *context);
+    void *context;
+} octree_executor;
+
 /* The leaf capacity is chosen by octree_tune, with the default mix or the last one it was given: when a tree has 1024
  * points and then whenever it has twice as many as the last time. Under OCTREE_GROW alone: what a leaf refuses must not
  * depend on a choice. The nodes then follow from the contents and from the capacity in force. */
@@ -116,9 +128,10 @@ typedef struct octree_def {
     size_t max_depth;     /* clamped to OCTREE_MAX_DEPTH; 0 keeps the root a leaf */
     octree_full_leaf full_leaf; /* what a full leaf at the maximum depth does */
     octree_allocator allocator; /* null functions mean malloc and free */
+    octree_executor executor;   /* a null function means the calling thread */
 } octree_def;
 
-/* World [-1000, 1000]^3, capacity 64, depth 21, OCTREE_REFUSE, malloc. */
+/* World [-1000, 1000]^3, capacity 64, depth 21, OCTREE_REFUSE, malloc, the calling thread. */
 octree_def octree_def_default(void);
 
 /* Make an empty tree into *tree. The definition is copied.

@@ -11,6 +11,7 @@
 #include "morton_sort.h"
 #include "neighbor_heap.h"
 #include "search.h"
+#include "tasks.h"
 
 /* An inner node, and which of its children come next. */
 typedef struct frame {
@@ -362,22 +363,69 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
 
 #define AHEAD 4 /* targets: how early the caller's arrays, which are accessed out of order, are prefetched */
 
-static void search_in_order(const octree *tree, const double (*targets)[3], const morton_item *order, size_t count,
-                            const octree_search *how, octree_neighbor *neighbors, bool *found)
+typedef struct target_batch {
+    const octree *tree;
+    const double (*targets)[3];
+    size_t count;
+    octree_search how;
+    octree_neighbor *neighbors;
+    bool *found;
+    morton_item *order;
+    unsigned tasks;
+    octree_cost costs[TASKS_AT_MOST];
+} target_batch;
+
+static void order_share(size_t number, void *context)
 {
-    for (size_t i = 0; i < count; i++) {
-        octree_neighbor nearest;
-        const uint32_t place = order[i].place;
-        if (i + AHEAD < count) {
-            prefetch(&targets[order[i + AHEAD].place]);
-            prefetch(&neighbors[order[i + AHEAD].place]);
-        }
-        const bool one = run_query(tree, targets[place], 1, NO_RADIUS, how, &nearest) == 1;
-        if (one)
-            neighbors[place] = nearest;
-        if (found)
-            found[place] = one;
+    const target_batch *b = context;
+    for (size_t i = tasks_share(b->count, b->tasks, number); i < tasks_share(b->count, b->tasks, number + 1); i++) {
+        uint32_t keys[3];
+        nearest_keys(b->tree, b->targets[i], keys);
+        b->order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, MORTON_NEW};
     }
+}
+
+static void search_share(size_t number, void *context)
+{
+    target_batch *b = context;
+    const size_t end = tasks_share(b->count, b->tasks, number + 1);
+    octree_search how = b->how;
+    how.cost = how.cost ? &b->costs[number] : NULL;
+    for (size_t i = tasks_share(b->count, b->tasks, number); i < end; i++) {
+        octree_neighbor nearest;
+        const uint32_t place = b->order[i].place;
+        if (i + AHEAD < end) {
+            prefetch(&b->targets[b->order[i + AHEAD].place]);
+            prefetch(&b->neighbors[b->order[i + AHEAD].place]);
+        }
+        const bool one = run_query(b->tree, b->targets[place], 1, NO_RADIUS, &how, &nearest) == 1;
+        if (one)
+            b->neighbors[place] = nearest;
+        if (b->found)
+            b->found[place] = one;
+    }
+}
+
+static void add_cost(octree_cost *sum, const octree_cost *cost)
+{
+    sum->nodes += cost->nodes;
+    sum->leaves += cost->leaves;
+    sum->points += cost->points;
+    sum->pruned += cost->pruned;
+    sum->taken += cost->taken;
+}
+
+static void search_in_order(target_batch *b, arena *memory)
+{
+    tasks_run(b->tree, order_share, b->tasks, b);
+    morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0);
+    if (b->how.trace)
+        b->tasks = 1; /* the caller's tracer is for one thread */
+    for (unsigned i = 0; i < b->tasks; i++)
+        b->costs[i] = (octree_cost){0};
+    tasks_run(b->tree, search_share, b->tasks, b);
+    for (unsigned i = 0; b->how.cost && i < b->tasks; i++)
+        add_cost(b->how.cost, &b->costs[i]);
 }
 
 octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
@@ -387,19 +435,20 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     const octree_status status = check_batch(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)
         return status;
-    /* The tree's allocator, without counting the bytes: queries do not change the tree. */
-    const octree_allocator *allocator = &tree->def.allocator;
+    arena memory = {.allocator = tree->def.allocator}; /* its bytes are not the tree's: queries do not change that */
+    target_batch b;
+    b.tree = tree;
+    b.targets = targets;
+    b.count = count;
+    b.how = search;
+    b.neighbors = neighbors;
+    b.found = found;
+    b.tasks = tasks_for(tree, count);
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
-    morton_item *order = size < SIZE_MAX ? allocator->allocate(size, allocator->context) : NULL;
-    if (!order)
+    b.order = size < SIZE_MAX ? arena_take(&memory, size) : NULL;
+    if (!b.order)
         return OCTREE_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t keys[3];
-        nearest_keys(tree, targets[i], keys);
-        order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, MORTON_NEW};
-    }
-    morton_sort(order, order + count, count, 0, 0);
-    search_in_order(tree, targets, order, count, &search, neighbors, found);
-    allocator->release(order, size, allocator->context);
+    search_in_order(&b, &memory);
+    arena_give(&memory, b.order, size);
     return OCTREE_OK;
 }

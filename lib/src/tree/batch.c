@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* batch.c - the points of a batch: checked, sorted by Morton code, each pair once. */
-#include "batch.h"
+#include "division.h"
 #include "float_rules.h"
 
 #include <string.h>
@@ -59,10 +59,43 @@ static void collect_some(batch *b, size_t first, size_t count)
     }
 }
 
+static void collect_range(batch *b, size_t first, size_t end)
+{
+    for (size_t i = first; i < end; i += TOGETHER)
+        collect_some(b, i, end - i < TOGETHER ? end - i : TOGETHER);
+}
+
+/* The lists of a part begin where its share does. */
+static void collect_part(size_t number, void *context)
+{
+    division *d = context;
+    batch *b = &d->parts[number].batch;
+    const size_t first = tasks_share(b->count, d->tasks, number);
+    b->valid = (span){b->valid.items + first, 0};
+    b->arriving = (span){b->arriving.items + first, 0};
+    collect_range(b, first, tasks_share(b->count, d->tasks, number + 1));
+}
+
+/* Append the items of a part to those of the parts before it. */
+static void append_part(span *all, span part)
+{
+    if (all->items + all->count != part.items && part.count > 0)
+        memmove(all->items + all->count, part.items, part.count * sizeof *part.items);
+    all->count += part.count;
+}
+
 static void collect_items(batch *b)
 {
-    for (size_t i = 0; i < b->count; i += TOGETHER)
-        collect_some(b, i, b->count - i < TOGETHER ? b->count - i : TOGETHER);
+    division *d = b->division;
+    if (!d) {
+        collect_range(b, 0, b->count);
+        return;
+    }
+    division_run(b, collect_part, d);
+    for (unsigned i = 0; i < d->tasks; i++) {
+        append_part(&b->valid, d->parts[i].batch.valid);
+        append_part(&b->arriving, d->parts[i].batch.arriving);
+    }
 }
 
 enum { LISTS = 3 }; /* what leaves, what arrives, and one to sort with */
@@ -85,7 +118,7 @@ static bool sort_items(batch *b)
     const size_t stored = b->tree->root.count;
     /* Where all move, cells of as many as a leaf holds are leaves. */
     const size_t unsorted = stored == 0 || b->all_move ? unsorted_count(b->tree) : 0;
-    b->repeated = morton_sort(b->valid.items, spare, b->valid.count, 0, unsorted);
+    b->repeated = morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted);
     give_items(b, spare, 1);
     return true;
 }
@@ -98,9 +131,11 @@ octree_status batch_begin(batch *b)
         return OCTREE_FLOAT_MODE;
     if (b->count >= UINT32_MAX)
         return OCTREE_TOO_MANY;
+    b->store = &b->tree->store;
     b->valid.items = take_items(b, 1);
     if (!b->valid.items || (b->to && !take_lists(b)))
         return OCTREE_NO_MEMORY;
+    division_begin(b);
     b->all_move = b->to && b->count == b->tree->root.count;
     collect_items(b);
     if (b->valid.count < b->count) {
@@ -120,6 +155,8 @@ void batch_end(batch *b)
     if (!b->tree)
         return;
     list_release(&b->tree->store.memory, &b->repetitions, sizeof(repetition));
+    if (b->store)
+        division_end(b);
     give_items(b, b->valid.items, 1);
     give_items(b, b->lists, LISTS);
 }
@@ -199,13 +236,15 @@ void set_repeated_statuses(const batch *b, octree_status status)
 
 /* ---- The leaves that items lie in --------------------------------------------------------------------------- */
 
-static bool visit_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visit)
+static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visit)
 {
     while (n && n->octants &&
            (items.count == 1 || morton_octant(items.items[0].code ^ items.items[items.count - 1].code, depth) == 0))
         n = child_at(n, morton_octant(items.items[0].code, depth++));
-    if (!n || !n->octants)
-        return visit(b, n, depth, items);
+    if (!n || !n->octants) {
+        visit(b, n, depth, items);
+        return;
+    }
     for (size_t i = 0, last = 8; items.count <= 64 && i < items.count; i++) {
         const unsigned octant = morton_octant(items.items[i].code, depth);
         const node *child = octant == last ? NULL : child_at(n, octant);
@@ -218,16 +257,94 @@ static bool visit_below(batch *b, node *n, unsigned depth, span items, leaf_visi
     }
     while (items.count > 0) {
         const size_t share = octant_share(items.items, items.count, depth);
-        if (!visit_below(b, child_at(n, morton_octant(items.items[0].code, depth)), depth + 1,
-                         (span){items.items, share}, visit))
-            return false;
+        visit_below(b, child_at(n, morton_octant(items.items[0].code, depth)), depth + 1, (span){items.items, share},
+                    visit);
         items.items += share;
         items.count -= share;
     }
+}
+
+/* ---- The same by tasks -------------------------------------------------------------------------------------- */
+
+/* Items whose leaves one task visits. */
+typedef struct visit {
+    node *node;
+    unsigned depth;
+    span items;
+} visit;
+
+typedef struct visits {
+    division *division;
+    leaf_visitor *visitor;
+    list all;
+} visits;
+
+/* List what lies below a node in shares that are worth a task. False when there is no memory. */
+static bool gather_visits(batch *b, list *all, node *n, unsigned depth, span items)
+{
+    if (!n || !n->octants || items.count <= b->division->grain) {
+        const visit v = {n, depth, items};
+        return list_push(&b->store->memory, all, &v, sizeof v);
+    }
+    span shares[8];
+    share_out(items, depth, shares);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (shares[octant].count > 0 && !gather_visits(b, all, child_at(n, octant), depth + 1, shares[octant]))
+            return false;
     return true;
 }
 
-bool batch_visit_leaves(batch *b, leaf_visitor *visit)
+/* The lists of a part begin where its first items do among all. */
+static void visit_part(size_t number, void *context)
 {
-    return b->valid.count == 0 || visit_below(b, &b->tree->root, 0, b->valid, visit);
+    const visits *v = context;
+    const size_t first = v->division->starts[number], end = v->division->starts[number + 1];
+    const visit *all = v->all.items;
+    batch *b = &v->division->parts[number].batch;
+    const size_t before = first < end ? (size_t)(all[first].items.items - b->valid.items) : 0;
+    b->leaving = (span){b->leaving.items + before, 0};
+    b->arriving = (span){b->arriving.items + before, 0};
+    b->done = 0;
+    for (size_t i = first; i < end; i++)
+        visit_below(b, all[i].node, all[i].depth, all[i].items, v->visitor);
+}
+
+static void share_visits(division *d, const list *all, size_t total)
+{
+    const visit *items = all->items;
+    size_t sum = 0, next = 0;
+    for (unsigned task = 0; task < d->tasks; task++) {
+        d->starts[task] = next;
+        for (; next < all->count && sum < tasks_share(total, d->tasks, task + 1); next++)
+            sum += items[next].items.count;
+    }
+    d->starts[d->tasks] = all->count;
+}
+
+/* False when there is no memory; nothing has been visited then. */
+static bool visit_by_tasks(batch *b, leaf_visitor *visitor)
+{
+    division *d = b->division;
+    visits v = {.division = d, .visitor = visitor};
+    const bool ok = gather_visits(b, &v.all, &b->tree->root, 0, b->valid);
+    if (ok) {
+        share_visits(d, &v.all, b->valid.count);
+        division_run(b, visit_part, &v);
+    }
+    for (unsigned i = 0; ok && i < d->tasks; i++) {
+        const batch *part = &d->parts[i].batch;
+        append_part(&b->leaving, part->leaving);
+        append_part(&b->arriving, part->arriving);
+        b->done += part->done;
+        b->absent |= part->absent;
+    }
+    list_release(&b->store->memory, &v.all, sizeof(visit));
+    return ok;
+}
+
+void batch_visit_leaves(batch *b, leaf_visitor *visitor)
+{
+    if (b->valid.count == 0 || (b->division && visit_by_tasks(b, visitor)))
+        return;
+    visit_below(b, &b->tree->root, 0, b->valid, visitor);
 }

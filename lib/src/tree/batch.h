@@ -20,6 +20,8 @@ typedef struct span {
 
 typedef struct batch {
     octree *tree;
+    store *store;               /* where nodes and points come from: the tree's, or a task's */
+    struct division *division;  /* into tasks; null: into none */
     const octree_point *points; /* the caller's */
     const double (*to)[3];      /* where they move to; null where they do not move */
     size_t count;
@@ -73,11 +75,12 @@ static inline size_t unsorted_count(const octree *tree)
 octree_status batch_begin(batch *b);
 void batch_end(batch *b);
 
-/* Told the leaf of some items, and its depth; or null where there is none. Returns false to stop. */
-typedef bool leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
+/* Told the leaf of some items, and its depth; or null where there is none. */
+typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 
-/* Visit the leaves that the valid items lie in. False when a visitor stopped. */
-bool batch_visit_leaves(batch *b, leaf_visitor *visit);
+/* Visit the leaves that the valid items lie in, maybe by tasks: of the parts of the batch leaving, arriving, done and
+ * absent are put together. */
+void batch_visit_leaves(batch *b, leaf_visitor *visit);
 
 /* Drop the items that repeat the pair of an earlier one, and list them. False when there is no memory. */
 bool drop_repetitions(batch *b);

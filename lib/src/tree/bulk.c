@@ -121,7 +121,7 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
 /* Keep the items that are stored, with their indices. */
-static bool find_removed(batch *b, node *leaf, unsigned depth, span items)
+static void find_removed(batch *b, node *leaf, unsigned depth, span items)
 {
     (void)depth;
     for (size_t i = 0; i < items.count; i++) {
@@ -132,7 +132,6 @@ static bool find_removed(batch *b, node *leaf, unsigned depth, span items)
         else
             b->leaving.items[b->leaving.count++] = (morton_item){items.items[i].code, items.items[i].place, index};
     }
-    return true;
 }
 
 static octree_status remove_valid(batch *b)
@@ -242,7 +241,7 @@ static uint32_t find_after(const node *leaf, uint32_t last, const octree_point *
     return leaf_find(leaf, point->position, point->id);
 }
 
-static bool find_moved(batch *b, node *leaf, unsigned depth, span items)
+static void find_moved(batch *b, node *leaf, unsigned depth, span items)
 {
     const morton_item *end = b->valid.items + b->valid.count, *next = items.items + AHEAD;
     if (next < end)
@@ -257,7 +256,6 @@ static bool find_moved(batch *b, node *leaf, unsigned depth, span items)
             move_found(b, leaf, depth, item, index);
         b->absent |= index == LEAF_NONE;
     }
-    return true;
 }
 
 /* What was written in place, back. No node has changed since. */
@@ -288,8 +286,8 @@ static octree_status move_apart(batch *b, bool *settled)
         b->done = b->arriving.count;
     }
     const bool refuses = b->tree->def.full_leaf == OCTREE_REFUSE;
-    morton_sort(b->arriving.items, b->spare, b->arriving.count, 0,
-                b->all_move && !refuses ? unsorted_count(b->tree) : 0);
+    morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count,
+                      b->all_move && !refuses ? unsorted_count(b->tree) : 0);
     const octree_status status = restructure(b);
     *settled = !b->duplicate && !b->overflow;
     if (status != OCTREE_OK || !*settled)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A radix sort from the world down to small cells, whose items soon fit a cache. */
+/* morton_sort.c - a radix sort from the world down to small cells, whose items soon fit a cache. */
 #include "morton_sort.h"
-#include "plane.h"
+#include "tasks.h"
 
 #include <string.h>
 
@@ -105,10 +105,136 @@ static void sort(sorter *s, morton_item *items, morton_item *other, size_t count
             sort(s, other + start, items + start, ends[digit] - start, left - levels, !in_place, ends + digits);
 }
 
-bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted)
+static bool sort_alone(morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
+                       size_t unsorted)
 {
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* a section for each pass in progress */
     sorter s = {.unsorted = unsorted};
-    sort(&s, items, spare, count, OCTREE_MAX_DEPTH - depth, true, ends);
+    sort(&s, items, other, count, left, in_place, ends);
     return s.repeated;
+}
+
+bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted)
+{
+    return sort_alone(items, spare, count, OCTREE_MAX_DEPTH - depth, true, unsorted);
+}
+
+/* ---- By tasks ----------------------------------------------------------------------------------------------- */
+
+enum { DIGITS = 1 << 3 * LEVELS };
+
+/* One pass, and the cells that it leaves. */
+typedef struct pass {
+    const octree *tree;
+    uint32_t (*counts)[DIGITS]; /* of each task: of items with a digit, then where its next one goes */
+    morton_item *from, *to;
+    size_t count, unsorted;
+    unsigned tasks, left, shift; /* levels below the cells */
+    bool in_place;               /* the cells end up where they are */
+    size_t ends[DIGITS + 1];     /* of the cells; that of the first is at 1 */
+    unsigned cells[TASKS_AT_MOST + 1];
+    bool repeated[TASKS_AT_MOST];
+} pass;
+
+static size_t digit_of(const pass *p, const morton_item *item)
+{
+    return (size_t)(item->code >> p->shift) & (DIGITS - 1);
+}
+
+static void count_digits(size_t number, void *context)
+{
+    const pass *p = context;
+    uint32_t *counts = p->counts[number];
+    memset(counts, 0, sizeof p->counts[number]);
+    for (size_t i = tasks_share(p->count, p->tasks, number); i < tasks_share(p->count, p->tasks, number + 1); i++)
+        counts[digit_of(p, &p->from[i])]++;
+}
+
+static void scatter_share(size_t number, void *context)
+{
+    const pass *p = context;
+    uint32_t *next = p->counts[number];
+    for (size_t i = tasks_share(p->count, p->tasks, number); i < tasks_share(p->count, p->tasks, number + 1); i++)
+        p->to[next[digit_of(p, &p->from[i])]++] = p->from[i];
+}
+
+static void place_digits(pass *p)
+{
+    uint32_t next = 0;
+    p->ends[0] = 0;
+    for (unsigned digit = 0; digit < DIGITS; digit++) {
+        for (unsigned task = 0; task < p->tasks; task++) {
+            const uint32_t here = p->counts[task][digit];
+            p->counts[task][digit] = next;
+            next += here;
+        }
+        p->ends[digit + 1] = next;
+    }
+}
+
+/* Such a cell is divided into tasks in its turn. */
+static bool is_large(const pass *p, unsigned digit)
+{
+    return p->left > 0 && p->ends[digit + 1] - p->ends[digit] > p->count / 8 && tasks_for(p->tree, p->count / 8) > 1;
+}
+
+static void sort_cells(size_t number, void *context)
+{
+    pass *p = context;
+    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS];
+    sorter s = {.unsorted = p->unsorted};
+    for (unsigned digit = p->cells[number]; digit < p->cells[number + 1]; digit++) {
+        const size_t start = p->ends[digit], count = p->ends[digit + 1] - start;
+        if (count > 0 && !is_large(p, digit))
+            sort(&s, p->to + start, p->from + start, count, p->left, p->in_place, ends);
+    }
+    p->repeated[number] = s.repeated;
+}
+
+static void share_cells(pass *p)
+{
+    unsigned digit = 0;
+    for (unsigned task = 0; task < p->tasks; task++) {
+        p->cells[task] = digit;
+        while (digit < DIGITS && p->ends[digit + 1] <= tasks_share(p->count, p->tasks, task + 1))
+            digit++;
+    }
+    p->cells[p->tasks] = DIGITS;
+}
+
+/* Sort the items of a cell with `left` levels below it, into `other` or in place; without memory for the counts on one
+ * thread. */
+static bool sort_by_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *other, size_t count,
+                          unsigned left, bool in_place, size_t unsorted)
+{
+    pass p = {.tree = tree, .from = items, .to = other, .count = count, .unsorted = unsorted};
+    p.tasks = tasks_for(tree, count);
+    p.left = left - LEVELS;
+    p.shift = 3 * p.left;
+    p.in_place = !in_place;
+    p.counts = arena_take(memory, p.tasks * sizeof *p.counts);
+    if (!p.counts)
+        return sort_alone(items, other, count, left, in_place, unsorted);
+    tasks_run(tree, count_digits, p.tasks, &p);
+    place_digits(&p);
+    tasks_run(tree, scatter_share, p.tasks, &p);
+    arena_give(memory, p.counts, p.tasks * sizeof *p.counts);
+    share_cells(&p);
+    tasks_run(tree, sort_cells, p.tasks, &p);
+    bool repeated = false;
+    for (unsigned task = 0; task < p.tasks; task++)
+        repeated |= p.repeated[task];
+    for (unsigned digit = 0; digit < DIGITS; digit++)
+        if (is_large(&p, digit))
+            repeated |= sort_by_tasks(tree, memory, other + p.ends[digit], items + p.ends[digit],
+                                      p.ends[digit + 1] - p.ends[digit], p.left, p.in_place, unsorted);
+    return repeated;
+}
+
+bool morton_sort_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *spare, size_t count,
+                       size_t unsorted)
+{
+    if (tasks_for(tree, count) == 1)
+        return morton_sort(items, spare, count, 0, unsorted);
+    return sort_by_tasks(tree, memory, items, spare, count, OCTREE_MAX_DEPTH, true, unsorted);
 }

@@ -25,4 +25,10 @@ typedef struct morton_item {
  * items. Cost: O(count), in up to 21 passes, most often two or three. */
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted);
 
+/* The same for all of the world, by the tasks of a tree's executor where there are many items. */
+struct octree;
+struct arena;
+bool morton_sort_tasks(const struct octree *tree, struct arena *memory, morton_item *items, morton_item *spare,
+                       size_t count, size_t unsorted);
+
 #endif

@@ -39,7 +39,7 @@ octree_allocator default_allocator(void)
     return (octree_allocator){.allocate = default_allocate, .release = default_release};
 }
 
-void *arena_take(arena *a, size_t size)
+static void *take(arena *a, size_t size)
 {
     void *memory = a->allocator.allocate(size, a->allocator.context);
     if (memory)
@@ -47,12 +47,31 @@ void *arena_take(arena *a, size_t size)
     return memory;
 }
 
+static void give(arena *a, void *memory, size_t size)
+{
+    a->bytes -= size;
+    a->allocator.release(memory, size, a->allocator.context);
+}
+
+void *arena_take(arena *a, size_t size)
+{
+    if (!a->shared)
+        return take(a, size);
+    arena_lock(a->shared);
+    void *memory = take(a->shared, size);
+    arena_unlock(a->shared);
+    return memory;
+}
+
 void arena_give(arena *a, void *memory, size_t size)
 {
     if (!memory)
         return;
-    a->bytes -= size;
-    a->allocator.release(memory, size, a->allocator.context);
+    if (a->shared)
+        arena_lock(a->shared);
+    give(a->shared ? a->shared : a, memory, size);
+    if (a->shared)
+        arena_unlock(a->shared);
 }
 
 void pool_init(pool *p, arena *memory, size_t unit)
@@ -76,6 +95,8 @@ static void push(pool *p, void *block, unsigned units)
         return;
     struct free_block *freed = block;
     freed->next = p->free_blocks[units - 1];
+    if (!freed->next)
+        p->last_free[units - 1] = freed;
     p->free_blocks[units - 1] = freed;
     p->available |= UINT64_C(1) << (units - 1);
     p->free_units += units;
@@ -113,22 +134,47 @@ static bool lies_in(const pool *p, const struct slab *slab, const void *block)
     return at >= first && at - first < slab->units * p->unit;
 }
 
-/* The slab that a block lies in: most often that of the block before it. */
-static struct slab *slab_of(const pool *p, const void *block, struct slab *guess)
+static int compare_slabs(const void *a, const void *b)
 {
-    struct slab *slab = lies_in(p, guess, block) ? guess : p->slabs;
-    while (!lies_in(p, slab, block))
-        slab = slab->next;
-    return slab;
+    const uintptr_t p = (uintptr_t) * (struct slab *const *)a, q = (uintptr_t) * (struct slab *const *)b;
+    return (p > q) - (p < q);
 }
 
-static void mark_free(pool *p)
+/* All slabs in the order of their addresses, or null when there is no memory. */
+static struct slab **sort_slabs(pool *p)
+{
+    struct slab **sorted = arena_take(p->memory, p->slab_count * sizeof *sorted);
+    size_t count = 0;
+    for (struct slab *slab = p->slabs; sorted && slab; slab = slab->next)
+        sorted[count++] = slab;
+    if (sorted)
+        qsort(sorted, count, sizeof *sorted, compare_slabs);
+    return sorted;
+}
+
+/* The slab that a block lies in: most often that of the block before it. */
+static struct slab *slab_of(const pool *p, struct slab **sorted, const void *block, struct slab *guess)
+{
+    if (lies_in(p, guess, block))
+        return guess;
+    size_t low = 0, high = p->slab_count; /* the last that begins before the block is in [low, high) */
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if ((uintptr_t)sorted[middle] <= (uintptr_t)block)
+            low = middle;
+        else
+            high = middle;
+    }
+    return sorted[low];
+}
+
+static void mark_free(pool *p, struct slab **sorted)
 {
     struct slab *slab = p->slabs;
     for (unsigned units = 1; units <= POOL_MAX_UNITS; units++) {
         while (p->free_blocks[units - 1]) {
             const unsigned char *block = pop(p, units);
-            slab = slab_of(p, block, slab);
+            slab = slab_of(p, sorted, block, slab);
             const size_t start = (size_t)(block - slab->first) / p->unit;
             for (size_t unit = start; unit < start + units; unit++)
                 bits_of(slab)[unit / 64] |= UINT64_C(1) << unit % 64;
@@ -153,24 +199,29 @@ static void push_runs(pool *p, struct slab *slab)
     }
 }
 
-/* Join adjacent free blocks. */
+/* Join adjacent free blocks; without memory they stay as they are. */
 static void join_free_blocks(pool *p)
 {
+    struct slab **sorted = sort_slabs(p);
+    if (!sorted)
+        return;
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
         memset(bits_of(slab), 0, words_for(slab->units) * sizeof(uint64_t));
-    mark_free(p);
+    mark_free(p, sorted);
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
         push_runs(p, slab);
     p->freed_units = 0;
+    arena_give(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
 
-/* An eighth of the pool's size, so that at most an eighth is unused. */
+/* An eighth of the pool's size, so that at most an eighth is unused. That of a task begins with about what it needs. */
 static size_t next_slab_bytes(const pool *p)
 {
-    const size_t eighth = p->total_units * p->unit / 8;
-    if (eighth < SLAB_MIN_BYTES)
-        return SLAB_MIN_BYTES;
-    return eighth < SLAB_MAX_BYTES ? eighth : SLAB_MAX_BYTES;
+    const size_t least = p->lender ? POOL_MAX_UNITS * p->unit : SLAB_MIN_BYTES;
+    const size_t wanted =
+        p->lender && p->total_units == 0 ? p->expected * p->unit : p->total_units * p->unit / (p->expected ? 32 : 8);
+    const size_t most = p->lender && p->total_units == 0 ? SIZE_MAX : SLAB_MAX_BYTES;
+    return wanted < least ? least : wanted < most ? wanted : most;
 }
 
 static bool add_slab(pool *p)
@@ -187,6 +238,7 @@ static bool add_slab(pool *p)
     *slab =
         (struct slab){.next = p->slabs, .size = size, .units = units, .first = (unsigned char *)slab + header + skip};
     p->slabs = slab;
+    p->slab_count++;
     p->fresh = slab->first;
     p->fresh_units = units;
     p->total_units += units;
@@ -211,10 +263,21 @@ static bool worth_joining(const pool *p)
     return p->free_units > p->total_units / 8 && p->freed_units > p->free_units / 2;
 }
 
+/* A free block of the lender's, or null. */
+static void *borrow(pool *p, unsigned units)
+{
+    arena_lock(p->memory->shared);
+    void *block = take_free(p->lender, units);
+    arena_unlock(p->memory->shared);
+    return block;
+}
+
 void *pool_take(pool *p, unsigned units)
 {
     void *block = take_free(p, units);
-    if (!block && p->fresh_units < units && worth_joining(p)) {
+    if (!block && p->borrows) {
+        block = borrow(p, units);
+    } else if (!block && !p->lender && p->fresh_units < units && worth_joining(p)) {
         join_free_blocks(p);
         block = take_free(p, units);
     }
@@ -226,6 +289,71 @@ void *pool_take(pool *p, unsigned units)
     p->fresh += units * p->unit;
     p->fresh_units -= units;
     return block;
+}
+
+/* ---- Pools of tasks ----------------------------------------------------------------------------------------- */
+
+static bool is_much_free(const pool *p)
+{
+    return p->free_units + p->fresh_units > p->total_units / 8;
+}
+
+void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units)
+{
+    pool_init(p, memory, lender->unit);
+    p->expected = expected_units;
+    p->lender = lender;
+    p->borrows = is_much_free(lender);
+}
+
+/* Hand all of the newest slab out to the free lists; its first units are taken first. */
+static void free_fresh(pool *p)
+{
+    while (p->fresh_units > 0) {
+        const unsigned rest = (unsigned)(p->fresh_units % POOL_MAX_UNITS), units = rest ? rest : POOL_MAX_UNITS;
+        p->fresh_units -= units;
+        push(p, p->fresh + p->fresh_units * p->unit, units);
+    }
+}
+
+void pool_lend(pool *p)
+{
+    if (!is_much_free(p))
+        return;
+    free_fresh(p);
+    if (worth_joining(p))
+        join_free_blocks(p);
+}
+
+static void join_slabs(pool *lender, pool *p)
+{
+    struct slab *last = p->slabs;
+    if (!last)
+        return;
+    while (last->next)
+        last = last->next;
+    last->next = lender->slabs;
+    lender->slabs = p->slabs;
+    lender->slab_count += p->slab_count;
+    lender->total_units += p->total_units;
+}
+
+void pool_join(pool *lender, pool *p)
+{
+    free_fresh(p);
+    join_slabs(lender, p);
+    for (unsigned i = 0; i < POOL_MAX_UNITS; i++) {
+        if (!p->free_blocks[i])
+            continue;
+        p->last_free[i]->next = lender->free_blocks[i];
+        if (!lender->free_blocks[i])
+            lender->last_free[i] = p->last_free[i];
+        lender->free_blocks[i] = p->free_blocks[i];
+    }
+    lender->available |= p->available;
+    lender->free_units += p->free_units;
+    lender->freed_units += p->freed_units;
+    pool_borrow(p, p->memory, lender, 0);
 }
 
 void *list_append(arena *memory, list *l, size_t item_size)

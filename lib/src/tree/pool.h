@@ -11,15 +11,30 @@
 
 #include "octree/octree.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 #define POOL_MAX_UNITS 64
 
-/* The allocator of a tree or a game, and how many bytes are allocated from it. */
+/* The allocator of a tree or a game, and how many bytes are allocated from it. That of a task allocates from the
+ * tree's, one task at a time. */
 typedef struct arena {
     octree_allocator allocator;
     size_t bytes;
+    struct arena *shared; /* the tree's; null but for a task's */
+    atomic_flag busy;     /* while one of the tasks takes or gives */
 } arena;
+
+static inline void arena_lock(arena *a)
+{
+    while (atomic_flag_test_and_set_explicit(&a->busy, memory_order_acquire))
+        ;
+}
+
+static inline void arena_unlock(arena *a)
+{
+    atomic_flag_clear_explicit(&a->busy, memory_order_release);
+}
 
 /* malloc's. */
 octree_allocator default_allocator(void);
@@ -31,6 +46,8 @@ typedef struct pool {
     arena *memory;
     size_t unit; /* bytes, at least a pointer's */
     struct slab *slabs;
+    size_t slab_count;
+    size_t expected;      /* units that are needed at first; 0: nobody knows */
     unsigned char *fresh; /* units of the newest slab that were never handed out */
     size_t fresh_units;
     size_t total_units;
@@ -38,6 +55,9 @@ typedef struct pool {
     size_t freed_units; /* since free blocks were last joined */
     uint64_t available; /* bit u - 1 is set when free_blocks[u - 1] is not empty */
     struct free_block *free_blocks[POOL_MAX_UNITS];
+    struct free_block *last_free[POOL_MAX_UNITS]; /* of each list that is not empty */
+    struct pool *lender;                          /* the tree's pool, for that of a task; else null */
+    bool borrows;                                 /* from the lender, before it grows */
 } pool;
 
 void pool_init(pool *p, arena *memory, size_t unit);
@@ -48,6 +68,14 @@ void *pool_take(pool *p, unsigned units);
 
 /* Free a block, or the end of one: any run of units within a block that was taken. */
 void pool_give(pool *p, void *block, unsigned units);
+
+/* A pool for a task of the tree's. Where much of the tree's is free it takes that before it grows; how many bytes are
+ * taken then depends on which task comes first. Until all are joined, the tree's pool is used by them alone. */
+void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units);
+void pool_join(pool *lender, pool *p);
+
+/* Before tasks borrow from a pool: where much of it is free, let all of that be free blocks. */
+void pool_lend(pool *p);
 
 /* A growing array. */
 typedef struct list {

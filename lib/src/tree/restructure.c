@@ -1,28 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* restructure.c - what leaves and arrives merged into the nodes, in one pass down and up: planned, then carried out. */
-#include "batch.h"
+/* restructure.c - what leaves and arrives merged into the nodes, in one pass down and up: the plan is made. */
+#include "division.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* A node that is replaced when the plan is carried out. */
-typedef struct patch {
-    node *at;
-    node made;
-} patch;
-
-/* A leaf that is edited in its block. */
-typedef struct edit {
-    octree_point *points;
-    uint32_t count; /* before */
-    uint8_t room, room_left;
-    span leaving, arriving;
-} edit;
-
-static arena *memory_of(batch *b)
-{
-    return &b->tree->store.memory;
-}
 
 /* ---- Sharing out -------------------------------------------------------------------------------------------- */
 
@@ -88,7 +69,7 @@ static bool make_leaf(batch *b, span items, node *made)
         qsort(items.items, items.count, sizeof *items.items, compare_places);
         taken = capacity;
     }
-    if (!leaf_create(&b->tree->store, made, (uint32_t)taken))
+    if (!leaf_create(b->store, made, (uint32_t)taken))
         return false;
     for (size_t i = 0; i < taken; i++) { /* scattered, in the caller's order */
         const morton_item *item = &items.items[i];
@@ -128,7 +109,7 @@ static void put_arriving(batch *b, node *made, span arriving)
 
 static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, node *made)
 {
-    if (!leaf_create(&b->tree->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
+    if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
     put_staying(made, old, leaving);
     put_arriving(b, made, arriving);
@@ -138,7 +119,7 @@ static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, 
 /* Let a leaf be edited in its block, which has room for what will be there. */
 static bool plan_edit(batch *b, const node *old, span leaving, span arriving, node *made)
 {
-    edit *e = list_append(memory_of(b), &b->edits, sizeof *e);
+    edit *e = list_append(&b->store->memory, &b->edits, sizeof *e);
     if (!e)
         return false;
     const uint32_t count = (uint32_t)(old->count - leaving.count + arriving.count);
@@ -149,25 +130,7 @@ static bool plan_edit(batch *b, const node *old, span leaving, span arriving, no
     return true;
 }
 
-/* Points that arrive take the places of those that leave, then those behind the last; the last fill gaps that are left.
- */
-static void carry_out_edit(batch *b, const edit *e)
-{
-    uint32_t count = e->count;
-    size_t taken = 0;
-    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last on: so the last point is never one that leaves */
-        octree_point *gap = &e->points[e->leaving.items[i].index];
-        *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
-    }
-    while (taken < e->arriving.count)
-        e->points[count++] = arriving_point(b, &e->arriving.items[taken++]);
-    if (e->room_left < e->room)
-        pool_give(&b->tree->store.points, e->points + e->room_left, e->room - e->room_left);
-}
-
 /* ---- Making nodes ------------------------------------------------------------------------------------------- */
-
-static bool change_below(batch *b, const node *old, cell c, span leaving, span arriving, node *made);
 
 bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count)
 {
@@ -181,23 +144,27 @@ bool inseparable(const octree *tree, cell c, const morton_item *items, size_t co
 /* An inner node for items alone. */
 static bool build_children(batch *b, cell c, span items, node *made);
 
-/* Make the node of a cell that holds only the items. Under OCTREE_REFUSE most of those that nothing separates are
- * refused, and nothing is split for refused points. Where items are separated, more of them are stored than one leaf
- * holds, so that the split is needed. */
-static bool build(batch *b, cell c, span items, node *made)
+/* Under OCTREE_REFUSE most of the items that nothing separates are refused, and nothing is split for refused points.
+ * Where items are separated, more of them are stored than one leaf holds, so that the split is needed. */
+bool becomes_leaf(const batch *b, cell c, span items)
 {
     const octree_def *def = &b->tree->def;
-    if (items.count <= def->leaf_capacity || !may_split(b->tree, c) ||
-        (def->full_leaf == OCTREE_REFUSE && inseparable(b->tree, c, items.items, items.count)))
-        return make_leaf(b, items, made);
-    return build_children(b, c, items, made);
+    return items.count <= def->leaf_capacity || !may_split(b->tree, c) ||
+           (def->full_leaf == OCTREE_REFUSE && inseparable(b->tree, c, items.items, items.count));
+}
+
+bool build_node(batch *b, cell c, span items, node *made)
+{
+    if (is_job(b, items.count))
+        return take_job(b, made);
+    return becomes_leaf(b, c, items) ? make_leaf(b, items, made) : build_children(b, c, items, made);
 }
 
 static bool build_children(batch *b, cell c, span items, node *made)
 {
     span shares[8];
     const unsigned octants = share_out(items, c.depth, shares), children = bits_count8(octants);
-    node *group = pool_take(&b->tree->store.nodes, children);
+    node *group = pool_take(&b->store->nodes, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
         return false;
@@ -205,7 +172,7 @@ static bool build_children(batch *b, cell c, span items, node *made)
     for (unsigned octant = 0; octant < 8; octant++) {
         if (shares[octant].count == 0)
             continue;
-        if (!build(b, cell_child(c, octant), shares[octant], group))
+        if (!build_node(b, cell_child(c, octant), shares[octant], group))
             return false;
         made->count += group++->count;
     }
@@ -217,7 +184,7 @@ static bool build_children(batch *b, cell c, span items, node *made)
 static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
-    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(memory_of(b), room) : NULL;
+    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(&b->store->memory, room) : NULL;
     if (!all)
         return false;
     size_t count = 0;
@@ -234,8 +201,8 @@ static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span ar
     if (may_split(b->tree, c))
         morton_sort(all, all + sum, sum, c.depth, unsorted_count(b->tree));
     b->stored = leaf_points(old);
-    const bool ok = build(b, c, (span){all, sum}, made);
-    arena_give(memory_of(b), all, room);
+    const bool ok = build_divided(b, c, (span){all, sum}, made);
+    arena_give(&b->store->memory, all, room);
     return ok;
 }
 
@@ -308,7 +275,7 @@ static bool merge(batch *b, const node *old, cell c, span leaving, span arriving
 {
     if (b->to && may_overflow(b, old, c, arriving))
         b->overflow = true;
-    if (!leaf_create(&b->tree->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
+    if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
     gather_staying(old, c.depth, leaving, made);
     if (b->may_be_stored)
@@ -318,14 +285,14 @@ static bool merge(batch *b, const node *old, cell c, span leaving, span arriving
 }
 
 /* Let a child have a successor. False when there is no memory; nothing is allocated then. */
-static bool plan_patch(batch *b, node *at, const node *made)
+bool plan_patch(batch *b, node *at, const node *made)
 {
     if (at->below == made->below && at->count == made->count && at->octants == made->octants && at->room == made->room)
         return true;
     const patch p = {at, *made};
-    if (list_push(memory_of(b), &b->patches, &p, sizeof p))
+    if (list_push(&b->store->memory, &b->patches, &p, sizeof p))
         return true;
-    node_release_unshared(&b->tree->store, made, at);
+    node_release_unshared(b->store, made, at);
     return false;
 }
 
@@ -335,13 +302,13 @@ static bool change_child(batch *b, const node *old, cell c, unsigned octant, con
 {
     static const node empty = {0};
     node *child = child_at(old, octant), successor = {0};
-    const bool ok = change_below(b, child ? child : &empty, cell_child(c, octant), leaving[octant], arriving[octant],
-                                 made ? made : &successor);
+    const bool ok = change_node(b, child ? child : &empty, cell_child(c, octant), leaving[octant], arriving[octant],
+                                made ? made : &successor);
     *count += made ? made->count : successor.count;
     if (made)
         return ok;
     if (!ok)
-        node_release_unshared(&b->tree->store, &successor, child);
+        node_release_unshared(b->store, &successor, child);
     return ok && plan_patch(b, child, &successor);
 }
 
@@ -372,7 +339,7 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     if (octants == old->octants)
         return change_same_children(b, old, c, out, in, made);
     const unsigned children = bits_count8(octants);
-    node *group = pool_take(&b->tree->store.nodes, children);
+    node *group = pool_take(&b->store->nodes, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
         return false;
@@ -383,102 +350,26 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     return true;
 }
 
-/* Make a node's successor. Where none of its points stays, it is built anew. False when there is no memory; *made then
- * holds what was made. */
-static bool change_below(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
+/* Where none of its points stays, it is built anew. */
+bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     *made = *old;
     if (leaving.count + arriving.count == 0)
         return true;
-    if (leaving.count == old->count) {
+    if (leaving.count == old->count)
         *made = (node){0};
+    if (leaving.count == old->count && arriving.count == 0)
+        return true;
+    if (is_job(b, leaving.count + arriving.count))
+        return take_job(b, made);
+    if (leaving.count == old->count) {
         if (b->to && may_overflow(b, old, c, arriving))
             b->overflow = true;
-        return arriving.count == 0 || build(b, c, arriving, made);
+        return build_node(b, c, arriving, made);
     }
     if (!old->octants)
         return change_leaf(b, old, c, leaving, arriving, made);
     if (fits_leaf(b->tree, old->count - leaving.count + arriving.count))
         return merge(b, old, c, leaving, arriving, made);
     return change_children(b, old, c, leaving, arriving, made);
-}
-
-/* ---- The plan ----------------------------------------------------------------------------------------------- */
-
-static void carry_out(batch *b)
-{
-    store *st = &b->tree->store;
-    const edit *edits = b->edits.items;
-    for (size_t i = 0; i < b->edits.count; i++)
-        carry_out_edit(b, &edits[i]);
-    const patch *patches = b->patches.items;
-    for (size_t i = 0; i < b->patches.count; i++) {
-        const node old = *patches[i].at;
-        *patches[i].at = patches[i].made;
-        node_release_unshared(st, &old, &patches[i].made);
-    }
-}
-
-static void drop_plan(batch *b)
-{
-    const patch *patches = b->patches.items;
-    for (size_t i = 0; i < b->patches.count; i++)
-        node_release_unshared(&b->tree->store, &patches[i].made, patches[i].at);
-}
-
-static void reset_pools(store *s)
-{
-    pool_init(&s->nodes, &s->memory, sizeof(node));
-    pool_init(&s->points, &s->memory, sizeof(octree_point));
-}
-
-/* Free all nodes, with pools that hold nothing else. */
-static void release_pools(store *s, const node *root)
-{
-    node_release(s, root); /* hashed leaves are not in the pools */
-    pool_release(&s->nodes);
-    pool_release(&s->points);
-}
-
-/* Nothing stays: a tree in pools of its own, as dense as one that is built, takes the place of the old one. */
-static octree_status build_anew(batch *b)
-{
-    octree *tree = b->tree;
-    const pool old_nodes = tree->store.nodes, old_points = tree->store.points;
-    node made = {0};
-    b->overflow = may_overflow(b, &tree->root, root_cell(), b->arriving);
-    if (b->overflow)
-        return OCTREE_OK;
-    reset_pools(&tree->store);
-    const bool ok = build(b, root_cell(), b->arriving, &made);
-    const pool nodes = tree->store.nodes, points = tree->store.points;
-    if (ok) {
-        tree->store.nodes = old_nodes;
-        tree->store.points = old_points;
-    }
-    release_pools(&tree->store, ok ? &tree->root : &made);
-    tree->store.nodes = ok ? nodes : old_nodes;
-    tree->store.points = ok ? points : old_points;
-    tree->root = ok ? made : tree->root;
-    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
-}
-
-octree_status restructure(batch *b)
-{
-    octree *tree = b->tree;
-    node made;
-    b->duplicate = b->overflow = false;
-    if (b->leaving.count == tree->root.count && b->leaving.count == b->arriving.count && b->arriving.count > 0)
-        return build_anew(b);
-    bool ok = change_below(b, &tree->root, root_cell(), b->leaving, b->arriving, &made);
-    if (!ok)
-        node_release_unshared(&tree->store, &made, &tree->root);
-    ok = ok && plan_patch(b, &tree->root, &made);
-    if (ok && !(b->to && (b->duplicate || b->overflow)))
-        carry_out(b);
-    else
-        drop_plan(b);
-    list_release(memory_of(b), &b->patches, sizeof(patch));
-    list_release(memory_of(b), &b->edits, sizeof(edit));
-    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }

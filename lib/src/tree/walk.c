@@ -3,6 +3,7 @@
 #include "walk.h"
 #include "exact.h"
 #include "float_rules.h"
+#include "tasks.h"
 
 static octree_node describe(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
 {
@@ -185,17 +186,79 @@ static octree_walk_order check_node(const octree_node *seen, void *context)
     return v->broken ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
+static validation check_below(const octree *tree, const node *n, octree_address address, cell c)
+{
+    validation v = {.walk = {.tree = tree, .visit = check_node, .context = &v}};
+    const octree_box bounds = cell_bounds(tree->axes, c);
+    walk_below(&v.walk, n, address, c, &bounds);
+    v.walk = (walk){.tree = tree};
+    return v;
+}
+
+/* Keep what is first in the order of the walk. */
+static void keep_first(validation *first, const char *broken, octree_address where)
+{
+    if (broken && (!first->broken || address_compare(&where, &first->where) < 0)) {
+        first->broken = broken;
+        first->where = where;
+    }
+}
+
+typedef struct shares {
+    const octree *tree;
+    unsigned tasks;
+    size_t count;
+    subtree subtrees[SUBTREES_AT_MOST];
+    validation first[TASKS_AT_MOST + 1]; /* of each task, and of the nodes above the subtrees */
+    uint64_t sums[TASKS_AT_MOST + 1];    /* likewise */
+} shares;
+
+static void shares_begin(shares *d, const octree *tree, subtree_opener *open)
+{
+    d->tree = tree;
+    d->tasks = tasks_for(tree, tree->root.count);
+    for (unsigned i = 0; i <= d->tasks; i++) {
+        d->first[i] = (validation){.broken = NULL};
+        d->sums[i] = 0;
+    }
+    d->count = subtrees_of(tree, d->tasks, open, d, d->subtrees);
+}
+
+/* A node that is broken is not entered: its children may be nowhere. */
+static bool check_opened(const subtree *s, void *context)
+{
+    shares *d = context;
+    const char *broken = check_inner(d->tree, s->node, s->cell);
+    keep_first(&d->first[d->tasks], broken, s->address);
+    return !broken;
+}
+
+static void check_share(size_t number, void *context)
+{
+    shares *d = context;
+    const size_t end = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number + 1);
+    for (size_t i = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number); i < end; i++) {
+        const subtree *s = &d->subtrees[i];
+        const validation v = check_below(d->tree, s->node, s->address, s->cell);
+        keep_first(&d->first[number], v.broken, v.where);
+    }
+}
+
 const char *octree_check(const octree *tree, octree_address *where)
 {
     if (!tree)
         return "there is no tree";
     if (!float_mode_is_default())
         return octree_status_text(OCTREE_FLOAT_MODE);
-    validation v = {.walk = {.tree = tree, .visit = check_node, .context = &v}};
-    walk_below(&v.walk, &tree->root, OCTREE_ROOT, root_cell(), &tree->def.world);
-    if (v.broken && where)
-        *where = v.where;
-    return v.broken;
+    shares d;
+    shares_begin(&d, tree, check_opened);
+    tasks_run(tree, check_share, d.tasks, &d);
+    validation *first = &d.first[d.tasks];
+    for (unsigned i = 0; i < d.tasks; i++)
+        keep_first(first, d.first[i].broken, d.first[i].where);
+    if (first->broken && where)
+        *where = first->where;
+    return first->broken;
 }
 
 /* ---- Statistics --------------------------------------------------------------------------------------------- */
@@ -278,7 +341,32 @@ uint64_t digest_of_sum(const octree *tree, uint64_t sum)
     return digest;
 }
 
+static bool digest_opened(const subtree *s, void *context)
+{
+    shares *d = context;
+    d->sums[d->tasks] += digest_node(s->node, s->address);
+    return true;
+}
+
+static void digest_share(size_t number, void *context)
+{
+    shares *d = context;
+    const size_t end = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number + 1);
+    for (size_t i = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number); i < end; i++) {
+        const subtree *s = &d->subtrees[i];
+        d->sums[number] += s->node->octants ? digest_below(s->node, s->address) : digest_node(s->node, s->address);
+    }
+}
+
 uint64_t octree_digest(const octree *tree)
 {
-    return tree && float_mode_is_default() ? digest_of_sum(tree, digest_below(&tree->root, OCTREE_ROOT)) : 0;
+    if (!tree || !float_mode_is_default())
+        return 0;
+    shares d;
+    shares_begin(&d, tree, digest_opened);
+    tasks_run(tree, digest_share, d.tasks, &d);
+    uint64_t sum = d.sums[d.tasks];
+    for (unsigned i = 0; i < d.tasks; i++)
+        sum += d.sums[i];
+    return digest_of_sum(tree, sum);
 }

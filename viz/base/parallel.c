@@ -37,3 +37,9 @@ void parallel_for(size_t count, parallel_task *task, void *context)
     for (size_t i = 0; i < started; i++)
         pthread_join(threads[i], NULL);
 }
+
+void parallel_run(parallel_task *task, size_t count, void *task_context, void *unused)
+{
+    (void)unused;
+    parallel_for(count, task, task_context);
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+#include "division.h"
+
+#include <string.h>
+
+void division_begin(batch *b)
+{
+    const unsigned tasks = tasks_for(b->tree, b->count);
+    b->division = tasks > 1 ? arena_take(&b->store->memory, sizeof *b->division) : NULL;
+    if (!b->division)
+        return;
+    memset(b->division, 0, sizeof *b->division);
+    b->division->tasks = tasks;
+    b->division->grain = b->count / tasks / 2 + 1;
+}
+
+void division_end(batch *b)
+{
+    arena_give(&b->store->memory, b->division, sizeof *b->division);
+    b->division = NULL;
+}
+
+void division_open(batch *b, size_t expected)
+{
+    division *d = b->division;
+    store *whole = &b->tree->store;
+    if (!d)
+        return;
+    pool_lend(&whole->nodes);
+    pool_lend(&whole->points);
+    for (unsigned i = 0; i < d->tasks; i++) {
+        store *own = &d->parts[i].store;
+        d->parts[i].batch = (batch){.store = own};
+        own->memory = (arena){.allocator = whole->memory.allocator, .shared = &whole->memory};
+        pool_borrow(&own->nodes, &own->memory, &whole->nodes, expected / d->tasks / 16);
+        pool_borrow(&own->points, &own->memory, &whole->points, expected / d->tasks);
+    }
+}
+
+void division_close(batch *b)
+{
+    division *d = b->division;
+    for (unsigned i = 0; d && i < d->tasks; i++) {
+        pool_join(&b->tree->store.nodes, &d->parts[i].store.nodes);
+        pool_join(&b->tree->store.points, &d->parts[i].store.points);
+    }
+}
+
+void division_run(batch *b, octree_task *task, void *context)
+{
+    division *d = b->division;
+    for (unsigned i = 0; i < d->tasks; i++) {
+        batch *own = &d->parts[i].batch;
+        const batch before = *own;
+        *own = *b;
+        own->division = NULL;
+        own->store = &d->parts[i].store;
+        own->patches = before.patches;
+        own->edits = before.edits;
+        own->duplicate = before.duplicate;
+        own->overflow = before.overflow;
+    }
+    tasks_run(b->tree, task, d->tasks, context);
+}

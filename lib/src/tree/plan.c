@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT */
+/* plan.c - a batch planned and carried out, by tasks where it is large.
+ *
+ * What leaves and arrives is first divided as the nodes will be, down to shares that are worth a task. Tasks plan
+ * these, each with pools of its own that borrow from the tree's; then the nodes above are planned with what the tasks
+ * have made.
+ */
+#include "division.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Jobs: what tasks plan ---------------------------------------------------------------------------------- */
+
+static bool push_job(batch *b, const node *old, cell c, span leaving, span arriving)
+{
+    const job j = {.old = old, .cell = c, .leaving = leaving, .arriving = arriving};
+    return list_push(&b->store->memory, &b->division->jobs, &j, sizeof j);
+}
+
+/* The jobs of build_node(), in its order. False when there is no memory. */
+static bool gather_builds(batch *b, cell c, span items)
+{
+    if (items.count <= b->division->grain)
+        return push_job(b, NULL, c, (span){NULL, 0}, items);
+    if (becomes_leaf(b, c, items))
+        return true;
+    span shares[8];
+    share_out(items, c.depth, shares);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (shares[octant].count > 0 && !gather_builds(b, cell_child(c, octant), shares[octant]))
+            return false;
+    return true;
+}
+
+/* Likewise those of change_node(). A leaf for which very many arrive is divided in its turn. */
+static bool gather_changes(batch *b, const node *old, cell c, span leaving, span arriving)
+{
+    static const node empty = {0};
+    const size_t count = leaving.count + arriving.count;
+    if (count == 0 || (arriving.count == 0 && leaving.count == old->count))
+        return true;
+    if (count <= b->division->grain)
+        return push_job(b, old, c, leaving, arriving);
+    if (leaving.count == old->count)
+        return gather_builds(b, c, arriving);
+    if (!old->octants || fits_leaf(b->tree, old->count - leaving.count + arriving.count))
+        return true;
+    span out[8], in[8];
+    share_out(leaving, c.depth, out);
+    share_out(arriving, c.depth, in);
+    for (unsigned octant = 0; octant < 8; octant++) {
+        const node *child = child_at(old, octant);
+        if (!gather_changes(b, child ? child : &empty, cell_child(c, octant), out[octant], in[octant]))
+            return false;
+    }
+    return true;
+}
+
+static void plan_jobs(size_t number, void *context)
+{
+    division *d = context;
+    batch *b = &d->parts[number].batch;
+    job *jobs = d->jobs.items;
+    for (size_t i = d->starts[number]; i < d->starts[number + 1]; i++) {
+        job *j = &jobs[i];
+        j->ok = j->old ? change_node(b, j->old, j->cell, j->leaving, j->arriving, &j->made)
+                       : build_node(b, j->cell, j->arriving, &j->made);
+        if (!j->ok)
+            return;
+    }
+}
+
+/* What is left of the jobs is not needed. */
+static void drop_jobs(batch *b)
+{
+    static const node none = {0};
+    division *d = b->division;
+    const job *jobs = d->jobs.items;
+    for (; d->next < d->jobs.count; d->next++)
+        node_release_unshared(b->store, &jobs[d->next].made, jobs[d->next].old ? jobs[d->next].old : &none);
+    list_release(&b->store->memory, &d->jobs, sizeof(job));
+    d->next = 0;
+    d->ready = false;
+}
+
+/* False when there is no memory; nothing is left of the jobs then. */
+static bool run_jobs(batch *b)
+{
+    division *d = b->division;
+    const job *jobs = d->jobs.items;
+    size_t total = 0, sum = 0, next = 0;
+    for (size_t i = 0; i < d->jobs.count; i++)
+        total += jobs[i].leaving.count + jobs[i].arriving.count;
+    for (unsigned task = 0; task < d->tasks; task++) {
+        d->starts[task] = next;
+        for (; next < d->jobs.count && sum < tasks_share(total, d->tasks, task + 1); next++)
+            sum += jobs[next].leaving.count + jobs[next].arriving.count;
+    }
+    d->starts[d->tasks] = d->jobs.count;
+    division_run(b, plan_jobs, d);
+    bool ok = true;
+    for (size_t i = 0; i < d->jobs.count; i++)
+        ok = ok && jobs[i].ok;
+    d->ready = ok;
+    if (!ok)
+        drop_jobs(b);
+    return ok;
+}
+
+bool is_job(const batch *b, size_t count)
+{
+    return b->division && b->division->ready && count <= b->division->grain;
+}
+
+bool take_job(batch *b, node *made)
+{
+    const job *jobs = b->division->jobs.items;
+    *made = jobs[b->division->next++].made;
+    return true;
+}
+
+/* The jobs that a leaf is divided into are done while those of the whole tree wait. */
+bool build_divided(batch *b, cell c, span items, node *made)
+{
+    if (!b->division)
+        return build_node(b, c, items, made);
+    division *d = b->division;
+    const list jobs = d->jobs;
+    const size_t next = d->next;
+    const bool ready = d->ready;
+    d->jobs = (list){0};
+    d->next = 0;
+    d->ready = false;
+    bool ok = gather_builds(b, c, items) && run_jobs(b) && build_node(b, c, items, made);
+    drop_jobs(b);
+    d->jobs = jobs;
+    d->next = next;
+    d->ready = ready;
+    return ok;
+}
+
+/* ---- The plan ----------------------------------------------------------------------------------------------- */
+
+/* Points that arrive take the places of those that leave, then those behind the last; the last fill gaps that are left.
+ */
+static void carry_out_edit(batch *b, const edit *e)
+{
+    uint32_t count = e->count;
+    size_t taken = 0;
+    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last on: so the last point is never one that leaves */
+        octree_point *gap = &e->points[e->leaving.items[i].index];
+        *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
+    }
+    while (taken < e->arriving.count)
+        e->points[count++] = arriving_point(b, &e->arriving.items[taken++]);
+    if (e->room_left < e->room)
+        pool_give(&b->store->points, e->points + e->room_left, e->room - e->room_left);
+}
+
+static void carry_out(batch *b)
+{
+    const edit *edits = b->edits.items;
+    for (size_t i = 0; i < b->edits.count; i++)
+        carry_out_edit(b, &edits[i]);
+    const patch *patches = b->patches.items;
+    for (size_t i = 0; i < b->patches.count; i++) {
+        const node old = *patches[i].at;
+        *patches[i].at = patches[i].made;
+        node_release_unshared(b->store, &old, &patches[i].made);
+    }
+}
+
+static void carry_out_part(size_t number, void *context)
+{
+    carry_out(&((division *)context)->parts[number].batch);
+}
+
+static void drop_plan(batch *b)
+{
+    const patch *patches = b->patches.items;
+    for (size_t i = 0; i < b->patches.count; i++)
+        node_release_unshared(b->store, &patches[i].made, patches[i].at);
+}
+
+static void release_plan(batch *b)
+{
+    list_release(&b->store->memory, &b->patches, sizeof(patch));
+    list_release(&b->store->memory, &b->edits, sizeof(edit));
+}
+
+/* Below the nodes of the tree's own plan lie those of the parts': they come first. */
+static void finish_plan(batch *b, bool happens)
+{
+    division *d = b->division;
+    if (d && happens)
+        tasks_run(b->tree, carry_out_part, d->tasks, d);
+    for (unsigned i = 0; d && i < d->tasks; i++) {
+        if (!happens)
+            drop_plan(&d->parts[i].batch);
+        release_plan(&d->parts[i].batch);
+    }
+    if (happens)
+        carry_out(b);
+    else
+        drop_plan(b);
+    release_plan(b);
+}
+
+static void gather_flags(batch *b)
+{
+    for (unsigned i = 0; b->division && i < b->division->tasks; i++) {
+        b->duplicate |= b->division->parts[i].batch.duplicate;
+        b->overflow |= b->division->parts[i].batch.overflow;
+    }
+}
+
+/* ---- A tree built anew -------------------------------------------------------------------------------------- */
+
+static void reset_pools(store *s)
+{
+    pool_init(&s->nodes, &s->memory, sizeof(node));
+    pool_init(&s->points, &s->memory, sizeof(octree_point));
+}
+
+/* Free all nodes, with pools that hold nothing else. */
+static void release_pools(store *s, const node *root)
+{
+    node_release(s, root); /* hashed leaves are not in the pools */
+    pool_release(&s->nodes);
+    pool_release(&s->points);
+}
+
+/* Nothing stays: a tree in pools of its own, as dense as one that is built, takes the place of the old one. */
+static octree_status build_anew(batch *b)
+{
+    octree *tree = b->tree;
+    const pool old_nodes = tree->store.nodes, old_points = tree->store.points;
+    node made = {0};
+    b->overflow = may_overflow(b, &tree->root, root_cell(), b->arriving);
+    if (b->overflow)
+        return OCTREE_OK;
+    reset_pools(&tree->store);
+    division_open(b, b->arriving.count);
+    const bool ok = build_divided(b, root_cell(), b->arriving, &made);
+    division_close(b);
+    const pool nodes = tree->store.nodes, points = tree->store.points;
+    if (ok) {
+        tree->store.nodes = old_nodes;
+        tree->store.points = old_points;
+    }
+    release_pools(&tree->store, ok ? &tree->root : &made);
+    tree->store.nodes = ok ? nodes : old_nodes;
+    tree->store.points = ok ? points : old_points;
+    tree->root = ok ? made : tree->root;
+    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+/* ---- Restructuring ------------------------------------------------------------------------------------------ */
+
+/* False when there is no memory; nothing but patches and edits is left then. */
+static bool make_plan(batch *b)
+{
+    octree *tree = b->tree;
+    node made = {0};
+    if (b->division && !(gather_changes(b, &tree->root, root_cell(), b->leaving, b->arriving) && run_jobs(b))) {
+        drop_jobs(b);
+        return false;
+    }
+    bool ok = change_node(b, &tree->root, root_cell(), b->leaving, b->arriving, &made);
+    if (b->division)
+        drop_jobs(b);
+    if (!ok)
+        node_release_unshared(&tree->store, &made, &tree->root);
+    gather_flags(b);
+    return ok && plan_patch(b, &tree->root, &made);
+}
+
+octree_status restructure(batch *b)
+{
+    b->duplicate = b->overflow = false;
+    if (b->leaving.count == b->tree->root.count && b->leaving.count == b->arriving.count && b->arriving.count > 0)
+        return build_anew(b);
+    division_open(b, b->arriving.count > b->leaving.count ? b->arriving.count - b->leaving.count : 0);
+    const bool ok = make_plan(b);
+    finish_plan(b, ok && !(b->to && (b->duplicate || b->overflow)));
+    division_close(b);
+    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
+}

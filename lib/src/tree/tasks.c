@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+#include "tasks.h"
+
+#include <string.h>
+
+#ifndef OCTREE_LEAST_SHARE
+#define OCTREE_LEAST_SHARE 1024 /* points that are worth a task */
+#endif
+
+unsigned tasks_for(const octree *tree, size_t points)
+{
+    const size_t tasks = tree->def.executor.run ? points / OCTREE_LEAST_SHARE : 0;
+    return tasks < 1 ? 1 : tasks < TASKS_AT_MOST ? (unsigned)tasks : TASKS_AT_MOST;
+}
+
+typedef struct tasks {
+    octree_task *task;
+    void *context;
+    bool done[TASKS_AT_MOST]; /* each is written by its task alone */
+} tasks;
+
+static void run_here(size_t number, void *context)
+{
+    tasks *all = context;
+    if (!float_mode_is_default())
+        return;
+    all->task(number, all->context);
+    all->done[number] = true;
+}
+
+void tasks_run(const octree *tree, octree_task *task, unsigned count, void *context)
+{
+    const octree_executor *executor = &tree->def.executor;
+    tasks all = {task, context, {false}};
+    if (executor->run && count > 1)
+        executor->run(run_here, count, &all, executor->context);
+    for (unsigned number = 0; number < count; number++)
+        if (!all.done[number])
+            task(number, context);
+}
+
+/* Replace a subtree by those of its children. */
+static size_t divide(subtree *subtrees, size_t count, size_t at)
+{
+    const subtree whole = subtrees[at];
+    const unsigned children = bits_count8(whole.node->octants);
+    memmove(subtrees + at + children, subtrees + at + 1, (count - at - 1) * sizeof *subtrees);
+    const node *child = children_of(whole.node);
+    size_t before = whole.before;
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (whole.node->octants >> octant & 1) {
+            subtrees[at++] = (subtree){child, whole.address << 3 | octant, cell_child(whole.cell, octant), before};
+            before += child++->count;
+        }
+    return count - 1 + children;
+}
+
+size_t subtrees_of(const octree *tree, unsigned tasks, subtree_opener *open, void *context,
+                   subtree subtrees[SUBTREES_AT_MOST])
+{
+    const size_t share = tasks == 1 ? SIZE_MAX : tree->root.count / tasks / 2 + 1;
+    size_t count = 1;
+    subtrees[0] = (subtree){&tree->root, OCTREE_ROOT, root_cell(), 0};
+    for (size_t at = 0; at < count;) {
+        const bool fits = count + 7 <= SUBTREES_AT_MOST;
+        const subtree *s = &subtrees[at];
+        if (s->node->octants && s->node->count > share && fits && (!open || open(s, context)))
+            count = divide(subtrees, count, at);
+        else
+            at++;
+    }
+    return count;
+}
+
+size_t subtrees_share(const octree *tree, const subtree *subtrees, size_t count, unsigned tasks, size_t number)
+{
+    const size_t before = tasks_share(tree->root.count, tasks, number);
+    size_t first = 0;
+    while (first < count && subtrees[first].before < before)
+        first++;
+    return first;
+}
