@@ -140,10 +140,12 @@ static int compare_slabs(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* All slabs in the order of their addresses, or null when there is no memory. */
+enum { FEW_SLABS = 64 };
+
+/* All slabs in the order of their addresses, or null where they are few or there is no memory. */
 static struct slab **sort_slabs(pool *p)
 {
-    struct slab **sorted = arena_take(p->memory, p->slab_count * sizeof *sorted);
+    struct slab **sorted = p->slab_count > FEW_SLABS ? arena_take(p->memory, p->slab_count * sizeof *sorted) : NULL;
     size_t count = 0;
     for (struct slab *slab = p->slabs; sorted && slab; slab = slab->next)
         sorted[count++] = slab;
@@ -157,6 +159,12 @@ static struct slab *slab_of(const pool *p, struct slab **sorted, const void *blo
 {
     if (lies_in(p, guess, block))
         return guess;
+    if (!sorted) {
+        struct slab *slab = p->slabs;
+        while (!lies_in(p, slab, block))
+            slab = slab->next;
+        return slab;
+    }
     size_t low = 0, high = p->slab_count; /* the last that begins before the block is in [low, high) */
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
@@ -199,12 +207,10 @@ static void push_runs(pool *p, struct slab *slab)
     }
 }
 
-/* Join adjacent free blocks; without memory they stay as they are. */
+/* Join adjacent free blocks. */
 static void join_free_blocks(pool *p)
 {
     struct slab **sorted = sort_slabs(p);
-    if (!sorted)
-        return;
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
         memset(bits_of(slab), 0, words_for(slab->units) * sizeof(uint64_t));
     mark_free(p, sorted);
