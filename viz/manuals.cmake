@@ -33,5 +33,9 @@ foreach(text ${texts})
   add_written(octreel-${text}.5 man/man5 help --man ${text})
 endforeach()
 
+add_written(octreel bash-completion/completions help --complete bash)
+add_written(_octreel zsh/site-functions help --complete zsh)
+add_written(octreel.fish fish/vendor_completions.d help --complete fish)
+
 add_custom_target(octreel_written ALL DEPENDS ${written})
 add_dependencies(octreel_installed octreel_written)

@@ -35,7 +35,8 @@ static const command_option options[] = {
      .read = read_name, OPTION_VALUE(arguments, html)},
     {"junit", "FILE", "write JUnit's XML, a test case for each kind of query", .read = read_file,
      OPTION_VALUE(arguments, junit)},
-    JSON_OPTION(arguments, json, "print JSON; a ratio of null is infinite: the true one is at the target, or none is named"),
+    JSON_OPTION(arguments, json,
+                "print JSON; a ratio of null is infinite: the true one is at the target, or none is named"),
     {0},
 };
 

@@ -101,7 +101,7 @@ static const command_option options[] = {
      OPTION_VALUE(arguments, options.tolerance.antialias)},
     {"ignore", "X,Y,W,H", "a rectangle of pixels; may be given again", .read = read_rectangle},
     {"ignore-layer", "LIST",
-     "in recordings: what these layers show, where it is on top in either frame, as in nodes,points; octreel record "
+     "what these layers show, in recordings, where it is on top in either frame, as in nodes,points; octreel record "
      "--help lists them",
      .read = read_layers, .names = view_layer_at},
     {.help = "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from "

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* main.c - octreel's command line: a table of commands, and help on each. */
 #include "command.h"
+#include "completion.h"
 #include "context.h"
 #include "file_kind.h"
 #include "help.h"
@@ -39,6 +40,8 @@ const command command_octreel = {
     .about = "Film a tree of points: every tick of a session becomes one PNG frame, drawn without a display. Look at "
              "how a point cloud subdivides, ask what is at a pixel, compare frames and say why they differ, and judge "
              "the answers of other spatial indices.\n",
+    .more = "octreel help --man NAME writes the manual of a command or a kind of file for man(1), and octreel help "
+            "--complete SHELL what bash, zsh and fish complete by; both are installed with the program.\n",
     .statuses = {"done", "a finding", "trouble; stopped by a signal, that signal's (130 for Ctrl-C)"},
     .examples = "octreel record -o flight\n"
                 "octreel inspect scan.pcd -o cloud.png\n"
@@ -95,11 +98,25 @@ static int print_manual(const char *name)
     return topic || found ? EXIT_DONE : refuse_word(name, true);
 }
 
+static int print_completions(const char *shell)
+{
+    char known[64], meant[HINT_TEXT];
+    hint h = hint_for(shell, strlen(shell));
+    for (int i = 0; completion_shell(i); i++)
+        hint_offer(&h, completion_shell(i));
+    if (completion_write(stdout, shell))
+        return EXIT_DONE;
+    return trouble("there are no completions for \"%s\"%sthere are those of %s", shell, hint_text(&h, "", meant),
+                   json_list_names(completion_shell, known, sizeof known));
+}
+
 /* On nothing, a command or a topic. */
 static int help(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "--man") == 0)
         return print_manual(argv[2]);
+    if (argc == 3 && strcmp(argv[1], "--complete") == 0)
+        return print_completions(argv[2]);
     if (argc == 1)
         return help_print(stdout, &command_octreel);
     if (argc > 2)
