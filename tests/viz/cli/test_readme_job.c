@@ -157,10 +157,10 @@ static const char *const hostile[] = {
     "$HOME",
 };
 
-static json_t *action_inputs(const char *reference, const char *frames, const char *evidence, const char *allow)
+static json_t *action_inputs(const char *reference, const char *frames, const char *evidence, const char *options)
 {
-    return json_pack("{s:s, s:s, s:s, s:s}", "reference", reference, "frames", frames, "evidence", evidence, "allow",
-                     allow);
+    return json_pack("{s:s, s:s, s:s, s:s}", "reference", reference, "frames", frames, "evidence", evidence, "options",
+                     options);
 }
 
 static int run_action(job *j, json_t *inputs)
@@ -197,14 +197,13 @@ static void action_takes_any_name_of_a_folder(void **state)
     assert_string_equal(j->run.complained, "");
 }
 
-/* Nothing in them is run or stands for names of files, and octreel says what is wrong with them. */
-static void action_reads_what_is_allowed_as_words(void **state)
+/* Nothing in them is run or stands for names of files, octreel says what is wrong with them, and what does not compare
+ * does not pass. */
+static void action_reads_options_as_words(void **state)
 {
     job *j = *state;
     in_folder(j, "cp -R golden frames && : >--help");
     for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
-        if (strcmp(hostile[i], "--help") == 0)
-            continue;
         assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", hostile[i])), 2);
         assert_string_equal(output_of(j, "status"), "2");
         assert_false(file_exists(place_in(j->folder, "owned").path));
@@ -213,7 +212,7 @@ static void action_reads_what_is_allowed_as_words(void **state)
                      0);
 }
 
-static void action_says_what_is_allowed_and_what_is_forgiven(void **state)
+static void action_says_what_is_forgiven(void **state)
 {
     job *j = *state;
     change_game(j);
@@ -239,7 +238,8 @@ static void action_tells_trouble(void **state)
 static void action_keeps_names_from_being_commands(void **state)
 {
     job *j = *state;
-    in_folder(j, "rm golden/*.json* && cp -R golden frames && cp golden/frame_000005.png \"$(printf 'golden/x\\n::add-mask::a.png')\"");
+    in_folder(j, "rm golden/*.json* && cp -R golden frames && cp golden/frame_000005.png \"$(printf "
+                 "'golden/x\\n::add-mask::a.png')\"");
     assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", "")), 1);
     const char *off = strstr(j->run.said, "::stop-commands::"), *name = strstr(j->run.said, "\n::add-mask::");
     char on[64] = "\n::";
@@ -279,14 +279,10 @@ static void action_builds_its_own_program(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        JOB(job_passes_where_nothing_differs),
-        JOB(job_fails_where_a_frame_differs_and_keeps_the_evidence),
-        JOB(action_takes_any_name_of_a_folder),
-        JOB(action_reads_what_is_allowed_as_words),
-        JOB(action_says_what_is_allowed_and_what_is_forgiven),
-        JOB(action_tells_trouble),
-        JOB(action_keeps_names_from_being_commands),
-        JOB(action_builds_its_own_program),
+        JOB(job_passes_where_nothing_differs),       JOB(job_fails_where_a_frame_differs_and_keeps_the_evidence),
+        JOB(action_takes_any_name_of_a_folder),      JOB(action_reads_options_as_words),
+        JOB(action_says_what_is_forgiven),           JOB(action_tells_trouble),
+        JOB(action_keeps_names_from_being_commands), JOB(action_builds_its_own_program),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

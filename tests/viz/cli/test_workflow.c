@@ -21,12 +21,14 @@ typedef struct machine {
 } machine;
 
 /* Programs that are made up. octreel is one, and where something is built. */
-static const char fakes[] = "for name in apt-cache apt-get cmake ctest dpkg-query lintian octreel setup; do\n"
-                            "    printf '#!/bin/sh\\necho \"%s $*\" >>\"%s/done\"\\n' $name \"$PWD\" >bin/$name\n"
-                            "    chmod +x bin/$name\n"
-                            "done\n"
-                            "printf 'mkdir -p build/bin\\ncp %s/bin/octreel build/bin\\n' \"$PWD\" >>bin/setup\n"
-                            "printf 'echo install ok installed\\n' >>bin/dpkg-query\n";
+static const char fakes[] =
+    "for name in apt-cache apt-get cmake ctest dpkg-query lintian octreel setup; do\n"
+    "    printf '#!/bin/sh\\necho \"%s $*\" >>\"%s/done\"\\n' $name \"$PWD\" >bin/$name\n"
+    "    chmod +x bin/$name\n"
+    "done\n"
+    "printf 'mkdir -p build/bin\\ncp %s/bin/octreel build/bin\\n' \"$PWD\" >>bin/setup\n"
+    "printf 'for a; do case $a in --markdown=*) echo same >\"${a#*=}\" ;; esac; done\\n' >>bin/octreel\n"
+    "printf 'echo install ok installed\\n' >>bin/dpkg-query\n";
 
 static int prepare_machine(void **state)
 {
@@ -139,7 +141,7 @@ static void page_is_filmed_and_compared(void **state)
     fake_setup(m);
     run_job(m, "page", "none", "");
     assert_called(m, "octreel record --replace -o ");
-    assert_called(m, "octreel diff --output=octreel-evidence ");
+    assert_called(m, "octreel diff --annotate --output=octreel-evidence ");
 }
 
 static void packages_are_made_and_judged_and_installed(void **state)
