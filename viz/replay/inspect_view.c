@@ -20,10 +20,21 @@ static camera_window space_of(const view *v)
     return layout_camera(&empty);
 }
 
-static bool outnumber_pixels(const inspection *made, const view *v)
+#define LEAF_PIXELS 32 /* of the space view for each leaf: with fewer, dark and light leaves are noise */
+
+/* Whether the points hide the boxes of nodes and their leaves are to be shown instead; *said is why, or why not. */
+static bool choose_leaves(const inspection *made, const view *v, const char **said)
 {
     const camera_window w = space_of(v);
-    return (double)octree_count(made->tree) > w.width * w.height;
+    const double pixels = w.width * w.height;
+    octree_stats stats;
+    *said = "";
+    if ((double)octree_count(made->tree) <= pixels || octree_statistics(made->tree, &stats) != OCTREE_OK)
+        return false;
+    const bool seen = (double)stats.leaves * LEAF_PIXELS <= pixels;
+    *said = seen ? ", since there are more of them than pixels"
+                 : "; leaves are too small to see, and larger with a larger --capacity";
+    return seen;
 }
 
 /* Whether the points, as they are seen from the camera of tick 0, are near enough to each other. */
@@ -44,12 +55,10 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
     *said = 0;
     if (!view_shows(v, LAYER_POINTS) || (color_given && v->point_color == POINTS_BY_PLAIN))
         return true;
-    if (!color_given && outnumber_pixels(made, v)) {
-        v->point_color = POINTS_BY_LEAF;
-        why = ", since there are more of them than pixels";
-    } else if (!color_given) {
-        v->point_color = has_colors(made) ? POINTS_BY_FILE : POINTS_BY_HEIGHT;
-    }
+    if (!color_given)
+        v->point_color = choose_leaves(made, v, &why) ? POINTS_BY_LEAF
+                         : has_colors(made)           ? POINTS_BY_FILE
+                                                      : POINTS_BY_HEIGHT;
     view fitted = *v;
     camera_fit(&fitted, made->tree);
     if (!point_scale_fit(&fitted, made->tree, &made->values))
@@ -58,8 +67,9 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
         v->shade = SHADE_EDL;
         lit = ", lit by eye-dome lighting (--shade)";
     }
+    const bool leaves = v->point_color == POINTS_BY_LEAF;
     if (!(color_given && shade_given))
-        snprintf(said, INSPECT_CHOICE, "points by %s (--color-points)%s%s", view_point_color_name(v->point_color), why,
-                 lit);
+        snprintf(said, INSPECT_CHOICE, "points by %s (--color-points)%s%s%s", view_point_color_name(v->point_color),
+                 leaves ? why : "", lit, leaves ? "" : why);
     return true;
 }

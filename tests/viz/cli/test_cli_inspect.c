@@ -305,7 +305,8 @@ static void picture_is_whole_and_traced(void **state)
 }
 
 /* What is chosen is said, and what is asked for is done. The 500 points are far apart in the largest picture, close
- * surfaces in a smaller one, and outnumber the pixels of the smallest. */
+ * surfaces in a smaller one, and outnumber the pixels of the smallest, where leaves are
+ * shown if they are not too small themselves. */
 static void the_picture_says_what_it_chose_for_the_points(void **state)
 {
     static const struct {
@@ -313,7 +314,8 @@ static void the_picture_says_what_it_chose_for_the_points(void **state)
         int color_type; /* of the PNG: 2 is RGB, 3 indexed */
     } rows[] = {{"--size 1280x720 --zoom 20", "pixels; points by height (--color-points)\n", 2},
                 {"--size 320x180", "points by height (--color-points), lit by eye-dome lighting (--shade)\n", 2},
-                {"--size 16x9", "points by leaf (--color-points), since there are more of them than pixels", 2},
+                {"--size 16x9", "(--shade); leaves are too small to see, and larger with a larger --capacity", 2},
+                {"--size 16x9 --capacity 512", "by leaf (--color-points), since there are more of them than pixels", 2},
                 {"--size 16x9 --color-points id", "points by id (--color-points), lit by", 2},
                 {"--size 320x180 --shade none", "points by height (--color-points)\n", 2},
                 {"--size 320x180 --color-points id --shade none", "180 pixels\n", 2},
