@@ -55,6 +55,9 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   file(WRITE ${documents}/copyright "${terms}")
   file(COPY ${work}/changelog.Debian DESTINATION ${documents})
   file(COPY_FILE ${CPACK_OCTREEL_SOURCE}/lib/CHANGELOG.md ${documents}/changelog)
+  if(EXISTS ${staged}/usr/share/zsh/site-functions) # where Debian's zsh does not look
+    file(RENAME ${staged}/usr/share/zsh/site-functions ${staged}/usr/share/zsh/vendor-completions)
+  endif()
   file(GLOB manuals ${staged}/usr/share/man/man*/*)
   run(gzip -9nf ${documents}/changelog.Debian ${documents}/changelog ${manuals})
 
