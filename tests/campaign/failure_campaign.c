@@ -38,6 +38,7 @@ static const char PREPARE[] =
     "head -n 2 film/ticks.jsonl >half/ticks.jsonl && "
     "cp film/session.json session.json && "
     "\"$octreel\" digest film -o film.digests && "
+    "\"$octreel\" accept film.baseline film --reason first --date 2026-11-22 --store pictures && "
     "printf '{\"octreel\": \"session\", \"version\": 1, \"points\": [[10, 0, 0], [0, 20, 0]], "
     "\"ticks\": 2}\\n{\"tick\": 1, \"queries\": [{\"knearest\": 2, \"at\": [0, 0, 0], "
     "\"answer\": [0]}]}\\n' >answers.json";
@@ -67,6 +68,8 @@ static const struct {
     {"accept", "accept film other"},
     {"accept-new", "accept new film"},
     {"accept-digests", "accept film.digests other"},
+    {"accept-baseline", "accept film.baseline other --variant --reason why --date 2026-11-23 --store pictures"},
+    {"diff-baseline", "diff film.baseline other --store pictures -o evidence"},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
