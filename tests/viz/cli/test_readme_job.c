@@ -221,6 +221,7 @@ static void action_says_what_is_forgiven(void **state)
     assert_string_equal(output_of(j, "status"), "0");
     assert_says(output_of(j, "summary"), "octreel diff: same");
     assert_says(output_of(j, "summary"), "forgiven");
+    assert_int_not_equal(output_of(j, "summary")[strlen(output_of(j, "summary")) - 1], ' ');
 }
 
 static void action_tells_trouble(void **state)
