@@ -109,7 +109,7 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
 static char *write_line(const octree_game *game)
 {
     octree_tick tick = *octree_game_tick(game);
-    const tick_extras extras = {.frame = NULL};
+    const tick_extras extras = {.frame = NULL, .whole = true};
     text_stream s;
     char *text;
     tick.tree_digest = 0;

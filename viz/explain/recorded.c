@@ -93,38 +93,32 @@ static uint64_t scene_of(const recorded *r, uint64_t tick)
     return scene;
 }
 
-/* The line that belongs to the tick; the caller frees it. */
-static char *expected_line(const recorded *r, const octree_game *game, size_t *size)
+/* What the line of the tick says beyond it; `name` has room for the name of its frame. */
+static tick_extras extras_of(const recorded *r, const octree_tick *tick, char name[FRAME_NAME])
 {
-    const octree_tick *tick = octree_game_tick(game);
-    char name[FRAME_NAME], *text;
-    tick_extras extras = {0};
-    text_stream s;
-    if (!tick->gap && frame_is_due(tick->number, r->view.every)) {
-        extras.frame = frame_name(tick->number, name);
-        extras.scene_digest = scene_of(r, tick->number);
-    }
-    if (text_stream_begin(&s))
-        tick_write(s.stream, tick, &extras);
-    const bool ok = text_stream_end(&s, &text);
-    *size = s.size;
-    return ok ? text : NULL;
+    if (tick->gap || !frame_is_due(tick->number, r->view.every))
+        return (tick_extras){0};
+    return (tick_extras){.frame = frame_name(tick->number, name), .scene_digest = scene_of(r, tick->number)};
 }
 
 static bool check_line(recorded *r, const octree_game *game, octreel_error *error)
 {
-    const uint64_t tick = octree_game_tick(game)->number;
+    const octree_tick *tick = octree_game_tick(game);
     verify_finding finding = {.kind = VERIFY_LINES};
-    size_t size;
+    char name[FRAME_NAME], *text;
+    text_stream s;
     if (!r->reading)
         return true;
-    char *expected = expected_line(r, game, &size);
-    if (!expected)
+    const tick_extras extras = extras_of(r, tick, name);
+    if (text_stream_begin(&s))
+        tick_write(s.stream, tick, &extras);
+    if (!text_stream_end(&s, &text))
         return error_no_memory(error);
-    r->reading = line_same(&r->lines, expected, size, tick, &finding);
-    free(expected);
+    const expected_line expected = {text, s.size, tick, &extras};
+    r->reading = line_same(&r->lines, &expected, &finding);
+    free(text);
     return r->reading || warn(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
-                              r->side->path, tick, finding.text);
+                              r->side->path, tick->number, finding.text);
 }
 
 /* Equal lines of equal ticks need no check: they are both right or both wrong. */

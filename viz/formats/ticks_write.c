@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "ticks_write.h"
 #include "json_table.h"
+#include "octree/digest.h"
 
 #include <inttypes.h>
 
@@ -45,6 +46,24 @@ static void write_addresses(json_writer *w, const void *from)
     for (size_t i = 0; i < addresses.count; i++)
         json_write_string(w, octree_address_format(((const octree_address *)addresses.items)[i], text));
     json_write_end_array(w);
+}
+
+/* The nodes that split or merged: of many how many there are, and a digest of their addresses in their order. */
+static void write_nodes(json_writer *w, const void *from)
+{
+    const json_counted addresses = json_counted_at(from);
+    uint64_t digest = OCTREE_DIGEST_START;
+    if (addresses.count <= TICK_LISTED) {
+        write_addresses(w, from);
+        return;
+    }
+    for (size_t i = 0; i < addresses.count; i++)
+        digest = octree_digest_word(digest, ((const octree_address *)addresses.items)[i]);
+    json_write_begin_object(w);
+    json_member_integer(w, "count", addresses.count);
+    json_write_key(w, "digest");
+    write_digest(w, &digest);
+    json_write_end_object(w);
 }
 
 static bool has_count(const void *from)
@@ -304,6 +323,7 @@ static const json_member tree_members[] = {
     {0},
 };
 
+/* In three parts: of the nodes that split or merged there are two. */
 static const json_member line_members[] = {
     {"tick", &json_uint64, .offset = offsetof(octree_tick, number)},
     {"key", JSON_CODEC(NULL, write_key, NULL), .offset = offsetof(octree_tick, key)},
@@ -317,8 +337,22 @@ static const json_member line_members[] = {
     {"visits", &json_structure, .offset = 0, .members = visit_members},
     {"program_nodes", JSON_CODEC(NULL, write_foreign, has_foreign), .offset = 0},
     {"refusals", JSON_CODEC(NULL, write_refusals, NULL), .offset = 0},
+    {0},
+};
+
+static const json_member node_members[] = {
+    {"splits", JSON_CODEC(NULL, write_nodes, NULL), .offset = offsetof(octree_tick, splits)},
+    {"merges", JSON_CODEC(NULL, write_nodes, NULL), .offset = offsetof(octree_tick, merges)},
+    {0},
+};
+
+static const json_member listed_node_members[] = {
     {"splits", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, splits)},
     {"merges", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, merges)},
+    {0},
+};
+
+static const json_member last_members[] = {
     {"tree", &json_structure, .offset = 0, .members = tree_members},
     {0},
 };
@@ -335,7 +369,13 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
     json_writer writer = {.out = out}, *w = &writer;
     char digest[DIGEST_TEXT];
     json_write_begin_object(w);
-    json_write_members(w, tick->gap ? gap_members : line_members, tick);
+    if (tick->gap) {
+        json_write_members(w, gap_members, tick);
+    } else {
+        json_write_members(w, line_members, tick);
+        json_write_members(w, extras->whole ? listed_node_members : node_members, tick);
+        json_write_members(w, last_members, tick);
+    }
     if (extras->frame) {
         json_member_text(w, "frame", extras->frame);
         json_member_text(w, "scene", digest_print(extras->scene_digest, digest));

@@ -13,7 +13,12 @@
 typedef struct tick_extras {
     const char *frame;     /* the file's name, or null for a tick that was not filmed */
     uint64_t scene_digest; /* of that frame */
+    bool whole;            /* nodes that split or merged are listed, however many there are */
 } tick_extras;
+
+/* Where more nodes than these split at a tick, or merge, their line has how many there are, and a digest of their
+ * addresses: who wants them plays the session again. Earlier versions listed them all. */
+#define TICK_LISTED 256
 
 /* One JSON object and a newline. Where the collision test is swept it begins at "from", else there is none. Of a gap it
  * says the tick and why, and nothing else. Errors stay with the stream. */

@@ -29,6 +29,16 @@ unsigned velocity_ticks(const octree_game *game)
     return ticks;
 }
 
+static double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 /* Its position after so many ticks, or where it meets the bounds before. */
 static void go_on(const octree_body *body, const octree_box *world, double ticks, double end[3])
 {
@@ -37,10 +47,10 @@ static void go_on(const octree_body *body, const octree_box *world, double ticks
         const double bound = body->velocity[i] > 0 ? world->max[i] : world->min[i];
         const double room = body->velocity[i] != 0 ? (bound - body->position[i]) / body->velocity[i] : ticks;
         stops = room < ticks ? i : stops;
-        ticks = fmin(ticks, room);
+        ticks = lesser(ticks, room);
     }
     for (int i = 0; i < 3; i++)
-        end[i] = fmin(fmax(body->position[i] + body->velocity[i] * ticks, world->min[i]), world->max[i]);
+        end[i] = lesser(greater(body->position[i] + body->velocity[i] * ticks, world->min[i]), world->max[i]);
     if (stops >= 0)
         end[stops] = body->velocity[stops] > 0 ? world->max[stops] : world->min[stops];
 }
@@ -62,30 +72,34 @@ static bool is_small(const scene *s, double ends[2][3])
            fmax(fabs(to[0] - from[0]), fabs(to[1] - from[1])) < s->view.lod;
 }
 
-/* The arrow of a body; false when it has none, or the view does not show the body. */
-static bool make_arrow(const scene *s, const octree_game *game, const octree_body *body, double ticks,
-                       scene_segment *arrow)
+/* What is the same for all arrows of a tick. */
+typedef struct arrows {
+    const scene *scene;
+    const octree *tree;
+    const octree_box *world;
+    double ticks;
+} arrows;
+
+/* Whether a body has an arrow, to this end: it has none where it does not get on, or the view does not show it. */
+static bool find_end(const arrows *a, const octree_body *body, double end[3])
 {
-    const octree_box *world = &octree_game_session(game)->tree.world;
-    *arrow = (scene_segment){
-        .id = body->id,
-        .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1),
-    };
-    memcpy(arrow->ends[0], body->position, sizeof arrow->ends[0]);
-    go_on(body, world, ticks, arrow->ends[1]);
-    return memcmp(arrow->ends[0], arrow->ends[1], sizeof arrow->ends[0]) != 0 &&
-           is_shown(s, octree_game_tree(game), world, body->position);
+    go_on(body, a->world, a->ticks, end);
+    return memcmp(body->position, end, sizeof body->position) != 0 &&
+           is_shown(a->scene, a->tree, a->world, body->position);
 }
 
-/* The arrows that pass a sieve. */
-static size_t count_arrows(const scene *s, const octree_game *game, double ticks, uint64_t sieve)
+/* Sieves are all ones: an id passes those of no more bits than its digest ends with zeros. */
+enum { SIEVES = 65 };
+
+static unsigned sieves_passed(uint64_t id)
 {
-    const octree_tick *tick = octree_game_tick(game);
-    scene_segment arrow;
-    size_t count = 0;
-    for (size_t i = 0; i < tick->mover_count; i++)
-        count += !sieve_drops(sieve, tick->movers[i].id) && make_arrow(s, game, &tick->movers[i], ticks, &arrow);
-    return count;
+    uint64_t sieve = 0;
+    unsigned passed = 0;
+    while (passed < SIEVES - 1 && !sieve_drops(sieve_finer(sieve), id)) {
+        sieve = sieve_finer(sieve);
+        passed++;
+    }
+    return passed;
 }
 
 /* At least one, so that there is something to see. */
@@ -94,29 +108,48 @@ static size_t most_arrows(const view *v)
     return v->budget ? (size_t)ceil((double)v->budget / BOXES_PER_ARROW) : SIZE_MAX;
 }
 
+/* The first sieve from this one on that lets pass no more arrows than the view's budget has; notes what it leaves out.
+ */
+static uint64_t choose_sieve(scene *s, const arrows *a, const octree_tick *tick, uint64_t sieve)
+{
+    size_t passing[SIEVES] = {0}, all = 0; /* at first: those that are dropped by the next finer one */
+    for (size_t i = 0; i < tick->mover_count; i++) {
+        double end[3];
+        if (find_end(a, &tick->movers[i], end))
+            passing[sieves_passed(tick->movers[i].id)]++;
+    }
+    for (unsigned bits = SIEVES; bits-- > 0;)
+        passing[bits] = all += passing[bits];
+    unsigned bits = 0;
+    while (sieve >> bits & 1)
+        bits++;
+    for (; bits < SIEVES - 1 && passing[bits] > most_arrows(&s->view); bits++)
+        sieve = sieve_finer(sieve);
+    s->tally.arrows.thinned = all - passing[bits];
+    s->tally.arrows.one_in = sieve + 1;
+    return sieve;
+}
+
 static void add(scene *s, const layer_source *in, view_layer own)
 {
-    const octree_game *game = in->game;
     const octree_tick *tick = in->tick;
-    const double ticks = velocity_ticks(game);
-    uint64_t sieve = s->tally.one_in - 1; /* those of points that are left out are left out with them */
+    const arrows a = {s, octree_game_tree(in->game), &octree_game_session(in->game)->tree.world,
+                      velocity_ticks(in->game)};
     if (!view_shows(&s->view, own) || tick->mover_count == 0)
         return;
-    const size_t all = count_arrows(s, game, ticks, 0);
-    size_t left = count_arrows(s, game, ticks, sieve);
-    for (; left > most_arrows(&s->view); left = count_arrows(s, game, ticks, sieve))
-        sieve = sieve_finer(sieve);
+    const uint64_t points = s->tally.one_in - 1; /* arrows of points that are left out are left out with them */
+    const uint64_t sieve = choose_sieve(s, &a, tick, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
-        scene_segment arrow;
-        if (sieve_drops(sieve, tick->movers[i].id) || !make_arrow(s, game, &tick->movers[i], ticks, &arrow))
+        const octree_body *body = &tick->movers[i];
+        scene_segment arrow = {.id = body->id, .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
+        if (sieve_drops(sieve, body->id) || !find_end(&a, body, arrow.ends[1]))
             continue;
+        memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
         if (is_small(s, arrow.ends))
             s->tally.arrows.small++;
         else
             scene_add_segment(s, arrow);
     }
-    s->tally.arrows.thinned = all - left;
-    s->tally.arrows.one_in = sieve + 1;
 }
 
 static bool applies(const layer_source *in)

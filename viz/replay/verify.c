@@ -21,10 +21,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A line of ticks.jsonl is read up to so many times the size of the one that is expected, and so many bytes more. */
-#define LINE_FACTOR 16
-#define LINE_SLACK 65536
-
 /* A recording that is being verified. */
 typedef struct verifying {
     const char *folder;
@@ -102,11 +98,16 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
 {
-    const line_state state = lines_next(&v->lines, LINE_FACTOR * step->size + LINE_SLACK);
+    const playback *p = &v->replay.playback;
+    char name[FRAME_NAME];
+    const tick_extras extras = {.frame = step->filmed ? frame_name(step->tick, name) : NULL,
+                                .scene_digest = p->extras.scene_digest};
+    const expected_line expected = {step->line, step->size, octree_game_tick(p->game), &extras};
+    const line_state state = lines_next(&v->lines, line_limit(&expected));
     verify_finding differs = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
     if (state == LINE_TROUBLE)
         return error_set(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
-    if (state == LINE_WHOLE && line_same(&v->lines, step->line, step->size, step->tick, &differs))
+    if (state == LINE_WHOLE && line_same(&v->lines, &expected, &differs))
         return true;
     if (state == LINE_WHOLE)
         v->report->findings[v->report->count++] = differs;

@@ -3,6 +3,7 @@
 #ifndef REPLAY_VERIFY_LINE_H
 #define REPLAY_VERIFY_LINE_H
 
+#include "ticks_write.h"
 #include "verify.h"
 
 typedef struct line_reader {
@@ -26,8 +27,19 @@ void lines_close(line_reader *reader);
 /* Read the next line, of `limit` bytes at most. */
 line_state lines_next(line_reader *reader, size_t limit);
 
-/* Compare a line that was read with the expected one of this tick. True where they are equal; else the finding's kind,
- * fact and text say in what they differ. */
-bool line_same(const line_reader *found, const char *expected, size_t size, uint64_t tick, verify_finding *finding);
+/* A line as it is expected, with what is in it. */
+typedef struct expected_line {
+    const char *text;
+    size_t size;
+    const octree_tick *tick;
+    const tick_extras *extras;
+} expected_line;
+
+/* The longest line that may be one like this: of an earlier version, which listed all nodes that split or merged. */
+size_t line_limit(const expected_line *expected);
+
+/* Compare a line that was read with the expected one. True where they are equal, or it is that of an earlier version;
+ * else the finding's kind, fact and text say in what they differ. */
+bool line_same(const line_reader *found, const expected_line *expected, verify_finding *finding);
 
 #endif

@@ -216,6 +216,29 @@ static void of_a_gap_nothing_is_told_but_why(void **state)
     free(text);
 }
 
+static void assert_nodes(const octree_tick *tick, bool whole, const char *part)
+{
+    char *text = line_of(tick, &(tick_extras){.whole = whole});
+    if (!strstr(text, part))
+        fail_msg("\"%s\" does not say %s", text, part);
+    free(text);
+}
+
+/* To the last that is listed the line is as it ever was; of more it has the same length whatever their number. */
+static void of_many_nodes_that_split_or_merged_there_are_a_count_and_a_digest(void **state)
+{
+    octree_address nodes[TICK_LISTED + 1];
+    octree_tick tick = {.splits = nodes, .split_count = TICK_LISTED, .merges = nodes, .merge_count = TICK_LISTED + 1};
+    (void)state;
+    for (size_t i = 0; i <= TICK_LISTED; i++)
+        nodes[i] = 01000 + i;
+    assert_nodes(&tick, false, "\"splits\": [\"0/0/0\", \"0/0/1\", ");
+    assert_nodes(&tick, false, "\"3/7/7\"], \"merges\": {\"count\": 257, \"digest\": \"d171d6def3e720b9\"}, \"tree\"");
+    assert_nodes(&tick, true, "\"3/7/7\", \"4/0/0\"], \"tree\"");
+    nodes[7]++;
+    assert_nodes(&tick, false, "\"merges\": {\"count\": 257, \"digest\": \"9af747e30447331f\"}");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -228,6 +251,7 @@ int main(void)
         cmocka_unit_test(digest_is_sixteen_hexadecimal_digits),
         cmocka_unit_test(failure_stays_with_the_stream),
         cmocka_unit_test(of_a_gap_nothing_is_told_but_why),
+        cmocka_unit_test(of_many_nodes_that_split_or_merged_there_are_a_count_and_a_digest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
