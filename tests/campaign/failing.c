@@ -11,6 +11,7 @@
  * is there, what is still in its buffer is lost, and whoever closes it learns of it, as on a full disk.
  */
 #define _GNU_SOURCE
+#undef _FORTIFY_SOURCE /* it has functions of these names inline */
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>

@@ -11,10 +11,10 @@ typedef struct image_text {
     const char *text;
 } image_text;
 
-/* Write a PNG as a file_writer does. Indexed images become 8-bit palette PNGs of exactly palette.count colours, RGB ones
- * 8-bit RGB; no row is filtered, and deflate.h packs them. No dates: the same image and texts make the same bytes on
- * every machine. An index beyond the palette or a keyword that PNG does not allow is an error. When it fails, no .part
- * file of this call is left, and a file that was at `path` before is unharmed. */
+/* Write a PNG as a file_writer does. Indexed images become 8-bit palette PNGs of exactly palette.count colours, RGB
+ * ones 8-bit RGB; no row is filtered, and deflate.h packs them. No dates: the same image and texts make the same bytes
+ * on every machine. An index beyond the palette or a keyword that PNG does not allow is an error. When it fails, no
+ * .part file of this call is left, and a file that was at `path` before is unharmed. */
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
                      octreel_error *error);
 

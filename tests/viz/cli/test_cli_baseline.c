@@ -30,8 +30,8 @@ typedef struct states {
 static states make_states(void **state)
 {
     const states made = {gallery_make(*state, "old", "1.png 2.png 3.png"),
-                        gallery_make(*state, "new", "1.png 2.png 3.png"), place_in(*state, "baseline.txt"),
-                        place_in(*state, "store")};
+                         gallery_make(*state, "new", "1.png 2.png 3.png"), place_in(*state, "baseline.txt"),
+                         place_in(*state, "store")};
     gallery_write(place_below(made.after.path, "2.png").path, 1, 5);
     return made;
 }

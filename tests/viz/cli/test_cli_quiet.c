@@ -58,9 +58,12 @@ static void what_is_asked_for_is_said(void **state)
 {
     const temp_folder *own = *state;
     static const char *const asked[][2] = {
-        {"record " SMALL " -q --json -o %s/film", "\"ticks\": 3"}, {"verify -q %s/film", "identical"},
-        {"pick -q %s/film/frame_000000.png 1 1", "pixel"},         {"digest -q %s/film", "octreel-digests"},
-        {"inspect -q %s/cloud.txt", "points"},        {"inspect -q %s/cloud.txt --nearest 1,2,3", "found"},
+        {"record " SMALL " -q --json -o %s/film", "\"ticks\": 3"},
+        {"verify -q %s/film", "identical"},
+        {"pick -q %s/film/frame_000000.png 1 1", "pixel"},
+        {"digest -q %s/film", "octreel-digests"},
+        {"inspect -q %s/cloud.txt", "points"},
+        {"inspect -q %s/cloud.txt --nearest 1,2,3", "found"},
     };
     file_write_text(place_in(*state, "cloud.txt").path, "1 2 3\n4 5 6\n");
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
