@@ -32,9 +32,8 @@ static const command_option options[] = {
      "the frames that FILE names, one a line: what was ticked in the page of octreel diff -o, which saves it as "
      "accept.txt; - is standard input",
      .read = read_name, OPTION_VALUE(arguments, from)},
-    {.help = "A baseline is a file of digests that says why. It is text for git: a line for each frame and each "
-             "accepted digest, one for each reason, in an order that merges well; \"baseline.txt merge=union\" in "
-             ".gitattributes lets two people accept the same frame."},
+    {.help = "A baseline is a file of digests that says why: text for git, a line for each digest of a frame and one "
+             "for each reason; octreel help baseline tells more."},
     {"reason", "TEXT", "why, in one line; makes REFERENCE a baseline where there is nothing", .read = read_reason,
      OPTION_VALUE(arguments, reason)},
     {"date", "DATE", "when, as YYYY-MM-DD (default: today)", .read = read_date, OPTION_VALUE(arguments, date)},

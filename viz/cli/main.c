@@ -26,6 +26,7 @@ const command *command_at(size_t n)
 static const help_topic topics[] = {
     {"session", "what a session file holds: a world, points, keys, edits, queries", session_text},
     {"recording", "what the folder of a recording holds: frames, ticks, the view", recording_text},
+    {"baseline", "what a baseline holds: accepted digests and why, and where their pictures are", baseline_text},
 };
 
 const help_topic *help_topic_at(size_t n)

@@ -4,6 +4,6 @@
 #define CLI_TEXTS_H
 
 /* ASCII, with their final zeros. */
-extern const char session_text[], recording_text[];
+extern const char session_text[], recording_text[], baseline_text[];
 
 #endif
