@@ -9,6 +9,7 @@
 #include "browser.h"
 #include "files.h"
 #include "fixture.h"
+#include "foreign_session.h"
 #include "recordings.h"
 #include "tick_lines.h"
 #include "page.h"
@@ -342,6 +343,25 @@ static void recording_without_ticks_says_so(void **state)
     free(page);
 }
 
+/* Curves say whose tree they are of, where there are two. */
+static void curves_of_two_trees_are_told_apart(void **state)
+{
+    need_browser();
+    const driven *d = *state;
+    const place film = place_in(d->folder, "foreign");
+    const octree_session session = foreign_session();
+    const film_options options = small_film(film.path);
+    assert_filmed(&session, &options);
+    char *page = browser_open(d->folder, place_below(film.path, "index.html").path, "t=0");
+    assert_has(page, "Octreel's nodes");
+    assert_has(page, "Octreel's split");
+    assert_has(page, "program's nodes");
+    free(page);
+    page = browser_open(d->folder, place_in(d->folder, "film/index.html").path, "t=0");
+    assert_null(strstr(strstr(page, "id=\"timeline\""), "Octreel's nodes</span>"));
+    free(page);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +378,7 @@ int main(void)
         cmocka_unit_test(tick_without_a_frame_shows_the_one_before_and_says_so),
         cmocka_unit_test(page_takes_what_it_does_not_expect),
         cmocka_unit_test(recording_without_ticks_says_so),
+        cmocka_unit_test(curves_of_two_trees_are_told_apart),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);
 }

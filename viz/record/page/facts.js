@@ -2,26 +2,29 @@
 /* facts.js - what the recording says: the lines of ticks.jsonl, read one by one when they are wanted. */
 "use strict";
 
-/* The curves: where a tick has the fact, and its name. One line more is one curve more. Of a fact that is a list the
- * entries are counted; a curve that no tick has a fact for is left out. */
+/* The curves: where a tick has the fact, and its name; "own" is of Octreel's tree, and is called so where there is a
+ * program's too. One line more is one curve more. Of a fact that is a list the entries are counted; a curve that no tick
+ * has a fact for is left out. */
 const CURVES = [
-    ["tree.nodes", "nodes"],
-    ["tree.depth", "depth"],
+    ["program_nodes.count", "program's nodes"],
+    ["program_nodes.depth", "program's depth"],
+    ["program_nodes.visited", "program's visits"],
+    ["program_nodes.wrong.count", "program's faults"],
+    ["tree.nodes", "nodes", "own"],
+    ["tree.depth", "depth", "own"],
     ["tree.points", "points"],
-    ["visits.visited", "visits"],
-    ["program_nodes.count", "program's"],
-    ["program_nodes.wrong.count", "wrong in it"],
+    ["visits.visited", "visits", "own"],
 ];
 
 /* The events and their signs, in the order of octree_event. One that is rare comes last, has no key, and has a lane only
- * where there is one. */
+ * where there is one; "own" as above. */
 const EVENTS = [
     ["moved", "→"],
     ["refused", "⊘"],
     ["collided", "✕"],
     ["full", "■"],
-    ["split", "⊞"],
-    ["merged", "⊟"],
+    ["split", "⊞", "own"],
+    ["merged", "⊟", "own"],
     ["wrong", "≠", "rare"],
 ];
 
@@ -69,9 +72,16 @@ class Recording {
         this.lines = [];
         this.events = [];
         this.filmed = []; /* the tick whose frame is the latest at this one; -1: none is */
-        this.curves = CURVES.map(([path, name]) => ({path, name, values: []}));
+        this.curves = CURVES.map(([path, name, of]) => ({path, name, of, values: []}));
         lines.forEach(line => this.append(line));
         this.curves = this.curves.filter(curve => !this.length || curve.values.some(value => !isNaN(value)));
+        this.hasProgramNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("program_nodes"));
+    }
+
+    /* What a curve or an event is called. */
+    nameOf(name, of)
+    {
+        return of === "own" && this.hasProgramNodes ? `Octreel's ${name}` : name;
     }
 
     static parse(text)
@@ -97,6 +107,7 @@ class Recording {
         const part = new Recording(this.about, []);
         for (const list of ["lines", "events", "filmed"])
             part[list] = this[list].slice(0, length);
+        part.hasProgramNodes = this.hasProgramNodes;
         part.curves = this.curves.map(curve => ({...curve, values: curve.values.slice(0, length)}));
         return part;
     }

@@ -286,7 +286,7 @@ const KEYS = [
     [["-"], "-", "slower", viewer => viewer.changeSpeed(-1)],
     [["j"], "j", "next chosen event; with none chosen, any but moved", viewer => viewer.seekMatch(1)],
     [["k"], "k", "previous chosen event", viewer => viewer.seekMatch(-1)],
-    ...EVENTS.filter(([, , rare]) => !rare).map(([name], i) =>
+    ...EVENTS.filter(([, , of]) => of !== "rare").map(([name], i) =>
         [[String(i + 1)], String(i + 1), `choose ${name}, or no longer`, viewer => viewer.toggle(1 << i)]),
     [["0"], "0", "choose no event: show all", viewer => viewer.clearFilter()],
     ...(hasModule() ? PLAYING_KEYS : []),

@@ -112,10 +112,11 @@ class Timeline {
     show(recording)
     {
         this.recording = recording;
+        this.root.classList.toggle("two-trees", recording.hasProgramNodes);
         for (const lane of this.lanes)
             for (const part of [lane.label, lane.canvas, lane.shown])
                 part.remove();
-        const shown = ([, , rare], i) => !rare || recording.count(1 << i);
+        const shown = ([, , of], i) => of !== "rare" || recording.count(1 << i);
         this.lanes = [...EVENTS.flatMap((event, i) => shown(event, i) ? [this.eventLane(event, 1 << i)] : []),
                       ...recording.curves.map(curve => this.curveLane(curve))];
         this.lanes.forEach((lane, i) => this.place(lane, i + 2));
@@ -124,10 +125,10 @@ class Timeline {
         this.draw();
     }
 
-    eventLane([name, sign], bit)
+    eventLane([name, sign, of], bit)
     {
         const count = this.recording.count(bit);
-        const label = element("button", name, {type: "button", class: "lane-label", "data-event": name,
+        const label = element("button", this.recording.nameOf(name, of), {type: "button", class: "lane-label", "data-event": name,
                                                "aria-pressed": "false", title: `Show ticks that ${name}`});
         label.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
         label.disabled = count === 0;
@@ -136,10 +137,10 @@ class Timeline {
         return {name, bit, label, paint, value: () => grouped(count), kind: "event"};
     }
 
-    curveLane({name, values})
+    curveLane({name, of, values})
     {
         const range = rangeOf(values), [low, high] = range;
-        const label = element("span", name, {class: "lane-label"});
+        const label = element("span", this.recording.nameOf(name, of), {class: "lane-label"});
         if (low < high)
             label.append(element("small", `${grouped(low)}–${grouped(high)}`));
         const paint = (context, scale, height) => drawCurve(context, scale, height, values, range);
