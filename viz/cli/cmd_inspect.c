@@ -3,10 +3,12 @@
 #include "command.h"
 #include "file.h"
 #include "film.h"
+#include "film_report.h"
 #include "inspect.h"
 #include "inspect_answers.h"
 #include "inspect_view.h"
 #include "layer.h"
+#include "point_scale.h"
 #include "number.h"
 #include "point_world.h"
 #include "progress.h"
@@ -120,6 +122,7 @@ typedef struct report {
 static bool draw(const report *r, octreel_error *error)
 {
     film_summary drawn = {0};
+    char left_out[FILM_LEFT_OUT];
     const arguments *a = r->a;
     const tree_subject about = {.title = r->name,
                                 .node = a->node ? r->node.address : 0,
@@ -132,10 +135,15 @@ static bool draw(const report *r, octreel_error *error)
     progress_end(&bar);
     if (!ok)
         return false;
+    if (point_scale_lacks(&r->view, &r->made->values))
+        note("no point has %s: --color-points %s shows all points alike", point_scale_lacks(&r->view, &r->made->values),
+             view_point_color_name(r->view.point_color));
     if (drawn.over_budget)
-        note("%s leaves out what is beyond --budget", file_output_title(a->picture));
+        note("%s leaves out %s beyond --budget", file_output_title(a->picture),
+             film_left_out_text(drawn.beyond, left_out));
     if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* which says so in the picture */
-        note("%s leaves out what appears smaller than --lod", file_output_title(a->picture));
+        note("%s leaves out %s smaller than --lod", file_output_title(a->picture),
+             film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
         note("%" PRIu64 " element%s too far off to be in %s", drawn.left_out, plural(drawn.left_out),
              file_output_title(a->picture));

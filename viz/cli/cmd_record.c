@@ -86,8 +86,10 @@ static int film_it(arguments *a, const octree_session *session)
     a->film.context = &w;
     const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&w.progress);
-    if (ok && !is_quiet())
+    if (ok && !is_quiet()) {
         film_report_start(stderr, &summary.start, session);
+        film_report_empty(stderr, &summary, &a->film);
+    }
     if (!ok)
         trouble("%s", error.text);
     else if (!whole)
@@ -146,8 +148,11 @@ static int film_standard_input(arguments *a)
     progress_end(&w.progress);
     if (*session_stream_note(stream))
         note("%s", session_stream_note(stream));
-    if (how == FILM_STREAM_WHOLE && !is_quiet())
+    a->film.values = session_stream_values(stream);
+    if (how == FILM_STREAM_WHOLE && !is_quiet()) {
         film_report_start(stderr, &summary.start, session_stream_start(stream));
+        film_report_empty(stderr, &summary, &a->film);
+    }
     const int status = end_stream(a, how, &summary, &w, &error);
     session_stream_close(stream);
     watch_end(&w);

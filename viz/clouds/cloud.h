@@ -4,7 +4,8 @@
  * Text: one point a line, its first three columns; columns are separated by blanks and tabs, by commas or by
  *   semicolons, the same throughout a line. Blank lines and comments (# and //) are skipped. A first line of column
  *   names, which may be a comment, says which further columns have values; where there is none, x y z r g b and
- *   x y z intensity r g b are known by their numbers: whole ones to 255 in every line, the largest above 127.
+ *   x y z intensity r g b are known by their numbers: whole ones to 255 in every line, the largest above 127, or
+ *   fractions from 0 to 1, the largest from 0.5 on, that are not all as long as normals.
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
  * PCD: 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
  * LAS: 1.0 to 1.5, all point formats; coordinates are record * scale + offset in doubles, the bits that laspy computes.
@@ -41,8 +42,9 @@ typedef struct cloud {
     size_t *rows;            /* `count`: which point of the file, skipped ones counted, each is; null: all are; owned */
     point_values values;     /* colours, intensities and classes by cloud_row(); of skipped points nothing; owned */
     unsigned color_full; /* what a full channel of a colour is in the file: 1, 255 or 65535; where there are colours */
-    const char *decided; /* a sentence on values that nothing names in the file; null for nothing; a constant */
-    char note[512];      /* a sentence about what follows the last point and does not belong there; "" for nothing */
+    const char *decided; /* a sentence on columns that nothing names in the file; null for nothing; a constant */
+    size_t beyond[POINT_VALUE_KINDS]; /* values of the file that are none, since they are out of range: see above */
+    char note[512]; /* a sentence about what follows the last point and does not belong there; "" for nothing */
 } cloud;
 
 /* The place of a point among all of its file, those that were skipped included; from 0 on. */
@@ -72,6 +74,10 @@ bool cloud_reads_laz(void);
  * point.
  */
 bool cloud_begins(const unsigned char *bytes, size_t size);
+
+/* "2 colours beyond 0 to 65535 are left out", of cloud.beyond; "" where there are none. Returns `text`. */
+#define CLOUD_BEYOND 200
+const char *cloud_beyond_text(const size_t beyond[POINT_VALUE_KINDS], char text[CLOUD_BEYOND]);
 
 /* The names of the formats, as in "PLY and PCD". Returns `text`. */
 #define CLOUD_FORMAT_NAMES 128

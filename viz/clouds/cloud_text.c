@@ -11,9 +11,12 @@
 typedef struct text_columns {
     signed char *channels; /* of each column from the fourth on a cloud_channel; -1: none */
     size_t count, room;
-    bool guessed;     /* from the first line of numbers, for want of names */
-    bool shifted;     /* guessed: the colour may be one column before, too */
-    double brightest; /* guessed: of all channels */
+    bool unnamed;     /* there are such columns, and no names */
+    bool guessed;     /* from the first line of numbers, for want of names; then: */
+    bool ranges[2];   /* the channels of each line so far are in one_range */
+    bool shifted[2];  /* and so is the column before them */
+    bool no_normals;  /* and some are not of length 1 */
+    double brightest; /* of all channels */
 } text_columns;
 
 static const char *skip_blanks(cloud_span line)
@@ -216,25 +219,33 @@ static bool guess_columns(cloud_file *file, cloud_span rest, char mark, text_col
     size_t count = 0;
     while (next_field(&rest, mark, &field))
         count++;
+    columns->unnamed = count > 0;
     if (count != 3 && count != 4)
         return true;
     for (size_t i = 4 - count; i < 4; i++)
         if (!add_column(columns, channels[i]))
             return cloud_fail(file, "out of memory");
     columns->guessed = true;
-    columns->shifted = count == 4;
-    cloud_begin_values(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 255);
+    for (int range = 0; range < 2; range++) {
+        columns->ranges[range] = true;
+        columns->shifted[range] = count == 4;
+    }
+    cloud_begin_values(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 1);
     return true;
 }
 
-static bool is_byte(double number)
+/* The ranges that channels may have: bytes, and fractions. */
+enum { BYTES, FRACTIONS };
+
+static bool is_in_range(double number, int range)
 {
-    return number >= 0 && number <= 255 && number == floor(number);
+    return range == BYTES ? number >= 0 && number <= 255 && number == floor(number) : number >= 0 && number <= 1;
 }
 
 static void forget(cloud_file *file, text_columns *columns)
 {
     cloud_drop_values(file);
+    memset(file->out->beyond, 0, sizeof file->out->beyond);
     columns->count = 0;
     columns->guessed = false;
 }
@@ -242,29 +253,43 @@ static void forget(cloud_file *file, text_columns *columns)
 /* Each line must bear it out. */
 static void check_guess(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
-    bool fits = count == columns->count && (count == 3 || !isnan(numbers[CLOUD_INTENSITY]));
+    bool fits = false;
+    double square = 0;
+    for (int range = 0; range < 2; range++) {
+        for (int i = 0; i < 3; i++)
+            columns->ranges[range] = columns->ranges[range] && is_in_range(numbers[CLOUD_RED + i], range);
+        columns->shifted[range] = columns->shifted[range] && is_in_range(numbers[CLOUD_INTENSITY], range);
+        fits = fits || columns->ranges[range];
+    }
     for (int i = 0; i < 3; i++) {
-        fits = fits && is_byte(numbers[CLOUD_RED + i]);
+        square += numbers[CLOUD_RED + i] * numbers[CLOUD_RED + i];
         columns->brightest = fmax(columns->brightest, numbers[CLOUD_RED + i]);
     }
-    columns->shifted = columns->shifted && is_byte(numbers[CLOUD_INTENSITY]);
-    if (!fits)
+    columns->no_normals |= fabs(square - 1) > 0.01;
+    if (!fits || count != columns->count || (count == 4 && isnan(numbers[CLOUD_INTENSITY])))
         forget(file, columns);
 }
 
+/* What was decided is said. */
 static void end_guess(cloud_file *file, text_columns *columns)
 {
-    const bool four = columns->count == 4;
-    if (columns->brightest < 128) {
-        forget(file, columns);
-    } else if (columns->shifted) {
-        forget(file, columns);
-        file->out->decided = "columns 4 to 7 may be r g b and another or intensity r g b, and are not read: a first "
-                             "line with their names, as in x y z intensity r g b, says what they are";
-    } else {
+    const int range = columns->ranges[BYTES] ? BYTES : FRACTIONS;
+    const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
+    const bool four = columns->count == 4, read = columns->guessed && bright && !columns->shifted[range];
+    if (read && range == BYTES)
         file->out->decided = four ? "columns 4 to 7, which have no names, are read as intensity r g b"
                                   : "columns 4 to 6, which have no names, are read as r g b";
-    }
+    else if (read)
+        file->out->decided = four ? "columns 4 to 7, which have no names, are read as intensity r g b, from 0 to 1"
+                                  : "columns 4 to 6, which have no names, are read as r g b, from 0 to 1";
+    else if (columns->guessed && bright)
+        file->out->decided = "columns 4 to 7 may be r g b and another or intensity r g b, and are not read: a first "
+                             "line with their names, as in x y z intensity r g b, says what they are";
+    else
+        file->out->decided = "the columns from the fourth on have no names and are not read: a first line with the "
+                             "names of all, as in x y z r g b, says what they are";
+    if (!read)
+        forget(file, columns);
 }
 
 /* ---- The file ----------------------------------------------------------------------------------------------- */
@@ -355,7 +380,7 @@ static bool parse_text(cloud_file *file)
 {
     text_columns columns = {0};
     const bool done = cloud_check_text(file) && parse_lines(file, &columns);
-    if (done && columns.guessed)
+    if (done && columns.unnamed)
         end_guess(file, &columns);
     free(columns.channels);
     return done;

@@ -5,6 +5,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -128,6 +129,50 @@ static bool has(const cloud_file *file, cloud_channel channel)
     return file->channels >> channel & 1;
 }
 
+/* What is not finite stands for none in many files. */
+static bool is_said(const double *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(numbers[i]))
+            return false;
+    return true;
+}
+
+static void note_beyond(const cloud_file *file, const double *numbers, const point_value *value)
+{
+    size_t *beyond = file->out->beyond;
+    const double *color = numbers + (has(file, CLOUD_RED) ? CLOUD_RED : CLOUD_PACKED);
+    if (has(file, CLOUD_RED) || has(file, CLOUD_PACKED))
+        beyond[POINT_COLOR] += !value->has[POINT_COLOR] && is_said(color, has(file, CLOUD_RED) ? 3 : 1);
+    if (has(file, CLOUD_INTENSITY))
+        beyond[POINT_INTENSITY] += !value->has[POINT_INTENSITY] && is_said(numbers + CLOUD_INTENSITY, 1);
+    if (has(file, CLOUD_CLASS))
+        beyond[POINT_CLASS] += !value->has[POINT_CLASS] && is_said(numbers + CLOUD_CLASS, 1);
+}
+
+const char *cloud_beyond_text(const size_t beyond[POINT_VALUE_KINDS], char text[CLOUD_BEYOND])
+{
+    static const struct {
+        const char *one, *many, *range;
+    } rows[POINT_VALUE_KINDS] = {[POINT_COLOR] = {"colour", "colours", "beyond 0 to 65535"},
+                                 [POINT_INTENSITY] = {"intensity", "intensities", "beyond a float"},
+                                 [POINT_CLASS] = {"class", "classes", "that are no whole number to 65535"}};
+    size_t length = 0, sum = 0;
+    *text = 0;
+    for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
+        if (beyond[kind] == 0)
+            continue;
+        length += (size_t)snprintf(text + length, CLOUD_BEYOND - length, "%s%zu %s %s", length ? ", " : "",
+                                   beyond[kind], beyond[kind] == 1 ? rows[kind].one : rows[kind].many,
+                                   beyond[kind] == 1 && kind == POINT_CLASS ? "that is no whole number to 65535"
+                                                                            : rows[kind].range);
+        sum += beyond[kind];
+    }
+    if (sum)
+        snprintf(text + length, CLOUD_BEYOND - length, " %s left out", sum == 1 ? "is" : "are");
+    return text;
+}
+
 point_value cloud_value_of(cloud_file *file, const double *numbers)
 {
     point_value value = {0};
@@ -144,6 +189,7 @@ point_value cloud_value_of(cloud_file *file, const double *numbers)
         value.has[POINT_CLASS] = true;
         value.class = (uint16_t) class;
     }
+    note_beyond(file, numbers, &value);
     return value;
 }
 

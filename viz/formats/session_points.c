@@ -135,6 +135,16 @@ static char *path_in_folder(const char *folder, const char *file)
     return path;
 }
 
+/* What was decided about its values. */
+static void note_values(session_loader *s, const char *name)
+{
+    char beyond[CLOUD_BEYOND];
+    const char *decided = s->points.decided ? s->points.decided : "";
+    cloud_beyond_text(s->points.beyond, beyond);
+    if (*decided || *beyond)
+        snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, decided, *decided && *beyond ? "; " : "", beyond);
+}
+
 /* Read it, unless that is done. */
 static bool load_file(json_reader *r, const json_t *value, const json_place *at)
 {
@@ -147,8 +157,8 @@ static bool load_file(json_reader *r, const json_t *value, const json_place *at)
     const bool done = cloud_read(path, NULL, &s->points, r->error);
     free(path);
     memcpy(s->note, s->points.note, sizeof s->note);
-    if (done && s->points.decided && !*s->note)
-        snprintf(s->note, sizeof s->note, "%.200s: %s", json_string_value(value), s->points.decided);
+    if (done && !*s->note)
+        note_values(s, json_string_value(value));
     return done;
 }
 

@@ -38,10 +38,12 @@ typedef struct film_start {
 typedef struct film_summary {
     uint64_t ticks; /* tick 0 included; of a chunk, its own */
     uint64_t frames;
-    uint64_t gaps;        /* ticks of which nothing is known */
-    uint64_t left_out;    /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
-    uint64_t over_budget; /* frames that leave out what is beyond the view's budget */
-    uint64_t below_lod;   /* frames that leave out what appears smaller than the view's lod */
+    uint64_t gaps;          /* ticks of which nothing is known */
+    uint64_t left_out;      /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
+    uint64_t over_budget;   /* frames that leave out what is beyond the view's budget */
+    uint64_t below_lod;     /* frames that leave out what appears smaller than the view's lod */
+    unsigned beyond, small; /* what these leave out, as bits of scene.h */
+    uint64_t program_nodes; /* ticks by which a program has said nodes of its own */
     uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
     uint64_t refusals;                   /* of points, edits and steps in these ticks */
     film_start start;                    /* of a session */

@@ -4,7 +4,9 @@
 #include "hint.h"
 #include "json_write.h"
 #include "page.h"
+#include "point_scale.h"
 #include "point_world.h"
+#include "scene.h"
 #include "text.h"
 
 #include <inttypes.h>
@@ -94,8 +96,23 @@ static void report_counts(FILE *out, const film_summary *summary, const char *fo
         fprintf(out, "%" PRIu64 " frame%s", summary->frames, plural(summary->frames));
 }
 
+const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT])
+{
+    static const char *const names[] = {"nodes", "points", "velocity arrows"};
+    *text = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        if (!(left_out >> i & 1))
+            continue;
+        if (*text)
+            strcat(text, left_out >> (i + 1) ? ", " : " and ");
+        strcat(text, names[i]);
+    }
+    return text;
+}
+
 static void report_left_out(FILE *out, const film_summary *summary)
 {
+    char text[FILM_LEFT_OUT];
     if (summary->gaps)
         fprintf(out, "%" PRIu64 " %s, and ticks.jsonl says why\n", summary->gaps,
                 summary->gaps == 1 ? "tick is a gap: nothing is known of it"
@@ -104,11 +121,12 @@ static void report_left_out(FILE *out, const film_summary *summary)
         fprintf(out, "%" PRIu64 " element%s too far off to be drawn: the frames lack what is so far away\n",
                 summary->left_out, plural(summary->left_out));
     if (summary->over_budget)
-        fprintf(out, "%" PRIu64 " frame%s leave%s out what is beyond --budget\n", summary->over_budget,
-                plural(summary->over_budget), plural_verb(summary->over_budget));
+        fprintf(out, "%" PRIu64 " frame%s leave%s out %s beyond --budget\n", summary->over_budget,
+                plural(summary->over_budget), plural_verb(summary->over_budget),
+                film_left_out_text(summary->beyond, text));
     if (summary->below_lod)
-        fprintf(out, "%" PRIu64 " frame%s leave%s out what appears smaller than --lod\n", summary->below_lod,
-                plural(summary->below_lod), plural_verb(summary->below_lod));
+        fprintf(out, "%" PRIu64 " frame%s leave%s out %s smaller than --lod\n", summary->below_lod,
+                plural(summary->below_lod), plural_verb(summary->below_lod), film_left_out_text(summary->small, text));
 }
 
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
@@ -170,6 +188,23 @@ void film_report_start(FILE *out, const film_start *start, const octree_session 
                 "keeps them\n",
                 start->full, start->points);
     }
+}
+
+void film_report_empty(FILE *out, const film_summary *summary, const film_options *options)
+{
+    const view *v = &options->view;
+    const char *lacking = point_scale_lacks(v, options->values);
+    if (lacking)
+        fprintf(out, "octreel: no point has %s: --color-points %s shows all points alike\n", lacking,
+                view_point_color_name(v->point_color));
+    if (summary->program_nodes > 0)
+        return;
+    if (v->tree == TREE_FOREIGN)
+        fputs("octreel: no tick has nodes of a program: --tree foreign shows no nodes\n", out);
+    else if (v->tree == TREE_BOTH)
+        fputs("octreel: no tick has nodes of a program: --tree both shows Octreel's alone\n", out);
+    if (v->coloring == COLORING_KIND)
+        fputs("octreel: no tick has nodes of a program: --color-by kind shows all nodes alike\n", out);
 }
 
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json)

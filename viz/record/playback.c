@@ -88,8 +88,8 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     frame_origin origin = {.tick = step->tick, .session = p->session_digest, .scene = p->extras.scene_digest};
     const bool done = draw_frame(p, &origin, error);
     step->left_out = origin.left_out;
-    step->over_budget = scene_leaves_out_beyond(&p->scene.tally);
-    step->below_lod = scene_leaves_out_small(&p->scene.tally);
+    step->over_budget = scene_left_out_beyond(&p->scene.tally);
+    step->below_lod = scene_left_out_small(&p->scene.tally);
     return done;
 }
 
@@ -115,6 +115,7 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
                         .events = tick->events,
                         .refusals = tick->refusal_count,
                         .gap = tick->gap,
+                        .program_nodes = tick->foreign.given,
                         .filmed = !tick->gap && frame_is_due(tick->number, p->target.every)};
     p->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
     return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);

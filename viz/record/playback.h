@@ -47,12 +47,13 @@ typedef struct playback {
 /* A tick that was filmed. */
 typedef struct film_step {
     uint64_t tick;
-    unsigned events;  /* bits of octree_event */
-    size_t refusals;  /* of points, edits and steps */
-    bool gap;         /* nothing is known of it */
-    bool filmed;      /* it has a frame */
-    bool over_budget; /* which leaves out what is beyond the view's budget, */
-    bool below_lod;   /* or smaller than its lod */
+    unsigned events;      /* bits of octree_event */
+    size_t refusals;      /* of points, edits and steps */
+    bool program_nodes;   /* a program has said nodes of its own by then */
+    bool gap;             /* nothing is known of it */
+    bool filmed;          /* it has a frame */
+    unsigned over_budget; /* what that leaves out beyond the view's budget, as bits of scene.h, */
+    unsigned below_lod;   /* or smaller than its lod */
     uint64_t left_out;
     const char *line; /* of ticks.jsonl, its newline included; until the next tick is filmed */
     size_t size;

@@ -112,8 +112,11 @@ static void add_to_summary(film_summary *summary, const film_step *step)
     summary->frames += step->filmed;
     summary->gaps += step->gap;
     summary->left_out += step->left_out;
-    summary->over_budget += step->over_budget;
-    summary->below_lod += step->below_lod;
+    summary->over_budget += step->over_budget != 0;
+    summary->below_lod += step->below_lod != 0;
+    summary->beyond |= step->over_budget;
+    summary->small |= step->below_lod;
+    summary->program_nodes += step->program_nodes;
     summary->refusals += step->refusals;
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         summary->events[i] += step->events >> i & 1;

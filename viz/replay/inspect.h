@@ -19,6 +19,7 @@ typedef struct inspection {
     point_values values;     /* of the cloud, by the ids of the tree */
     unsigned color_full;     /* as in cloud.h */
     const char *decided;
+    size_t beyond[POINT_VALUE_KINDS];
 } inspection;
 
 /* Insert every point of a cloud into a new tree, and take over the cloud's values; its positions are freed. `progress`,

@@ -146,6 +146,7 @@ bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, 
         c->values = (point_values){0};
         result->color_full = c->color_full;
         result->decided = c->decided;
+        memcpy(result->beyond, c->beyond, sizeof c->beyond);
         return true;
     }
     inspect_release(result);

@@ -72,6 +72,7 @@ void inspect_print_values(const inspection *i, FILE *out)
 {
     const value_summary s = sum_up(&i->values);
     const char *before = "  values    ";
+    char beyond[CLOUD_BEYOND];
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
         if (s.counts[kind] == 0)
             continue;
@@ -83,6 +84,8 @@ void inspect_print_values(const inspection *i, FILE *out)
         fputc('\n', out);
     if (i->decided)
         fprintf(out, "  columns   %s\n", i->decided);
+    if (*cloud_beyond_text(i->beyond, beyond))
+        fprintf(out, "  but       %s\n", beyond);
     free(s.classes);
 }
 
@@ -104,7 +107,8 @@ static void write_classes(const value_summary *s, json_writer *w)
 void inspect_write_values(const inspection *i, json_writer *w)
 {
     const value_summary s = sum_up(&i->values);
-    if (point_values_kinds(&i->values) == 0 && !i->decided)
+    char beyond[CLOUD_BEYOND];
+    if (point_values_kinds(&i->values) == 0 && !i->decided && !*cloud_beyond_text(i->beyond, beyond))
         return;
     json_member_begin_object(w, "values");
     if (s.counts[POINT_COLOR]) {
@@ -128,6 +132,8 @@ void inspect_write_values(const inspection *i, json_writer *w)
     }
     if (i->decided)
         json_member_text(w, "columns", i->decided);
+    if (*cloud_beyond_text(i->beyond, beyond))
+        json_member_text(w, "left_out", beyond);
     json_write_end_object(w);
     free(s.classes);
 }

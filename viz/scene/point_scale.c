@@ -180,3 +180,19 @@ bool point_scale_fit(view *v, const octree *tree, const point_values *values)
     free(g.intensities);
     return measured;
 }
+
+const char *point_scale_lacks(const view *v, const point_values *values)
+{
+    static const struct {
+        view_point_color color;
+        point_value_kind kind;
+        const char *name;
+    } rows[] = {{POINTS_BY_FILE, POINT_COLOR, "a colour"},
+                {POINTS_BY_INTENSITY, POINT_INTENSITY, "an intensity"},
+                {POINTS_BY_CLASS, POINT_CLASS, "a class"}};
+    const unsigned kinds = values ? point_values_kinds(values) : 0;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (v->point_color == rows[i].color && !(kinds >> rows[i].kind & 1))
+            return rows[i].name;
+    return NULL;
+}

@@ -16,6 +16,9 @@
  * no memory. Cost: O(n). */
 bool point_scale_fit(view *v, const octree *tree, const point_values *values);
 
+/* What the view colours points by and none of them has: "a class"; null where that is nothing. */
+const char *point_scale_lacks(const view *v, const point_values *values);
+
 /* A painted point is this much wider than it is from one point to the next: more than the diagonal of a grid, so that
  * surfaces are closed; but no wider than so many units of the frame. */
 #define POINT_OVERLAP 1.5

@@ -119,16 +119,19 @@ typedef struct scene_tally {
     size_t marked_visited, marked_pruned; /* nodes that it marks as visited or pruned by the tick */
 } scene_tally;
 
-/* Whether the view's budget leaves anything out. */
-static inline bool scene_leaves_out_beyond(const scene_tally *tally)
+/* What a frame may leave out, as bits. */
+enum { LEFT_OUT_NODES = 1, LEFT_OUT_POINTS = 2, LEFT_OUT_ARROWS = 4 };
+
+/* What the view's budget leaves out; and what its lod does. */
+static inline unsigned scene_left_out_beyond(const scene_tally *tally)
 {
-    return tally->beyond || tally->thinned || tally->arrows.thinned;
+    return (tally->beyond ? LEFT_OUT_NODES : 0u) | (tally->thinned ? LEFT_OUT_POINTS : 0u) |
+           (tally->arrows.thinned ? LEFT_OUT_ARROWS : 0u);
 }
 
-/* Whether its lod does. */
-static inline bool scene_leaves_out_small(const scene_tally *tally)
+static inline unsigned scene_left_out_small(const scene_tally *tally)
 {
-    return tally->small || tally->small_met || tally->arrows.small;
+    return (tally->small || tally->small_met ? LEFT_OUT_NODES : 0u) | (tally->arrows.small ? LEFT_OUT_ARROWS : 0u);
 }
 
 typedef struct scene {

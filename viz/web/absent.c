@@ -48,6 +48,13 @@ bool cloud_begins(const unsigned char *bytes, size_t size)
     return false;
 }
 
+const char *cloud_beyond_text(const size_t beyond[POINT_VALUE_KINDS], char text[CLOUD_BEYOND])
+{
+    (void)beyond;
+    *text = 0;
+    return text;
+}
+
 size_t cloud_row(const cloud *c, size_t index)
 {
     (void)c;

@@ -135,7 +135,7 @@ static void refused_comparison_leaves_no_evidence(void **state)
 /* Without the layer of text nothing in a frame says so. */
 static void what_lod_leaves_out_is_told_beside_the_frames(void **state)
 {
-    static const char sentence[] = "\n2 frames leave out what appears smaller than --lod\n";
+    static const char sentence[] = "\n2 frames leave out nodes smaller than --lod\n";
     static const char session[] = "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 1, \"points\": {\"sample\": "
                                   "\"clustered\", \"count\": 2000, \"seed\": 1}}";
     file_write_text(place_in(*state, "s.json").path, session);
@@ -163,7 +163,7 @@ static void what_lod_leaves_out_of_a_picture_is_told_unless_it_says_so(void **st
         char line[160];
         snprintf(line, sizeof line, inspect, rows[i].options);
         do_in(state, line);
-        assert_has_text(state, "said", "octreel: t.png leaves out what appears smaller than --lod\n", rows[i].told);
+        assert_has_text(state, "said", "octreel: t.png leaves out nodes smaller than --lod\n", rows[i].told);
     }
 }
 

@@ -262,7 +262,7 @@ static void a_budget_that_bites_is_told(void **state)
     command_result result =
         run_octreel(NULL, "record --every 100 --budget 5 --layers -text " SMALL " -o %s", film.path);
     assert_done(&result);
-    assert_non_null(strstr(result.out, "3 frames leave out what is beyond --budget"));
+    assert_non_null(strstr(result.out, "3 frames leave out nodes and points beyond --budget"));
     command_release(&result);
     file_write_text(session.path,
                     "{\"octreel\": \"session\", \"version\": 1, \"velocities\": {\"speed\": 40, \"seed\": 1},"
@@ -270,12 +270,34 @@ static void a_budget_that_bites_is_told(void **state)
     result =
         run_octreel(NULL, "record %s --budget 1000 --layers velocities " SMALL " -o %s", session.path, arrows.path);
     assert_done(&result);
-    assert_non_null(strstr(result.out, "2 frames leave out what is beyond --budget")); /* all arrows but one */
+    assert_non_null(strstr(result.out, "2 frames leave out velocity arrows beyond --budget")); /* all but one */
     command_release(&result);
     file_write_text(points.path, "1 2 3\n4 5 6\n7 8 9\n");
     result = run_octreel(NULL, "inspect %s --budget 1 --layers points " SMALL " -o %s", points.path, picture.path);
     assert_int_equal(result.status, 0);
-    assert_non_null(strstr(result.err, "leaves out what is beyond --budget"));
+    assert_non_null(strstr(result.err, "leaves out points beyond --budget"));
+    command_release(&result);
+}
+
+/* On stderr, beside the data that stdout may be. */
+static void what_the_view_asks_for_in_vain_is_told(void **state)
+{
+    const place film = place_in(*state, "film"), points = place_in(*state, "p.txt"),
+                picture = place_in(*state, "p.png");
+    command_result result = run_octreel(
+        NULL, "record --every 100 " SMALL " --color-points class --tree foreign --color-by kind -o %s", film.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.err, "octreel: no point has a class: --color-points class shows all points alike\n"));
+    assert_non_null(strstr(result.err, "octreel: no tick has nodes of a program: --tree foreign shows no nodes\n"));
+    assert_non_null(strstr(result.err, "--color-by kind shows all nodes alike\n"));
+    command_release(&result);
+    file_write_text(points.path, "x y z class\n1 2 3 2\n4 5 6 2\n7 8 9 6\n");
+    result = run_octreel(NULL, "inspect %s --color-points class " SMALL " -o %s", points.path, picture.path);
+    assert_done(&result);
+    assert_string_equal(result.err, "");
+    command_release(&result);
+    result = run_octreel(NULL, "inspect %s --color-points intensity " SMALL " -o - >%s", points.path, picture.path);
+    assert_non_null(strstr(result.err, "no point has an intensity: --color-points intensity shows all points alike\n"));
     command_release(&result);
 }
 
@@ -371,6 +393,7 @@ int main(void)
         IN_FOLDER(places_that_take_no_folder_are_refused_in_one_sentence),
         IN_FOLDER(json_summary_is_one_object_that_agrees_with_the_recording),
         IN_FOLDER(a_budget_that_bites_is_told),
+        IN_FOLDER(what_the_view_asks_for_in_vain_is_told),
         IN_FOLDER(keys_replace_those_of_the_session),
         IN_FOLDER(progress_is_silent_without_a_terminal),
         IN_FOLDER(progress_is_shown_on_a_terminal),

@@ -87,6 +87,10 @@ static void text_has_the_values_that_its_first_line_names(void **state)
     "columns 4 to 7 may be r g b and another or intensity r g b, and are not read: a first line with their names, "    \
     "as in x y z intensity r g b, says what they are"
 
+#define UNREAD                                                                                                         \
+    "the columns from the fourth on have no names and are not read: a first line with the names of all, as in x y z "  \
+    "r g b, says what they are"
+
 static void columns_without_names_are_colours_where_every_line_says_so(void **state)
 {
     static const reading rows[] = {
@@ -95,17 +99,47 @@ static void columns_without_names_are_colours_where_every_line_says_so(void **st
         {"1 2 3 -1340 49 51 201\n4 5 6 7 1 1 1\n", "#3133c9 -1340 -, #010101 7 -", 255, FOUR_READ},
         {"1 2 3 0.25 49 51 201\n", "#3133c9 0.25 -", 255, FOUR_READ},
         {"1 2 3 7 49 51 201\n", "- - -", 0, FOUR_LEFT},
-        {"1 2 3 0 0 1\n4 5 6 0 1 0\n", "- - -, - - -", 0, NULL},      /* normals */
-        {"1 2 3 255 0 16\n4 5 6 0 0 0.5\n", "- - -, - - -", 0, NULL}, /* one line that is not */
-        {"1 2 3 255 0 16\n4 5 6 0 0 256\n", "- - -, - - -", 0, NULL},
-        {"1 2 3 255 0 16\n4 5 6 0 0\n", "- - -, - - -", 0, NULL},
-        {"1 2 3 255 0 16\n4 5 6 0 0 0 0\n", "- - -, - - -", 0, NULL},
-        {"1 2 3 255 0\n", "- - -", 0, NULL},
-        {"1 2 3 255 0 16 7 8\n", "- - -", 0, NULL},
-        {"1 2 3 255 0 name\n", "- - -", 0, NULL},
+        {"1 2 3 0 0 1\n4 5 6 0 1 0\n", "- - -, - - -", 0, UNREAD},      /* normals */
+        {"1 2 3 255 0 16\n4 5 6 0 0 0.5\n", "- - -, - - -", 0, UNREAD}, /* one line that is not */
+        {"1 2 3 255 0 16\n4 5 6 0 0 256\n", "- - -, - - -", 0, UNREAD},
+        {"1 2 3 255 0 16\n4 5 6 0 0\n", "- - -, - - -", 0, UNREAD},
+        {"1 2 3 255 0 16\n4 5 6 0 0 0 0\n", "- - -, - - -", 0, UNREAD},
+        {"1 2 3 255 0\n", "- - -", 0, UNREAD},
+        {"1 2 3 255 0 16 7 8\n", "- - -", 0, UNREAD},
+        {"1 2 3 0 0.5 1\n4 5 6 0.25 0 0\n", "#0080ff - -, #400000 - -", 1, THREE_READ ", from 0 to 1"},
+        {"1 2 3 9 0 0.5 1\n4 5 6 9 0 0 0\n", "#0080ff 9 -, #000000 9 -", 1, FOUR_READ ", from 0 to 1"},
+        {"1 2 3 0.5 0 0.5 1\n", "- - -", 0, FOUR_LEFT},
+        {"1 2 3 1 1 0\n4 5 6 1 0 200\n", "#010100 - -, #0100c8 - -", 255, THREE_READ},
+        {"1 2 3 0.6 0.8 0\n4 5 6 0 0.6 0.8\n", "- - -, - - -", 0, UNREAD}, /* normals */
+        {"1 2 3 0 0.5 1\n4 5 6 0 0.5 1.5\n", "- - -, - - -", 0, UNREAD},
+        {"1 2 3 0 0.25 0.3\n", "- - -", 0, UNREAD},
+        {"1 2 3 255 0 name\n", "- - -", 0, UNREAD},
     };
     (void)state;
     ASSERT_READS_EACH("a.xyz", rows);
+}
+
+static void values_out_of_range_are_counted_and_told(void **state)
+{
+    static const struct {
+        const char *text, *told;
+    } rows[] = {
+        {"x y z r g b\n1 2 3 -1 0 0\n4 5 6 0 0 65536\n7 8 9 1 2 3\n", "2 colours beyond 0 to 65535 are left out"},
+        {"x y z r g b\n1 2 3 1 2\n4 5 6 1 2 3\n", ""}, /* none is said */
+        {"x y z intensity label\n1 2 3 1e39 1.5\n4 5 6 1 -1\n7 8 9 nan 4\n",
+         "1 intensity beyond a float, 2 classes that are no whole number to 65535 are left out"},
+        {"x y z label\n1 2 3 70000\n", "1 class that is no whole number to 65535 is left out"},
+        {"1 2 3 255 0 16\n4 5 6 0 0 256\n", ""}, /* not read at all, which is said */
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        cloud c;
+        octreel_error error;
+        char told[CLOUD_BEYOND];
+        assert_true(cloud_parse("a.xyz", (const unsigned char *)rows[i].text, strlen(rows[i].text), &c, &error));
+        assert_string_equal(cloud_beyond_text(c.beyond, told), rows[i].told);
+        cloud_release(&c);
+    }
 }
 
 /* ---- PLY ---------------------------------------------------------------------------------------------------- */
@@ -199,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_has_the_values_that_its_first_line_names),
         cmocka_unit_test(columns_without_names_are_colours_where_every_line_says_so),
+        cmocka_unit_test(values_out_of_range_are_counted_and_told),
         cmocka_unit_test(ply_has_colours_of_every_type),
         cmocka_unit_test(binary_ply_has_values_in_both_byte_orders),
         cmocka_unit_test(pcd_has_packed_colours_as_integers_and_floats),

@@ -294,8 +294,12 @@ static void sheet_has_at_most_25_frames_of_all(void **state)
 /* What is said of so many of everything. */
 static void assert_counted(uint64_t count, const char *joined, const char *stopped)
 {
-    const film_summary summary = {
-        .ticks = count, .frames = count, .total = count, .left_out = count, .over_budget = count};
+    const film_summary summary = {.ticks = count,
+                                  .frames = count,
+                                  .total = count,
+                                  .left_out = count,
+                                  .over_budget = count,
+                                  .beyond = LEFT_OUT_NODES};
     const film_options options = {.folder = "f"};
     char *text;
     size_t size;
@@ -315,12 +319,12 @@ static void one_of_anything_is_told_in_the_singular(void **state)
     assert_counted(1,
                    "f: 1 tick, 1 frame\n"
                    "1 element too far off to be drawn: the frames lack what is so far away\n"
-                   "1 frame leaves out what is beyond --budget\n",
+                   "1 frame leaves out nodes beyond --budget\n",
                    "octreel: stopped after 1 of 1 tick; ");
     assert_counted(2,
                    "f: 2 ticks, 2 frames\n"
                    "2 elements too far off to be drawn: the frames lack what is so far away\n"
-                   "2 frames leave out what is beyond --budget\n",
+                   "2 frames leave out nodes beyond --budget\n",
                    "octreel: stopped after 2 of 2 ticks; ");
 }
 
