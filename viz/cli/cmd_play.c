@@ -171,10 +171,11 @@ const command command_play = {
     .options = options,
     .line = "make a page of a session that plays it in a browser, and films nothing",
     .usage = "[SESSION] [-o FILE.html] [OPTION ...]",
-    .about = "Make a page that plays a session, in one file that needs nothing beside it: in a browser it draws any "
-             "tick, turns and zooms, asks what is at a place, and the keys of the game play on. Nothing is filmed. "
-             "Without SESSION, the paper's own is played; octreel help session tells what one holds. - is one from "
-             "standard input. The options of the view say how the page begins.\n",
+    .about =
+        "Make a page that plays a session, in one file that needs nothing beside it: in a browser it draws any "
+        "tick, turns and zooms, asks what is at a place, and the keys of the game play on. Nothing is filmed. "
+        "Without SESSION, that of octreel record is played; octreel help session tells what one holds. - is one from "
+        "standard input. The options of the view say how the page begins.\n",
     .examples = "octreel play\n"
                 "octreel play session.json --camera orbit -o walk.html\n",
     .most = 1,

@@ -267,8 +267,9 @@ const command command_record = {
     .line = "film a session: every tick of the game becomes one PNG frame",
     .usage = "[SESSION] -o DIR [OPTION ...]",
     .about = "Play a session and film it: DIR/frame_000000.png ..., with ticks.jsonl, session.json, recording.json and "
-             "renderer.json beside them, and index.html, a page that shows all of it. Without SESSION, the paper's own "
-             "is played; octreel help session tells what one holds. Where SESSION is -, it is read from standard input "
+             "renderer.json beside them, and index.html, a page that shows all of it. Without SESSION, that of the "
+             "paper is played, \"3D Spatial Partitioning and Collision Detection using Octrees\", whose rules the game "
+             "has; octreel help session tells what one holds. Where SESSION is -, it is read from standard input "
              "and filmed while it is written, tick by tick: mygame | octreel record - -o DIR\n",
     .more =
         "Ctrl-C finishes the frame in hand, and says how to go on. Of a session from standard input that breaks off, "
@@ -279,7 +280,10 @@ const command command_record = {
                 "octreel record session.json --keys wwdn --camera orbit --size 640x360 -o frames\n"
                 "octreel record --resume -o frames\n"
                 "octreel record session.json --ticks 1000:2000 -o frames\n"
-                "mygame | octreel record - -o frames\n",
+                "mygame | octreel record - -o frames\n"
+                "(cd frames && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' -plays 0 film.apng)\n"
+                "(cd frames && ffmpeg -pattern_type glob -i 'frame_*.png' -vf \"select='not(mod(n,10))',"
+                "scale=320:-1,tile=5x5\" -frames:v 1 -update 1 sheet.png)\n",
     .files = "  DIR  the recording; octreel-recording(5) says what is in it\n",
     .most = 1,
     .takes = "one session",

@@ -14,42 +14,20 @@
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* A command of ffmpeg's that is run in the folder, so that it reads no name but its own. Frames are found by a pattern:
- * a numbered sequence would end at the first gap. With "./" cd does not look elsewhere. */
-static void put_command(FILE *out, const char *folder, const char *arguments)
-{
-    fputs(folder[0] == '/' ? "    (cd " : "    (cd ./", out);
-    hint_write_word(out, folder);
-    fprintf(out, " && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' %s)\n", arguments);
-}
-
-/* A film (yuv420p, which every player shows, has even sides), an animated PNG, and a sheet of up to 25 frames. */
-static void put_commands(FILE *out, const char *folder, uint64_t frames)
-{
-    enum { COLUMNS = 5, TILES = COLUMNS * COLUMNS };
-    char sheet[160];
-    const uint64_t step = (frames + TILES - 1) / TILES, tiles = (frames + step - 1) / step;
-    const uint64_t columns = tiles < COLUMNS ? tiles : COLUMNS;
-    snprintf(sheet, sizeof sheet,
-             "-vf \"select='not(mod(n,%" PRIu64 "))',scale='min(iw,320)':-1,tile=%" PRIu64 "x%" PRIu64
-             "\" -frames:v 1 -update 1 film_sheet.png",
-             step, columns, (tiles + columns - 1) / columns);
-    put_command(out, folder, "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p film.mp4");
-    put_command(out, folder, "-plays 0 film.apng");
-    put_command(out, folder, sheet);
-}
-
+/* One line. The command of ffmpeg's is run in the folder, so that it reads no name but its own; with "./" cd does not
+ * look elsewhere. Frames are found by a pattern: a numbered sequence would end at the first gap. Every player shows
+ * yuv420p, which has even sides. */
 static void put_uses(FILE *out, const film_summary *summary, const char *folder)
 {
     if (summary->frames == 0) {
-        fputs(page_plays() ? "\nIts index.html draws it in a browser, and plays on\n" : "", out);
+        fputs(page_plays() ? "its index.html draws it in a browser, and plays on\n" : "", out);
         return;
     }
-    fputs("\nIts index.html shows it in a browser. ffmpeg, where it is installed, makes of it a film, an animated PNG "
-          "and "
-          "a contact sheet:\n",
+    fprintf(out, "its index.html shows it in a browser; as a film: (cd %s", folder[0] == '/' ? "" : "./");
+    hint_write_word(out, folder);
+    fputs(" && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt "
+          "yuv420p film.mp4)\n",
           out);
-    put_commands(out, folder, summary->frames);
 }
 
 /* ---- Filmed ------------------------------------------------------------------------------------------------- */
