@@ -192,6 +192,18 @@ static bool has_end(const void *from)
     return *(const uint64_t *)from != SESSION_ENDLESS;
 }
 
+/* The most ticks from one object to the next: all between are played, and filmed, for what is more likely a wrong
+ * number. */
+#define MOST_BETWEEN 1000000
+
+/* Whether the session comes as far as that otherwise: by its keys, or since it says so. */
+static bool is_far(const session_loader *s, uint64_t tick)
+{
+    const char *keys = s->header.session.keys;
+    const uint64_t last = s->tick == OCTREE_EVERY_TICK ? 0 : s->tick;
+    return !s->ends && tick > last && tick - last > MOST_BETWEEN && tick > (keys ? strlen(keys) : 0);
+}
+
 static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = loader_of(r);
@@ -200,6 +212,11 @@ static bool read_number(json_reader *r, json_t *value, const json_place *at, voi
         return false;
     if (s->tick != OCTREE_EVERY_TICK && *tick <= s->tick)
         return json_fail(r, at, "tick %" PRIu64 " comes after tick %" PRIu64 "; ticks must ascend", *tick, s->tick);
+    if (is_far(s, *tick))
+        return json_fail(r, at,
+                         "tick %" PRIu64 " is more than %d ticks behind the object before it, and all between them "
+                         "would be played; where that is meant, give the header \"ticks\"",
+                         *tick, MOST_BETWEEN);
     s->tick = *tick;
     if (!s->ends)
         s->header.session.ticks = *tick;

@@ -433,11 +433,15 @@ static const view_option rows[] = {
      MEMBER("color_by", &json_choice, coloring), .member.names = coloring_at, .words = coloring_words_at,
      .noun = "colouring"},
     {"color-points", "MODE", "point colour",
-     "what the colour of a point tells (default plain; inspect: height): one of", parse_point_color,
-     MEMBER("color_points", &json_later_choice, point_color), .member.names = point_color_at,
+     "what the colour of a point tells (default plain; inspect: file where the cloud has colours, leaf where it has "
+     "more "
+     "points than the picture pixels, else height): one of",
+     parse_point_color, MEMBER("color_points", &json_later_choice, point_color), .member.names = point_color_at,
      .words = point_color_words_at, .noun = "colouring of points"},
-    {"shade", "MODE", "shade", "what tells how far off points are (default bands): one of", parse_choice,
-     MEMBER("shade", &json_later_choice, shade), .member.names = shade_at, .words = shade_words_at},
+    {"shade", "MODE", "shade",
+     "what tells how far off points are (default bands; inspect: edl where points are as near to each other as on a "
+     "surface): one of",
+     parse_choice, MEMBER("shade", &json_later_choice, shade), .member.names = shade_at, .words = shade_words_at},
     {MEMBER("point_scale", JSON_CODEC(read_scale, write_scale, NULL), point_scale.of),
      .member.given = offsetof(view, point_scale.given), .noun = "scale of points"},
     {"tree", "WHOSE", "tree", "whose nodes are shown, where a session has those of a program (default auto): one of",

@@ -334,7 +334,9 @@ static void add(scene *s, const layer_source *in, view_layer own)
 static void describe(description *d, const described *element)
 {
     if (element->kind == SCENE_PANEL)
-        say(d, element->id < REGION_ID ? "the close-up's frame" : "the ground of letters of the close-up");
+        say(d, element->id == BORDER_ID   ? "the close-up's frame"
+               : element->id == GROUND_ID ? "the ground of the close-up"
+                                          : "the ground of letters of the close-up");
     else if (element->kind == SCENE_LABEL)
         say(d, element->id == SCALE_ID ? ", the close-up's scale" : ", what the close-up shows of all");
     else if (element->id < LEADER_ID)

@@ -61,8 +61,12 @@ typedef struct diagram {
     stop stops[OCTREE_MAX_DEPTH + 1]; /* the nodes on it */
 } diagram;
 
-static unsigned rows_of(const octree *tree, unsigned depth)
+/* Of a tree alone as many as there are levels. */
+static unsigned rows_of(const diagram *d, unsigned depth)
 {
+    const octree *tree = d->in->tree;
+    if (!d->in->tick)
+        return depth + 1;
     const unsigned most = (unsigned)octree_definition(tree).max_depth + 1;
     const unsigned rows = (depth + ROWS_AT_ONCE) / ROWS_AT_ONCE * ROWS_AT_ONCE;
     return rows < most ? rows : most;
@@ -89,7 +93,7 @@ static bool arrange(diagram *d)
         s->out_of_memory = true;
         return false;
     }
-    d->rows = rows_of(d->in->tree, d->slots.stats.depth);
+    d->rows = rows_of(d, d->slots.stats.depth);
     d->pitch = (w.height - (above + below)) / d->rows;
     return true;
 }
@@ -351,7 +355,7 @@ static void write_rows(diagram *d)
     /* Where the picture shows a program's tree, this is another one. */
     write_words(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
     write_words(d, right_of(d, "nodes"), top, ROLE_FAINT, "nodes");
-    for (unsigned depth = 0; depth < d->rows; depth += each) {
+    for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += each) {
         const double y = row_at(d, depth) - s->text.height / 2;
         write_words(d, left, y, ROLE_FAINT, "%u", depth);
         if (d->slots.stats.nodes_at_depth[depth])

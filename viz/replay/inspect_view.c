@@ -67,9 +67,9 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
         v->shade = SHADE_EDL;
         lit = ", lit by eye-dome lighting (--shade)";
     }
-    const bool leaves = v->point_color == POINTS_BY_LEAF;
+    const bool leaves = v->point_color == POINTS_BY_LEAF, colored = v->point_color == POINTS_BY_FILE;
     if (!(color_given && shade_given))
-        snprintf(said, INSPECT_CHOICE, "points by %s (--color-points)%s%s%s", view_point_color_name(v->point_color),
-                 leaves ? why : "", lit, leaves ? "" : why);
+        snprintf(said, INSPECT_CHOICE, "points %s%s (--color-points)%s%s%s", colored ? "in their colours" : "by ",
+                 colored ? "" : view_point_color_name(v->point_color), leaves ? why : "", lit, leaves ? "" : why);
     return true;
 }

@@ -322,7 +322,7 @@ static void elements_of_the_close_up_are_named(void **state)
     command_result result = run_octreel(NULL, "pick %s %d %d", what.frame.path, x, y);
     assert_non_null(strstr(result.out, "the player, point 6 at "));
     assert_non_null(strstr(result.out, " (in the close-up)\n"));
-    assert_non_null(strstr(result.out, "over the close-up's frame\n"));
+    assert_non_null(strstr(result.out, "over the ground of the close-up\n"));
     command_release(&result);
     replay_close(&what.replay);
     result = run_octreel(NULL, "verify %s", what.folder.path);

@@ -34,6 +34,23 @@ static void assert_refuses(const char *text, size_t size, const char *sentence)
     assert_int_equal(file.session.edit_count + file.session.query_count, 0);
 }
 
+/* So far, or farther where the session says how long it is. */
+static void far_ticks_are_taken_where_they_are_meant(void **state)
+{
+    static const char *const texts[] = {
+        HEADER "\"points\":[]}{\"tick\":1000000}{\"tick\":2000000}",
+        HEADER "\"points\":[],\"ticks\":900000000}{\"tick\":800000000}",
+    };
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        session_file file;
+        octreel_error error = {""};
+        if (!session_parse("s.json", "", texts[i], strlen(texts[i]), &file, &error))
+            fail_msg("%s", error.text);
+        session_release(&file);
+    }
+}
+
 static void assert_refuses_each(const refusal *rows, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -272,6 +289,10 @@ static void bad_ticks_are_refused(void **state)
         {START "{\"tick\":3,\"gap\":\"x\",\"queries\":[]}", "3: a tick that is a gap has nothing else"},
         {START "{}", "3: the member \"tick\" is missing"},
         {START "{\"tick\":1}\n{\"tick\":1}", "4: tick: tick 1 comes after tick 1; ticks must ascend"},
+        {HEADER "\"points\":[]}\n{\"tick\":1000001}",
+         "3: tick: tick 1000001 is more than 1000000 ticks behind the object before it"},
+        {HEADER "\"points\":[]}\n{\"tick\":3}{\"tick\":1000004}",
+         "3: tick: tick 1000004 is more than 1000000 ticks behind"},
         {START "{\"tick\":4}{\"tick\":\n3}", "4: tick: tick 3 comes after tick 4; ticks must ascend"},
         {START "{\"tick\":1000000001}", "3: tick: expected a whole number from 0 to 1000000000"},
         {START "{\"tick\":1,\"points\":[]}", "3: unknown member \"points\"; known: tick, edits, queries, shapes"},
@@ -355,6 +376,7 @@ static void long_name_keeps_its_end_and_the_reason(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(far_ticks_are_taken_where_they_are_meant),
         cmocka_unit_test(text_that_is_no_stream_of_objects_is_refused),
         cmocka_unit_test(answers_that_are_no_ids_are_refused),
         cmocka_unit_test(nul_bytes_are_refused),
