@@ -63,6 +63,7 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
     camera_fit(&fitted, made->tree);
     if (!point_scale_fit(&fitted, made->tree, &made->values))
         return error_no_memory(error);
+    v->point_scale = fitted.point_scale; /* it costs a walk over all points */
     if (!shade_given && close_surfaces(made, &fitted)) {
         v->shade = SHADE_EDL;
         lit = ", lit by eye-dome lighting (--shade)";

@@ -107,22 +107,61 @@ typedef struct weighted {
     size_t weight;
 } weighted;
 
-static int compare_values(const void *a, const void *b)
+static void swap(weighted *a, weighted *b)
 {
-    const double p = ((const weighted *)a)->value, q = ((const weighted *)b)->value;
-    return (p > q) - (p < q);
+    const weighted kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Bring what is below the pivot to [0, *low), what is above it to [*high, count). Returns the weight of the former; the
+ * others' is added to *equal. */
+static size_t divide(weighted *values, size_t count, double pivot, size_t *low, size_t *high, size_t *equal)
+{
+    size_t below = 0;
+    *low = 0;
+    *high = count;
+    for (size_t i = 0; i < *high;) {
+        if (values[i].value < pivot) {
+            below += values[i].weight;
+            swap(&values[i++], &values[(*low)++]);
+        } else if (values[i].value > pivot) {
+            swap(&values[i], &values[--*high]);
+        } else {
+            *equal += values[i++].weight;
+        }
+    }
+    return below;
+}
+
+/* The value that points of this weight are not above; the last where they have less. The values are left in another
+ * order. Cost: O(count) on average, whatever their order is: the pivots are drawn. */
+static double select_value(weighted *values, size_t count, size_t rank)
+{
+    uint64_t state = 1;
+    for (;;) {
+        size_t low, high, equal = 0;
+        state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        const double pivot = values[(size_t)((double)(state >> 11) * 0x1p-53 * (double)count)].value;
+        const size_t below = divide(values, count, pivot, &low, &high, &equal);
+        if (rank < below) {
+            count = low;
+        } else if (rank < below + equal || high == count) {
+            return pivot;
+        } else {
+            values += high;
+            count -= high;
+            rank -= below + equal;
+        }
+    }
 }
 
 /* The value that `rank` points are not above. `offset` is that of the values in a leaf_extent. */
 static double value_at(const gathering *g, weighted *values, size_t offset, size_t rank)
 {
-    size_t at = 0, passed = 0;
     for (size_t i = 0; i < g->count; i++)
         values[i] = (weighted){*(const double *)((const char *)&g->leaves[i] + offset), g->leaves[i].count};
-    qsort(values, g->count, sizeof *values, compare_values);
-    for (; at + 1 < g->count && passed + values[at].weight <= rank; at++)
-        passed += values[at].weight;
-    return values[at].value;
+    return select_value(values, g->count, rank);
 }
 
 static point_scale measure(const gathering *g, weighted *values)
