@@ -201,11 +201,10 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
 /* Move many points in one restructuring: the pair points[i] to position to[i], as octree_move one after the other in
  * the order given. statuses[i] (may be null) receives what octree_move would have returned, and *moved (may be null)
  * the number of OKs. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are
- * undefined. Cost: as octree_remove_many; a point that stays in its leaf is written in place. A batch of as many points
- * as are stored is a bulk build of those that arrive, once all are found: two to three times the cost of one, and some
- * hundred bytes a point while it runs. Where an id comes twice in a batch, where a pair would be there twice,
- * and where a leaf may be full under OCTREE_REFUSE, the moves are first followed one by one in a hash table, with some
- * 250 bytes a point while it runs. */
+ * undefined. Cost: of fewer than three tenths as many moves as points are stored as octree_remove_many, and a point
+ * that stays in its leaf is written in place; of more one look at all points and a bulk build, some 90 bytes a point
+ * while it runs. Where an id comes twice in a batch, where a pair would be there twice, and where a leaf may be full
+ * under OCTREE_REFUSE, the moves are first followed one by one in a hash table, with some 250 bytes a move. */
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved);
 

@@ -36,8 +36,7 @@ typedef struct batch {
     morton_item *spare;
     list repetitions;
 
-    bool all_move;              /* as many points as are stored: they all arrive, and the tree is built anew */
-    bool absent;                /* a point that moves is not stored */
+    bool remakes;               /* many points move: the items of `valid` have no codes and are not sorted */
     bool settled;               /* the moves have their statuses: none meets a full leaf */
     bool may_be_stored;         /* look whether an arriving pair is stored already */
     bool duplicate;             /* one is */
@@ -73,19 +72,23 @@ static inline size_t unsorted_count(const octree *tree)
 /* Check all positions, and sort those that are valid into `valid`. Sets each point's status: OK, or why it is not
  * among them. */
 octree_status batch_begin(batch *b);
+
+/* Of moves: lists for what leaves and arrives, with room for all points. */
+bool take_lists(batch *b);
 void batch_end(batch *b);
 
 /* Told the leaf of some items, and its depth; or null where there is none. */
 typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 
-/* Visit the leaves that the valid items lie in, maybe by tasks: of the parts of the batch leaving, arriving, done and
- * absent are put together. */
+/* Visit the leaves that the valid items lie in, maybe by tasks: of the parts of the batch leaving, arriving and done
+ * are put together. */
 void batch_visit_leaves(batch *b, leaf_visitor *visit);
 
 /* Drop the items that repeat the pair of an earlier one, and list them. False when there is no memory. */
 bool drop_repetitions(batch *b);
 
 /* Give them their status, unless the earlier one was refused by a full leaf, as they would then be too. */
+void release_repetitions(batch *b);
 void set_repeated_statuses(const batch *b, octree_status status);
 
 /* The items of each octant of a cell of this depth. Returns the octants that have any. */
@@ -103,6 +106,10 @@ octree_status restructure(batch *b);
  * whether there may be more than that in one cell that cannot be divided. True also when there is no memory to find
  * out. */
 bool may_overflow(const batch *b, const node *old, cell c, span arriving);
+
+/* Move the points while the tree is built anew. *settled is false where moves depend on one another; the tree is then
+ * unchanged, and the statuses are those of batch_begin(). Errors: NO_MEMORY. */
+octree_status remake_tree(batch *b, bool *settled);
 
 /* Give the moves their statuses one after the other in the order given, and list what leaves and arrives in the end.
  * The tree is not changed. False when there is no memory. */

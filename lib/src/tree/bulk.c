@@ -159,33 +159,63 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
 
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
 
+/* Ids that lie so close together have a bit each. */
+static bool are_dense(const batch *b, uint64_t least, uint64_t most)
+{
+    return most - least < 64 * (uint64_t)b->count;
+}
+
+static bool bits_differ(const batch *b, uint64_t least, uint64_t *bits)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        const uint64_t at = b->points[i].id - least, bit = UINT64_C(1) << at % 64;
+        if (bits[at / 64] & bit)
+            return false;
+        bits[at / 64] |= bit;
+    }
+    return true;
+}
+
+/* Open addressing with linear probing. */
+static bool hashes_differ(const batch *b, uint32_t *table, size_t slots)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        const uint64_t id = b->points[i].id;
+        size_t slot = (size_t)(id ^ (id >> 32) * UINT64_C(0x9e3779b97f4a7c15)) & (slots - 1);
+        for (; table[slot]; slot = (slot + 1) & (slots - 1))
+            if (b->points[table[slot] - 1].id == id)
+                return false;
+        table[slot] = (uint32_t)(i + 1);
+    }
+    return true;
+}
+
 /* Whether no two points of the batch have one id: then no move depends on another, but for those that meet a full
- * leaf. */
+ * leaf. False when there is no memory. */
 static bool ids_differ(const batch *b, bool *differ)
 {
-    size_t i = 1;
-    while (i < b->count && b->points[i].id > b->points[i - 1].id)
-        i++;
-    *differ = i >= b->count;
+    uint64_t least = UINT64_MAX, most = 0;
+    *differ = true;
+    for (size_t i = 0; i < b->count; i++) {
+        const uint64_t id = b->points[i].id;
+        *differ &= i == 0 || id > most; /* so far they ascend */
+        least = id < least ? id : least;
+        most = id > most ? id : most;
+    }
     if (*differ)
         return true;
     size_t slots = 64;
     while (slots < 2 * b->count)
         slots *= 2;
+    const bool dense = are_dense(b, least, most);
+    const size_t size = dense ? ((size_t)(most - least) / 64 + 1) * sizeof(uint64_t) : slots * sizeof(uint32_t);
     arena *memory = &b->tree->store.memory;
-    uint32_t *table = arena_take(memory, slots * sizeof *table);
+    void *table = arena_take(memory, size);
     if (!table)
         return false;
-    memset(table, 0, slots * sizeof *table);
-    *differ = true;
-    for (i = 0; *differ && i < b->count; i++) {
-        const uint64_t id = b->points[i].id;
-        size_t slot = (size_t)(id ^ (id >> 32) * UINT64_C(0x9e3779b97f4a7c15)) & (slots - 1);
-        for (; table[slot] && *differ; slot = (slot + 1) & (slots - 1))
-            *differ = b->points[table[slot] - 1].id != id;
-        table[slot] = (uint32_t)(i + 1);
-    }
-    arena_give(memory, table, slots * sizeof *table);
+    memset(table, 0, size);
+    *differ = dense ? bits_differ(b, least, table) : hashes_differ(b, table, slots);
+    arena_give(memory, table, size);
     return true;
 }
 
@@ -224,8 +254,7 @@ static void prefetch_points(const batch *b, const morton_item *items, size_t cou
 {
     for (size_t i = 0; i < count; i++) {
         prefetch(&b->points[items[i].place]);
-        if (!b->all_move)
-            prefetch(&b->to[items[i].place]);
+        prefetch(&b->to[items[i].place]);
     }
 }
 
@@ -252,9 +281,8 @@ static void find_moved(batch *b, node *leaf, unsigned depth, span items)
         index = find_after(leaf, index, &b->points[item->place]);
         if (index == LEAF_NONE)
             set_status(b, item, OCTREE_NOT_FOUND);
-        else if (!b->all_move)
+        else
             move_found(b, leaf, depth, item, index);
-        b->absent |= index == LEAF_NONE;
     }
 }
 
@@ -275,19 +303,11 @@ static void undo_moves(batch *b)
 /* Moves that do not depend on one another. *settled is false when they do after all; the tree is then unchanged. */
 static octree_status move_apart(batch *b, bool *settled)
 {
+    if (!take_lists(b))
+        return OCTREE_NO_MEMORY;
     b->may_be_stored = true;
     batch_visit_leaves(b, find_moved);
-    if (b->all_move && b->absent) { /* something stays after all */
-        *settled = false;
-        return OCTREE_OK;
-    }
-    if (b->all_move) {
-        b->leaving = b->valid;
-        b->done = b->arriving.count;
-    }
-    const bool refuses = b->tree->def.full_leaf == OCTREE_REFUSE;
-    morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count,
-                      b->all_move && !refuses ? unsorted_count(b->tree) : 0);
+    morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0);
     const octree_status status = restructure(b);
     *settled = !b->duplicate && !b->overflow;
     if (status != OCTREE_OK || !*settled)
@@ -297,6 +317,8 @@ static octree_status move_apart(batch *b, bool *settled)
 
 static octree_status move_in_order(batch *b)
 {
+    if (!b->lists && !take_lists(b))
+        return OCTREE_NO_MEMORY;
     b->leaving = (span){b->lists, 0};
     b->arriving.count = b->done = 0;
     b->may_be_stored = false;
@@ -307,9 +329,15 @@ static octree_status move_in_order(batch *b)
 static octree_status move_valid(batch *b)
 {
     bool settled = false;
-    if (!ids_differ(b, &settled))
+    octree_status status = OCTREE_OK;
+    if (b->valid.count == 0)
+        return OCTREE_OK;
+    if (b->remakes)
+        status = remake_tree(b, &settled);
+    else if (!ids_differ(b, &settled))
         return OCTREE_NO_MEMORY;
-    const octree_status status = settled ? move_apart(b, &settled) : OCTREE_OK;
+    else if (settled)
+        status = move_apart(b, &settled);
     return settled || status != OCTREE_OK ? status : move_in_order(b);
 }
 

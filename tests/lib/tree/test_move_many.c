@@ -225,6 +225,52 @@ static void every_share_moves_the_same(void **state)
         }
 }
 
+/* Ids that are dense or far apart, in any order; every seventh is stored at a second place, which stays or where its
+ * other point goes; every ninth is not stored where it is said to be. */
+static void many_moves_find_their_own_among_points_of_one_id(void **state)
+{
+    (void)state;
+    enum { COUNT = 2000 };
+    static const uint64_t factors[] = {1, 50, 0x9e3779b97f4a7c15u, UINT64_C(1) << 40};
+    static octree_point batch[COUNT];
+    static double to[COUNT][3];
+    static octree_status statuses[COUNT];
+    uint64_t random = 12;
+    for (size_t f = 0; f < 8; f++) {
+        octree *batched = make_tree(cube(-1, 1), 1 + 7 * f, 21, f % 2 ? OCTREE_GROW : OCTREE_REFUSE);
+        octree *stepped = make_tree(cube(-1, 1), 1 + 7 * f, 21, f % 2 ? OCTREE_GROW : OCTREE_REFUSE);
+        for (size_t i = 0; i < COUNT; i++) {
+            const size_t at = random_below(&random, i + 1);
+            octree_point made = {.id = i * factors[f / 2]}, *point = &batch[at];
+            double other[3];
+            drift(&random, &made, 1, made.position);
+            drift(&random, &made, 0.1, other);
+            for (octree *tree = batched; tree; tree = tree == batched ? stepped : NULL) {
+                octree_insert(tree, made.position, made.id);
+                if (i % 7 == 0 && f < 6)
+                    octree_insert(tree, other, made.id);
+            }
+            memcpy(to[i], to[at], sizeof to[i]);
+            batch[i] = *point;
+            *point = made;
+            drift(&random, &made, 0.1, to[at]);
+            if (i % 14 == 0 && f % 2 == 0 && f < 6)
+                memcpy(to[at], other, sizeof other);
+            if (i % 9 == 0)
+                point->position[1] = -point->position[1];
+        }
+        size_t of[OCTREE_STATUS_COUNT] = {0};
+        assert_int_equal(octree_move_many(batched, batch, (const double(*)[3])to, COUNT, statuses, NULL), OCTREE_OK);
+        for (size_t i = 0; i < COUNT; i++, of[statuses[i - 1]]++)
+            assert_int_equal(octree_move(stepped, batch[i].position, batch[i].id, to[i]), statuses[i]);
+        assert_trees_equal(batched, stepped);
+        assert_true(of[OCTREE_OK] > COUNT / 2 && of[OCTREE_NOT_FOUND] > COUNT / 20);
+        assert_true((of[OCTREE_DUPLICATE] > 0) == (f % 2 == 0 && f < 6));
+        octree_destroy(batched);
+        octree_destroy(stepped);
+    }
+}
+
 static void a_full_leaf_is_met_in_the_order_given(void **state)
 {
     (void)state;
@@ -351,6 +397,7 @@ int main(void)
         cmocka_unit_test(moves_at_once_are_the_same_as_one_by_one),
         cmocka_unit_test(moves_at_once_are_the_same_in_extreme_worlds),
         cmocka_unit_test(every_share_moves_the_same),
+        cmocka_unit_test(many_moves_find_their_own_among_points_of_one_id),
         cmocka_unit_test(a_full_leaf_is_met_in_the_order_given),
         cmocka_unit_test(a_pair_moves_on_within_one_batch),
         cmocka_unit_test(null_and_endless_arrays_are_refused),
