@@ -216,6 +216,48 @@ static void a_large_baseline_is_small(void **state)
     free(text);
 }
 
+/* Write a baseline that accepts each frame of a folder by one kind of digest, which follows from its place; `shift`
+ * makes that of the next one. */
+static void write_by_kinds(const char *folder, const char *path, int shift)
+{
+    diff_side frames = assert_side(folder), side = {.path = path, .kind = DIFF_DIGESTS, .baseline = true};
+    octreel_error error;
+    side.background = (image_color){255, 255, 255};
+    for (size_t i = 0; i < frames.count; i++) {
+        frame_digest digest = {.kind = (image_digest_kind)((i + (size_t)shift) % IMAGE_DIGEST_KINDS)};
+        assert_true(digest_frame(frames.frames[i].path, side.background, &digest, &error));
+        assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "why"}, &digest, &error));
+        assert_true(baseline_add(&side, frames.frames[i].name, &digest, 1, &error));
+    }
+    char *text = written(&side);
+    file_write_text(path, text);
+    free(text);
+    diff_side_release(&side);
+    diff_side_release(&frames);
+}
+
+/* What was accepted by an old kind of digest stays accepted by it. Files without a kind in common tell nothing. */
+static void each_digest_is_judged_by_its_own_kind(void **state)
+{
+    const place folder = gallery_make(*state, "a", "1.png 2.png 3.png"), file = place_in(*state, "a.txt"),
+                other = place_in(*state, "b.txt");
+    write_by_kinds(folder.path, file.path, 0);
+    write_by_kinds(folder.path, other.path, 1);
+    for (int turned = 0; turned < 2; turned++) {
+        comparison_of made = assert_compared(turned ? folder.path : file.path, turned ? file.path : folder.path, NULL);
+        assert_int_equal(made.result.found[FOUND_SAME_PIXELS], 3);
+        comparison_release(&made);
+    }
+    comparison_of made = assert_compared(file.path, other.path, NULL);
+    assert_int_equal(made.result.found[FOUND_UNREADABLE], IMAGE_DIGEST_KINDS > 1 ? 3 : 0);
+    comparison_release(&made);
+    gallery_write(place_below(folder.path, "1.png").path, 0, 3);
+    gallery_write(place_below(folder.path, "2.png").path, 1, 3);
+    made = assert_compared(file.path, folder.path, NULL);
+    assert_int_equal(made.result.found[FOUND_DIGEST], 2);
+    comparison_release(&made);
+}
+
 static void a_name_that_no_line_holds_is_refused(void **state)
 {
     (void)state;
@@ -239,6 +281,7 @@ int main(void)
         cmocka_unit_test(a_reason_is_named_by_what_it_says),
         cmocka_unit_test(a_thousand_reasons_have_names_and_too_many_are_refused),
         cmocka_unit_test(a_large_baseline_is_small),
+        cmocka_unit_test_setup_teardown(each_digest_is_judged_by_its_own_kind, temp_folder_make, nested_folder_remove),
         cmocka_unit_test(a_name_that_no_line_holds_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
