@@ -295,15 +295,9 @@ static octree_status apply_edit(octree_game *game, const octree_edit *edit)
     }
 }
 
-octree_status game_apply_edits(octree_game *game, const octree_input *input)
-{
-    for (size_t i = 0; i < input->edit_count; i++)
-        if (apply_edit(game, &input->edits[i]) == OCTREE_NO_MEMORY)
-            return OCTREE_NO_MEMORY;
-    return OCTREE_OK;
-}
+/* ---- Many moves at once --------------------------------------------------------------------------------------- */
 
-/* The moves of a tick. */
+/* No body twice. */
 typedef struct motion {
     octree_point *points; /* where the bodies are stored */
     double (*to)[3];
@@ -330,6 +324,15 @@ static void motion_give(motion *m, arena *memory)
     arena_give(memory, m->bodies, m->room * sizeof *m->bodies);
 }
 
+static void add_move(motion *m, const bodies *all, size_t index, const double to[3])
+{
+    const moving_body *body = &bodies_items(all)[index];
+    memcpy(m->points[m->count].position, body->position, sizeof body->position);
+    m->points[m->count].id = body->id;
+    memcpy(m->to[m->count], to, sizeof m->to[m->count]);
+    m->bodies[m->count++] = (uint32_t)index;
+}
+
 static void collect_motion(const octree_game *game, motion *m)
 {
     for (size_t i = 0; i < game->bodies.items.count; i++) {
@@ -337,12 +340,8 @@ static void collect_motion(const octree_game *game, motion *m)
         if (!is_moving(body->velocity))
             continue; /* its bits stay too: -0.0 plus nothing would be +0.0 */
         const octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
-        if (memcmp(now.position, body->position, sizeof now.position) == 0)
-            continue;
-        memcpy(m->points[m->count].position, body->position, sizeof body->position);
-        m->points[m->count].id = body->id;
-        memcpy(m->to[m->count], now.position, sizeof now.position);
-        m->bodies[m->count++] = (uint32_t)i;
+        if (memcmp(now.position, body->position, sizeof now.position) != 0)
+            add_move(m, &game->bodies, i, now.position);
     }
 }
 
@@ -370,6 +369,78 @@ static octree_status note_move(octree_game *game, const motion *m, size_t i)
         body_store(&bodies_items(&game->bodies)[m->bodies[i]], m->to[i], game->tick.number);
     }
     return note_unless_done(game, m->points[i].id, m->statuses[i], m->to[i]);
+}
+
+/* The moves from the first edit on of bodies that are there, each once: of one that comes again the next run tells. */
+static void collect_run(const octree_game *game, const octree_edit *edits, size_t count, uint32_t *seen, uint32_t run,
+                        motion *m)
+{
+    m->count = 0;
+    while (m->count < count) {
+        const octree_body *to = &edits[m->count].body;
+        const moving_body *body = bodies_find(&game->bodies, to->id);
+        const size_t index = body ? (size_t)(body - bodies_items(&game->bodies)) : 0;
+        if (!body || seen[index] == run)
+            break;
+        seen[index] = run;
+        add_move(m, &game->bodies, index, to->position);
+    }
+}
+
+static octree_status make_run(octree_game *game, motion *m)
+{
+    octree_status status = move_points(game->tree, m);
+    for (size_t i = 0; status == OCTREE_OK && i < m->count; i++) {
+        moving_body *body = &bodies_items(&game->bodies)[m->bodies[i]];
+        status = note_move(game, m, i) == OCTREE_NO_MEMORY ? OCTREE_NO_MEMORY : OCTREE_OK;
+        if (m->statuses[i] == OCTREE_OK)
+            restart(body, &game->session->tree.world, m->to[i], origin_tick(game));
+    }
+    return status;
+}
+
+/* Edits that are all moves. */
+static octree_status apply_moves(octree_game *game, const octree_edit *edits, size_t count)
+{
+    motion m = {0};
+    const size_t size = (game->bodies.items.count + 1) * sizeof(uint32_t);
+    uint32_t *seen = count <= UINT32_MAX ? arena_take(&game->memory, size) : NULL; /* the last run that moved a body */
+    octree_status status = seen && motion_take(&m, &game->memory, count) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    if (seen)
+        memset(seen, 0, size);
+    for (uint32_t run = 1; status == OCTREE_OK && count > 0; run++) {
+        collect_run(game, edits, count, seen, run, &m);
+        if (m.count > 0)
+            status = make_run(game, &m);
+        else if (apply_edit(game, edits) == OCTREE_NO_MEMORY) /* there is no such body */
+            status = OCTREE_NO_MEMORY;
+        edits += m.count ? m.count : 1;
+        count -= m.count ? m.count : 1;
+    }
+    motion_give(&m, &game->memory);
+    arena_give(&game->memory, seen, size);
+    return status;
+}
+
+static size_t count_moves(const octree_edit *edits, size_t count)
+{
+    size_t moves = 0;
+    while (moves < count && edits[moves].kind == OCTREE_EDIT_MOVE)
+        moves++;
+    return moves;
+}
+
+octree_status game_apply_edits(octree_game *game, const octree_input *input)
+{
+    const octree_edit *edits = input->edits;
+    octree_status status = OCTREE_OK;
+    for (size_t left = input->edit_count; status != OCTREE_NO_MEMORY && left > 0;) {
+        const size_t moves = count_moves(edits, left), made = moves >= MANY ? moves : 1;
+        status = moves >= MANY ? apply_moves(game, edits, moves) : apply_edit(game, edits);
+        edits += made;
+        left -= made;
+    }
+    return status == OCTREE_NO_MEMORY ? status : OCTREE_OK;
 }
 
 octree_status game_move_bodies(octree_game *game)
