@@ -167,7 +167,8 @@ static void put_title(FILE *out, const char *name, int section, const char *line
 {
     fputs(".TH \"", out);
     put_page_name(out, name);
-    fprintf(out, "\" %d %s \"Octreel %s\" Octreel\n.nh\n.ad l\n.SH NAME\n", section, OCTREEL_DATE, OCTREEL_VERSION);
+    fprintf(out, "\" %d %s \"Octreel %s\" Octreel\n.nr HY 0\n.ad l\n.SH NAME\n", section, OCTREEL_DATE,
+            OCTREEL_VERSION);
     put_page_name(out, name);
     fputs(" \\- ", out);
     put_sentence(out, line);

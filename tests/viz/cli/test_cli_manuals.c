@@ -78,11 +78,12 @@ static void assert_content(void **state, const char *program, const char *comman
         print_message("%s is not installed: nobody judges the manuals\n", program);
         skip();
     }
-    for (size_t i = 0; i < PAGES; i++) {
-        command_result said = run_script("cd %s && %s help --man %s > page && %s page 2>&1 >/dev/null", own->name,
-                                         octreel_program(), pages[i], command);
+    for (size_t i = 0; i <= PAGES; i++) {
+        command_result said =
+            run_script("cd %s && %s help --man %s > page && %s %s 2>&1 >/dev/null", own->name, octreel_program(),
+                       i < PAGES ? pages[i] : pages[0], command, i < PAGES ? "page" : shell_quote(OCTREE_MANUAL).text);
         if (*said.out || *said.err)
-            fail_msg("%s: %s%s", pages[i], said.out, said.err);
+            fail_msg("%s: %s%s", i < PAGES ? pages[i] : "octree(3)", said.out, said.err);
         command_release(&said);
     }
 }
@@ -96,6 +97,29 @@ static void man_has_no_warning(void **state)
 static void mandoc_has_no_warning(void **state)
 {
     assert_content(state, "mandoc", "mandoc -Tlint -Wwarning");
+}
+
+/* Each name that is declared at the beginning of a line. */
+static void manual_of_the_library_has_every_function(void **state)
+{
+    (void)state;
+    char *header = file_read(OCTREE_HEADER, NULL), *manual = file_read(OCTREE_MANUAL, NULL);
+    size_t found = 0;
+    for (const char *line = header; *line; line += strcspn(line, "\n") + 1) {
+        const char *end = line + strcspn(line, "(\n"), *at = end;
+        char wanted[72];
+        while (at > line && (at[-1] == '_' || (at[-1] >= 'a' && at[-1] <= 'z')))
+            at--;
+        if (*end != '(' || at == line || at == end || *line < 'a' || strncmp(line, "typedef", 7) == 0)
+            continue;
+        snprintf(wanted, sizeof wanted, "%.*s(", (int)(end - at), at);
+        if (!strstr(manual, wanted))
+            fail_msg("octree(3) does not tell of %s", wanted);
+        found++;
+    }
+    assert_true(found > 40);
+    free(header);
+    free(manual);
 }
 
 /* Names within quotes before a colon. */
@@ -135,8 +159,7 @@ static void every_member_of_a_recording_is_told(void **state)
     command_release(&filmed);
     static const char *const files[] = {"ticks.jsonl", "recording.json", "renderer.json"};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        size_t size;
-        char *json = file_read(place_below(place_in(*state, "film").path, files[i]).path, &size);
+        char *json = file_read(place_below(place_in(*state, "film").path, files[i]).path, NULL);
         assert_names_are_told(json, told.out);
         free(json);
     }
@@ -152,6 +175,7 @@ int main(void)
         cmocka_unit_test(every_manual_has_its_sections),
         IN_FOLDER(man_has_no_warning),
         IN_FOLDER(mandoc_has_no_warning),
+        cmocka_unit_test(manual_of_the_library_has_every_function),
         IN_FOLDER(every_member_of_a_recording_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
