@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+/* recorder_bench.c - octreel-recorder-bench: what the embedded recorder takes from the thread of the program that hands
+ * its tree over, beside what the program's own tick takes. */
+#include "measuring.h"
+#include "octreel/recorder.h"
+#include "octree/sample.h"
+#include "program.h"
+#include "run_program.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+const char program_name[] = "octreel-recorder-bench";
+
+enum { TICKS = 60, SETTLED = 3 /* ticks after which the tree tells what changes */ };
+
+/* A program's points, of which so many move at each tick; the most that the recorder is to take, 0: no goal. */
+typedef struct program {
+    size_t points, moved;
+    double tick_us, first_ms;
+} program;
+
+static const program programs[] = {
+    {1000, 10, 10, 0}, {10000, 100, 0, 0}, {100000, 1000, 500, 100}, {100000, 100000, 0, 0}};
+
+typedef struct times {
+    double first_ms;                    /* by the clock on the wall: the recorder begins */
+    double recorder[TICKS], own[TICKS]; /* microseconds of the program's thread */
+} times;
+
+static double clock_ns(clockid_t clock)
+{
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
+}
+
+static octree *make_tree(const program *p, double (*places)[3])
+{
+    octree_def def = octree_def_default();
+    octree *tree;
+    def.leaf_capacity = 8;
+    def.full_leaf = OCTREE_GROW;
+    if (octree_create(&def, &tree) != OCTREE_OK ||
+        octree_sample(OCTREE_SAMPLE_CLUSTERED, 1, &def.world, p->points, places) != OCTREE_OK)
+        stop("there is no memory");
+    for (size_t i = 0; i < p->points; i++)
+        if (octree_insert(tree, places[i], i) != OCTREE_OK)
+            stop("a point is refused");
+    return tree;
+}
+
+/* Every so many-th point goes a small way, and others at the next tick. */
+static void move_some(octree *tree, const program *p, double (*places)[3], int tick)
+{
+    const size_t step = p->points / p->moved;
+    for (size_t i = (size_t)tick % step; i < p->points; i += step) {
+        double to[3];
+        for (int axis = 0; axis < 3; axis++)
+            to[axis] = places[i][axis] + (places[i][axis] < 0 ? 3 : -3);
+        if (octree_move(tree, places[i], i, to) != OCTREE_OK)
+            stop("a move is refused");
+        memcpy(places[i], to, sizeof to);
+    }
+}
+
+static void hand_over(octreel_recorder *recorder, const octree *tree)
+{
+    if (octreel_recorder_tick(recorder, tree, NULL) != OCTREEL_OK)
+        stop("%s", octreel_recorder_error(recorder));
+}
+
+static void record(const program *p, const char *folder, times *t)
+{
+    double(*places)[3] = memory(NULL, p->points * sizeof *places);
+    octree *tree = make_tree(p, places);
+    octreel_recorder_def def = octreel_recorder_def_default();
+    octreel_recorder *recorder;
+    octreel_error why;
+    def.folder = folder;
+    def.replace = true;
+    def.tree = octree_definition(tree);
+    def.every = 2 * TICKS; /* the worker draws the first frame: the others are no part of this */
+    if (octreel_recorder_open(&def, &recorder, &why) != OCTREEL_OK)
+        stop("%s", why.text);
+    const double start = clock_ns(CLOCK_MONOTONIC);
+    hand_over(recorder, tree);
+    t->first_ms = (clock_ns(CLOCK_MONOTONIC) - start) / 1e6;
+    for (int tick = 0; tick < SETTLED + TICKS; tick++) {
+        const double before = clock_ns(CLOCK_THREAD_CPUTIME_ID);
+        move_some(tree, p, places, tick);
+        const double between = clock_ns(CLOCK_THREAD_CPUTIME_ID);
+        hand_over(recorder, tree);
+        const double after = clock_ns(CLOCK_THREAD_CPUTIME_ID);
+        if (tick >= SETTLED) {
+            t->own[tick - SETTLED] = (between - before) / 1e3;
+            t->recorder[tick - SETTLED] = (after - between) / 1e3;
+        }
+    }
+    if (octreel_recorder_close(recorder) != OCTREEL_OK)
+        stop("%s", octreel_recorder_error(recorder));
+    octreel_recorder_destroy(recorder);
+    octree_destroy(tree);
+    free(places);
+}
+
+static void print_program(const program *p, times *t)
+{
+    const double own = median(t->own, TICKS), recorder = median(t->recorder, TICKS);
+    printf("%8zu %8zu %12.1f %12.1f", p->points, p->moved, own, recorder);
+    if (p->tick_us > 0)
+        printf(" <= %5g %-6s", p->tick_us, recorder <= p->tick_us ? "holds" : "missed");
+    else
+        printf(" %15s", "");
+    printf(" %12.1f %10.1f", t->recorder[TICKS - 1], t->first_ms);
+    if (p->first_ms > 0)
+        printf(" < %3g %s", p->first_ms, t->first_ms < p->first_ms ? "holds" : "missed");
+    putchar('\n');
+}
+
+int main(int argc, char **argv)
+{
+    static const struct option options[] = {
+        {"quick", no_argument, NULL, 'q'}, {"help", no_argument, NULL, 'h'}, {NULL, 0, NULL, 0}};
+    size_t count = sizeof programs / sizeof *programs;
+    char folder[] = "recorder_bench_XXXXXX";
+    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
+        if (option == '?')
+            return EXIT_TROUBLE; /* getopt has said why */
+        if (option == 'h') {
+            puts("octreel-recorder-bench - what the embedded recorder takes from the thread of a program that hands "
+                 "its\n"
+                 "tree over, by that thread's processor time: medians of ticks, after the first few\n\n"
+                 "usage: octreel-recorder-bench [--quick]\n\n"
+                 "      --quick   the smallest program alone: the times mean nothing\n"
+                 "  -h, --help\n\n"
+                 "own us        the program's own tick: single moves\n"
+                 "recorder us   handing the tree over, and the slowest such tick\n"
+                 "first ms      tick 0, by the clock on the wall\n"
+                 "Exit status: 0 done, whether or not goals were reached, 2 trouble.");
+            finish(EXIT_DONE);
+        }
+        count = 1;
+    }
+    if (optind < argc)
+        stop("there is no argument \"%s\"; try --help", argv[optind]);
+    if (!mkdtemp(folder))
+        stop("a folder for the recording: %s", strerror(errno));
+    printf("%8s %8s %12s %12s %15s %12s %10s\n", "points", "moved", "own us", "recorder us", "goal", "slowest us",
+           "first ms");
+    for (size_t i = 0; i < count; i++) {
+        times t;
+        record(&programs[i], folder, &t);
+        print_program(&programs[i], &t);
+    }
+    const char *const clean_up[] = {"rm", "-r", folder, NULL};
+    program_run run;
+    if (!run_program(clean_up, &run) || run.status != 0)
+        stop("%s cannot be removed", folder);
+    finish(EXIT_DONE);
+}
