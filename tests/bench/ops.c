@@ -4,6 +4,11 @@
 
 #include "peers.h"
 
+/* A goal of 1.5 was set when a search took twice as long: what a batch shared is now prefetched by each search alone.
+ */
+#define SINGLE_SEARCHES "no goal on one thread: single searches prefetch as well; an executor divides a batch"
+#define GRID "where so much moves each tick and points are spread evenly, use a grid that is built anew"
+
 const op all_ops[OPS] = {
     {"build", STAGE_FILL, .change = PEER_BUILD, .goal = {AT_LEAST, 3}},
     {"insert", STAGE_FILL, .change = PEER_INSERT, .goal = {AT_LEAST, 3}},
@@ -19,9 +24,9 @@ const op all_ops[OPS] = {
     {"nearest", STAGE_STATIC, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 2}},
     {"knn8", STAGE_STATIC, .ask = PEER_KNN, .most = 50000, .goal = {AT_LEAST, 2}},
     {"nearest_batch", STAGE_STATIC, .ask = PEER_NEAREST_BATCH, .most = 100000, .rival = "octree-singly",
-     .rival_ask = PEER_NEAREST, .goal = {AT_LEAST, 1.5}},
+     .rival_ask = PEER_NEAREST, .note = SINGLE_SEARCHES},
     {"nearest_all", STAGE_STATIC, .ask = PEER_NEAREST_ALL, .most = 100000, .rival = "octree-singly",
-     .rival_ask = PEER_NEAREST},
+     .rival_ask = PEER_NEAREST, .note = SINGLE_SEARCHES},
     {"nearest_fast", STAGE_STATIC, .ask = PEER_NEAREST_FAST, .most = 100000, .rival = "octree-exact",
      .rival_ask = PEER_NEAREST, .goal = {AT_MOST, 1.1}},
     {"nearest_churned", STAGE_CHURNED, .ask = PEER_NEAREST, .most = 100000, .goal = {AT_LEAST, 1 / 1.15}},
@@ -30,8 +35,8 @@ const op all_ops[OPS] = {
     {"remove_1%", STAGE_BATCHES, .batch = BATCH_REMOVE, .percent = 1, .goal = {AT_LEAST, 1.5}},
     {"remove_10%", STAGE_BATCHES, .batch = BATCH_REMOVE, .percent = 10, .goal = {AT_LEAST, 1.5}},
     {"frame_1%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 1},
-    {"frame_10%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 10},
-    {"frame_100%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 100},
+    {"frame_10%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 10, .note = GRID},
+    {"frame_100%", STAGE_BATCHES, .batch = BATCH_FRAME, .percent = 100, .note = GRID},
     {"auto_mixed", STAGE_TUNED, .ask = PEER_MIXED, .most = 50000, .hits = 10, .mix = {1, 1, 1, 1, 10},
      .goal = {AT_LEAST, 1 / 1.2}},
     {"auto_find", STAGE_TUNED, .ask = PEER_FIND, .most = 100000, .stored = true, .mix = {.changes = 1},

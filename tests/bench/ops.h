@@ -36,6 +36,7 @@ typedef struct op {
     size_t percent;          /* ... this share of the points */
     octree_mix mix;          /* STAGE_TUNED: what the capacity is chosen for */
     goal goal;
+    const char *note; /* may be null: when something else is the better choice, or why there is no goal */
 } op;
 
 enum { OPS = 29 };

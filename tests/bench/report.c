@@ -40,6 +40,8 @@ void report_row(const op *o, const workload *w, const lineup *l, void *context)
         printf(" %12.1f  %-16s %6.2f", other->ns, other->who, other->ns / mine->ns);
         print_goal(o->goal, other->ns / mine->ns);
     }
+    if (o->note)
+        printf("  (%s)", o->note);
     putchar('\n');
     fflush(stdout);
 }

@@ -243,6 +243,46 @@ static void edits_come_before_motion_and_motion_before_the_step(void **state)
     octree_game_destroy(game);
 }
 
+/* In one game in ascending order of their ids, which one call of the tree moves; in the other in pairs that descend. */
+static void many_edits_that_move_do_the_same_at_once_as_one_by_one(void **state)
+{
+    (void)state;
+    enum { BODIES = 600, EDITS = 640 };
+    static octree_body bodies[BODIES];
+    static octree_edit edits[2][EDITS];
+    uint64_t random = 3;
+    for (size_t i = 0; i < EDITS; i++) {
+        octree_body *body = i < BODIES ? &bodies[i] : &(octree_body){.id = 0}, to = {.id = 1000 + i};
+        for (int axis = 0; axis < 3; axis++) {
+            body->position[axis] = random_between(&random, -10, 10);
+            body->velocity[axis] = i % 3 ? random_between(&random, -1, 1) : 0;
+            to.position[axis] = random_between(&random, -10, i % 50 == 9 ? 20 : 10);
+        }
+        body->id = 1000 + i;
+        edits[0][i] = edits[1][i ^ 1] = (octree_edit){2, OCTREE_EDIT_MOVE, to};
+    }
+    octree_game *games[2];
+    for (int g = 0; g < 2; g++) {
+        octree_session session = small_session(bodies, BODIES);
+        session.tree = define(cube(-10, 10), 4, 21, OCTREE_GROW);
+        session.edits = edits[g];
+        session.edit_count = EDITS;
+        games[g] = start_game(&session);
+        for (int tick = 1; tick <= 3; tick++)
+            assert_int_equal(play_key(games[g], '.')->refusal_count > EDITS - BODIES, tick == 2);
+    }
+    for (size_t i = 0; i < BODIES; i++) {
+        octree_point found[2];
+        assert_true(octree_game_find(games[0], 1000 + i, &found[0]) && octree_game_find(games[1], 1000 + i, &found[1]));
+        assert_memory_equal(&found[0], &found[1], sizeof found[0]);
+        assert_true(octree_contains(octree_game_tree(games[0]), found[0].position, 1000 + i));
+    }
+    assert_true(octree_digest(octree_game_tree(games[0])) == octree_digest(octree_game_tree(games[1])));
+    assert_int_equal(octree_game_tick(games[0])->stats.nodes, octree_game_tick(games[1])->stats.nodes);
+    octree_game_destroy(games[0]);
+    octree_game_destroy(games[1]);
+}
+
 static void an_edit_moves_a_body_and_keeps_its_velocity(void **state)
 {
     (void)state;
@@ -427,6 +467,7 @@ int main(void)
         cmocka_unit_test(an_edit_that_cannot_be_made_is_a_refusal),
         cmocka_unit_test(an_edit_cannot_take_the_player_away),
         cmocka_unit_test(edits_come_before_motion_and_motion_before_the_step),
+        cmocka_unit_test(many_edits_that_move_do_the_same_at_once_as_one_by_one),
         cmocka_unit_test(an_edit_moves_a_body_and_keeps_its_velocity),
         cmocka_unit_test(a_body_that_leaves_makes_room_for_a_step_in_the_same_tick),
         cmocka_unit_test(queries_are_asked_at_their_ticks_after_the_step),
