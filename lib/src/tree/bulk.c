@@ -2,6 +2,7 @@
 /* bulk.c - many points inserted, removed or moved at once: their statuses, and what leaves and arrives. */
 #include "batch.h"
 #include "float_rules.h"
+#include "tasks.h"
 
 #include <string.h>
 
@@ -103,16 +104,27 @@ static octree_status insert_few(octree *tree, const octree_point *points, size_t
     return status;
 }
 
-enum { FEW = 20 }; /* as many times more points are stored than a few */
+enum {
+    FEW = 20, /* as many times more points are stored than a few; */
+    FEW_OF_CACHED = 8,
+    CACHED =
+        300000 /* and fewer times more of so many points, which a processor's caches hold: there, sorting gains less */
+};
+
+static bool is_few(const octree *tree, size_t count)
+{
+    const uint32_t stored = tree->root.count;
+    return count > 0 && tasks_for(tree, count) == 1 && count < stored / (stored < CACHED ? FEW_OF_CACHED : FEW) &&
+           count <= UINT32_MAX - stored;
+}
 
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted)
 {
     if (tree && change_log_is_on(&tree->changes))
         return change_log_batch(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
-    const bool is_few = tree && points && count > 0 && count < tree->root.count / FEW &&
-                        count <= UINT32_MAX - tree->root.count && float_mode_is_default();
-    const octree_status status = (is_few ? insert_few : insert_all)(tree, points, count, statuses, inserted);
+    const bool singly = tree && points && is_few(tree, count) && float_mode_is_default();
+    const octree_status status = (singly ? insert_few : insert_all)(tree, points, count, statuses, inserted);
     if (status == OCTREE_OK)
         tune_if_due(tree);
     return status;
