@@ -10,7 +10,7 @@
 
 typedef struct arguments {
     const char *from, *date, *reason, *store;
-    bool variant;
+    bool variant, json;
 } arguments;
 
 static bool read_date(const command_option *option, const char *text, void *into)
@@ -43,6 +43,7 @@ static const command_option options[] = {
      "put the pictures there, each under the digest of its pixels, for octreel diff --store to show what was expected; "
      "no verdict depends on it",
      .read = read_folder, OPTION_VALUE(arguments, store)},
+    JSON_OPTION(arguments, json, "print what was done as JSON, with all frames that it was done to"),
     {0},
 };
 
@@ -66,11 +67,12 @@ static int accept_them(const arguments *a, char **paths, int count)
                                 .names = &names,
                                 .words = {a->date ? a->date : today(date), a->reason},
                                 .store = a->store,
-                                .variant = a->variant};
+                                .variant = a->variant,
+                                .json = a->json};
     bool ok = !a->from || frame_list_read(&names, a->from, &error);
     for (int i = 2; ok && i < count; i++)
         ok = frame_list_add(&names, paths[i], 0, &error);
-    ok = ok && accept_frames(&all, is_quiet() ? NULL : stdout, &error);
+    ok = ok && accept_frames(&all, is_quiet() && !a->json ? NULL : stdout, &error);
     frame_list_release(&names);
     return ok ? EXIT_DONE : trouble("%s", error.text);
 }

@@ -4,6 +4,7 @@
 #include "digest_file.h"
 #include "file_kind.h"
 #include "png_read.h"
+#include "json_write.h"
 #include "text.h"
 #include "diff_words.h"
 #include "file.h"
@@ -185,10 +186,11 @@ static bool write_picture(const accepting *a, const diff_pair *pair, action what
     return ok;
 }
 
+static const char *const action_words[] = {[CHANGED] = "changed", [ADDED] = "new", [REMOVED] = "removed"};
+
 static void say(const accepting *a, const diff_pair *pair, action what)
 {
-    static const char *const words[] = {[CHANGED] = "changed", [ADDED] = "new", [REMOVED] = "removed"};
-    fprintf(a->out, "  %-8s ", words[what]);
+    fprintf(a->out, "  %-8s ", action_words[what]);
     if (what == CHANGED)
         diff_print_pair(a->out, pair);
     else
@@ -262,6 +264,37 @@ static void tell(const accepting *a)
         fprintf(a->out, "Its ticks are still those of before; to take them over too, accept all frames.\n");
 }
 
+static void tell_frames_as_json(const accepting *a, json_writer *w)
+{
+    json_member_integer(w, "before", a->reference.count);
+    json_member_integer(w, "after", a->reference.count + a->counts[ADDED] - a->counts[REMOVED]);
+    for (action what = CHANGED; what <= REMOVED; what++)
+        json_member_integer(w, action_words[what], a->counts[what]);
+    json_member_begin_array(w, "frames");
+    for (size_t i = 0; i < a->result.count; i++) {
+        if (a->actions[i] == KEPT)
+            continue;
+        json_write_begin_object(w);
+        json_member_text(w, "name", diff_pair_name(&a->result.pairs[i]));
+        json_member_text(w, "action", action_words[a->actions[i]]);
+        json_write_end_object(w);
+    }
+    json_write_end_array(w);
+}
+
+static void tell_as_json(const accepting *a)
+{
+    json_writer writer = {.out = a->out}, *w = &writer;
+    json_write_begin_object(w);
+    json_member_text(w, "reference", a->reference.path);
+    if (a->result.by_ticks)
+        json_member_text(w, "ticks", a->result.verdict == DIFF_SAME ? "same" : "new");
+    else
+        tell_frames_as_json(a, w);
+    json_write_end_object(w);
+    json_write_end_line(w);
+}
+
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error)
 {
     accepting a = {.options = options, .out = out};
@@ -269,7 +302,7 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
     const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && check_ended(&a.frames, error) &&
                     (a.is_new || check_ended(&a.reference, error)) && compare(&a, error) && write_all(&a, error);
     if (ok && out)
-        tell(&a);
+        (options->json ? tell_as_json : tell)(&a);
     free(a.actions);
     diff_release(&a.result);
     diff_side_release(&a.reference);

@@ -63,6 +63,21 @@ static void all_new_frames_become_the_reference(void **state)
     command_release(&result);
 }
 
+static void json_lists_what_was_done(void **state)
+{
+    const change c = make_change(state);
+    char expected[3000];
+    snprintf(expected, sizeof expected,
+             "{\"reference\": \"%s\", \"before\": 3, \"after\": 3, \"changed\": 1, \"new\": 1, \"removed\": 1, "
+             "\"frames\": [{\"name\": \"2.png\", \"action\": \"changed\"}, {\"name\": \"3.png\", \"action\": "
+             "\"removed\"}, {\"name\": \"4.png\", \"action\": \"new\"}]}\n",
+             c.before.path);
+    command_result result = run_octreel(NULL, "accept --json -q %s %s", c.before.path, c.after.path);
+    assert_done(&result);
+    assert_string_equal(result.out, expected);
+    command_release(&result);
+}
+
 static void named_frames_alone_are_taken_over(void **state)
 {
     const change c = make_change(state);
@@ -277,6 +292,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(recording_that_is_still_filmed_is_refused),
         WITH_FOLDER(all_new_frames_become_the_reference),
+        WITH_FOLDER(json_lists_what_was_done),
         WITH_FOLDER(named_frames_alone_are_taken_over),
         WITH_FOLDER(nothing_is_accepted_where_ci_is_set),
         WITH_FOLDER(same_pixels_leave_a_reference_alone),
