@@ -9,6 +9,21 @@
 /* Text that begins so many pixels away does not reach into a picture. */
 #define FARTHEST 1e6
 
+/* From a place to beside it, where words begin. If it is in the picture, they are not cut at its edge. */
+static void move_beside(const scene *s, const scene_label *label, double pixel[2])
+{
+    const int aside[2] = {s->text.width / 2, -(s->text.height / 2)};
+    const double room[2] = {s->view.width - (double)strlen(label->text) * s->text.width,
+                            (double)s->view.height - s->text.height};
+    const double limit[2] = {s->view.width, s->view.height};
+    for (int i = 0; i < 2; i++) {
+        const bool inside = pixel[i] < limit[i];
+        pixel[i] += aside[i];
+        if (inside && room[i] >= 0 && pixel[i] > room[i])
+            pixel[i] = room[i];
+    }
+}
+
 /* The pixel of the text's top left corner; false when its position is not visible. Text begins at whole pixels under
  * anti-aliasing too, and stays crisp. */
 static bool place(const scene *s, const scene_label *label, int *x, int *y)
@@ -18,8 +33,9 @@ static bool place(const scene *s, const scene_label *label, int *x, int *y)
     if (label->in_world) {
         if (!project_point(s, label->at, pixel, &band))
             return false;
-        pixel[0] = pixel[0] / view_samples(&s->view) + s->text.width / 2;
-        pixel[1] = pixel[1] / view_samples(&s->view) - s->text.height / 2;
+        pixel[0] /= view_samples(&s->view);
+        pixel[1] /= view_samples(&s->view);
+        move_beside(s, label, pixel);
     }
     if (!(fabs(pixel[0]) < FARTHEST && fabs(pixel[1]) < FARTHEST))
         return false;
@@ -28,32 +44,41 @@ static bool place(const scene *s, const scene_label *label, int *x, int *y)
     return true;
 }
 
-/* Add the parts of a letter whose cell begins at x and y, in subpixels; `pixel` is one of the face. What the face does
- * not have is drawn as a question mark. */
-static void add_letter(quad_list *list, quad *q, const glyph_set *set, char letter, int x, int y, int pixel)
+/* Add the parts of a letter whose cell begins at x and y, in subpixels, each larger by `rim` on all sides; `pixel` is
+ * one of the face. What the face does not have is drawn as a question mark. */
+static void add_letter(quad_list *list, quad *q, const glyph_set *set, char letter, int x, int y, int pixel, int rim)
 {
     const unsigned at = (unsigned char)letter - (unsigned)GLYPH_FIRST;
     const unsigned i = at < GLYPH_COUNT ? at : '?' - GLYPH_FIRST;
     for (const glyph_part *part = set->parts + set->first[i]; part < set->parts + set->first[i + 1]; part++) {
-        const int left = x + part->x * pixel, top = y + part->y * pixel;
-        const int right = left + part->width * pixel, bottom = top + part->height * pixel;
+        const int left = x + part->x * pixel - rim, top = y + part->y * pixel - rim;
+        const int right = left + part->width * pixel + 2 * rim, bottom = top + part->height * pixel + 2 * rim;
         memcpy(q->x, (int32_t[]){left, right, right, left}, sizeof q->x);
         memcpy(q->y, (int32_t[]){top, top, bottom, bottom}, sizeof q->y);
         quads_add(list, q);
     }
 }
 
+/* Pixels of the rim about a label's letters. */
+static int rim_of(const scene *s, const scene_label *label)
+{
+    return label->style.stroke != STROKE_CUT ? 0 : s->unit > 2 ? s->unit / 2 : 1;
+}
+
 void letters_add(quad_list *list, const scene *s, const scene_label *label)
 {
     const lettering *letters = scene_lettering(s, label);
     const int sub = QUAD_SUBPIXELS * view_samples(&s->view);
-    quad q = {.color = theme_index(label->style.role, 0), .order = quad_order_of_text(label->style.layer)};
+    quad q = {.order = quad_order_of_text(label->style.layer)};
     int left, top;
     if (!place(s, label, &left, &top))
         return;
-    for (int i = 0; label->text[i]; i++)
-        add_letter(list, &q, &glyph_sets[letters->face], label->text[i], (left + i * letters->width) * sub, top * sub,
-                   letters->multiple * sub);
+    for (int rim = rim_of(s, label); rim >= 0; rim = rim > 0 ? 0 : -1) {
+        q.color = theme_index(rim > 0 ? ROLE_BACKGROUND : label->style.role, 0);
+        for (int i = 0; label->text[i]; i++)
+            add_letter(list, &q, &glyph_sets[letters->face], label->text[i], (left + i * letters->width) * sub,
+                       top * sub, letters->multiple * sub, rim * sub);
+    }
 }
 
 /* The box around a label's letters; false when it is not visible. */
@@ -62,8 +87,11 @@ static bool find_box(const scene *s, const scene_label *label, draw_box *box)
     const lettering *letters = scene_lettering(s, label);
     if (!place(s, label, &box->x, &box->y))
         return false;
-    box->width = (int)strlen(label->text) * letters->width;
-    box->height = letters->height;
+    const int rim = rim_of(s, label);
+    box->x -= rim;
+    box->y -= rim;
+    box->width = (int)strlen(label->text) * letters->width + 2 * rim;
+    box->height = letters->height + 2 * rim;
     return true;
 }
 

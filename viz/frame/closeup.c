@@ -293,12 +293,16 @@ static void add_scale(scene *s)
                          .at = {margin, s->view.height - margin - s->text.height - 3 * unit}};
     if (!(length > 0) || !isfinite(end))
         return;
+    snprintf(label.text, sizeof label.text, "%s, enlarged %sx", number_text(length, 6, number),
+             number_text(s->times, 6, times));
+    const int wide = (int)fmax(end - margin, (double)strlen(label.text) * s->text.width);
+    scene_add_rectangle(s, SCALE_ID, (int[]){margin - unit, (int)label.at[1] - unit},
+                        (int[]){wide + 2 * unit, s->view.height - margin + 2 * unit - (int)label.at[1] + unit},
+                        LAYER_CLOSEUP, ROLE_BACKGROUND);
     add_flat(s, SCALE_ID, x, y, end, y, ROLE_TEXT);
     add_flat(s, SCALE_ID + 1, x, y - rise, x, y + 1, ROLE_TEXT);
     add_flat(s, SCALE_ID + 2, end, y - rise, end, y + 1, ROLE_TEXT);
-    snprintf(label.text, sizeof label.text, "%s, enlarged %sx", number_text(length, 6, number),
-             number_text(s->times, 6, times));
-    text_add_on_ground(s, &label, ROLE_BACKGROUND);
+    scene_add_label(s, label);
 }
 
 /* What the budget leaves out. */

@@ -87,21 +87,21 @@ static void leave_out(legend *l, size_t place)
     l->count -= end - place;
 }
 
-/* Leave out lines until at most `room` are left, and return how many are missing beyond those dropped by worth. */
+/* Leave out lines until they fit with one that says how many they are, which is returned. */
 static size_t make_fit(legend *l, size_t room)
 {
+    const size_t needed = l->count, left = room ? room - 1 : 0;
+    if (needed <= room)
+        return 0;
     for (legend_worth least = WORTH_ABSENT; least > WORTH_FULL; least--)
-        for (size_t i = 0; i < l->count && l->count > room;)
+        for (size_t i = 0; i < l->count && l->count > left;)
             if (l->lines[i].worth == least)
                 leave_out(l, i);
             else
                 i++;
-    const size_t needed = l->count;
-    if (needed <= room)
-        return 0;
-    l->count = room ? room - 1 : 0;
-    while (l->count && continues(&l->lines[l->count]))
-        l->count--;
+    if (l->count > left)
+        for (l->count = left; l->count && continues(&l->lines[l->count]);)
+            l->count--;
     return needed - l->count;
 }
 

@@ -83,7 +83,7 @@ void legend_add_scale(legend *l, legend_scale scale);
 void write_scale(pen *p, const legend_scale *scale);
 
 /* Write the lines of the view's layers below the pen. When they do not fit, lines are dropped by their worth, and then
- * from the end, with a final line that counts these. */
+ * from the end, with a final line that counts them. */
 void write_legend(pen *p, const layer_source *in);
 
 #endif

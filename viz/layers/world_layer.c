@@ -79,8 +79,9 @@ static void add_tick(axes *a, int axis, double at, uint64_t id)
     char text[NUMBER_TEXT];
     snprintf(number.text, sizeof number.text, "%s", number_text(at, DIGITS, text));
     scene_add_line(s, id, from, to, axis_style);
+    number.style.stroke = STROKE_CUT;
     if (place_number(a, to, &number))
-        text_add_on_ground(s, &number, ROLE_BACKGROUND);
+        scene_add_label(s, number);
 }
 
 /* An axis seen end on would have all its numbers at one place. */
@@ -128,6 +129,7 @@ static void add_letter(axes *a, int axis)
         return;
     scene_label letter = {.id = (uint64_t)axis, .style = axis_style, .text = {(char)('x' + axis), 0}};
     double end[3];
+    letter.style.stroke = STROKE_CUT;
     memcpy(end, a->box->min, sizeof end);
     end[axis] = a->box->max[axis];
     letter.in_world = !place_letter(a, end, &letter);
@@ -199,7 +201,7 @@ static void describe(description *d, const described *element)
     } else if (element->kind == SCENE_SEGMENT) {
         say(d, "a mark of an axis");
     } else {
-        say(d, element->kind == SCENE_PANEL ? "the ground of a number of an axis" : " of an axis");
+        say(d, " of an axis");
     }
 }
 

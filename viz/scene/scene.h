@@ -17,7 +17,8 @@
 typedef enum scene_stroke {
     STROKE_SOLID,
     STROKE_DASHED,
-    STROKE_CUT,   /* dashed, with gaps in the background colour: a solid line beneath looks dashed */
+    STROKE_CUT,   /* dashed, with gaps in the background colour: a solid line beneath looks dashed; letters have a rim
+                     in it */
     STROKE_ARROW, /* solid, with a head at its second end where it is long enough to be seen */
 } scene_stroke;
 

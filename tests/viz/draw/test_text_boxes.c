@@ -75,6 +75,67 @@ static void text_stays_within_its_boxes(void **state)
     octree_game_destroy(game);
 }
 
+static void keep_box(const draw_box *box, void *context)
+{
+    *(draw_box *)context = *box;
+}
+
+/* The same words with a rim have a box that is larger on all sides, and the quads of both. */
+static void a_rim_lies_about_the_letters(void **state)
+{
+    (void)state;
+    scene s = {.refused = 0};
+    quad_list plain = {.count = 0}, rimmed = {.count = 0};
+    draw_box boxes[2];
+    const view v = view_of(640, 360, CAMERA_TOP, VIEW_ALL_LAYERS);
+    scene_set_view(&s, &v);
+    scene_add_label(&s,
+                    (scene_label){.at = {50, 60}, .style = {.layer = LAYER_WORLD, .role = ROLE_FAINT}, .text = "17"});
+    letters_add(&plain, &s, &s.labels.items[0]);
+    draw_text_boxes(&s, keep_box, &boxes[0]);
+    s.labels.items[0].style.stroke = STROKE_CUT;
+    letters_add(&rimmed, &s, &s.labels.items[0]);
+    draw_text_boxes(&s, keep_box, &boxes[1]);
+    assert_int_equal(rimmed.count, 2 * plain.count);
+    for (size_t i = 0; i < plain.count; i++) {
+        assert_int_equal(rimmed.items[i].color, theme_index(ROLE_BACKGROUND, 0));
+        assert_true(rimmed.items[i].x[0] < plain.items[i].x[0] && rimmed.items[i].y[2] > plain.items[i].y[2]);
+        assert_memory_equal(rimmed.items[plain.count + i].x, plain.items[i].x, sizeof plain.items[i].x);
+    }
+    assert_true(boxes[1].x < boxes[0].x && boxes[1].width > boxes[0].width && boxes[1].height > boxes[0].height);
+    quads_release(&plain);
+    quads_release(&rimmed);
+    scene_release(&s);
+}
+
+/* As the ranks of neighbours in a close-up. */
+static void words_beside_a_place_in_the_picture_are_not_cut_at_its_edge(void **state)
+{
+    (void)state;
+    static const octree_box world = {{-1, -1, -1}, {1, 1, 1}};
+    const view v = view_of(100, 100, CAMERA_TOP, 1u << LAYER_KNEAREST);
+    scene s = {.refused = 0};
+    scene_set_view(&s, &v);
+    s.camera = camera_make(&v, (camera_window){0, 0, 100, 100}, &world, (double[]){0, 0, 0}, 0);
+    size_t seen = 0;
+    for (double x = -4; x < 4; x += 0.01) {
+        double pixel[2];
+        draw_box box = {.width = 0};
+        s.labels.count = 0;
+        scene_add_label(&s, (scene_label){.in_world = true,
+                                          .at = {x, -x, 0},
+                                          .style = {.layer = LAYER_KNEAREST, .role = ROLE_KNEAREST},
+                                          .text = "12"});
+        if (!camera_pixel(&s.camera, s.labels.items[0].at, pixel) || !(pixel[0] > 8 && pixel[0] < 100))
+            continue;
+        draw_text_boxes(&s, keep_box, &box);
+        assert_true(box.width > 0 && box.x + box.width <= 100 && box.y + box.height <= 100);
+        seen++;
+    }
+    assert_true(seen > 10);
+    scene_release(&s);
+}
+
 static void a_scene_without_text_has_no_boxes(void **state)
 {
     (void)state;
@@ -90,6 +151,8 @@ static void a_scene_without_text_has_no_boxes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rim_lies_about_the_letters),
+        cmocka_unit_test(words_beside_a_place_in_the_picture_are_not_cut_at_its_edge),
         cmocka_unit_test(text_stays_within_its_boxes),
         cmocka_unit_test(a_scene_without_text_has_no_boxes),
     };

@@ -17,7 +17,6 @@ static const struct {
     {LAYER_WORLD, SCENE_BOX, "the world, box (-1000, -1000, -1000) to (1000, 1000, 1000)", false, false},
     {LAYER_WORLD, SCENE_SEGMENT, "axis", false, false},
     {LAYER_WORLD, SCENE_LABEL, "of an axis", false, false},
-    {LAYER_WORLD, SCENE_PANEL, "the ground of a number of an axis", false, false},
     {LAYER_NODES, SCENE_BOX, "at depth ", true, false},
     {LAYER_NODES, SCENE_PANEL, "the ground of the path on node ", true, false},
     {LAYER_NODES, SCENE_LABEL, "on node ", true, false},
