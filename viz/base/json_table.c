@@ -247,7 +247,7 @@ bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, 
 
 static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    const uint64_t own = (uint64_t)r->row->max;
+    const uint64_t own = (uint64_t)r->row->max, oldest = r->row->min > 0 ? (uint64_t)r->row->min : own;
     uint64_t version = 0;
     (void)into;
     if (!json_read_whole(r, value, at, 1, JSON_LARGEST_WHOLE, &version))
@@ -257,10 +257,10 @@ static bool read_version(json_reader *r, json_t *value, const json_place *at, vo
                          "the %s was made by a newer Octreel, of version %" PRIu64
                          ", and this one reads version %" PRIu64 ": use that one",
                          r->row->about, version, own);
-    return version == own || json_fail(r, at,
-                                       "the %s was made by an older Octreel, of version %" PRIu64
-                                       ": film its session.json again, or use that one",
-                                       r->row->about, version);
+    return version >= oldest || json_fail(r, at,
+                                          "the %s was made by an older Octreel, of version %" PRIu64
+                                          ": film its session.json again, or use that one",
+                                          r->row->about, version);
 }
 
 static void write_version(json_writer *w, const void *from)

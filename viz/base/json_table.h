@@ -87,7 +87,8 @@ extern const json_codec json_uint64, json_size, json_int; /* whole numbers from 
 extern const json_codec json_number, json_positive;       /* double */
 extern const json_codec json_interval;                    /* double from row->min to row->max */
 extern const json_codec json_constant;                    /* the text row->about: no other is read */
-extern const json_codec json_version;        /* of a file: row->max, and no other is read; row->about is what it is */
+extern const json_codec json_version;        /* of a file: row->max is written, and what is older than row->min (0: than
+                                                row->max) is not read; row->about is what it is */
 extern const json_codec json_bool;           /* left out when false */
 extern const json_codec json_choice;         /* an enumeration: the number of one of row->names */
 extern const json_codec json_later_choice;   /* the same, left out when it is the first */

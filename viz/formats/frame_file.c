@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "frame_file.h"
 #include "ticks_write.h"
-#include "image_digest.h"
 #include "png_chunks.h"
 #include "png_read.h"
 #include "png_write.h"
@@ -52,14 +51,14 @@ static char *frame_path(const char *folder, uint64_t tick, octreel_error *error)
 
 bool frame_write(const char *folder, const image *picture, const frame_origin *origin, octreel_error *error)
 {
-    char tick[NUMBER_SIZE], left_out[NUMBER_SIZE], digests[3][DIGEST_TEXT];
+    char tick[NUMBER_SIZE], left_out[NUMBER_SIZE], digests[2][DIGEST_TEXT], pixels[IMAGE_DIGEST_TEXT];
     snprintf(tick, sizeof tick, "%" PRIu64, origin->tick);
     snprintf(left_out, sizeof left_out, "%" PRIu64, origin->left_out);
     const image_text texts[] = {
         {tick_keyword, tick},
         {session_keyword, digest_print(origin->session, digests[0])},
         {scene_keyword, digest_print(origin->scene, digests[1])},
-        {pixels_keyword, digest_print(image_digest(picture), digests[2])},
+        {pixels_keyword, image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(picture), pixels)},
         {left_out_keyword, left_out},
     };
     const size_t count = sizeof texts / sizeof texts[0] - (origin->left_out == 0);
@@ -94,14 +93,26 @@ static bool check_digest(const char *path, const char *keyword, uint64_t expecte
            (strcmp(text, digest_print(expected, digest)) == 0 || error_set(error, "%s: %s", path, unlike));
 }
 
+static const char unlike_pixels[] = "its pixels are not those that it says were drawn";
+
+/* *kind is left as it is where the text is no digest. */
+static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *told, octreel_error *error)
+{
+    char text[NUMBER_SIZE];
+    return read_text(path, pixels_keyword, text, error) &&
+           (image_digest_parse(text, kind, told) || error_set(error, "%s: %s", path, unlike_pixels));
+}
+
 static bool check_pixels(const char *path, frame_origin *origin, octreel_error *error)
 {
     octreel_error unread;
     image about;
-    if (!image_digest_png(path, IMAGE_WHITE, &about, &origin->pixels, &unread))
+    uint64_t told = 0;
+    origin->kind = IMAGE_DIGEST_NEWEST;
+    const bool tells = read_pixels(path, &origin->kind, &told, error);
+    if (!image_digest_png_of(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &unread))
         return error_set(error, "%s", unread.text);
-    return check_digest(path, pixels_keyword, origin->pixels, "its pixels are not those that it says were drawn",
-                        error);
+    return tells && (told == origin->pixels || error_set(error, "%s: %s", path, unlike_pixels));
 }
 
 static bool check_tick(const char *path, uint64_t expected, octreel_error *error)
@@ -172,12 +183,13 @@ bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene)
 bool frame_read_origin(const char *path, frame_origin *origin)
 {
     char tick[NUMBER_SIZE];
+    octreel_error untold;
     *origin = (frame_origin){0};
     if (!image_read_text(path, tick_keyword, tick, sizeof tick))
         return false;
     origin->tick = strtoull(tick, NULL, 10);
     return read_digest(path, session_keyword, &origin->session) && read_digest(path, scene_keyword, &origin->scene) &&
-           read_digest(path, pixels_keyword, &origin->pixels);
+           read_pixels(path, &origin->kind, &origin->pixels, &untold);
 }
 
 bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error)

@@ -5,7 +5,7 @@
 #define FORMATS_FRAME_FILE_H
 
 #include "file.h"
-#include "image.h"
+#include "image_digest.h"
 
 #include <stdint.h>
 
@@ -29,7 +29,8 @@ bool frame_is_name(const char *name, uint64_t ticks, uint64_t every);
 typedef struct frame_origin {
     uint64_t tick, session, scene; /* its number, and the digests of session.json and of the tick's scene */
     uint64_t left_out;             /* elements of the scene that could not be drawn; said where there are any */
-    uint64_t pixels;               /* of a frame that was checked: the digest of its pixels */
+    image_digest_kind kind;        /* of a frame that was checked, the digest of its pixels: */
+    uint64_t pixels;
 } frame_origin;
 
 /* Write a picture as the frame of its tick. */
@@ -54,7 +55,7 @@ bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octr
 
 /* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
  * among them is that of the pixels that are decoded. left_out is read from it. Else one sentence. In any case pixels
- * becomes the digest of the pixels, where they can be decoded. */
+ * becomes the digest of the pixels, of the kind that the text is, where they can be decoded. */
 bool frame_check(const char *folder, frame_origin *origin, octreel_error *error);
 
 /* frame_check() for a file of any name. */

@@ -18,7 +18,8 @@ typedef struct recorded {
 /* The options of the view stand between the first two and the others. */
 static const json_member own_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
-    {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
+    {"version", &json_version, .required = true, .min = RECORDING_OLDEST, .max = RECORDING_VERSION,
+     .about = "recording"},
     {"theme", &json_constant, .about = THEME_NAME},
     {"every", &json_uint64, offsetof(recorded, every), .max = SESSION_LAST_TICK},
 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* recording_file.h - recording.json: the version of a recording, and its view.
  *
- *   {"octreel": "recording", "version": 2, the view, "theme": "night", "every": 1}
+ *   {"octreel": "recording", "version": 3, the view, "theme": "night", "every": 1}
  * "every" is 0 where no tick has a frame.
  * The members of the view are those of view_options.c:
  *   "width": 1280, "height": 720, "camera": "iso", "layers": ["world", "nodes", ...], "color_by": "depth",
@@ -19,9 +19,10 @@
 
 #include <stdio.h>
 
-/* The version that is written, and the only one that is read, since digests of scenes are those of the version. 2:
- * scene digests hash names. */
-#define RECORDING_VERSION 2
+/* The version that is written, and the oldest that is read, since digests of scenes are those of a version. 2: scene
+ * digests hash names. 3: frames tell of which kind the digest of their pixels is, which may be that of rows. */
+#define RECORDING_VERSION 3
+#define RECORDING_OLDEST 2
 
 /* Write the file. Errors stay with the stream. */
 void recording_write(FILE *out, const view *v, uint64_t every);

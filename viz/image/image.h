@@ -43,17 +43,6 @@ static inline size_t image_pixel_size(const image *image)
     return (size_t)image->channels * (image->wide ? 2 : 1);
 }
 
-/* How many bytes are equal before the first two that differ. */
-static inline size_t image_bytes_alike(const uint8_t *a, const uint8_t *b, size_t size)
-{
-    size_t at = 0;
-    while (at + 8 <= size && memcmp(a + at, b + at, 8) == 0)
-        at += 8;
-    while (at < size && a[at] == b[at])
-        at++;
-    return at;
-}
-
 /* Allocate the pixels, all zero; the palette is zeroed too. False, and the image zeroed, when there is no memory, a
  * side is outside 1..IMAGE_MAX_SIDE, or channels is neither 1 nor 3. */
 bool image_create(image *image, int width, int height, int channels);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "image_compare.h"
+#include "bytes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -246,7 +247,7 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
         some = count - i;
         if (c->stored_alike) {
             const size_t at = (size_t)i * size;
-            i += (int)(image_bytes_alike(at_a + at, at_b + at, (size_t)some * size) / size);
+            i += (int)(bytes_alike(at_a + at, at_b + at, (size_t)some * size) / size);
             some = i < count;
         }
         samples_read(r->a, n + (size_t)i, some, c->difference.channel_range, a);

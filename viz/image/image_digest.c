@@ -1,83 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "image_digest.h"
+#include "bytes.h"
 #include "octree/digest.h"
 #include "png_read.h"
 
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* The colour of the n-th pixel in reading order as one word: 8 bits a sample, or 16. */
-static uint64_t color_word(const image *image, size_t n)
-{
-    const uint8_t *at = image->pixels + n * image_pixel_size(image);
-    if (image->wide) {
-        uint16_t samples[3];
-        memcpy(samples, at, sizeof samples);
-        return (uint64_t)samples[0] << 32 | (uint64_t)samples[1] << 16 | samples[2];
-    }
-    const image_color color = image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]};
-    return (uint64_t)color.r << 16 | (uint64_t)color.g << 8 | color.b;
-}
-
-/* The end of the run of pixels equal to pixel `start`. Eight bytes at a time are compared with those one pixel earlier,
- * since a frame is mostly background. */
-static size_t run_end(const image *image, size_t start, size_t pixel_count)
-{
-    const size_t step = image_pixel_size(image);
-    const uint8_t *first = image->pixels + start * step;
-    const size_t rest = (pixel_count - start - 1) * step;
-    return start + 1 + image_bytes_alike(first + step, first, rest) / step;
-}
-
-static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool wide)
-{
-    if (length == 0)
-        return digest;
-    if (wide)
-        return octree_digest_word(octree_digest_word(digest, (uint64_t)length), color);
-    return octree_digest_word(digest, (uint64_t)length << 24 | color);
-}
-
-/* A digest in progress, over runs of one colour. Adjacent runs of different indices may have the same colour, and runs
- * may continue in the next rows: these are joined, so that the digest depends neither on the palette nor on bands. */
-typedef struct digesting {
-    uint64_t digest;
-    uint64_t color; /* of the current run */
-    size_t length;
-    bool wide;
-} digesting;
-
-static digesting begin(const image *about)
-{
-    const uint64_t start = octree_digest_word(OCTREE_DIGEST_START, (uint64_t)about->width);
-    return (digesting){.digest = octree_digest_word(start, (uint64_t)about->height), .wide = about->wide};
-}
-
-static void add_rows(digesting *d, const image *rows)
-{
-    const size_t pixel_count = (size_t)rows->width * (size_t)rows->height;
-    for (size_t at = 0, end; at < pixel_count; at = end) {
-        end = run_end(rows, at, pixel_count);
-        const uint64_t next = color_word(rows, at);
-        if (next != d->color) {
-            d->digest = digest_run(d->digest, d->length, d->color, d->wide);
-            d->color = next;
-            d->length = 0;
-        }
-        d->length += end - at;
-    }
-}
-
-static uint64_t finish(const digesting *d)
-{
-    return digest_run(d->digest, d->length, d->color, d->wide);
-}
-
-uint64_t image_digest(const image *image)
-{
-    digesting d = begin(image);
-    add_rows(&d, image);
-    return finish(&d);
-}
+/* ---- Names and texts ----------------------------------------------------------------------------------------- */
 
 static const char *const kind_names[] = {
 #define KIND_NAME(kind, name) name,
@@ -98,18 +30,232 @@ image_digest_kind image_digest_kind_of(const char *name, size_t length)
     return (image_digest_kind)kind;
 }
 
-bool image_digest_png_of(image_digest_kind kind, const char *path, image_color background, image *about,
-                         uint64_t *digest, octreel_error *error)
+enum { DIGITS = 16 };
+
+char *image_digest_print(image_digest_kind kind, uint64_t digest, char text[IMAGE_DIGEST_TEXT])
 {
-    switch (kind) {
-    case IMAGE_DIGEST_RUNS:
-        return image_digest_png(path, background, about, digest, error);
-    default:
-        return error_set(error, "%s: there is no such kind of digest", path);
+    const bool bare = kind == IMAGE_DIGEST_RUNS;
+    snprintf(text, IMAGE_DIGEST_TEXT, "%s%s%016" PRIx64, bare ? "" : kind_names[kind], bare ? "" : "-", digest);
+    return text;
+}
+
+bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *digest)
+{
+    const size_t name = strcspn(text, "-");
+    const bool bare = text[name] == 0;
+    const char *digits = bare ? text : text + name + 1;
+    const image_digest_kind told = bare ? IMAGE_DIGEST_RUNS : image_digest_kind_of(text, name);
+    if (told == IMAGE_DIGEST_KINDS || bare != (told == IMAGE_DIGEST_RUNS) ||
+        strspn(digits, "0123456789abcdef") != DIGITS || digits[DIGITS] != 0)
+        return false;
+    *kind = told;
+    *digest = strtoull(digits, NULL, 16);
+    return true;
+}
+
+/* ---- Runs ---------------------------------------------------------------------------------------------------- */
+
+enum { GROUP = 8 };
+
+typedef struct digesting {
+    image_digest_kind kind;
+    uint64_t digest;
+    bool wide;
+    uint64_t color;                /* of runs: of the last, which may go on, */
+    size_t length;                 /* and how long it is so far */
+    uint64_t of_index[GROUP][256]; /* of rows: the number of each index at each place of a group */
+} digesting;
+
+static uint64_t word_of(image_color color)
+{
+    return (uint64_t)color.r << 16 | (uint64_t)color.g << 8 | color.b;
+}
+
+/* The colour of a pixel as one word: 8 bits a sample, or 16. */
+static uint64_t color_word(const image *image, const uint8_t *at)
+{
+    if (image->wide) {
+        uint16_t samples[3];
+        memcpy(samples, at, sizeof samples);
+        return (uint64_t)samples[0] << 32 | (uint64_t)samples[1] << 16 | samples[2];
+    }
+    return word_of(image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]});
+}
+
+/* The end of the run of pixels equal to pixel `start`. Eight bytes at a time are compared with those one pixel earlier,
+ * since a frame is mostly background. */
+static size_t run_end(const image *image, size_t start, size_t pixel_count)
+{
+    const size_t step = image_pixel_size(image);
+    const uint8_t *first = image->pixels + start * step;
+    const size_t rest = (pixel_count - start - 1) * step;
+    return start + 1 + bytes_alike(first + step, first, rest) / step;
+}
+
+static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool wide)
+{
+    if (length == 0)
+        return digest;
+    if (wide)
+        return octree_digest_word(octree_digest_word(digest, (uint64_t)length), color);
+    return octree_digest_word(digest, (uint64_t)length << 24 | color);
+}
+
+/* A digest in progress, over runs of one colour. Adjacent runs of different indices may have the same colour, and runs
+ * may continue in the next rows: these are joined, so that the digest depends neither on the palette nor on bands. */
+/* Adjacent runs of different indices may have the same colour, and runs may continue in the next rows: these are
+ * joined, so that the digest depends neither on the palette nor on bands. */
+static void add_runs(digesting *d, const image *rows)
+{
+    const size_t pixel_count = (size_t)rows->width * (size_t)rows->height;
+    for (size_t at = 0, end; at < pixel_count; at = end) {
+        end = run_end(rows, at, pixel_count);
+        const uint64_t next = color_word(rows, rows->pixels + at * image_pixel_size(rows));
+        if (next != d->color) {
+            d->digest = digest_run(d->digest, d->length, d->color, d->wide);
+            d->color = next;
+            d->length = 0;
+        }
+        d->length += end - at;
     }
 }
 
-bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error)
+/* ---- Rows ---------------------------------------------------------------------------------------------------- */
+
+/* A row is cut into groups of eight pixels, the last of which may have fewer. A group's number is the sum of one for
+ * each pixel, which depends on its place in the group and on its colour, mixed with the group's place in the row; a
+ * row's is the sum of its groups'; the rows' are mixed in turn. So what is equal in the row above need not be looked at
+ * again, and what changed depends on nothing else, in any order. */
+static inline uint64_t digest_pixel(size_t place, uint64_t color, bool wide)
+{
+    return octree_digest_word(~(uint64_t)place, color | (uint64_t)wide << 48);
+}
+
+static inline uint64_t digest_place(size_t group, uint64_t sum)
+{
+    return octree_digest_word((uint64_t)group, sum);
+}
+
+static uint64_t digest_group(const digesting *d, const image *rows, const uint8_t *pixels, size_t count)
+{
+    const size_t step = image_pixel_size(rows);
+    uint64_t sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += rows->channels == 1 ? d->of_index[i][pixels[i]]
+                                   : digest_pixel(i, color_word(rows, pixels + i * step), rows->wide);
+    return sum;
+}
+
+/* The same of GROUP indices. */
+static inline uint64_t digest_indices(const digesting *d, uint64_t word)
+{
+    return d->of_index[0][word & 255] + d->of_index[1][word >> 8 & 255] + d->of_index[2][word >> 16 & 255] +
+           d->of_index[3][word >> 24 & 255] + d->of_index[4][word >> 32 & 255] + d->of_index[5][word >> 40 & 255] +
+           d->of_index[6][word >> 48 & 255] + d->of_index[7][word >> 56];
+}
+
+/* The numbers of the groups of the row before. */
+typedef struct row_groups {
+    uint64_t sum, of_group[IMAGE_MAX_SIDE / GROUP];
+} row_groups;
+
+static inline void set_group(row_groups *g, size_t group, uint64_t sum)
+{
+    const uint64_t digest = digest_place(group, sum);
+    g->sum += digest - g->of_group[group];
+    g->of_group[group] = digest;
+}
+
+/* Which groups differ from those above cannot be foreseen, so they are listed without a branch; their number. */
+static size_t list_changes(uint16_t *changed, const uint8_t *row, const uint8_t *above, size_t groups)
+{
+    size_t count = 0;
+    size_t i = 0;
+    for (; i + 4 <= groups; i += 4)
+        for (size_t k = i; k < i + 4; k++) {
+            changed[count] = (uint16_t)k;
+            count += bytes_load(row + GROUP * k) != bytes_load(above + GROUP * k);
+        }
+    for (; i < groups; i++) {
+        changed[count] = (uint16_t)i;
+        count += bytes_load(row + GROUP * i) != bytes_load(above + GROUP * i);
+    }
+    return count;
+}
+
+/* `above`: null for the first row. */
+static void add_indices(const digesting *d, row_groups *g, const uint8_t *row, const uint8_t *above, size_t groups)
+{
+    uint16_t changed[IMAGE_MAX_SIDE / GROUP];
+    const size_t count = above ? list_changes(changed, row, above, groups) : groups;
+    for (size_t n = 0; n < count; n++) {
+        const size_t i = above ? changed[n] : n;
+        set_group(g, i, digest_indices(d, bytes_load(row + GROUP * i)));
+    }
+}
+
+static void add_rows(digesting *d, const image *rows)
+{
+    const size_t step = image_pixel_size(rows), width = (size_t)rows->width, size = width * step;
+    const size_t whole = rows->channels == 1 ? width / GROUP : 0, groups = (width + GROUP - 1) / GROUP;
+    row_groups g;
+    g.sum = 0;
+    memset(g.of_group, 0, groups * sizeof *g.of_group);
+    for (int y = 0; y < rows->height; y++) {
+        const uint8_t *row = rows->pixels + (size_t)y * size, *above = y > 0 ? row - size : NULL;
+        add_indices(d, &g, row, above, whole);
+        for (size_t i = whole; i < groups; i++) {
+            const size_t at = i * GROUP * step, count = width - i * GROUP < GROUP ? width - i * GROUP : GROUP;
+            if (!above || memcmp(row + at, above + at, count * step) != 0)
+                set_group(&g, i, digest_group(d, rows, row + at, count));
+        }
+        d->digest = octree_digest_word(d->digest, g.sum);
+    }
+}
+
+/* ---- A picture ------------------------------------------------------------------------------------------------ */
+
+static void begin(digesting *d, image_digest_kind kind, const image *about)
+{
+    d->kind = kind;
+    d->digest =
+        octree_digest_word(octree_digest_word(OCTREE_DIGEST_START, (uint64_t)about->width), (uint64_t)about->height);
+    d->wide = about->wide;
+    d->color = 0;
+    d->length = 0;
+    for (size_t place = 0; kind == IMAGE_DIGEST_ROWS && about->channels == 1 && place < GROUP; place++)
+        for (int i = 0; i < 256; i++)
+            d->of_index[place][i] = digest_pixel(place, word_of(about->palette.colors[i]), false);
+}
+
+static void add_band(digesting *d, const image *rows)
+{
+    if (d->kind == IMAGE_DIGEST_RUNS)
+        add_runs(d, rows);
+    else
+        add_rows(d, rows);
+}
+
+static uint64_t finish(const digesting *d)
+{
+    return d->kind == IMAGE_DIGEST_RUNS ? digest_run(d->digest, d->length, d->color, d->wide) : d->digest;
+}
+
+uint64_t image_digest_of(image_digest_kind kind, const image *image)
+{
+    digesting d;
+    begin(&d, kind, image);
+    add_band(&d, image);
+    return finish(&d);
+}
+
+uint64_t image_digest(const image *image)
+{
+    return image_digest_of(IMAGE_DIGEST_NEWEST, image);
+}
+
+bool image_digest_png_of(image_digest_kind kind, const char *path, image_color background, image *about,
+                         uint64_t *digest, octreel_error *error)
 {
     image_source *source = image_source_open(path, background, false, error);
     if (!source)
@@ -117,11 +263,17 @@ bool image_digest_png(const char *path, image_color background, image *about, ui
     *about = *image_source_about(source);
     about->pixels = NULL;
     const int rows = image_band_rows(about);
-    digesting d = begin(about);
+    digesting d;
+    begin(&d, kind, about);
     for (image band; image_source_next(source, rows, &band);)
-        add_rows(&d, &band);
+        add_band(&d, &band);
     *digest = finish(&d);
     const bool done = !image_source_failed(source);
     image_source_close(source);
     return done;
+}
+
+bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error)
+{
+    return image_digest_png_of(IMAGE_DIGEST_NEWEST, path, background, about, digest, error);
 }

@@ -88,10 +88,10 @@ bool film_session(const octree_session *session, const film_options *options, fi
 
 static bool write_picture(const picture *p, const scene *s, const char *path, octreel_error *error)
 {
-    char digests[2][DIGEST_TEXT];
+    char scene[DIGEST_TEXT], pixels[IMAGE_DIGEST_TEXT];
     const image_text texts[] = {
-        {FRAME_SCENE_KEYWORD, digest_print(scene_digest(s), digests[0])},
-        {FRAME_PIXELS_KEYWORD, digest_print(image_digest(&p->frame), digests[1])},
+        {FRAME_SCENE_KEYWORD, digest_print(scene_digest(s), scene)},
+        {FRAME_PIXELS_KEYWORD, image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(&p->frame), pixels)},
     };
     return image_write_png(&p->frame, path, texts, sizeof texts / sizeof texts[0], error);
 }

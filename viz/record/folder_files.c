@@ -120,7 +120,9 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
     text_stream s;
     if (text_stream_begin(&s))
         recording_write(s.stream, v, every);
-    return put_stream(place, "recording.json", &s, "tells of another view (size, camera, layers, every ...)", error);
+    return put_stream(place, "recording.json", &s,
+                      "tells of another view (size, camera, layers, every ...), or is by another version of octreel",
+                      error);
 }
 
 static void write_text(json_writer *w, const char *key, const char *text)

@@ -159,6 +159,12 @@ static bool check_readable(const char *path, octreel_error *error)
     return true;
 }
 
+/* Whether these pixels are drawn now. */
+static bool is_drawn(const verifying *v, const frame_origin *origin)
+{
+    return origin->pixels == image_digest_of(origin->kind, &v->replay.playback.picture.frame);
+}
+
 static bool check_frame(verifying *v, const film_step *step, octreel_error *error)
 {
     char name[FRAME_NAME], *path = path_join(v->folder, frame_name(step->tick, name));
@@ -167,7 +173,6 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     octreel_error unlike;
     if (!path)
         return error_no_memory(error);
-    const uint64_t drawn = image_digest(&v->replay.playback.picture.frame);
     bool ok = true;
     v->stopped = true;
     if (access(path, F_OK) != 0)
@@ -177,8 +182,8 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     else if (!check_readable(path, error))
         v->stopped = ok = false;
     else if (!frame_check(v->folder, &origin, &unlike))
-        find_frame(v, unlike.text, step->tick, origin.pixels == drawn);
-    else if (origin.pixels != drawn)
+        find_frame(v, unlike.text, step->tick, is_drawn(v, &origin));
+    else if (!is_drawn(v, &origin))
         find_pixels(v, path, step->tick);
     else
         v->stopped = false;

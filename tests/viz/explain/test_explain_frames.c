@@ -35,7 +35,7 @@ static void spoil_frame(const place *folder, uint64_t tick, bool as_drawn)
     }
     frame.pixels[77] = theme_index(ROLE_TEXT, 0);
     if (as_drawn)
-        snprintf(values[3], sizeof values[3], "%016llx", (unsigned long long)image_digest(&frame));
+        image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(&frame), values[3]);
     assert_true(image_write_png(&frame, file.path, texts, 4, &error));
     image_release(&frame);
 }

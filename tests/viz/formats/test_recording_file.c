@@ -109,7 +109,7 @@ static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
     }
 }
 
-#define START "{\"octreel\": \"recording\", \"version\": 2,\n\"width\": 160, \"height\": 90,\n"
+#define START "{\"octreel\": \"recording\", \"version\": 3,\n\"width\": 160, \"height\": 90,\n"
 #define VIEW START "\"camera\": \"top\", \"layers\": [\"nodes\"]"
 
 static void write_text(const view *v, char text[2048])
@@ -187,7 +187,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {"{\"octreel\": \"recording\", \"version\": 0}", "version: expected a whole number from 1"},
         {"{\"octreel\": \"recording\", \"version\": 1}", "version: the recording was made by an older Octreel, of "
                                                          "version 1: film its session.json again, or use that one"},
-        {"{\"octreel\": \"recording\", \"version\": 2, \"width\": 0}",
+        {"{\"octreel\": \"recording\", \"version\": 3, \"width\": 0}",
          "width: expected a whole number from 1 to 16384"},
         {START "\"camera\": \"up\"}",
          "recording.json:3: camera: expected one of iso, top, front, side, follow, orbit, found \"up\""},

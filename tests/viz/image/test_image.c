@@ -2,6 +2,8 @@
 /* test_image.c - images in memory: creation, digests, palettes and drawn differences. */
 #include "images.h"
 #include "image_digest.h"
+#include "octree/digest.h"
+#include "octree/sample.h"
 
 static void create_refuses_sides_and_channels_out_of_range(void **state)
 {
@@ -31,11 +33,15 @@ static void digest_is_of_size_and_colours_alone(void **state)
 {
     (void)state;
     image_twins twins = make_twins(37, 11);
-    uint64_t digest = image_digest(&twins.rgb);
-    assert_true(image_digest(&twins.indexed) == digest);
-    twins.rgb.width = 11;
-    twins.rgb.height = 37;
-    assert_true(image_digest(&twins.rgb) != digest);
+    image turned = twins.rgb;
+    turned.width = 11;
+    turned.height = 37;
+    for (int n = 0; n < IMAGE_DIGEST_KINDS; n++) {
+        const image_digest_kind kind = (image_digest_kind)n;
+        const uint64_t digest = image_digest_of(kind, &twins.rgb);
+        assert_true(image_digest_of(kind, &twins.indexed) == digest);
+        assert_true(image_digest_of(kind, &turned) != digest);
+    }
     release_twins(&twins);
 }
 
@@ -44,16 +50,134 @@ static void digest_changes_with_any_channel_of_any_pixel(void **state)
     (void)state;
     image blank;
     assert_true(image_create(&blank, 23, 9, 3));
-    uint64_t digest = image_digest(&blank);
-    uint64_t before = digest;
-    for (size_t i = 0; i < 23 * 9 * 3; i++) {
-        blank.pixels[i] = 1;
-        uint64_t changed = image_digest(&blank);
-        assert_true(changed != digest && changed != before);
-        before = changed;
-        blank.pixels[i] = 0;
+    for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++) {
+        const uint64_t digest = image_digest_of((image_digest_kind)kind, &blank);
+        uint64_t before = digest;
+        for (size_t i = 0; i < 23 * 9 * 3; i++) {
+            blank.pixels[i] = 1;
+            const uint64_t changed = image_digest_of((image_digest_kind)kind, &blank);
+            assert_true(changed != digest && changed != before);
+            before = changed;
+            blank.pixels[i] = 0;
+        }
     }
     image_release(&blank);
+}
+
+/* As it is defined, without regard to what is equal to the row above. */
+static uint64_t digest_rows_by_the_letter(const image *image)
+{
+    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, (uint64_t)image->width);
+    digest = octree_digest_word(digest, (uint64_t)image->height);
+    for (int y = 0; y < image->height; y++) {
+        uint64_t row = 0;
+        for (int x = 0; x < image->width; x += 8) {
+            uint64_t group = 0;
+            for (int i = 0; i < 8 && x + i < image->width; i++) {
+                const image_color c = image_color_at(image, x + i, y);
+                group += octree_digest_word(~(uint64_t)i, (uint64_t)c.r << 16 | (uint64_t)c.g << 8 | c.b);
+            }
+            row += octree_digest_word((uint64_t)(x / 8), group);
+        }
+        digest = octree_digest_word(digest, row);
+    }
+    return digest;
+}
+
+static void digest_of_rows_is_what_it_is_defined_as(void **state)
+{
+    (void)state;
+    for (int width = 1; width < 70; width++) {
+        image_twins twins = make_twins(width, 40);
+        for (int y = 1; y < 40; y++) /* rows that repeat the one above, or nearly so */
+            if (y % 3 > 0)
+                for (int x = 0; x < width - (y % 3 == 2); x++) {
+                    uint8_t *index = twins.indexed.pixels + y * width + x,
+                            *rgb = twins.rgb.pixels + 3 * (y * width + x);
+                    *index = *(index - width);
+                    memcpy(rgb, rgb - 3 * width, 3);
+                }
+        const uint64_t expected = digest_rows_by_the_letter(&twins.rgb);
+        assert_true(image_digest_of(IMAGE_DIGEST_ROWS, &twins.rgb) == expected);
+        assert_true(image_digest_of(IMAGE_DIGEST_ROWS, &twins.indexed) == expected);
+        release_twins(&twins);
+    }
+}
+
+/* Pictures that differ in one pixel, or in two that are exchanged, have digests that differ in half their bits. */
+static void digests_of_small_changes_are_far_apart(void **state)
+{
+    (void)state;
+    enum { SIDE = 64, CHANGES = 4000 };
+    uint64_t random = 1;
+    int64_t bits = 0;
+    image picture;
+    assert_true(image_create(&picture, SIDE, SIDE, 1));
+    picture.palette.count = 256;
+    for (int i = 0; i < 256; i++)
+        picture.palette.colors[i] = (image_color){(uint8_t)(i & 1 ? 255 : 0), (uint8_t)(i >> 1), 0};
+    for (int i = 0; i < SIDE; i++)
+        picture.pixels[i * (SIDE + 1)] = 1; /* a line on one ground */
+    const uint64_t before = image_digest(&picture);
+    for (int n = 0; n < CHANGES; n++) {
+        uint8_t *a = picture.pixels + octree_random(&random) % (SIDE * SIDE), *b = picture.pixels + n;
+        const uint8_t old[2] = {*a, *b};
+        if (n % 2 == 0 && *a != *b) { /* exchanged */
+            *a = old[1];
+            *b = old[0];
+        } else {
+            *b ^= 1 + (n & 6);
+        }
+        for (uint64_t unlike = image_digest(&picture) ^ before; unlike != 0; unlike &= unlike - 1)
+            bits++;
+        *a = old[0];
+        *b = old[1];
+    }
+    assert_in_range(bits / CHANGES, 31, 33);
+    assert_true(image_digest(&picture) == before);
+    image_release(&picture);
+}
+
+/* Files have these texts. */
+static void digest_of_each_kind_is_pinned_and_its_text_says_the_kind(void **state)
+{
+    (void)state;
+    static const char *const texts[IMAGE_DIGEST_KINDS] = {"5f63f82b7be5075e", "rows-4f2058f8635040af"};
+    image_twins twins = make_twins(37, 11);
+    for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++) {
+        const uint64_t digest = image_digest_of((image_digest_kind)kind, &twins.indexed);
+        char text[IMAGE_DIGEST_TEXT];
+        image_digest_kind told;
+        uint64_t read;
+        assert_string_equal(image_digest_print((image_digest_kind)kind, digest, text), texts[kind]);
+        assert_true(image_digest_parse(texts[kind], &told, &read));
+        assert_true((int)told == kind && read == digest);
+    }
+    release_twins(&twins);
+}
+
+static void text_that_is_no_digest_is_not_read(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"",
+                                        "0123456789abcde",
+                                        "0123456789abcdef0",
+                                        "0123456789ABCDEF",
+                                        "-0123456789abcdef",
+                                        " 0123456789abcdef",
+                                        "0x23456789abcdef",
+                                        "runs-0123456789abcdef",
+                                        "rows-0123456789abcde",
+                                        "rows-0123456789abcdef ",
+                                        "rows0123456789abcdef",
+                                        "rows-",
+                                        "later-0123456789abcdef"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        image_digest_kind kind = IMAGE_DIGEST_KINDS;
+        uint64_t digest = 7;
+        assert_false(image_digest_parse(texts[i], &kind, &digest));
+        assert_true(kind == IMAGE_DIGEST_KINDS && digest == 7);
+    }
 }
 
 static void compare_sees_through_palettes(void **state)
@@ -93,6 +217,10 @@ int main(void)
         cmocka_unit_test(digest_is_of_size_and_colours_alone),
         cmocka_unit_test(digest_changes_with_any_channel_of_any_pixel),
         cmocka_unit_test(each_kind_of_digest_is_found_by_its_name),
+        cmocka_unit_test(digest_of_rows_is_what_it_is_defined_as),
+        cmocka_unit_test(digests_of_small_changes_are_far_apart),
+        cmocka_unit_test(digest_of_each_kind_is_pinned_and_its_text_says_the_kind),
+        cmocka_unit_test(text_that_is_no_digest_is_not_read),
         cmocka_unit_test(compare_sees_through_palettes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

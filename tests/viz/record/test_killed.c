@@ -88,13 +88,13 @@ static remains remains_of(void **state, const char *command, const char *folder)
 
 static void assert_frame_whole(const char *path)
 {
-    char text[DIGEST_TEXT], expected[DIGEST_TEXT];
+    char text[IMAGE_DIGEST_TEXT], expected[IMAGE_DIGEST_TEXT];
     octreel_error error;
     image frame;
     if (!image_read_png(path, &frame, &error))
         fail_msg("%s", error.text);
     assert_true(image_read_text(path, "octreel-pixels", text, sizeof text));
-    assert_string_equal(text, digest_print(image_digest(&frame), expected));
+    assert_string_equal(text, image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(&frame), expected));
     image_release(&frame);
 }
 

@@ -38,6 +38,35 @@ static void frame_that_is_stored_otherwise_is_identical(void **state)
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
 }
 
+/* As versions before that of recording.json 3 have written it. */
+static void frame_with_the_digest_of_an_older_version_is_identical(void **state)
+{
+    const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
+    image frame = assert_read_rgb(path.path);
+    char digest[IMAGE_DIGEST_TEXT];
+    image_digest_print(IMAGE_DIGEST_RUNS, image_digest_of(IMAGE_DIGEST_RUNS, &frame), digest);
+    assert_int_equal(strlen(digest), 16);
+    write_with_texts(path.path, &frame, digest);
+    edit_file(folder.path, "recording.json", "\"version\": 3", "\"version\": 2");
+    assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
+    frame.pixels[3 * 77] ^= 128;
+    write_with_texts(path.path, &frame, digest);
+    assert_found(&folder, VERIFY_FRAME, 3, "its pixels are not those that it says were drawn");
+    image_digest_print(IMAGE_DIGEST_RUNS, image_digest_of(IMAGE_DIGEST_RUNS, &frame), digest);
+    write_with_texts(path.path, &frame, digest);
+    assert_found(&folder, VERIFY_PIXELS, 3, "1 pixel from (77, 0) to (77, 0)");
+    image_release(&frame);
+}
+
+static void frame_with_the_digest_of_a_later_version_is_not(void **state)
+{
+    const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
+    image frame = assert_read(path.path);
+    write_with_texts(path.path, &frame, "later-0123456789abcdef");
+    image_release(&frame);
+    assert_found(&folder, VERIFY_FRAME, 3, "its pixels are those that are drawn now");
+}
+
 static void frame_that_is_missing_is_named(void **state)
 {
     const place folder = film_short(*state);
@@ -156,10 +185,10 @@ static void only_pixels_are_told_with_both_renderers(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000006.png");
     image frame = assert_read_rgb(path.path);
-    char digest[DIGEST_TEXT];
+    char digest[IMAGE_DIGEST_TEXT];
     frame.pixels[3 * (SMALL_WIDTH * 20 + 10)] ^= 128;
     frame.pixels[3 * (SMALL_WIDTH * 30 + 25) + 2] ^= 1;
-    digest_print(image_digest(&frame), digest);
+    image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(&frame), digest);
     write_with_texts(path.path, &frame, digest);
     image_release(&frame);
     verify_report report = assert_found(&folder, VERIFY_PIXELS, 6, "2 pixels from (10, 20) to (25, 30)");
@@ -204,12 +233,20 @@ static void frames_that_are_too_many_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(frame_that_is_stored_otherwise_is_identical), IN_FOLDER(frame_that_is_missing_is_named),
-        IN_FOLDER(frame_that_is_no_file_is_not_waited_for),     IN_FOLDER(frame_that_may_not_be_read_is_trouble),
-        IN_FOLDER(frame_that_was_cut_is_found_wherever),        IN_FOLDER(frame_in_the_place_of_another_is_found),
-        IN_FOLDER(frame_of_another_recording_is_found),         IN_FOLDER(frame_without_its_texts_is_found),
-        IN_FOLDER(frame_of_another_recording_is_found),         IN_FOLDER(frame_whose_text_was_changed_is_found),
-        IN_FOLDER(frame_that_was_painted_over_is_found),        IN_FOLDER(only_pixels_are_told_with_both_renderers),
+        IN_FOLDER(frame_that_is_stored_otherwise_is_identical),
+        IN_FOLDER(frame_with_the_digest_of_an_older_version_is_identical),
+        IN_FOLDER(frame_with_the_digest_of_a_later_version_is_not),
+        IN_FOLDER(frame_that_is_missing_is_named),
+        IN_FOLDER(frame_that_is_no_file_is_not_waited_for),
+        IN_FOLDER(frame_that_may_not_be_read_is_trouble),
+        IN_FOLDER(frame_that_was_cut_is_found_wherever),
+        IN_FOLDER(frame_in_the_place_of_another_is_found),
+        IN_FOLDER(frame_of_another_recording_is_found),
+        IN_FOLDER(frame_without_its_texts_is_found),
+        IN_FOLDER(frame_of_another_recording_is_found),
+        IN_FOLDER(frame_whose_text_was_changed_is_found),
+        IN_FOLDER(frame_that_was_painted_over_is_found),
+        IN_FOLDER(only_pixels_are_told_with_both_renderers),
         IN_FOLDER(frames_that_are_too_many_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
