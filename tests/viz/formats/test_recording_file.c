@@ -181,9 +181,9 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {VIEW "} x", "recording.json:3: "},
         {VIEW ",\n\"tilt\": 3}", "recording.json:4: unknown member \"tilt\""},
         {VIEW ", \"version\": 3}", "duplicate"},
-        {"{\"octreel\": \"recording\", \"version\": 3}", "version: the recording was made by a newer Octreel, of "
-                                                         "version 3, and this one reads version 2: use that one"},
-        {"{\"octreel\": \"recording\", \"version\": 3, \"zoom\": 3}", "made by a newer Octreel, of version 3"},
+        {"{\"octreel\": \"recording\", \"version\": 4}", "version: the recording was made by a newer Octreel, of "
+                                                         "version 4, and this one reads version 3: use that one"},
+        {"{\"octreel\": \"recording\", \"version\": 4, \"zoom\": 3}", "made by a newer Octreel, of version 4"},
         {"{\"octreel\": \"recording\", \"version\": 0}", "version: expected a whole number from 1"},
         {"{\"octreel\": \"recording\", \"version\": 1}", "version: the recording was made by an older Octreel, of "
                                                          "version 1: film its session.json again, or use that one"},

@@ -236,7 +236,7 @@ static void recording_json_keeps_the_view(void **state)
     assert_filmed(&session, &options);
     char *text = file_read(place_below(folder.path, "recording.json").path, NULL);
     json_t *object = json_read(text);
-    assert_whole_number(json_member(object, "version"), 2);
+    assert_whole_number(json_member(object, "version"), 3);
     assert_whole_number(json_member(object, "width"), SMALL_WIDTH);
     assert_whole_number(json_member(object, "height"), SMALL_HEIGHT);
     assert_whole_number(json_member(object, "every"), 7);
