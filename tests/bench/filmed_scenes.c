@@ -7,14 +7,14 @@
 #include <string.h>
 
 const filmed_scene filmed_scenes[FILMED_SCENES] = {
-    {"S", "the default session, still camera", 0, CAMERA_ISO, 2, 250000, 10, 0, true, 1, 10, 60, 253, 400, 0, 0},
-    {"M", "2,000 clustered points, orbiting camera", 2000, CAMERA_ORBIT, 2, 250000, 10, 0, true, 1, 10, 60, 10000, 0,
-     100, 100},
-    {"L", "100,000 points, orbiting camera, nothing left out", 100000, CAMERA_ORBIT, 0, 0, 8, 0, true, 2, 15, 15, 0, 0,
-     0, 0},
-    {"L-lod2", "the same with --lod 2", 100000, CAMERA_ORBIT, 2, 250000, 16, 0, true, 2, 15, 0, 0, 0, 0, 0},
-    {"1M-lod2", "1,000,000 points, orbiting camera, --lod 2", 1000000, CAMERA_ORBIT, 2, 250000, 0, 5, false, 10, 20, 0,
+    {"S", "the default session, still camera", 0, CAMERA_ISO, 2, 250000, 25, 0, 300, 200, 1, 10, 60, 253, 400, 0, 0},
+    {"M", "2,000 clustered points, orbiting camera", 2000, CAMERA_ORBIT, 2, 250000, 25, 0, 300, 200, 1, 10, 60, 10000,
+     0, 100, 100},
+    {"L", "100,000 points, orbiting camera, nothing left out", 100000, CAMERA_ORBIT, 0, 0, 20, 0, 300, 200, 2, 15, 15,
      0, 0, 0, 0},
+    {"L-lod2", "the same with --lod 2", 100000, CAMERA_ORBIT, 2, 250000, 28, 0, 300, 200, 2, 15, 0, 0, 0, 0, 0},
+    {"1M-lod2", "1,000,000 points, orbiting camera, --lod 2", 1000000, CAMERA_ORBIT, 2, 250000, 0, 25, 1000, 0, 10, 20,
+     0, 0, 0, 0, 0},
 };
 
 view filmed_view(const filmed_scene *scene)

@@ -14,7 +14,8 @@ typedef struct filmed_scene {
     uint64_t budget;     /* boxes and points a frame; 0 is any number */
     double least_times;  /* the goal in frames a second: so many times the naive way's; 0 is none */
     double least_fps;    /* the same as a number */
-    bool small_start;    /* the goals for memory and for the first frame hold */
+    double first_ms;     /* the goal for the first frame, */
+    double mib;          /* and that for memory; 0 is none */
     int shorter;         /* it is filmed for so many times fewer frames */
     int naive_shorter;   /* and by the naive way for so many times fewer again */
     double page_fps;     /* the goal of its page in frames a second; 0: its page is not measured */
@@ -27,8 +28,7 @@ typedef struct filmed_scene {
 #define FILMED_SCENES 5
 extern const filmed_scene filmed_scenes[FILMED_SCENES];
 
-/* Goals of every scene that has small_start, and of every page. */
-#define GOAL_MIB 200.0
+/* The goal for the first frame of every page. */
 #define GOAL_FIRST_MS 300.0
 #define GOAL_PAGE_MIB 300.0
 

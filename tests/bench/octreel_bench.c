@@ -251,10 +251,10 @@ static void print_octreel(const filmed_scene *scene, const filming result[FILM_K
         snprintf(goal, sizeof goal, ">= %g/s %s", scene->least_fps, verdict(fps >= scene->least_fps));
     else
         snprintf(goal, sizeof goal, ">= %gx %s", scene->least_times, verdict(times >= scene->least_times));
-    if (scene->small_start) {
-        snprintf(first, sizeof first, "<%g %s", GOAL_FIRST_MS, verdict(f->first_ms < GOAL_FIRST_MS));
-        snprintf(memory, sizeof memory, "<%g %s", GOAL_MIB, verdict(f->mib < GOAL_MIB));
-    }
+    if (scene->first_ms > 0)
+        snprintf(first, sizeof first, "<%g %s", scene->first_ms, verdict(f->first_ms < scene->first_ms));
+    if (scene->mib > 0)
+        snprintf(memory, sizeof memory, "<%g %s", scene->mib, verdict(f->mib < scene->mib));
     print_row(scene, "octreel", f);
     printf(" %7.1f %6.1f %-14s %6.0f ms %-11s %5.0f MiB %-9s %8.1f %9.1f %5.0f%%\n", times, times_by_cpu(result), goal,
            f->first_ms, first, f->mib, memory, parts->draw_ms, parts->encode_ms, 100 * floor_of(parts));

@@ -65,7 +65,7 @@ static void table_holds_every_figure_against_its_goal(void **state)
     command_result run = film_without_browser("--folder .");
     const char *row = strstr(run.out, "octreel");
     assert_non_null(row);
-    row = strstr(row, ">= 10x ");
+    row = strstr(row, ">= 25x ");
     assert_non_null(row);
     assert_non_null(strstr(row, "<300 "));
     assert_non_null(strstr(row, "<200 "));
