@@ -84,7 +84,8 @@ add_custom_command(OUTPUT ${wasm_folder}/octreel.wasm DEPENDS ${wasm_objects} VE
                    COMMAND ${WASM_CLANG} ${wasm_target} -O2 -mexec-model=reactor ${wasm_objects} -Wl,--gc-sections
                            -Wl,--strip-all -Wl,-z,stack-size=1048576 ${exports} -Wl,--export=web_used
                            -o ${wasm_folder}/octreel.wasm)
-set(PAGE_MODULE ${wasm_folder}/octreel.wasm.base64)
-add_custom_command(OUTPUT ${PAGE_MODULE} DEPENDS ${wasm_folder}/octreel.wasm VERBATIM
-                   COMMAND sh -c "gzip -9nc octreel.wasm | base64 -w 0 >octreel.wasm.base64"
+set(PAGE_MODULE ${wasm_folder}/octreel.wasm.letters)
+set(pack ${CMAKE_CURRENT_SOURCE_DIR}/web/pack_module)
+add_custom_command(OUTPUT ${PAGE_MODULE} DEPENDS ${wasm_folder}/octreel.wasm ${pack} VERBATIM
+                   COMMAND sh -c "\"$0\" octreel.wasm >octreel.wasm.letters" ${pack}
                    WORKING_DIRECTORY ${wasm_folder})

@@ -26,7 +26,7 @@ static const char fakes[] =
     "    printf '#!/bin/sh\\necho \"%s $*\" >>\"%s/done\"\\n' $name \"$PWD\" >bin/$name\n"
     "    chmod +x bin/$name\n"
     "done\n"
-    "printf 'mkdir -p build/bin\\ncp %s/bin/octreel build/bin\\n' \"$PWD\" >>bin/setup\n"
+    "printf 'mkdir -p build/bin\\ncp \"%s/bin/octreel\" build/bin\\n' \"$PWD\" >>bin/setup\n"
     "printf 'for a; do case $a in --markdown=*) echo same >\"${a#*=}\" ;; esac; done\\n' >>bin/octreel\n"
     "printf 'echo install ok installed\\n' >>bin/dpkg-query\n";
 

@@ -13,12 +13,26 @@ function hasModule()
     return Boolean(moduleText()) && typeof WebAssembly === "object" && typeof DecompressionStream === "function";
 }
 
+/* The bytes of such a text: what viz/web/pack_module makes. */
+function unpackLetters(text)
+{
+    const digits = new Map([..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
+        .map((letter, digit) => [letter, digit]));
+    const words = new DataView(new ArrayBuffer(Math.floor(text.length / 5) * 4));
+    for (let at = 0; at < words.byteLength; at += 4) {
+        let word = 0;
+        for (const letter of text.substr(1 + at / 4 * 5, 5))
+            word = word * 85 + digits.get(letter);
+        words.setUint32(at, word);
+    }
+    return new Uint8Array(words.buffer, 0, words.byteLength - text[0]);
+}
+
 /* The module, compiled. */
 async function compileModule()
 {
     try {
-        const packed = Uint8Array.from(atob(moduleText()), letter => letter.charCodeAt(0));
-        const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+        const unpacked = new Blob([unpackLetters(moduleText())]).stream().pipeThrough(new DecompressionStream("gzip"));
         return await WebAssembly.compile(await new Response(unpacked).arrayBuffer());
     } catch (error) {
         throw new Error(`the program in this page is damaged (${error.message}); record or copy the page again`);
