@@ -261,13 +261,14 @@ static void many_edits_that_move_do_the_same_at_once_as_one_by_one(void **state)
         body->id = 1000 + i;
         edits[0][i] = edits[1][i ^ 1] = (octree_edit){2, OCTREE_EDIT_MOVE, to};
     }
+    octree_session sessions[2]; /* games point into them */
     octree_game *games[2];
     for (int g = 0; g < 2; g++) {
-        octree_session session = small_session(bodies, BODIES);
-        session.tree = define(cube(-10, 10), 4, 21, OCTREE_GROW);
-        session.edits = edits[g];
-        session.edit_count = EDITS;
-        games[g] = start_game(&session);
+        sessions[g] = small_session(bodies, BODIES);
+        sessions[g].tree = define(cube(-10, 10), 4, 21, OCTREE_GROW);
+        sessions[g].edits = edits[g];
+        sessions[g].edit_count = EDITS;
+        games[g] = start_game(&sessions[g]);
         for (int tick = 1; tick <= 3; tick++)
             assert_int_equal(play_key(games[g], '.')->refusal_count > EDITS - BODIES, tick == 2);
     }
