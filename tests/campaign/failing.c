@@ -200,6 +200,7 @@ int pthread_create(pthread_t *made, const pthread_attr_t *how, void *(*run)(void
 /* Those that fail without having done anything. */
 #define PLAIN_CALLS(X)                                                                                                 \
     X(int, rename, -1, (const char *from, const char *to), (from, to))                                                 \
+    X(int, fsync, -1, (int file), (file))                                                                              \
     X(int, link, -1, (const char *from, const char *to), (from, to))                                                   \
     X(int, unlink, -1, (const char *path), (path))                                                                     \
     X(int, remove, -1, (const char *path), (path))                                                                     \

@@ -133,12 +133,18 @@ bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *
     return ok;
 }
 
+/* Whether it is on the disk, as far as the file system can tell. */
+static bool is_synced(FILE *stream)
+{
+    return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
 bool file_writer_close(file_writer *file, octreel_error *error)
 {
     if (!file->temp)
         return true;
     const bool direct = strcmp(file->temp, file->path) == 0;
-    bool ok = fflush(file->stream) == 0 && !ferror(file->stream);
+    bool ok = fflush(file->stream) == 0 && !ferror(file->stream) && (!file->lasting || is_synced(file->stream));
     int reason = errno;
     if (fclose(file->stream) != 0 && ok) {
         ok = false;
@@ -177,7 +183,7 @@ static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *er
 
 typedef bool writer_opener(file_writer *file, const char *path, octreel_error *error);
 
-static bool copy_by(writer_opener *open_file, const char *from, const char *to, octreel_error *error)
+static bool copy_by(writer_opener *open_file, bool lasting, const char *from, const char *to, octreel_error *error)
 {
     char reason[FILE_REASON];
     file_writer file;
@@ -185,6 +191,7 @@ static bool copy_by(writer_opener *open_file, const char *from, const char *to, 
     if (!in)
         return error_set(error, "%s: %s", file_title(from), reason);
     bool ok = open_file(&file, to, error);
+    file.lasting = lasting;
     if (ok)
         ok = copy_stream(in, from, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
     fclose(in);
@@ -193,12 +200,17 @@ static bool copy_by(writer_opener *open_file, const char *from, const char *to, 
 
 bool file_copy_to(const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open, from, to, error);
+    return copy_by(file_writer_open, false, from, to, error);
+}
+
+bool file_copy_lasting(const char *from, const char *to, octreel_error *error)
+{
+    return copy_by(file_writer_open, true, from, to, error);
 }
 
 bool file_copy_apart(const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open_apart, from, to, error);
+    return copy_by(file_writer_open_apart, true, from, to, error);
 }
 
 /* ---- Compared ----------------------------------------------------------------------------------------------- */

@@ -58,7 +58,8 @@ bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[F
 typedef struct file_writer {
     FILE *stream;
     const char *path;
-    char *temp; /* where the stream goes; null: standard output */
+    char *temp;   /* where the stream goes; null: standard output */
+    bool lasting; /* to be set after it is opened: a power cut, too, leaves the old file or the new one, whole */
 } file_writer;
 
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
@@ -73,7 +74,10 @@ bool file_writer_abandon(file_writer *file);
 /* Copy a regular file, a block at a time, by way of "<to>.part" and a rename. */
 bool file_copy_to(const char *from, const char *to, octreel_error *error);
 
-/* The same by way of a file that nobody else writes at the same time. */
+/* The same of what shall last (`lasting`). */
+bool file_copy_lasting(const char *from, const char *to, octreel_error *error);
+
+/* The same of what shall last, by way of a file that nobody else writes at the same time. */
 bool file_copy_apart(const char *from, const char *to, octreel_error *error);
 
 /* A file that a command line names as an output: none may take the place of what is read, nor of another one. */

@@ -179,9 +179,9 @@ static bool write_picture(const accepting *a, const diff_pair *pair, action what
         return remove(pair->a->path) == 0 ||
                error_set(error, "%s: cannot be removed: %s", pair->a->path, strerror(errno));
     if (a->reference.kind == DIFF_PICTURE || pair->a)
-        return file_copy_to(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
+        return file_copy_lasting(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
     char *to = path_join(a->reference.path, pair->b->name);
-    const bool ok = to ? file_copy_to(pair->b->path, to, error) : error_no_memory(error);
+    const bool ok = to ? file_copy_lasting(pair->b->path, to, error) : error_no_memory(error);
     free(to);
     return ok;
 }
@@ -214,7 +214,7 @@ static bool copy_fact(const accepting *a, const char *name, octreel_error *error
     char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
     bool ok = (from && to) || error_no_memory(error);
     if (ok && access(from, F_OK) == 0 && !same_bytes(from, to))
-        ok = file_copy_to(from, to, error);
+        ok = file_copy_lasting(from, to, error);
     free(from);
     free(to);
     return ok;

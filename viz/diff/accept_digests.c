@@ -84,6 +84,7 @@ static bool write_file(const diff_side *now, octreel_error *error)
     file_writer file;
     if (!file_writer_open(&file, now->path, error))
         return false;
+    file.lasting = true;
     const bool written =
         now->baseline ? baseline_write(file.stream, now, error) : digest_file_write(file.stream, now, error);
     return written ? file_writer_close(&file, error) : file_writer_abandon(&file);
