@@ -62,6 +62,8 @@ static bool scan(json_scan *s, char c)
 
 #define BLOCK ((size_t)1 << 16)
 
+static const char no_room[] = "out of memory for an object of the stream%s";
+
 static json_stream_state fail(json_reader *r, const char *format, const char *reason)
 {
     json_fail_line(r, r->line, NULL, format, reason);
@@ -103,7 +105,7 @@ static json_stream_state read_more(json_stream *s, json_reader *r)
 {
     ssize_t got;
     if (!make_room(s))
-        return fail(r, "out of memory for an object of the stream%s", "");
+        return fail(r, no_room, "");
     do {
         if (!wait_for_more(s))
             return JSON_STREAM_STOPPED;
@@ -147,6 +149,8 @@ json_stream_state json_stream_next(json_stream *s, json_reader *r)
         s->begin = (size_t)(r->at - s->bytes);
     s->scanned = 0;
     s->scan = (json_scan){0};
+    if (!s->bytes && !make_room(s))
+        return fail(r, no_room, "");
     for (;;) {
         if (s->scanned == 0)
             skip_blanks(s, r);

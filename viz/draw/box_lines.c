@@ -138,7 +138,8 @@ static const lined_box *find_box(const lined_boxes *in, size_t from, const scene
 /* Add the next box: one of the last scene from *old on, or a new one. */
 static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
-    const lined_box *next = kept->before.items + *old, *found = find_box(&kept->before, *old, box);
+    const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,
+                    *found = find_box(&kept->before, *old, box);
     lined_box *items = array_reserve(kept->now.items, kept->now.count + 1, &kept->now.room, sizeof *items);
     if (!items)
         return false;

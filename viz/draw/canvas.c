@@ -55,7 +55,8 @@ size_t canvas_draw(canvas *c, quad_list *quads, uint8_t *indices)
         memcpy(c->kept, indices, pixels);
         c->kept_count = start = same;
     }
-    fill_quads(quads->items + start, quads->count - start, all, indices);
+    if (start < quads->count)
+        fill_quads(quads->items + start, quads->count - start, all, indices);
     const quad_list last = c->last;
     c->last = *quads;
     *quads = last;

@@ -24,7 +24,7 @@ bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to)
     for (size_t i = 0; i < count; i++)
         ids += source[i].has_points ? source[i].points.count : 0;
     octree_foreign_node *nodes = make_room(count, ids);
-    uint64_t *room = (uint64_t *)(nodes + (nodes ? count : 0));
+    uint64_t *room = nodes ? (uint64_t *)(nodes + count) : NULL;
     *to = (octree_foreign_tree){.tick = from->tick, .nodes = nodes, .node_count = nodes ? count : 0};
     for (size_t i = 0; nodes && i < count; i++) {
         nodes[i] = source[i];
@@ -135,7 +135,7 @@ static bool read_into(json_reader *r, json_t *value, const json_place *at, octre
 {
     const size_t count = json_array_size(value);
     octree_foreign_node *nodes = make_room(count, count_ids(value));
-    uint64_t *room = (uint64_t *)(nodes + (nodes ? count : 0));
+    uint64_t *room = nodes ? (uint64_t *)(nodes + count) : NULL;
     if (count && !nodes)
         return json_fail(r, at, "out of memory for %zu nodes", count);
     tree->nodes = nodes;

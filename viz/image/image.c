@@ -77,8 +77,11 @@ static bool is_flat(const block *b)
 
 static image_color sample_at(const block *b, size_t at)
 {
-    const uint8_t index = b->of->pixels[at], *own = b->own + 3 * at;
-    return index < b->of->palette.count ? b->of->palette.colors[index] : (image_color){own[0], own[1], own[2]};
+    const uint8_t index = b->of->pixels[at];
+    if (index < b->of->palette.count)
+        return b->of->palette.colors[index];
+    const uint8_t *own = b->own + 3 * at;
+    return (image_color){own[0], own[1], own[2]};
 }
 
 static image_color mean_of(const block *b)

@@ -459,10 +459,10 @@ octree_status judge_without(const judging *about, point_test *is_lost, point_vis
     }
     if (status == OCTREE_OK)
         status = compare(&s, game->named.count);
-    const octree_point *missed = (const octree_point *)game->accused.items + accused;
+    const octree_point *missed = game->accused.items;
     for (size_t i = 0; status == OCTREE_OK && made.fault && i < made.missed_count; i++)
-        if (is_lost(&missed[i], context))
-            status = blame(&missed[i], context);
+        if (is_lost(&missed[accused + i], context))
+            status = blame(&missed[accused + i], context);
     game->accused.count = accused;
     return status;
 }
@@ -472,12 +472,13 @@ void judge_assign(octree_game *game)
     const uint64_t *given = game->given.items;
     const octree_point *accused = game->accused.items;
     octree_answer *answers = game->answers.items;
+    size_t ids = 0, points = 0; /* of the answers before */
     for (size_t i = 0; i < game->answers.count; i++) {
         octree_judgement *made = &answers[i].judgement;
-        made->given = made->given_count ? given : NULL;
-        made->missed = made->missed_count ? accused : NULL;
-        made->extra = made->extra_count ? accused + made->missed_count : NULL;
-        given += made->given_count;
-        accused += made->missed_count + made->extra_count;
+        made->given = made->given_count ? given + ids : NULL;
+        made->missed = made->missed_count ? accused + points : NULL;
+        made->extra = made->extra_count ? accused + points + made->missed_count : NULL;
+        ids += made->given_count;
+        points += made->missed_count + made->extra_count;
     }
 }

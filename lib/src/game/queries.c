@@ -232,12 +232,12 @@ static octree_status judge_program(octree_game *game, const octree_query *query,
                                    size_t points, size_t neighbors)
 {
     octree_answer *answer = (octree_answer *)game->answers.items + game->answers.count - 1;
-    const bool near = octree_query_about(query->kind)->neighbors;
+    const bool near = octree_query_about(query->kind)->neighbors, none = answer->count == 0;
     const judging j = {.game = game,
                        .query = query,
                        .answer = answer,
-                       .points = near ? NULL : (const octree_point *)game->found.items + points,
-                       .neighbors = near ? (const octree_neighbor *)game->near.items + neighbors : NULL,
+                       .points = near || none ? NULL : (const octree_point *)game->found.items + points,
+                       .neighbors = near && !none ? (const octree_neighbor *)game->near.items + neighbors : NULL,
                        .skip = near ? how->skip : query->skip,
                        .skip_id = near ? how->skip_id : query->skip_id};
     game->tick.judged |= query->answered;

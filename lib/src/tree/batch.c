@@ -77,7 +77,7 @@ static void collect_part(size_t number, void *context)
 /* Append the items of a part to those of the parts before it. */
 static void append_part(span *all, span part)
 {
-    if (all->items + all->count != part.items && part.count > 0)
+    if (part.count > 0 && all->items + all->count != part.items)
         memmove(all->items + all->count, part.items, part.count * sizeof *part.items);
     all->count += part.count;
 }
@@ -101,10 +101,12 @@ enum { LISTS = 3 }; /* what leaves, what arrives, and one to sort with */
 bool take_lists(batch *b)
 {
     b->lists = take_items(b, LISTS);
+    if (!b->lists)
+        return false;
     b->leaving.items = b->lists;
     b->arriving.items = b->lists + b->count + 1;
     b->spare = b->lists + 2 * (b->count + 1);
-    return b->lists != NULL;
+    return true;
 }
 
 static bool sort_items(batch *b)
@@ -297,6 +299,11 @@ static bool gather_visits(batch *b, list *all, node *n, unsigned depth, span ite
     return true;
 }
 
+static span list_from(span list, size_t before)
+{
+    return (span){list.items ? list.items + before : NULL, 0};
+}
+
 /* The lists of a part begin where its first items do among all. */
 static void visit_part(size_t number, void *context)
 {
@@ -305,8 +312,8 @@ static void visit_part(size_t number, void *context)
     const visit *all = v->all.items;
     batch *b = &v->division->parts[number].batch;
     const size_t before = first < end ? (size_t)(all[first].items.items - b->valid.items) : 0;
-    b->leaving = (span){b->leaving.items + before, 0};
-    b->arriving = (span){b->arriving.items + before, 0};
+    b->leaving = list_from(b->leaving, before);
+    b->arriving = list_from(b->arriving, before);
     b->done = 0;
     for (size_t i = first; i < end; i++)
         visit_below(b, all[i].node, all[i].depth, all[i].items, v->visitor);

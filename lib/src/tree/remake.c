@@ -212,7 +212,7 @@ octree_status remake_tree(batch *b, bool *settled)
     r->found = arena_take(memory, b->count);
     r->fresh = arena_take(memory, count * sizeof *r->fresh);
     r->items = arena_take(memory, 2 * count * sizeof *r->items);
-    r->spare = r->items + count;
+    r->spare = r->items ? r->items + count : NULL;
     if (r->found && r->fresh && r->items && take_table(b, &r->ids)) {
         memset(r->found, 0, b->count);
         status = move_and_build(r, settled);
