@@ -418,7 +418,7 @@ static void add_cost(octree_cost *sum, const octree_cost *cost)
 static void search_in_order(target_batch *b, arena *memory)
 {
     tasks_run(b->tree, order_share, b->tasks, b);
-    morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0);
+    morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
     if (b->how.trace)
         b->tasks = 1; /* the caller's tracer is for one thread */
     for (unsigned i = 0; i < b->tasks; i++)

@@ -2,6 +2,7 @@
 /* batch.c - the points of a batch: checked, sorted by Morton code, each pair once. */
 #include "division.h"
 #include "float_rules.h"
+#include "grid_fill.h"
 
 #include <string.h>
 
@@ -29,25 +30,18 @@ static octree_status sure_code(const octree *tree, const double position[3], uin
     return status;
 }
 
-static octree_status check_inside(const octree *tree, const double position[3])
-{
-    return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
-}
-
-/* Of a point and of where it moves; with its code, unless the batch remakes the tree. */
+/* Of a point and of where it moves. */
 static octree_status check_point(const batch *b, size_t place, uint64_t *code)
 {
-    const double *from = b->points[place].position;
-    const octree_status status = b->remakes ? check_inside(b->tree, from) : sure_code(b->tree, from, code);
+    const octree_status status = sure_code(b->tree, b->points[place].position, code);
     return status == OCTREE_OK && b->to ? check_inside(b->tree, b->to[place]) : status;
 }
 
 /* Items for the valid ones of some points. */
 static void collect_some(batch *b, size_t first, size_t count)
 {
-    uint64_t codes[TOGETHER] = {0};
-    if (!b->remakes)
-        morton_codes(b->tree->axes, b->points[first].position, sizeof *b->points / sizeof(double), count, codes);
+    uint64_t codes[TOGETHER];
+    morton_codes(b->tree->axes, b->points[first].position, sizeof *b->points / sizeof(double), count, codes);
     for (size_t i = 0; i < count; i++) {
         const size_t place = first + i;
         const octree_status status = check_point(b, place, &codes[i]);
@@ -109,22 +103,39 @@ bool take_lists(batch *b)
     return true;
 }
 
+/* Whether no two points can be the same, as where ids are counted. */
+static bool ids_ascend(const batch *b)
+{
+    for (size_t i = 1; i < b->count; i++)
+        if (b->points[i].id <= b->points[i - 1].id)
+            return false;
+    return true;
+}
+
 static bool sort_items(batch *b)
 {
     morton_item *spare = take_items(b, 1);
     if (!spare)
         return false;
     const size_t unsorted = b->tree->root.count == 0 ? unsorted_count(b->tree) : 0;
-    b->repeated = morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted);
+    const bool differ = unsorted > 0 && ids_ascend(b);
+    b->repeated =
+        morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted, differ);
     give_items(b, spare, 1);
     return true;
 }
 
-/* Of so many moves it is cheaper to build the tree anew: at 1e5 points both take 300 instructions a stored point at
- * three tenths, counted by callgrind, and what is built is read and written in order. */
-static bool is_much(size_t moves, size_t stored)
+/* Of so many moves it is cheaper to build the tree anew, as counted by callgrind at 1e5 points: by a grid from a fifth
+ * on, which takes 170 instructions a stored point, else from three tenths on, at 350. Under OCTREE_REFUSE there is no
+ * grid: what may meet a full leaf is found by sorting. False when there is no memory. */
+static bool choose_remake(batch *b)
 {
-    return stored >= LEAST_REMADE && moves >= stored / 10 * 3;
+    const size_t stored = b->tree->root.count;
+    if (!b->to || stored < LEAST_REMADE || b->count < stored / 5)
+        return true;
+    const bool ok = b->tree->def.full_leaf == OCTREE_REFUSE || grid_choose(b, stored);
+    b->remakes = b->grid > 0 || b->count >= stored / 10 * 3;
+    return ok;
 }
 
 octree_status batch_begin(batch *b)
@@ -136,13 +147,54 @@ octree_status batch_begin(batch *b)
     if (b->count >= UINT32_MAX)
         return OCTREE_TOO_MANY;
     b->store = &b->tree->store;
-    b->remakes = b->to && is_much(b->count, b->tree->root.count);
+    if (!choose_remake(b))
+        return OCTREE_NO_MEMORY;
+    division_begin(b);
+    return b->remakes ? OCTREE_OK : batch_collect(b);
+}
+
+/* Cells in place of items, of a tree that is empty. */
+static void find_cells(const batch *b, size_t first, size_t count)
+{
+    const octree_point *points = b->points + first;
+    uint32_t *cells = b->cells + first;
+    grid_cells(b->tree->axes, b->grid, points->position, sizeof *points / sizeof(double), count, cells);
+    for (size_t i = 0; i < count; i++) {
+        octree_status status = OCTREE_OK;
+        if (cells[i] == GRID_NONE)
+            status = check_position(b->tree, points[i].position);
+        if (cells[i] == GRID_NONE && status == OCTREE_OK)
+            cells[i] = grid_cell(b->tree->axes, b->grid, points[i].position);
+        if (b->statuses)
+            b->statuses[first + i] = status;
+    }
+}
+
+static void find_share(size_t number, void *context)
+{
+    const batch *b = context;
+    const unsigned tasks = tasks_for(b->tree, b->count);
+    const size_t end = tasks_share(b->count, tasks, number + 1);
+    for (size_t i = tasks_share(b->count, tasks, number); i < end; i += GRID_TOGETHER)
+        find_cells(b, i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER);
+}
+
+octree_status batch_collect(batch *b)
+{
+    if (b->inserts && b->tree->root.count == 0 && ids_ascend(b) && !grid_choose(b, b->count))
+        return OCTREE_NO_MEMORY;
+    if (b->grid > 0) {
+        b->cells = arena_take(&b->store->memory, b->count * sizeof *b->cells);
+        if (!b->cells)
+            return OCTREE_NO_MEMORY;
+        tasks_run(b->tree, find_share, tasks_for(b->tree, b->count), b);
+        return OCTREE_OK;
+    }
     b->valid.items = take_items(b, 1);
     if (!b->valid.items)
         return OCTREE_NO_MEMORY;
-    division_begin(b);
     collect_items(b);
-    return b->remakes || sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
 /* A point that repeats an earlier one of the batch: both by their index. */
@@ -164,6 +216,7 @@ void batch_end(batch *b)
         division_end(b);
     give_items(b, b->valid.items, 1);
     give_items(b, b->lists, LISTS);
+    arena_give(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
 }
 
 size_t octant_share(const morton_item *items, size_t count, unsigned depth)
@@ -180,8 +233,8 @@ size_t octant_share(const morton_item *items, size_t count, unsigned depth)
     return low;
 }
 
-/* Whether no two items can be the same point, as where ids are counted: then they need not be looked up. */
-static bool ids_ascend(const batch *b, const morton_item *items, size_t count)
+/* The same of items. */
+static bool item_ids_ascend(const batch *b, const morton_item *items, size_t count)
 {
     for (size_t i = 1; i < count; i++)
         if (b->points[items[i].place].id <= b->points[items[i - 1].place].id)
@@ -196,7 +249,7 @@ static bool drop_repeated(batch *b, morton_item *items, size_t count, size_t *ke
     store *st = &b->tree->store;
     node seen;
     *kept = count;
-    if (ids_ascend(b, items, count))
+    if (item_ids_ascend(b, items, count))
         return true;
     bool ok = leaf_create(st, &seen, (uint32_t)count);
     for (size_t i = 0; ok && i < count; i++) {

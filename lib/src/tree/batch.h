@@ -36,13 +36,17 @@ typedef struct batch {
     morton_item *spare;
     list repetitions;
 
-    bool remakes;               /* many points move: the items of `valid` have no codes and are not sorted */
+    bool inserts;               /* an empty tree may be built by a grid */
+    bool remakes;               /* many points move: `valid` is empty at first */
     bool settled;               /* the moves have their statuses: none meets a full leaf */
     bool may_be_stored;         /* look whether an arriving pair is stored already */
     bool duplicate;             /* one is */
     bool overflow;              /* a moved point may meet a full leaf */
-    const octree_point *stored; /* of the leaf whose points are among the items that are divided */
-    list patches, edits;        /* the plan */
+    const octree_point *stored; /* those among the items that nodes are built of */
+    size_t stored_count;        /* with cells, after those of the batch's points */
+    uint32_t *cells;            /* of a grid of this depth, in place of items (grid_fill.h) */
+    unsigned grid;
+    list patches, edits; /* the plan */
 } batch;
 
 static inline void set_status(const batch *b, const morton_item *item, octree_status status)
@@ -60,6 +64,12 @@ static inline octree_point arriving_point(const batch *b, const morton_item *ite
     return point;
 }
 
+/* A point of the caller's that arrives, or one that is stored. */
+static inline octree_point batch_point(const batch *b, const morton_item *item)
+{
+    return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
+}
+
 /* How many of the sorted items lie in the same octant of a cell of this depth as the first of them. */
 size_t octant_share(const morton_item *items, size_t count, unsigned depth);
 
@@ -70,8 +80,15 @@ static inline size_t unsorted_count(const octree *tree)
 }
 
 /* Check all positions, and sort those that are valid into `valid`. Sets each point's status: OK, or why it is not
- * among them. */
+ * among them. A batch that `remakes` the tree leaves that to batch_collect(). */
 octree_status batch_begin(batch *b);
+octree_status batch_collect(batch *b);
+
+/* OK, OUTSIDE or NOT_FINITE. */
+static inline octree_status check_inside(const octree *tree, const double position[3])
+{
+    return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
+}
 
 /* Of moves: lists for what leaves and arrives, with room for all points. */
 bool take_lists(batch *b);
@@ -107,8 +124,12 @@ octree_status restructure(batch *b);
  * out. */
 bool may_overflow(const batch *b, const node *old, cell c, span arriving);
 
+/* Put the points that have cells, or where there is no grid all that arrives, in place of what is stored. Errors:
+ * NO_MEMORY; the tree is unchanged then, and when `overflow` is set. */
+octree_status build_anew(batch *b);
+
 /* Move the points while the tree is built anew. *settled is false where moves depend on one another; the tree is then
- * unchanged, and the statuses are those of batch_begin(). Errors: NO_MEMORY. */
+ * unchanged, and the statuses are not known. Errors: NO_MEMORY. */
 octree_status remake_tree(batch *b, bool *settled);
 
 /* Give the moves their statuses one after the other in the order given, and list what leaves and arrives in the end.

@@ -37,7 +37,7 @@ static octree_status insert_valid(batch *b)
 static octree_status insert_all(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                 size_t *inserted)
 {
-    batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
+    batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses, .inserts = true};
     octree_status status = batch_begin(&b);
     if (status == OCTREE_OK)
         status = insert_valid(&b);
@@ -319,7 +319,7 @@ static octree_status move_apart(batch *b, bool *settled)
         return OCTREE_NO_MEMORY;
     b->may_be_stored = true;
     batch_visit_leaves(b, find_moved);
-    morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0);
+    morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0, true);
     const octree_status status = restructure(b);
     *settled = !b->duplicate && !b->overflow;
     if (status != OCTREE_OK || !*settled)
@@ -342,14 +342,16 @@ static octree_status move_valid(batch *b)
 {
     bool settled = false;
     octree_status status = OCTREE_OK;
-    if (b->valid.count == 0)
-        return OCTREE_OK;
-    if (b->remakes)
+    if (b->remakes) {
         status = remake_tree(b, &settled);
-    else if (!ids_differ(b, &settled))
+        if (settled || status != OCTREE_OK)
+            return status;
+        status = batch_collect(b);
+    } else if (!ids_differ(b, &settled)) {
         return OCTREE_NO_MEMORY;
-    else if (settled)
+    } else if (settled && b->valid.count > 0) {
         status = move_apart(b, &settled);
+    }
     return settled || status != OCTREE_OK ? status : move_in_order(b);
 }
 

@@ -10,6 +10,7 @@
 
 typedef struct sorter {
     size_t unsorted;
+    bool differ;   /* no two items are one point, whatever their codes: repetitions are not looked for */
     bool repeated; /* some items may have one code */
 } sorter;
 
@@ -50,7 +51,7 @@ static bool has_repetition(const morton_item *items, size_t count)
 /* The items of a cell with `left` levels below it that is not divided any further. */
 static void finish(sorter *s, morton_item *items, size_t count, unsigned left)
 {
-    if (left > 0 && count <= s->unsorted && !has_repetition(items, count))
+    if (left > 0 && count <= s->unsorted && (s->differ || !has_repetition(items, count)))
         return;
     s->repeated = true;
     if (left > 0)
@@ -106,17 +107,17 @@ static void sort(sorter *s, morton_item *items, morton_item *other, size_t count
 }
 
 static bool sort_alone(morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
-                       size_t unsorted)
+                       size_t unsorted, bool differ)
 {
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* a section for each pass in progress */
-    sorter s = {.unsorted = unsorted};
+    sorter s = {.unsorted = unsorted, .differ = differ};
     sort(&s, items, other, count, left, in_place, ends);
     return s.repeated;
 }
 
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted)
 {
-    return sort_alone(items, spare, count, OCTREE_MAX_DEPTH - depth, true, unsorted);
+    return sort_alone(items, spare, count, OCTREE_MAX_DEPTH - depth, true, unsorted, false);
 }
 
 /* ---- By tasks ----------------------------------------------------------------------------------------------- */
@@ -130,8 +131,9 @@ typedef struct pass {
     morton_item *from, *to;
     size_t count, unsorted;
     unsigned tasks, left, shift; /* levels below the cells */
-    bool in_place;               /* the cells end up where they are */
-    size_t ends[DIGITS + 1];     /* of the cells; that of the first is at 1 */
+    bool differ;
+    bool in_place;           /* the cells end up where they are */
+    size_t ends[DIGITS + 1]; /* of the cells; that of the first is at 1 */
     unsigned cells[TASKS_AT_MOST + 1];
     bool repeated[TASKS_AT_MOST];
 } pass;
@@ -182,7 +184,7 @@ static void sort_cells(size_t number, void *context)
 {
     pass *p = context;
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS];
-    sorter s = {.unsorted = p->unsorted};
+    sorter s = {.unsorted = p->unsorted, .differ = p->differ};
     for (unsigned digit = p->cells[number]; digit < p->cells[number + 1]; digit++) {
         const size_t start = p->ends[digit], count = p->ends[digit + 1] - start;
         if (count > 0 && !is_large(p, digit))
@@ -205,16 +207,16 @@ static void share_cells(pass *p)
 /* Sort the items of a cell with `left` levels below it, into `other` or in place; without memory for the counts on one
  * thread. */
 static bool sort_by_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *other, size_t count,
-                          unsigned left, bool in_place, size_t unsorted)
+                          unsigned left, bool in_place, size_t unsorted, bool differ)
 {
-    pass p = {.tree = tree, .from = items, .to = other, .count = count, .unsorted = unsorted};
+    pass p = {.tree = tree, .from = items, .to = other, .count = count, .unsorted = unsorted, .differ = differ};
     p.tasks = tasks_for(tree, count);
     p.left = left - LEVELS;
     p.shift = 3 * p.left;
     p.in_place = !in_place;
     p.counts = arena_take(memory, p.tasks * sizeof *p.counts);
     if (!p.counts)
-        return sort_alone(items, other, count, left, in_place, unsorted);
+        return sort_alone(items, other, count, left, in_place, unsorted, differ);
     tasks_run(tree, count_digits, p.tasks, &p);
     place_digits(&p);
     tasks_run(tree, scatter_share, p.tasks, &p);
@@ -227,14 +229,14 @@ static bool sort_by_tasks(const octree *tree, arena *memory, morton_item *items,
     for (unsigned digit = 0; digit < DIGITS; digit++)
         if (is_large(&p, digit))
             repeated |= sort_by_tasks(tree, memory, other + p.ends[digit], items + p.ends[digit],
-                                      p.ends[digit + 1] - p.ends[digit], p.left, p.in_place, unsorted);
+                                      p.ends[digit + 1] - p.ends[digit], p.left, p.in_place, unsorted, differ);
     return repeated;
 }
 
 bool morton_sort_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *spare, size_t count,
-                       size_t unsorted)
+                       size_t unsorted, bool differ)
 {
     if (tasks_for(tree, count) == 1)
-        return morton_sort(items, spare, count, 0, unsorted);
-    return sort_by_tasks(tree, memory, items, spare, count, OCTREE_MAX_DEPTH, true, unsorted);
+        return sort_alone(items, spare, count, OCTREE_MAX_DEPTH, true, unsorted, differ);
+    return sort_by_tasks(tree, memory, items, spare, count, OCTREE_MAX_DEPTH, true, unsorted, differ);
 }

@@ -25,10 +25,11 @@ typedef struct morton_item {
  * items. Cost: O(count), in up to 21 passes, most often two or three. */
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted);
 
-/* The same for all of the world, by the tasks of a tree's executor where there are many items. */
+/* The same for all of the world, by the tasks of a tree's executor where there are many items. Where all ids `differ`
+ * equal codes need not be side by side, and are not looked for in cells that are left unsorted. */
 struct octree;
 struct arena;
 bool morton_sort_tasks(const struct octree *tree, struct arena *memory, morton_item *items, morton_item *spare,
-                       size_t count, size_t unsorted);
+                       size_t count, size_t unsorted, bool differ);
 
 #endif

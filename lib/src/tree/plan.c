@@ -6,6 +6,7 @@
  * have made.
  */
 #include "division.h"
+#include "grid_fill.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -231,18 +232,18 @@ static void release_pools(store *s, const node *root)
     pool_release(&s->points);
 }
 
-/* Nothing stays: a tree in pools of its own, as dense as one that is built, takes the place of the old one. */
-static octree_status build_anew(batch *b)
+/* A tree in pools of its own, as dense as one that is built, takes the place of the old one. */
+octree_status build_anew(batch *b)
 {
     octree *tree = b->tree;
     const pool old_nodes = tree->store.nodes, old_points = tree->store.points;
     node made = {0};
-    b->overflow = may_overflow(b, &tree->root, root_cell(), b->arriving);
+    b->overflow = b->to && !b->grid && may_overflow(b, &tree->root, root_cell(), b->arriving);
     if (b->overflow)
         return OCTREE_OK;
     reset_pools(&tree->store);
     division_open(b, b->arriving.count);
-    const bool ok = build_divided(b, root_cell(), b->arriving, &made);
+    const bool ok = b->grid ? grid_fill(b, &made) : build_divided(b, root_cell(), b->arriving, &made);
     division_close(b);
     const pool nodes = tree->store.nodes, points = tree->store.points;
     if (ok) {
@@ -279,7 +280,8 @@ static bool make_plan(batch *b)
 octree_status restructure(batch *b)
 {
     b->duplicate = b->overflow = false;
-    if (b->leaving.count == b->tree->root.count && b->leaving.count == b->arriving.count && b->arriving.count > 0)
+    const size_t stored = b->tree->root.count;
+    if (b->grid || (stored > 0 && b->leaving.count == stored && b->arriving.count == stored))
         return build_anew(b);
     division_open(b, b->arriving.count > b->leaving.count ? b->arriving.count - b->leaving.count : 0);
     const bool ok = make_plan(b);

@@ -108,24 +108,70 @@ static inline __m128i spread_both(__m128i x)
     return spread_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
-/* The codes of two positions: plane_fixed() and plane_unsure() of each axis. */
-static inline void codes_of_two(const axis axes[3], const double *p, const double *q, uint64_t codes[2])
+/* Numbers of at most 8 bits. */
+static inline __m128i spread_short(__m128i x)
 {
-    const __m128i fraction = _mm_set1_epi64x((long long)PLANE_FRACTION_MASK), zero = _mm_setzero_si128();
-    __m128i sums = zero, unsure = zero;
+    x = spread_step(x, 8, UINT64_C(0x100f00f00f00f00f));
+    x = spread_step(x, 4, UINT64_C(0x10c30c30c30c30c3));
+    return spread_step(x, 2, UINT64_C(0x1249249249249249));
+}
+
+/* What the codes of two positions need to know of an axis, twice. */
+typedef struct axis_pair {
+    __m128d min, keys_per_unit;
+    __m128i sure_from, sure_last;
+} axis_pair;
+
+static inline void pair_axes(const axis axes[3], axis_pair pairs[3])
+{
+    for (int i = 0; i < 3; i++)
+        pairs[i] = (axis_pair){_mm_set1_pd(axes[i].min), _mm_set1_pd(axes[i].keys_per_unit),
+                               _mm_set1_epi64x((long long)axes[i].sure_from),
+                               _mm_set1_epi64x((long long)(axes[i].sure_span - 1))};
+}
+
+/* plane_fixed() and plane_unsure() of two coordinates. */
+static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m128i *unsure)
+{
+    const __m128i fraction = _mm_set1_epi64x((long long)PLANE_FRACTION_MASK);
+    const __m128d above = _mm_sub_pd(_mm_set_pd(q, p), a->min);
+    const __m128d guess = _mm_add_pd(_mm_mul_pd(above, a->keys_per_unit), _mm_set1_pd((double)PLANE_GRID));
+    const __m128i fixed = _mm_sub_epi64(_mm_castpd_si128(guess), a->sure_from);
+    const __m128i outside = _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(fixed, PLANE_FIXED_BITS));
+    const __m128i near = _mm_sub_epi64(a->sure_last, _mm_and_si128(fixed, fraction));
+    *unsure = _mm_or_si128(*unsure, _mm_or_si128(near, outside));
+    return fixed;
+}
+
+/* All ones where the highest bit is set. */
+static inline __m128i all_if_unsure(__m128i unsure)
+{
+    return _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(unsure, 63));
+}
+
+/* The codes of two positions. */
+static inline void codes_of_two(const axis_pair axes[3], const double *p, const double *q, uint64_t codes[2])
+{
+    __m128i sums = _mm_setzero_si128(), unsure = sums;
     for (int i = 0; i < 3; i++) {
-        const axis *a = &axes[i];
-        const __m128d above = _mm_sub_pd(_mm_set_pd(q[i], p[i]), _mm_set1_pd(a->min));
-        const __m128d guess =
-            _mm_add_pd(_mm_mul_pd(above, _mm_set1_pd(a->keys_per_unit)), _mm_set1_pd((double)PLANE_GRID));
-        const __m128i fixed = _mm_sub_epi64(_mm_castpd_si128(guess), _mm_set1_epi64x((long long)a->sure_from));
-        const __m128i last = _mm_set1_epi64x((long long)(a->sure_span - 1));
-        unsure = _mm_or_si128(unsure, _mm_sub_epi64(last, _mm_and_si128(fixed, fraction)));
-        unsure = _mm_or_si128(unsure, _mm_sub_epi64(zero, _mm_srli_epi64(fixed, PLANE_FIXED_BITS)));
+        const __m128i fixed = fixed_of_two(&axes[i], p[i], q[i], &unsure);
         sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_both(_mm_srli_epi64(fixed, PLANE_FRACTION)));
     }
-    const __m128i all_ones = _mm_sub_epi64(zero, _mm_srli_epi64(unsure, 63));
-    _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_ones));
+    _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_if_unsure(unsure)));
+}
+
+/* The same of the first bits of each key. */
+static inline void cells_of_two(const axis_pair axes[3], unsigned depth, const double *p, const double *q,
+                                uint32_t cells[2])
+{
+    const __m128i shift = _mm_cvtsi32_si128((int)(PLANE_FIXED_BITS - depth));
+    __m128i sums = _mm_setzero_si128(), unsure = sums;
+    for (int i = 0; i < 3; i++) {
+        const __m128i fixed = fixed_of_two(&axes[i], p[i], q[i], &unsure);
+        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_short(_mm_srl_epi64(fixed, shift)));
+    }
+    const __m128i both = _mm_or_si128(sums, all_if_unsure(unsure));
+    _mm_storel_epi64((__m128i *)cells, _mm_shuffle_epi32(both, _MM_SHUFFLE(3, 3, 2, 0)));
 }
 
 #else
@@ -141,22 +187,53 @@ static inline uint64_t code_if_sure(const axis axes[3], const double p[3])
     return code | (0 - (unsure >> 63));
 }
 
+typedef axis axis_pair;
+
+static inline void pair_axes(const axis axes[3], axis_pair pairs[3])
+{
+    memcpy(pairs, axes, 3 * sizeof *pairs);
+}
+
 static inline void codes_of_two(const axis axes[3], const double *p, const double *q, uint64_t codes[2])
 {
     codes[0] = code_if_sure(axes, p);
     codes[1] = code_if_sure(axes, q);
 }
 
+static inline void cells_of_two(const axis axes[3], unsigned depth, const double *p, const double *q, uint32_t cells[2])
+{
+    const unsigned shift = 3 * (OCTREE_MAX_DEPTH - depth);
+    const uint64_t codes[2] = {code_if_sure(axes, p), code_if_sure(axes, q)};
+    for (int i = 0; i < 2; i++)
+        cells[i] = codes[i] == MORTON_UNSURE ? GRID_UNSURE : (uint32_t)(codes[i] >> shift);
+}
+
 #endif
 
 void morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes)
 {
+    axis_pair pairs[3];
     uint64_t last[2];
+    pair_axes(axes, pairs);
     for (; count >= 2; count -= 2, codes += 2, positions += 2 * stride)
-        codes_of_two(axes, positions, positions + stride, codes);
+        codes_of_two(pairs, positions, positions + stride, codes);
     if (count > 0) {
-        codes_of_two(axes, positions, positions, last);
+        codes_of_two(pairs, positions, positions, last);
         codes[0] = last[0];
+    }
+}
+
+void grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
+                uint32_t *cells)
+{
+    axis_pair pairs[3];
+    uint32_t last[2];
+    pair_axes(axes, pairs);
+    for (; count >= 2; count -= 2, cells += 2, positions += 2 * stride)
+        cells_of_two(pairs, depth, positions, positions + stride, cells);
+    if (count > 0) {
+        cells_of_two(pairs, depth, positions, positions, last);
+        cells[0] = last[0];
     }
 }
 

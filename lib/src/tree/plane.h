@@ -141,6 +141,20 @@ static inline uint64_t morton_code(const axis axes[3], const double position[3])
  * most guesses are sure. The others are MORTON_UNSURE. */
 void morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes);
 
+/* Grids of at most this depth, with 2 million cells, number them by the first bits of their codes. */
+#define GRID_DEEPEST 7
+#define GRID_UNSURE UINT32_MAX
+
+/* The same as morton_codes() for the cells of a grid. */
+void grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
+                uint32_t *cells);
+
+/* Of one position of the world. */
+static inline uint32_t grid_cell(const axis axes[3], unsigned depth, const double position[3])
+{
+    return (uint32_t)(morton_code(axes, position) >> 3 * (OCTREE_MAX_DEPTH - depth));
+}
+
 /* The octant that a code takes from a node of this depth. */
 static inline unsigned morton_octant(uint64_t code, unsigned depth)
 {

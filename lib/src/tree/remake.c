@@ -1,226 +1,356 @@
 /* SPDX-License-Identifier: MIT */
-/* remake.c - a batch of which many points move: all points of the tree are looked up in the batch, leaf by leaf, and
- * the tree is built anew. That reads and writes each point twice, whatever the share that moves. */
+/* remake.c - a batch of which many points move: the tree is built anew of where they go and of the points that stay. A
+ * table holds for each id that moves where it is stored, so that the moves are made in the order given. */
 #include "division.h"
+#include "grid_fill.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
-/* The moves by their ids: by the id itself where ids are dense, else by open addressing with linear probing. */
+/* Where the points of the ids that move are stored: by the id itself where ids are dense, else by open addressing with
+ * linear probing. */
 typedef struct id_table {
-    uint32_t *slots; /* the place of a move, and 1; 0: none */
-    size_t slot_count;
-    uint64_t least; /* id */
-    bool dense;
+    const octree_point *_Atomic *stored; /* of each slot from `first` on; null: none. Two tasks may write one, and then
+                                            it is not used */
+    uint64_t *bits;                      /* dense: whether a move has the id `least` and more */
+    uint32_t *places;                    /* else: the place of the move with it, and 1; 0: none */
+    size_t slot_count, first, stored_count;
+    uint64_t least;
 } id_table;
+
+/* What one task finds. */
+typedef struct findings {
+    size_t first; /* among all stored points: of those that it looks up */
+    size_t stay, looked_up;
+    size_t seen, moved; /* moves whose id is stored, and those that are made */
+} findings;
 
 typedef struct remake {
     batch *whole; /* the moves */
     id_table ids;
-    bool *found;         /* of each move: it was stored */
-    octree_point *fresh; /* all points as they will be, leaf by leaf */
-    morton_item *items, *spare;
-    unsigned tasks;
+    octree_point *staying; /* copies: those of a task from its first point on */
+    uint32_t *cells;       /* of each move, and from `count` on of each of the staying; without a grid all 0 */
+    size_t count;          /* moves */
+    unsigned tasks, move_tasks;
     size_t subtree_count;
     subtree subtrees[SUBTREES_AT_MOST];
-    size_t moved[TASKS_AT_MOST];
+    findings found[TASKS_AT_MOST];
 } remake;
 
-/* ---- The moves by their ids --------------------------------------------------------------------------------- */
+/* ---- The table of ids --------------------------------------------------------------------------------------- */
 
-static bool take_table(const batch *b, id_table *t)
+/* The slot where the search for an id ends, of a table that is not dense. */
+static size_t probe(const id_table *t, const octree_point *points, uint64_t id)
 {
-    uint64_t least = UINT64_MAX, most = 0;
-    for (size_t i = 0; i < b->valid.count; i++) {
-        const uint64_t id = b->points[b->valid.items[i].place].id;
-        least = id < least ? id : least;
-        most = id > most ? id : most;
-    }
-    t->least = least;
-    t->dense = most - least < 4 * (uint64_t)b->valid.count;
-    t->slot_count = t->dense ? (size_t)(most - least) + 1 : 64;
-    while (!t->dense && t->slot_count < 2 * b->valid.count)
-        t->slot_count *= 2;
-    t->slots = arena_take(&b->store->memory, t->slot_count * sizeof *t->slots);
-    if (t->slots)
-        memset(t->slots, 0, t->slot_count * sizeof *t->slots);
-    return t->slots != NULL;
-}
-
-static size_t home_of(const id_table *t, uint64_t id)
-{
-    return (size_t)((id ^ id >> 32) * UINT64_C(0x9e3779b97f4a7c15) >> 16) & (t->slot_count - 1);
-}
-
-/* The slot of an id, or the empty one where the search ends; null when no move can have it. */
-static uint32_t *slot_of(const id_table *t, const octree_point *points, uint64_t id)
-{
-    if (t->dense)
-        return id - t->least < t->slot_count ? &t->slots[id - t->least] : NULL;
-    size_t slot = home_of(t, id);
-    while (t->slots[slot] && points[t->slots[slot] - 1].id != id)
+    size_t slot = (size_t)((id ^ id >> 32) * UINT64_C(0x9e3779b97f4a7c15) >> 16) & (t->slot_count - 1);
+    while (t->places[slot] && points[t->places[slot] - 1].id != id)
         slot = (slot + 1) & (t->slot_count - 1);
-    return &t->slots[slot];
+    return slot;
+}
+
+/* Where the point of an id that moves is stored; null for another id. */
+static inline const octree_point *_Atomic *stored_of(const id_table *t, const octree_point *points, uint64_t id)
+{
+    size_t slot = (size_t)(id - t->least);
+    bool moves = t->bits && id - t->least < t->slot_count && (t->bits[slot / 64] >> slot % 64 & 1);
+    if (!t->bits) {
+        slot = probe(t, points, id);
+        moves = t->places[slot] != 0;
+    }
+    return moves ? &t->stored[slot - t->first] : NULL;
+}
+
+static size_t bits_size(const id_table *t)
+{
+    return (t->slot_count / 64 + 1) * sizeof *t->bits;
+}
+
+static void give_table(arena *memory, id_table *t)
+{
+    arena_give(memory, (void *)t->stored, t->stored_count * sizeof *t->stored);
+    arena_give(memory, t->bits, bits_size(t));
+    arena_give(memory, t->places, t->slot_count * sizeof *t->places);
+    *t = (id_table){0};
+}
+
+/* Set the bits of all ids, in a window about the first. False when one lies outside; *differ tells whether all before
+ * it differ. */
+static bool set_bits(const batch *b, id_table *t, bool *differ)
+{
+    size_t least = SIZE_MAX, most = 0;
+    for (size_t i = 0; i < b->count; i++) {
+        const uint64_t slot = b->points[i].id - t->least, bit = UINT64_C(1) << slot % 64;
+        if (slot >= t->slot_count)
+            return false;
+        *differ &= !(t->bits[slot / 64] & bit);
+        t->bits[slot / 64] |= bit;
+        least = slot < least ? (size_t)slot : least;
+        most = slot > most ? (size_t)slot : most;
+    }
+    t->first = least;
+    t->stored_count = most - least + 1;
+    return true;
 }
 
 /* False when two moves have one id. */
-static bool fill_table(const batch *b, id_table *t)
+static bool set_places(const batch *b, id_table *t)
 {
-    for (size_t i = 0; i < b->valid.count; i++) {
-        const uint32_t place = b->valid.items[i].place;
-        uint32_t *slot = slot_of(t, b->points, b->points[place].id);
-        if (*slot)
+    for (size_t i = 0; i < b->count; i++) {
+        const size_t slot = probe(t, b->points, b->points[i].id);
+        if (t->places[slot])
             return false;
-        *slot = place + 1;
+        t->places[slot] = (uint32_t)i + 1;
     }
     return true;
 }
 
-/* ---- The points as they will be ----------------------------------------------------------------------------- */
-
-enum { TOGETHER = 64 };
-
-/* Points of a leaf. Where they are in the batch is found first, so that this memory is loaded at once. */
-static size_t move_some(const remake *r, const octree_point *stored, size_t count, octree_point *fresh)
+/* False when there is no memory. *differ is false when two moves have one id; the table is not made then. */
+static bool make_table(const batch *b, id_table *t, bool *differ)
 {
-    const batch *b = r->whole;
-    uint32_t places[TOGETHER];
-    size_t moved = 0;
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t *slot = slot_of(&r->ids, b->points, stored[i].id);
-        places[i] = slot ? *slot : 0;
-        if (places[i]) {
-            prefetch(&b->points[places[i] - 1]);
-            prefetch(&b->to[places[i] - 1]);
-        }
+    arena *memory = &b->store->memory;
+    t->least = b->points[0].id - 4 * (uint64_t)b->count; /* modulo 2^64 */
+    t->slot_count = 8 * b->count;
+    t->bits = arena_take(memory, bits_size(t));
+    if (!t->bits)
+        return false;
+    memset(t->bits, 0, bits_size(t));
+    *differ = true;
+    if (!set_bits(b, t, differ) && *differ) {
+        give_table(memory, t);
+        t->slot_count = 64;
+        while (t->slot_count < 2 * b->count)
+            t->slot_count *= 2;
+        t->places = arena_take(memory, t->slot_count * sizeof *t->places);
+        if (!t->places)
+            return false;
+        memset(t->places, 0, t->slot_count * sizeof *t->places);
+        *differ = set_places(b, t);
+        t->stored_count = t->slot_count;
     }
-    for (size_t i = 0; i < count; i++) {
-        fresh[i] = stored[i];
-        if (!places[i] || !same_position(b->points[places[i] - 1].position, stored[i].position))
-            continue;
-        memcpy(fresh[i].position, b->to[places[i] - 1], sizeof fresh[i].position);
-        r->found[places[i] - 1] = true;
-        moved++;
-    }
-    return moved;
+    if (!*differ)
+        t->stored_count = 1;
+    t->stored = arena_take(memory, t->stored_count * sizeof *t->stored);
+    if (t->stored)
+        memset((void *)t->stored, 0, t->stored_count * sizeof *t->stored);
+    return t->stored != NULL;
 }
 
-static void code_some(const remake *r, size_t first, size_t count)
+/* ---- The stored points -------------------------------------------------------------------------------------- */
+
+/* The cells of copies of points that stay. */
+static void add_cells(const remake *r, size_t first, size_t count)
 {
-    const axis *axes = r->whole->tree->axes;
-    uint64_t codes[TOGETHER];
-    morton_codes(axes, r->fresh[first].position, sizeof *r->fresh / sizeof(double), count, codes);
-    for (size_t i = 0; i < count; i++) {
-        const uint64_t code = codes[i] == MORTON_UNSURE ? morton_code(axes, r->fresh[first + i].position) : codes[i];
-        r->items[first + i] = (morton_item){code, (uint32_t)(first + i), MORTON_NEW};
-    }
+    const octree *tree = r->whole->tree;
+    const octree_point *points = r->staying + first;
+    uint32_t *cells = r->cells + r->count + first;
+    grid_cells(tree->axes, r->whole->grid, points->position, sizeof *points / sizeof(double), count, cells);
+    for (size_t i = 0; i < count; i++)
+        if (cells[i] == GRID_NONE)
+            cells[i] = grid_cell(tree->axes, r->whole->grid, points[i].position);
 }
 
-/* The leaves below a node, whose points come after `first` others. Returns how many move. */
-static size_t move_below(const remake *r, const node *n, size_t first)
+static void look_up_leaf(const remake *r, const node *leaf, findings *f)
 {
-    size_t moved = 0;
+    const id_table ids = r->ids; /* copies, which nothing that is written here can change */
+    const octree_point *moves = r->whole->points;
+    for (uint32_t i = 0; i < leaf->count; i++) {
+        const octree_point *point = &leaf_points(leaf)[i];
+        const octree_point *_Atomic *stored = stored_of(&ids, moves, point->id);
+        if (stored)
+            atomic_store_explicit(stored, point, memory_order_relaxed);
+        else
+            r->staying[f->first + f->stay++] = *point;
+    }
+    f->looked_up += leaf->count;
+}
+
+static void look_up_below(const remake *r, const node *n, findings *f)
+{
     const unsigned children = bits_count8(n->octants);
     for (unsigned i = 0; i < children; i++) {
-        const node *child = &children_of(n)[i];
-        if (i + 1 < children && !child[1].octants)
-            leaf_prefetch(&child[1]);
-        moved += move_below(r, child, first);
-        first += child->count;
+        if (i + 1 < children && !children_of(n)[i + 1].octants)
+            leaf_prefetch(&children_of(n)[i + 1]);
+        look_up_below(r, &children_of(n)[i], f);
     }
-    for (size_t i = 0; children == 0 && i < n->count; i += TOGETHER) {
-        const size_t count = n->count - i < TOGETHER ? n->count - i : TOGETHER;
-        moved += move_some(r, leaf_points(n) + i, count, r->fresh + first + i);
-        code_some(r, first + i, count);
+    if (children == 0)
+        look_up_leaf(r, n, f);
+}
+
+static void look_up_share(size_t number, void *context)
+{
+    remake *r = context;
+    const octree *tree = r->whole->tree;
+    size_t i = subtrees_share(tree, r->subtrees, r->subtree_count, r->tasks, number);
+    const size_t end = subtrees_share(tree, r->subtrees, r->subtree_count, r->tasks, number + 1);
+    findings *f = &r->found[number];
+    *f = (findings){.first = i < end ? r->subtrees[i].before : 0};
+    for (; i < end; i++)
+        look_up_below(r, r->subtrees[i].node, f);
+    add_cells(r, f->first, f->stay);
+    for (size_t at = f->stay; at < f->looked_up; at++)
+        r->cells[r->count + f->first + at] = GRID_NONE;
+}
+
+/* ---- The moves ---------------------------------------------------------------------------------------------- */
+
+/* Why a move is not made. */
+static octree_status refusal(const batch *b, size_t place)
+{
+    octree_status status = check_inside(b->tree, b->points[place].position);
+    if (status == OCTREE_OK)
+        status = check_inside(b->tree, b->to[place]);
+    return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
+}
+
+/* Whether a move is made, and the cell that it goes to. */
+static bool moves(const remake *r, size_t place, const octree_point *stored, uint32_t *to)
+{
+    const batch *b = r->whole;
+    if (!stored || !same_position(stored->position, b->points[place].position))
+        return false;
+    if (*to != GRID_NONE)
+        return true;
+    if (check_inside(b->tree, b->to[place]) != OCTREE_OK)
+        return false;
+    *to = b->grid ? grid_cell(b->tree->axes, b->grid, b->to[place]) : 0;
+    return true;
+}
+
+/* Some moves. Where their points are stored is found first, so that this memory is loaded at once. */
+static void move_some(const remake *r, size_t first, size_t count, findings *f)
+{
+    const batch *b = r->whole;
+    const octree_point *stored[GRID_TOGETHER];
+    for (size_t i = 0; i < count; i++) {
+        stored[i] = atomic_load_explicit(stored_of(&r->ids, b->points, b->points[first + i].id), memory_order_relaxed);
+        if (stored[i])
+            prefetch(stored[i]);
     }
-    return moved;
+    if (b->grid)
+        grid_cells(b->tree->axes, b->grid, b->to[first], 3, count, r->cells + first);
+    else
+        memset(r->cells + first, 0xff, count * sizeof *r->cells); /* GRID_NONE */
+    for (size_t i = 0; i < count; i++) {
+        const size_t place = first + i;
+        const bool made = moves(r, place, stored[i], &r->cells[place]);
+        f->seen += stored[i] != NULL;
+        f->moved += made;
+        if (!made)
+            r->cells[place] = GRID_NONE;
+        if (b->statuses)
+            b->statuses[place] = made ? OCTREE_OK : refusal(b, place);
+    }
 }
 
 static void move_share(size_t number, void *context)
 {
     remake *r = context;
-    const octree *tree = r->whole->tree;
-    const size_t end = subtrees_share(tree, r->subtrees, r->subtree_count, r->tasks, number + 1);
-    r->moved[number] = 0;
-    for (size_t i = subtrees_share(tree, r->subtrees, r->subtree_count, r->tasks, number); i < end; i++)
-        r->moved[number] += move_below(r, r->subtrees[i].node, r->subtrees[i].before);
+    const size_t end = tasks_share(r->count, r->move_tasks, number + 1);
+    for (size_t i = tasks_share(r->count, r->move_tasks, number); i < end; i += GRID_TOGETHER)
+        move_some(r, i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, &r->found[number]);
 }
 
 /* ---- The tree anew ------------------------------------------------------------------------------------------ */
 
-static void set_absent_statuses(const remake *r)
+/* The stored point of a move that is not made stays, too: among the copies of a task that has room for it. */
+static void keep_stored(remake *r)
 {
-    const batch *b = r->whole;
-    for (size_t i = 0; i < b->valid.count; i++)
-        if (!r->found[b->valid.items[i].place])
-            set_status(b, &b->valid.items[i], OCTREE_NOT_FOUND);
+    unsigned task = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        const batch *b = r->whole;
+        const octree_point *point = r->cells[i] == GRID_NONE ? *stored_of(&r->ids, b->points, b->points[i].id) : NULL;
+        if (!point)
+            continue;
+        while (r->found[task].stay == r->found[task].looked_up)
+            task++;
+        const size_t at = r->found[task].first + r->found[task].stay++;
+        r->staying[at] = *point;
+        add_cells(r, at, 1);
+    }
 }
 
-static octree_status build_fresh(remake *r, bool *settled)
+/* Let all points arrive, sorted. False when there is no memory. */
+static bool sort_all(batch *b, size_t total)
 {
-    octree *tree = r->whole->tree;
-    const size_t count = tree->root.count;
-    const size_t unsorted = tree->def.full_leaf == OCTREE_REFUSE ? 0 : unsorted_count(tree);
-    batch b = {.tree = tree,
-               .store = r->whole->store,
-               .division = r->whole->division,
-               .points = r->fresh,
-               .count = count,
-               .valid = {r->items, count}};
-    b.repeated = morton_sort_tasks(tree, &tree->store.memory, r->items, r->spare, count, unsorted);
-    octree_status status = drop_repetitions(&b) ? OCTREE_OK : OCTREE_NO_MEMORY;
-    *settled = b.repetitions.count == 0;
-    if (status == OCTREE_OK && *settled) {
-        b.arriving = b.leaving = b.valid;
-        b.valid.count = 0;
-        status = restructure(&b);
-        *settled = !b.overflow;
-    }
-    release_repetitions(&b);
+    arena *memory = &b->store->memory;
+    b->lists = arena_take(memory, 2 * total * sizeof *b->lists);
+    if (!b->lists)
+        return false;
+    const size_t unsorted = b->tree->def.full_leaf == OCTREE_REFUSE ? 0 : unsorted_count(b->tree);
+    b->arriving = (span){b->lists, grid_items(b, NULL, b->lists)};
+    morton_sort_tasks(b->tree, memory, b->lists, b->lists + total, total, unsorted, true);
+    return true;
+}
+
+static octree_status build_moved(remake *r, bool *settled)
+{
+    const batch *whole = r->whole;
+    const size_t total = whole->tree->root.count;
+    batch b = {.tree = whole->tree,
+               .store = whole->store,
+               .division = whole->division,
+               .points = whole->points,
+               .to = whole->to,
+               .count = whole->count,
+               .stored = r->staying,
+               .stored_count = total,
+               .cells = r->cells,
+               .grid = r->whole->grid};
+    if (whole->done < r->count)
+        keep_stored(r);
+    octree_status status = OCTREE_NO_MEMORY;
+    if (b.grid || sort_all(&b, total))
+        status = build_anew(&b);
+    arena_give(&b.store->memory, b.lists, 2 * total * sizeof *b.lists);
+    *settled = !b.overflow;
     return status;
 }
 
 static octree_status move_and_build(remake *r, bool *settled)
 {
     batch *b = r->whole;
-    if (!fill_table(b, &r->ids)) {
-        *settled = false;
+    size_t looked_up = 0, stay = 0, seen = 0;
+    if (!make_table(b, &r->ids, settled))
+        return OCTREE_NO_MEMORY;
+    if (!*settled)
         return OCTREE_OK;
-    }
     r->tasks = tasks_for(b->tree, b->tree->root.count);
     r->subtree_count = subtrees_of(b->tree, r->tasks, NULL, NULL, r->subtrees);
-    tasks_run(b->tree, move_share, r->tasks, r);
+    r->move_tasks = tasks_for(b->tree, r->count);
+    memset(r->found, 0, sizeof r->found);
+    tasks_run(b->tree, look_up_share, r->tasks, r);
+    tasks_run(b->tree, move_share, r->move_tasks, r);
     b->done = 0;
-    for (unsigned i = 0; i < r->tasks; i++)
-        b->done += r->moved[i];
-    const octree_status status = b->done > 0 ? build_fresh(r, settled) : OCTREE_OK;
-    if (b->done < b->valid.count)
-        set_absent_statuses(r);
-    return status;
+    for (unsigned i = 0; i < TASKS_AT_MOST; i++) {
+        looked_up += r->found[i].looked_up;
+        stay += r->found[i].stay;
+        seen += r->found[i].seen;
+        b->done += r->found[i].moved;
+    }
+    *settled = looked_up - stay == seen; /* else an id that moves is stored twice */
+    return *settled && b->done > 0 ? build_moved(r, settled) : OCTREE_OK;
 }
 
 octree_status remake_tree(batch *b, bool *settled)
 {
     arena *memory = &b->store->memory;
-    const size_t count = b->tree->root.count;
+    const size_t stored = b->tree->root.count, cells = (b->count + stored) * sizeof(uint32_t);
     remake *r = arena_take(memory, sizeof *r);
     octree_status status = OCTREE_NO_MEMORY;
     *settled = true;
     if (!r)
         return status;
     r->whole = b;
-    r->ids.slots = NULL;
-    r->found = arena_take(memory, b->count);
-    r->fresh = arena_take(memory, count * sizeof *r->fresh);
-    r->items = arena_take(memory, 2 * count * sizeof *r->items);
-    r->spare = r->items ? r->items + count : NULL;
-    if (r->found && r->fresh && r->items && take_table(b, &r->ids)) {
-        memset(r->found, 0, b->count);
+    r->count = b->count;
+    r->ids = (id_table){0};
+    r->staying = arena_take(memory, stored * sizeof *r->staying);
+    r->cells = arena_take(memory, cells);
+    if (r->staying && r->cells)
         status = move_and_build(r, settled);
-    }
-    arena_give(memory, r->found, b->count);
-    arena_give(memory, r->fresh, count * sizeof *r->fresh);
-    arena_give(memory, r->items, 2 * count * sizeof *r->items);
-    arena_give(memory, r->ids.slots, r->ids.slots ? r->ids.slot_count * sizeof *r->ids.slots : 0);
+    b->grid = 0;
+    arena_give(memory, r->staying, stored * sizeof *r->staying);
+    arena_give(memory, r->cells, cells);
+    give_table(memory, &r->ids);
     arena_give(memory, r, sizeof *r);
     return status;
 }

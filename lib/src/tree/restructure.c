@@ -47,11 +47,6 @@ static void sort_by_index(span s)
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-static octree_point point_of(const batch *b, const morton_item *item)
-{
-    return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
-}
-
 /* Stored points first, then the caller's in their order: so a leaf refuses the same points as one by one. */
 static int compare_places(const void *a, const void *b)
 {
@@ -78,7 +73,7 @@ static bool make_leaf(batch *b, span items, node *made)
             prefetch(&b->to[item->place]);
     }
     for (size_t i = 0; i < taken; i++) {
-        const octree_point point = point_of(b, &items.items[i]);
+        const octree_point point = batch_point(b, &items.items[i]);
         leaf_put(made, &point);
     }
     for (size_t i = taken; i < items.count; i++)

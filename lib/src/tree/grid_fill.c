@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT */
+#include "grid_fill.h"
+#include "division.h"
+
+#include <string.h>
+
+enum { SAMPLE_STEP = 16 }; /* one point of so many */
+
+/* A node whose points are divided further than the grid. */
+typedef struct crowd {
+    node *at;
+    cell cell;
+    uint32_t count;
+} crowd;
+
+typedef struct filling {
+    batch *whole;
+    size_t count; /* points of the batch, and copies of stored ones */
+    unsigned depth, tasks;
+    uint32_t *counts[GRID_DEEPEST + 1]; /* of each depth: of the points in its cells */
+    uint32_t *shares;                   /* of each task: of its points in the cells of the grid */
+    octree_point **next;                /* likewise: where its next point there goes; null in a crowd */
+    list crowds;                        /* in Morton order */
+    size_t crowded;                     /* points in them */
+} filling;
+
+static size_t cells_at(unsigned depth)
+{
+    return (size_t)1 << 3 * depth;
+}
+
+/* Whether so many points are a leaf that is written point by point. */
+static bool takes(const octree *tree, size_t count)
+{
+    return count <= POOL_MAX_UNITS && fits_leaf(tree, count);
+}
+
+/* ---- The grid -------------------------------------------------------------------------------------------------- */
+
+/* How many of a sample lie in cells that would hold twice as many points as a leaf takes. */
+static size_t count_crowded(const batch *b, unsigned depth, uint32_t *counts, size_t limit)
+{
+    const size_t stride = b->to ? 3 : sizeof *b->points / sizeof(double), samples = b->count / SAMPLE_STEP;
+    const double *positions = b->to ? b->to[0] : b->points[0].position;
+    size_t crowded = 0;
+    memset(counts, 0, cells_at(depth) * sizeof *counts);
+    for (size_t i = 0; i < samples; i += GRID_TOGETHER) {
+        uint32_t cells[GRID_TOGETHER];
+        const size_t count = samples - i < GRID_TOGETHER ? samples - i : GRID_TOGETHER;
+        grid_cells(b->tree->axes, depth, positions + i * SAMPLE_STEP * stride, SAMPLE_STEP * stride, count, cells);
+        for (size_t k = 0; k < count; k++)
+            if (cells[k] != GRID_NONE)
+                counts[cells[k]]++;
+    }
+    for (size_t i = 0; i < cells_at(depth); i++)
+        crowded += counts[i] > limit ? counts[i] : 0;
+    return crowded;
+}
+
+bool grid_choose(batch *b, size_t total)
+{
+    const octree_def *def = &b->tree->def;
+    const size_t room = def->leaf_capacity < POOL_MAX_UNITS ? def->leaf_capacity : POOL_MAX_UNITS;
+    unsigned depth = 1;
+    while (total / 2 > room * cells_at(depth) / 3)
+        depth++;
+    for (; b->grid == 0 && depth <= GRID_DEEPEST && depth <= def->max_depth && cells_at(depth) <= total; depth++) {
+        const size_t size = cells_at(depth) * sizeof(uint32_t);
+        uint32_t *counts = arena_take(&b->store->memory, size);
+        if (!counts)
+            return false;
+        const size_t crowded = count_crowded(b, depth, counts, 2 * room * b->count / total / SAMPLE_STEP + 1);
+        arena_give(&b->store->memory, counts, size);
+        if (crowded <= b->count / SAMPLE_STEP / 8)
+            b->grid = depth;
+    }
+    return true;
+}
+
+/* Items for some points side by side: the caller's, or copies of stored ones. */
+static size_t add_items(const batch *b, size_t first, size_t count, octree_point *const *filter, morton_item *items)
+{
+    const bool is_new = first < b->count;
+    const size_t place = is_new ? first : first - b->count;
+    const octree_point *points = (is_new ? b->points : b->stored) + place;
+    const bool moves = is_new && b->to;
+    uint64_t codes[GRID_TOGETHER];
+    size_t made = 0, wanted = 0;
+    for (size_t i = first; i < first + count; i++)
+        wanted += b->cells[i] != GRID_NONE && !(filter && filter[b->cells[i]]);
+    if (wanted == 0)
+        return 0;
+    morton_codes(b->tree->axes, moves ? b->to[place] : points->position, moves ? 3 : sizeof *points / sizeof(double),
+                 count, codes);
+    for (size_t i = 0; made < wanted; i++) {
+        if (b->cells[first + i] == GRID_NONE || (filter && filter[b->cells[first + i]]))
+            continue;
+        const uint32_t at = (uint32_t)(place + i);
+        const uint64_t code =
+            codes[i] != MORTON_UNSURE ? codes[i] : morton_code(b->tree->axes, moves ? b->to[at] : points[i].position);
+        items[made++] = is_new ? (morton_item){code, at, MORTON_NEW} : (morton_item){code, 0, at};
+    }
+    return made;
+}
+
+size_t grid_items(const batch *b, octree_point *const *filter, morton_item *items)
+{
+    const size_t total = b->count + b->stored_count;
+    size_t made = 0;
+    for (size_t i = 0, end; i < total; i = end) {
+        const size_t most = i < b->count ? b->count : total;
+        end = most - i < GRID_TOGETHER ? most : i + GRID_TOGETHER;
+        made += add_items(b, i, end - i, filter, items + made);
+    }
+    return made;
+}
+
+/* ---- Counting ----------------------------------------------------------------------------------------------- */
+
+static void count_share(size_t number, void *context)
+{
+    const filling *f = context;
+    const uint32_t *cells = f->whole->cells;
+    uint32_t *counts = f->shares + number * cells_at(f->depth);
+    const size_t end = tasks_share(f->count, f->tasks, number + 1);
+    for (size_t i = tasks_share(f->count, f->tasks, number); i < end; i++)
+        if (cells[i] != GRID_NONE)
+            counts[cells[i]]++;
+}
+
+static void add_up(filling *f)
+{
+    const size_t cells = cells_at(f->depth);
+    for (size_t i = 0; i < cells; i++)
+        for (unsigned task = 0; task < f->tasks; task++)
+            f->counts[f->depth][i] += f->shares[task * cells + i];
+    for (unsigned depth = f->depth; depth-- > 0;)
+        for (size_t i = 0; i < cells_at(depth + 1); i++)
+            f->counts[depth][i / 8] += f->counts[depth + 1][i];
+}
+
+/* ---- Nodes -------------------------------------------------------------------------------------------------- */
+
+/* Let the points of a cell's part of the grid go to a leaf: cell by cell, and in each in the order given. */
+static void aim(filling *f, cell c, size_t index, octree_point *to)
+{
+    const size_t cells = cells_at(f->depth), width = cells_at(f->depth - c.depth);
+    for (size_t i = index * width; i < (index + 1) * width; i++)
+        for (unsigned task = 0; to && task < f->tasks; task++) {
+            f->next[task * cells + i] = to;
+            to += f->shares[task * cells + i];
+        }
+}
+
+/* Whether a cell is left to build_node(): it is a leaf, or not divided by the grid, or it may be that nothing separates
+ * its points. */
+static bool is_crowd(const filling *f, cell c, size_t index)
+{
+    const octree *tree = f->whole->tree;
+    const uint32_t count = f->counts[c.depth][index];
+    if (c.depth == f->depth || fits_leaf(tree, count) || !may_split(tree, c))
+        return true;
+    const uint32_t *parts = f->counts[c.depth + 1] + 8 * index;
+    for (unsigned octant = 0; octant < 8 && tree->def.full_leaf == OCTREE_REFUSE; octant++)
+        if (parts[octant] == count)
+            return true;
+    return false;
+}
+
+static bool make_node(filling *f, cell c, size_t index, node *made);
+
+static bool make_children(filling *f, cell c, size_t index, node *made)
+{
+    const uint32_t *parts = f->counts[c.depth + 1] + 8 * index;
+    unsigned octants = 0;
+    for (unsigned octant = 0; octant < 8; octant++)
+        octants |= bits_if(parts[octant] > 0, 1u << octant);
+    const unsigned children = bits_count8(octants);
+    node *group = pool_take(&f->whole->store->nodes, children);
+    *made = (node){.below = group, .count = f->counts[c.depth][index], .octants = (uint8_t)octants};
+    if (!group)
+        return false;
+    memset(group, 0, children * sizeof *group);
+    for (unsigned octant = 0; octant < 8; octant++)
+        if (parts[octant] > 0 && !make_node(f, cell_child(c, octant), 8 * index + octant, group++))
+            return false;
+    return true;
+}
+
+static bool make_node(filling *f, cell c, size_t index, node *made)
+{
+    batch *b = f->whole;
+    const uint32_t count = f->counts[c.depth][index];
+    if (takes(b->tree, count)) {
+        if (!leaf_create(b->store, made, count))
+            return false;
+        made->count = count;
+        aim(f, c, index, leaf_points(made));
+        return true;
+    }
+    if (!is_crowd(f, c, index))
+        return make_children(f, c, index, made);
+    const crowd found = {made, c, count};
+    f->crowded += count;
+    return list_push(&b->store->memory, &f->crowds, &found, sizeof found);
+}
+
+/* ---- Points ------------------------------------------------------------------------------------------------- */
+
+/* The points from `first` on: the caller's, or copies of stored ones; with the places that they move to, or null. */
+static void write_points(const uint32_t *cells, const octree_point *points, const double (*to)[3], size_t count,
+                         octree_point **next)
+{
+    for (size_t i = 0; i < count; i++) {
+        octree_point *at = cells[i] == GRID_NONE ? NULL : next[cells[i]];
+        if (!at)
+            continue;
+        octree_point point = points[i];
+        if (to)
+            memcpy(point.position, to[i], sizeof point.position);
+        *at = point;
+        next[cells[i]] = at + 1;
+    }
+}
+
+static void write_share(size_t number, void *context)
+{
+    const filling *f = context;
+    const batch *b = f->whole;
+    octree_point **next = f->next + number * cells_at(f->depth);
+    const size_t first = tasks_share(f->count, f->tasks, number), end = tasks_share(f->count, f->tasks, number + 1);
+    const size_t middle = end < b->count ? end : first < b->count ? b->count : first; /* the caller's end here */
+    if (first < middle)
+        write_points(b->cells + first, b->points + first, b->to ? b->to + first : NULL, middle - first, next);
+    if (middle < end)
+        write_points(b->cells + middle, b->stored + (middle - b->count), NULL, end - middle, next);
+}
+
+/* The points of a node: fewer than were counted where some were refused. */
+static uint32_t recount(node *n)
+{
+    const unsigned children = bits_count8(n->octants);
+    uint32_t sum = 0;
+    for (unsigned i = 0; i < children; i++)
+        sum += recount(&children_of(n)[i]);
+    if (children > 0)
+        n->count = sum;
+    return n->count;
+}
+
+static bool build_crowds(filling *f)
+{
+    batch *b = f->whole;
+    const size_t size = 2 * f->crowded * sizeof(morton_item);
+    morton_item *items = size ? arena_take(&b->store->memory, size) : NULL;
+    if (!items)
+        return size == 0;
+    morton_item *rest = items;
+    bool ok = true;
+    const crowd *crowds = f->crowds.items;
+    morton_sort(items, items + f->crowded, grid_items(b, f->next, items), 0, 0);
+    for (size_t i = 0; ok && i < f->crowds.count; rest += crowds[i++].count)
+        ok = build_node(b, crowds[i].cell, (span){rest, crowds[i].count}, crowds[i].at);
+    arena_give(&b->store->memory, items, size);
+    return ok;
+}
+
+static bool fill(filling *f, node *made)
+{
+    const octree *tree = f->whole->tree;
+    tasks_run(tree, count_share, f->tasks, f);
+    add_up(f);
+    if (f->counts[0][0] == 0)
+        return true;
+    if (!make_node(f, root_cell(), 0, made))
+        return false;
+    tasks_run(tree, write_share, f->tasks, f);
+    if (!build_crowds(f))
+        return false;
+    if (f->crowded > 0)
+        recount(made);
+    return true;
+}
+
+bool grid_fill(batch *b, node *made)
+{
+    arena *memory = &b->store->memory;
+    filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
+    const size_t cells = cells_at(f.depth), most = f.count / cells + 1; /* so that tables are of the points' size */
+    f.tasks = tasks_for(b->tree, f.count);
+    f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
+    const size_t size = (cells_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;
+    const size_t next_size = f.tasks * cells * sizeof *f.next;
+    f.shares = arena_take(memory, size);
+    f.next = arena_take(memory, next_size);
+    bool ok = f.shares && f.next;
+    if (ok) {
+        memset(f.shares, 0, size);
+        memset(f.next, 0, next_size);
+        f.counts[f.depth] = f.shares + f.tasks * cells;
+        for (unsigned depth = f.depth; depth-- > 0;)
+            f.counts[depth] = f.counts[depth + 1] + cells_at(depth + 1);
+        ok = fill(&f, made);
+    }
+    list_release(memory, &f.crowds, sizeof(crowd));
+    arena_give(memory, f.shares, size);
+    arena_give(memory, f.next, next_size);
+    return ok;
+}
