@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* node_layers.c - the layers of a tree's nodes and points, within the view's filter, lod and budget.
  */
+#include "filter.h"
 #include "foreign_nodes.h"
+#include "kept_tree.h"
 #include "layer_type.h"
 #include "layout.h"
 #include "node_boxes.h"
@@ -30,7 +32,17 @@ typedef struct tree_walk {
     bool drawn[OCTREE_MAX_DEPTH +
                2]; /* by depth + 1, on the way from the root: whether a box up to that depth is drawn */
     bool small[OCTREE_MAX_DEPTH + 2]; /* and whether one is smaller than the view's lod */
+    kept_tree *kept;                  /* null: nothing is kept */
+    size_t looser;                    /* points that a sieve with a bit less keeps, where subtrees are kept */
+    bool in_vain;                     /* there was no memory to keep them */
 } tree_walk;
+
+static void stop_keeping(tree_walk *w)
+{
+    if (w->kept)
+        kept_tree_clear(w->kept);
+    w->kept = NULL;
+}
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
@@ -39,6 +51,7 @@ static void thin_points(tree_walk *w)
 {
     scene *s = w->scene;
     size_t kept = 0;
+    stop_keeping(w);
     w->sieve = sieve_finer(w->sieve);
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *marker = &s->markers.items[i];
@@ -51,6 +64,13 @@ static void thin_points(tree_walk *w)
     s->markers.count = kept;
 }
 
+static void fit_points(tree_walk *w)
+{
+    const scene *s = w->scene;
+    while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
+        thin_points(w);
+}
+
 /* Whether a point is shown, by the filter and the budget. */
 static bool takes_point(tree_walk *w, const octree_point *point)
 {
@@ -58,6 +78,10 @@ static bool takes_point(tree_walk *w, const octree_point *point)
         return false;
     const bool out = sieve_drops(w->sieve, point->id);
     w->scene->tally.thinned += out;
+    if (w->kept) {
+        w->kept->open.thinned += out;
+        w->kept->open.looser += !sieve_drops(w->sieve >> 1, point->id);
+    }
     return !out;
 }
 
@@ -98,8 +122,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
     if (style.role == ROLE_OWN)
         color_points(&s->view, w->values, leaf, s->markers.items + before, s->markers.count - before);
     s->tally.points += count;
-    while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
-        thin_points(w);
+    fit_points(w);
     if (some != few)
         free(some);
 }
@@ -124,53 +147,167 @@ static void drop_level(tree_walk *w)
     w->at_depth[w->deepest--] = 0;
 }
 
-static void add_box(tree_walk *w, const octree_node *node)
+static scene_box box_of(const tree_walk *w, const octree_node *node)
+{
+    const node_look look = {node->depth, node->count, w->capacity, node->leaf};
+    const scene_style style = {.layer = LAYER_NODES, .role = (uint8_t)node_role(&w->scene->view, look), .width = 1};
+    return (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth};
+}
+
+static void add_box(tree_walk *w, const scene_box *box)
 {
     scene *s = w->scene;
-    if ((int)node->depth > w->deepest) {
+    if ((int)box->depth > w->deepest) {
         s->tally.beyond++;
         return;
     }
-    const theme_role role = node_role(&s->view, (node_look){node->depth, node->count, w->capacity, node->leaf});
-    add_node_box(s, node, (scene_style){.layer = LAYER_NODES, .role = (uint8_t)role, .width = 1});
-    w->at_depth[node->depth]++;
+    scene_add_box(s, *box);
+    w->at_depth[box->depth]++;
     s->tally.nodes++;
     while (s->view.budget && s->tally.nodes > s->view.budget)
         drop_level(w);
 }
 
 /* Boxes inside a small box are small too, and need not be measured. */
-static bool is_small(const tree_walk *w, const octree_node *node)
+static bool is_small(const tree_walk *w, const scene_box *box)
 {
     const scene *s = w->scene;
-    return w->small[node->depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &node->box, s->view.lod));
+    return w->small[box->depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &box->box, s->view.lod));
+}
+
+/* Whether a node that the filter shows is shown, and all below it may be. */
+static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
+{
+    const unsigned depth = box->depth;
+    const bool under_drawn = w->drawn[depth], small = is_small(w, box), out = by_filter && small && under_drawn;
+    w->small[depth + 1] = small;
+    w->drawn[depth + 1] = under_drawn || (by_filter && !out);
+    if (by_filter && !out)
+        add_box(w, box);
+    return !out;
 }
 
 static void show_node(tree_walk *w, const octree_node *node)
 {
     scene *s = w->scene;
-    const unsigned depth = node->depth;
-    const bool under_drawn = w->drawn[depth], small = is_small(w, node);
-    const bool shown = filter_shows_node(&s->view.filter, &w->world, node), out = shown && small && under_drawn;
-    w->small[depth + 1] = small;
-    w->drawn[depth + 1] = under_drawn || (shown && !out);
-    s->tally.small += out;
-    if (shown && !out)
-        add_box(w, node);
+    const scene_box box = box_of(w, node);
+    s->tally.small += !show_box(w, &box, filter_shows_node(&s->view.filter, &w->world, node));
+    w->in_vain = w->in_vain || (w->kept && !kept_tree_add_node(w->kept, &box));
 }
+
+/* ---- Kept subtrees ------------------------------------------------------------------------------------------ */
+
+/* All below a node that is left out is left out too: no filter is on. */
+static void add_kept(tree_walk *w, const kept_subtree *kept)
+{
+    scene *s = w->scene;
+    scene_add_markers(s, kept->markers, kept->marker_count);
+    s->tally.points += kept->marker_count;
+    s->tally.thinned += kept->thinned;
+    w->looser += kept->looser;
+    for (uint32_t i = 0; i < kept->node_count;) {
+        const kept_node *node = &kept->nodes[i];
+        const bool shown = show_box(w, &node->box, true);
+        s->tally.small += shown ? 0 : node->count;
+        i += shown ? 1 : node->count;
+    }
+    fit_points(w);
+}
+
+static void close_kept(tree_walk *w)
+{
+    if (!w->kept || !w->kept->open.address)
+        return;
+    w->looser += w->kept->open.looser;
+    w->in_vain = w->in_vain || !kept_tree_close(w->kept, w->scene);
+}
+
+/* Whether a subtree was added as it was kept. Else it is collected, where it is not a part of another. */
+static bool use_kept(tree_walk *w, const octree_node *node)
+{
+    if (kept_tree_collects(w->kept, node))
+        return false;
+    close_kept(w);
+    if (node->count > KEPT_POINTS && !node->leaf)
+        return false;
+    const kept_subtree *found = kept_tree_find(w->kept, node->address);
+    if (found)
+        add_kept(w, found);
+    else
+        kept_tree_open(w->kept, node->address, w->scene);
+    return found != NULL;
+}
+
+/* ---- The walk ----------------------------------------------------------------------------------------------- */
 
 static octree_walk_order add_node(const octree_node *node, void *context)
 {
     tree_walk *w = context;
     scene *s = w->scene;
-    if (!filter_enters(&w->filter, &w->world, node))
+    if (!filter_enters(&w->filter, &w->world, node) || (w->kept && use_kept(w, node)))
         return OCTREE_WALK_SKIP;
     if (w->shows_nodes)
         show_node(w, node);
     if (node->leaf && node->count && view_shows(&s->view, LAYER_POINTS) &&
         filter_shows_points_of(&w->filter, &w->world, node))
         add_points(w, node);
-    return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+    return s->out_of_memory || w->in_vain ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+}
+
+/* What is kept from tick to tick: where the whole tree is shown, and each point as it is alone. */
+static kept_tree *kept_for(const tree_walk *w, const layer_source *in)
+{
+    scene *s = w->scene;
+    if (!in->game || in->values || filter_is_on(&w->filter) || view_paints_points(&s->view) || !shows_own_tree(in) ||
+        shows_foreign_tree(in) || (!s->kept && octree_count(in->tree) < KEPT_FEWEST))
+        return NULL;
+    s->kept = s->kept ? s->kept : calloc(1, sizeof *s->kept);
+    return s->kept;
+}
+
+static bool begin_keeping(tree_walk *w, const octree *tree, kept_tree *kept)
+{
+    const view *v = &w->scene->view;
+    const kept_look look = {.coloring = v->coloring,
+                            .boxes = w->shows_nodes,
+                            .points = view_shows(v, LAYER_POINTS),
+                            .capacity = w->capacity,
+                            .point_width = w->point_width};
+    if (!kept || !kept_tree_begin(kept, tree, &look))
+        return false;
+    w->kept = kept;
+    w->sieve = kept->sieve;
+    return true;
+}
+
+/* With the sieve of the last tick, unless a looser one would do now. False when it has to be done anew. */
+static bool walk_keeping(tree_walk *w, const octree *tree)
+{
+    octree_walk(tree, add_node, w);
+    close_kept(w);
+    if (w->kept)
+        kept_tree_end(w->kept);
+    return !w->in_vain && (!w->kept || w->sieve == 0 || w->looser > w->scene->view.budget);
+}
+
+static void walk_tree(tree_walk *w, const layer_source *in)
+{
+    scene *s = w->scene;
+    const tree_walk anew = *w;
+    const scene before = *s;
+    kept_tree *kept = kept_for(w, in);
+    if (!begin_keeping(w, in->tree, kept)) {
+        octree_walk(in->tree, add_node, w);
+    } else if (!walk_keeping(w, in->tree)) {
+        stop_keeping(w);
+        *w = anew;
+        s->boxes.count = before.boxes.count;
+        s->markers.count = before.markers.count;
+        s->tally = before.tally;
+        octree_walk(in->tree, add_node, w);
+    }
+    if (kept)
+        kept->sieve = w->sieve;
 }
 
 /* ---- Labels ------------------------------------------------------------------------------------------------- */
@@ -231,7 +368,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     w.filter = s->view.filter;
     if (!shows_own_tree(in))
         w.filter.by_depth = false; /* which are those of the other tree */
-    octree_walk(in->tree, add_node, &w);
+    walk_tree(&w, in);
     s->tally.deepest = w.deepest;
     if (shows_foreign_tree(in))
         add_foreign_nodes(s, in);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene.h"
 #include "array.h"
+#include "kept_tree.h"
 #include "layer.h"
 #include "octree/digest.h"
 
@@ -28,6 +29,9 @@ void scene_release(scene *s)
     if (s->closeup)
         scene_release(s->closeup);
     free(s->closeup);
+    if (s->kept)
+        kept_tree_release(s->kept);
+    free(s->kept);
     memset(s, 0, sizeof *s);
 }
 
@@ -113,6 +117,18 @@ void scene_add_points(scene *s, const octree_point *points, size_t count, scene_
         s->markers.count += finite;
         s->refused += !finite;
     }
+}
+
+void scene_add_markers(scene *s, const scene_marker *markers, size_t count)
+{
+    if (count == 0)
+        return;
+    void *grown = grow(s, s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
+    if (!grown)
+        return;
+    s->markers.items = grown;
+    memcpy(s->markers.items + s->markers.count, markers, count * sizeof *markers);
+    s->markers.count += count;
 }
 
 void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[2], unsigned layer, unsigned role)

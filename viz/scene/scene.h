@@ -149,10 +149,11 @@ typedef struct scene {
     scene_tally tally;
     struct scene *closeup; /* a scene of its own, drawn into a part of the picture; read where has_closeup */
     bool has_closeup;
-    int place[2];       /* of a close-up: the picture's pixel that its own top left one is, */
-    double times;       /* and how much larger it shows what is in its middle; 0 in other scenes */
-    size_t refused;     /* elements with NaN or infinite geometry: counted, never drawn */
-    bool out_of_memory; /* set by scene_add_*: the scene is incomplete */
+    int place[2];           /* of a close-up: the picture's pixel that its own top left one is, */
+    double times;           /* and how much larger it shows what is in its middle; 0 in other scenes */
+    struct kept_tree *kept; /* from the scene before this one in the same memory; may be null */
+    size_t refused;         /* elements with NaN or infinite geometry: counted, never drawn */
+    bool out_of_memory;     /* set by scene_add_*: the scene is incomplete */
 } scene;
 
 /* The letters that a label has. */
@@ -179,6 +180,9 @@ void scene_add_panel(scene *s, scene_panel panel);
 void scene_add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style);
 void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style);
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style);
+
+/* Markers that a scene with this view has had. */
+void scene_add_markers(scene *s, const scene_marker *markers, size_t count);
 
 void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[2], unsigned layer, unsigned role);
 

@@ -83,6 +83,7 @@ static void picking_leaves_no_trace_in_later_frames(void **state)
 static scene alone(const scene *s, scene_element element)
 {
     scene one = *s;
+    one.kept = NULL;
     memset(&one.boxes, 0, sizeof one.boxes);
     memset(&one.segments, 0, sizeof one.segments);
     memset(&one.markers, 0, sizeof one.markers);

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT */
+/* test_kept_tree.c - scenes made one after the other in the same memory keep what did not change, and are those that
+ * are made from nothing. */
+#include "kept_tree.h"
+#include "octree/sample.h"
+#include "scenes.h"
+#include "tick_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { BODIES = 5000, TICKS = 24, FEW = 6, MANY = 2400, MOST_EDITS = TICKS * FEW + 2 * MANY };
+
+typedef struct played {
+    octree_session session;
+    octree_body bodies[BODIES];
+    octree_edit edits[MOST_EDITS];
+    size_t edit_count;
+    bool gone[BODIES];
+} played;
+
+static void add_edit(played *p, uint64_t tick, octree_edit_kind kind, size_t body, const double near[3])
+{
+    octree_edit *e = &p->edits[p->edit_count++];
+    *e = (octree_edit){.tick = tick, .kind = kind, .body = p->bodies[body]};
+    for (int i = 0; near && i < 3; i++)
+        e->body.position[i] = near[i] + 1e-3 * (double)(body % 7);
+    memcpy(p->bodies[body].position, e->body.position, sizeof e->body.position);
+    p->gone[body] = kind == OCTREE_EDIT_REMOVE;
+}
+
+/* Points crowd round others, so that leaves split, and go away, so that they merge. */
+static void add_few(played *p, uint64_t tick)
+{
+    for (size_t i = 0; i < FEW; i++) {
+        const size_t body = (tick * 131 + i * 977) % BODIES, other = (tick * 131) % BODIES;
+        if (p->gone[body])
+            add_edit(p, tick, OCTREE_EDIT_INSERT, body, p->bodies[other].position);
+        else
+            add_edit(p, tick, i % 3 == 2 ? OCTREE_EDIT_REMOVE : OCTREE_EDIT_MOVE, body, p->bodies[other].position);
+    }
+}
+
+/* Half of all points go in one tick, and come again in a later one: what a budget leaves out changes. */
+static void add_many(played *p, uint64_t tick, bool go)
+{
+    size_t count = 0;
+    for (size_t body = 0; body < BODIES && count < MANY; body++)
+        if (p->gone[body] != go) {
+            add_edit(p, tick, go ? OCTREE_EDIT_REMOVE : OCTREE_EDIT_INSERT, body, NULL);
+            count++;
+        }
+}
+
+static played *make_session(void)
+{
+    static char keys[TICKS];
+    played *p = calloc(1, sizeof *p);
+    double(*positions)[3] = malloc(BODIES * sizeof *positions);
+    assert_non_null(p);
+    assert_non_null(positions);
+    p->session = (octree_session){.tree = octree_def_default(), .player = {.step = 40, .box_size = 3}};
+    p->session.tree.leaf_capacity = 4;
+    p->session.tree.full_leaf = OCTREE_GROW;
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_CLUSTERED, 3, &p->session.tree.world, BODIES, positions), OCTREE_OK);
+    for (size_t i = 0; i < BODIES; i++) {
+        p->bodies[i].id = i + 1;
+        memcpy(p->bodies[i].position, positions[i], sizeof positions[i]);
+    }
+    free(positions);
+    const octree_body *start = malloc(sizeof p->bodies);
+    assert_non_null(start);
+    memcpy((octree_body *)start, p->bodies, sizeof p->bodies);
+    for (uint64_t tick = 1; tick < TICKS; tick++)
+        if (tick == 9 || tick == 16)
+            add_many(p, tick, tick == 9);
+        else if (tick % 4 != 3)
+            add_few(p, tick);
+    for (size_t i = 0; i + 1 < TICKS; i++)
+        keys[i] = "wden"[i % 4];
+    p->session.bodies = start;
+    p->session.body_count = BODIES;
+    p->session.edits = p->edits;
+    p->session.edit_count = p->edit_count;
+    p->session.keys = keys;
+    return p;
+}
+
+static void release_session(played *p)
+{
+    free((octree_body *)p->session.bodies);
+    free(p);
+}
+
+static void expect_same(const scene *kept, const scene *whole)
+{
+    const scene_tally *a = &kept->tally, *b = &whole->tally;
+    assert_int_equal(kept->boxes.count, whole->boxes.count);
+    assert_int_equal(kept->markers.count, whole->markers.count);
+    assert_int_equal(a->nodes, b->nodes);
+    assert_int_equal(a->points, b->points);
+    assert_int_equal(a->small, b->small);
+    assert_int_equal(a->beyond, b->beyond);
+    assert_int_equal(a->deepest, b->deepest);
+    assert_int_equal(a->thinned, b->thinned);
+    assert_int_equal(a->one_in, b->one_in);
+    assert_true(scene_digest(kept) == scene_digest(whole));
+}
+
+/* Scenes of every so many ticks; in how many something was kept. */
+static unsigned compare_scenes(const view *v, uint64_t every)
+{
+    played *p = make_session();
+    octree_game *game;
+    scene kept = {0};
+    unsigned count = 0;
+    assert_int_equal(octree_game_create(&p->session, &game), OCTREE_OK);
+    for (uint64_t tick = 0; tick < TICKS; tick++) {
+        if (tick > 0)
+            assert_int_equal(octree_game_advance(game), OCTREE_OK);
+        if (tick % every != 0)
+            continue;
+        scene whole = {0};
+        assert_true(tick_scene_build(&kept, v, game, NULL, NULL));
+        assert_true(tick_scene_build(&whole, v, game, NULL, NULL));
+        expect_same(&kept, &whole);
+        count += kept.kept && kept.kept->now.count > 0;
+        scene_release(&whole);
+    }
+    scene_release(&kept);
+    octree_game_destroy(game);
+    release_session(p);
+    return count;
+}
+
+static view look(void)
+{
+    view v = view_of(320, 180, CAMERA_ORBIT, VIEW_DEFAULT_LAYERS);
+    v.lod = v.budget = 0;
+    return v;
+}
+
+/* But for the first, and after those of many changes. */
+static void test_kept_scenes_are_those_made_from_nothing(void **state)
+{
+    view v = look();
+    (void)state;
+    assert_true(compare_scenes(&v, 1) >= TICKS / 2);
+    v.coloring = COLORING_OCCUPANCY;
+    assert_true(compare_scenes(&v, 1) >= TICKS / 2);
+    v.layers &= ~(1u << LAYER_NODES);
+    assert_true(compare_scenes(&v, 2) > 0);
+    v = look();
+    v.layers &= ~(1u << LAYER_POINTS);
+    assert_true(compare_scenes(&v, 1) >= TICKS / 2);
+}
+
+static void test_small_nodes_are_left_out_of_what_is_kept(void **state)
+{
+    view v = look();
+    (void)state;
+    for (v.lod = 2; v.lod < 100; v.lod *= 5)
+        assert_true(compare_scenes(&v, 1) >= TICKS / 2);
+}
+
+/* Some of them are above the number of points at one time and below it at another. */
+static void test_budgets_thin_what_is_kept_as_anything_else(void **state)
+{
+    static const uint64_t budgets[] = {1, 700, 2600, 2700, 4000, 4900, 5000};
+    view v = look();
+    (void)state;
+    for (size_t i = 0; i < sizeof budgets / sizeof *budgets; i++) {
+        v.budget = budgets[i];
+        assert_true(compare_scenes(&v, 1) > 0);
+    }
+    v.lod = 4;
+    assert_true(compare_scenes(&v, 2) > 0);
+}
+
+/* With a filter, or another look from tick to tick. */
+static void test_what_was_kept_is_not_shown_by_another_view(void **state)
+{
+    played *p = make_session();
+    octree_game *game;
+    scene kept = {0};
+    view v = look();
+    (void)state;
+    assert_int_equal(octree_game_create(&p->session, &game), OCTREE_OK);
+    for (uint64_t tick = 0; tick < 8; tick++) {
+        scene whole = {0};
+        v.coloring = tick % 3 == 0 ? COLORING_OCCUPANCY : COLORING_DEPTH;
+        v.filter.leaves = tick == 5;
+        v.layers = tick == 6 ? VIEW_DEFAULT_LAYERS & ~(1u << LAYER_POINTS) : VIEW_DEFAULT_LAYERS;
+        assert_true(tick_scene_build(&kept, &v, game, NULL, NULL));
+        assert_true(tick_scene_build(&whole, &v, game, NULL, NULL));
+        expect_same(&kept, &whole);
+        scene_release(&whole);
+        assert_int_equal(octree_game_advance(game), OCTREE_OK);
+    }
+    scene_release(&kept);
+    octree_game_destroy(game);
+    release_session(p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_kept_scenes_are_those_made_from_nothing),
+        cmocka_unit_test(test_small_nodes_are_left_out_of_what_is_kept),
+        cmocka_unit_test(test_budgets_thin_what_is_kept_as_anything_else),
+        cmocka_unit_test(test_what_was_kept_is_not_shown_by_another_view),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
