@@ -105,13 +105,6 @@ bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place
     return true;
 }
 
-/* Where a point is drawn. */
-typedef struct point_place {
-    uint32_t pixel; /* index of its sample */
-    uint8_t band;
-    bool seen; /* it is a point, and in the picture */
-} point_place;
-
 /* Reserve a byte per pixel, zeroed, and a place per marker. */
 static bool make_room_for_points(painter *p, const scene *s)
 {
@@ -137,16 +130,12 @@ static bool paint_points(painter *p, const scene *s)
 {
     if (!make_room_for_points(p, s))
         return false;
+    project_points(s, s->markers.items, s->markers.count, p->places);
     for (size_t i = 0; i < s->markers.count; i++) {
-        size_t pixel = 0;
-        unsigned band = 0;
-        p->places[i].seen = paint_point_pixel(s, &s->markers.items[i], &pixel, &band);
-        if (!p->places[i].seen)
-            continue;
-        p->places[i].pixel = (uint32_t)pixel;
-        p->places[i].band = (uint8_t)band;
-        if (p->nearest[pixel] == 0 || p->nearest[pixel] > band + 1)
-            p->nearest[pixel] = (uint8_t)(band + 1);
+        point_place *at = &p->places[i];
+        at->seen = at->seen && is_point(&s->markers.items[i]);
+        if (at->seen && (p->nearest[at->pixel] == 0 || p->nearest[at->pixel] > at->band + 1))
+            p->nearest[at->pixel] = (uint8_t)(at->band + 1);
     }
     for (size_t i = 0; i < s->markers.count; i++) {
         const point_place at = p->places[i];

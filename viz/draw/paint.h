@@ -4,6 +4,7 @@
 #define DRAW_PAINT_H
 
 #include "edges.h"
+#include "project.h"
 #include "quads.h"
 #include "splats.h"
 
@@ -14,7 +15,7 @@ typedef struct painter {
         edges;        /* of the world and the nodes, which often stay the same from tick to tick; and of other layers */
     uint8_t *nearest; /* a byte a sample: 1 + the nearest band of a point there, while points are folded */
     size_t pixels;
-    struct point_place *places; /* where each point is drawn */
+    point_place *places; /* where each point is drawn */
     size_t place_room;
     splats splats;           /* points that are painted one by one */
     size_t overflowed;       /* elements of the last scene that are too far away for doubles, and so not drawn */

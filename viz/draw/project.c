@@ -102,10 +102,15 @@ static unsigned cut(const scene *s, const double a[3], const double b[3], piece 
     }
 }
 
+static bool is_near(double x, double y, double depth)
+{
+    return fabs(x) < FARTHEST && fabs(y) < FARTHEST && fabs(depth) < FARTHEST;
+}
+
 static bool see(const scene *s, const double position[3], double seen[3])
 {
     camera_transform(&s->camera, position, seen);
-    return fabs(seen[0]) < FARTHEST && fabs(seen[1]) < FARTHEST && fabs(seen[2]) < FARTHEST;
+    return is_near(seen[0], seen[1], seen[2]);
 }
 
 unsigned project_segment(const scene *s, const double first[3], const double second[3], piece pieces[QUAD_BANDS],
@@ -139,17 +144,89 @@ unsigned project_band(const camera *c, double depth)
     return band_of(band_position(c, depth));
 }
 
+static bool is_at_depth(const camera *c, double depth)
+{
+    return !(c->perspective && depth < c->near) &&
+           (!c->clips_depth || (depth >= c->near_depth && depth <= c->far_depth));
+}
+
 bool project_place(const scene *s, const double position[3], double pixel[2], double *depth)
 {
     double seen[3];
     const camera *c = &s->camera;
-    if (!see(s, position, seen) || (c->perspective && seen[2] < c->near) ||
-        (c->clips_depth && !(seen[2] >= c->near_depth && seen[2] <= c->far_depth)))
+    if (!see(s, position, seen) || !is_at_depth(c, seen[2]))
         return false;
     camera_project(&s->camera, seen, pixel);
     *depth = seen[2];
     return pixel[0] >= -CLIP_MARGIN && pixel[0] < s->view.width + CLIP_MARGIN && pixel[1] >= -CLIP_MARGIN &&
            pixel[1] < s->view.height + CLIP_MARGIN;
+}
+
+/* Many points at a time, value by value, without branches and calls: compilers make vectors of it; with 16 they unroll
+ * the loops instead. */
+#define RUN 64
+
+typedef struct point_run {
+    double from_eye[3][RUN];
+    double across[RUN], along[RUN], depth[RUN]; /* as of camera_transform() */
+    double x[RUN], y[RUN], band[RUN];           /* pixels; and band_position() */
+} point_run;
+
+static void turn_run(const point_run *run, const double axis[3], double seen[RUN])
+{
+    double turned[RUN];
+    for (int i = 0; i < RUN; i++)
+        turned[i] = (run->from_eye[0][i] * axis[0] + run->from_eye[1][i] * axis[1]) + run->from_eye[2][i] * axis[2];
+    memcpy(seen, turned, sizeof turned);
+}
+
+static void project_run(const camera *of, point_run *run)
+{
+    const camera c = *of; /* a copy, of which nothing that is written is a part */
+    for (int axis = 0; axis < 3; axis++)
+        for (int i = 0; i < RUN; i++)
+            run->from_eye[axis][i] = camera_unit_on(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
+    turn_run(run, c.right, run->across);
+    turn_run(run, c.up, run->along);
+    turn_run(run, c.forward, run->depth);
+    for (int i = 0; i < RUN; i++) {
+        const double scale = c.perspective ? c.zoom / run->depth[i] : c.zoom;
+        run->x[i] = c.middle[0] + run->across[i] * scale;
+        run->y[i] = c.middle[1] - run->along[i] * scale;
+    }
+    for (int i = 0; i < RUN; i++)
+        run->band[i] = band_position(&c, run->depth[i]);
+}
+
+/* Where there are fewer, the first again. */
+static void gather_run(const scene_marker *markers, size_t count, point_run *run)
+{
+    for (size_t i = 0; i < RUN; i++)
+        for (int axis = 0; axis < 3; axis++)
+            run->from_eye[axis][i] = markers[i < count ? i : 0].at[axis];
+}
+
+static point_place place_of(const scene *s, const point_run *run, size_t i)
+{
+    const double x = run->x[i], y = run->y[i];
+    if (!(x >= 0 && x < s->view.width && y >= 0 && y < s->view.height) ||
+        !is_near(run->across[i], run->along[i], run->depth[i]) || !is_at_depth(&s->camera, run->depth[i]))
+        return (point_place){.seen = false};
+    return (point_place){.pixel = (uint32_t)y * (uint32_t)s->view.width + (uint32_t)x,
+                         .band = (uint8_t)band_of(run->band[i]),
+                         .seen = true};
+}
+
+void project_points(const scene *s, const scene_marker *markers, size_t count, point_place *places)
+{
+    for (size_t first = 0; first < count; first += RUN) {
+        point_run run;
+        const size_t size = count - first < RUN ? count - first : RUN;
+        gather_run(markers + first, size, &run);
+        project_run(&s->camera, &run);
+        for (size_t i = 0; i < size; i++)
+            places[first + i] = place_of(s, &run, i);
+    }
 }
 
 bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band)

@@ -29,6 +29,16 @@ bool project_flat(const scene *s, const double from[3], const double to[3], piec
 /* A point's pixel and view depth; false when it lies behind the camera or outside the picture. */
 bool project_place(const scene *s, const double position[3], double pixel[2], double *depth);
 
+/* Where a point is drawn. */
+typedef struct point_place {
+    uint32_t pixel; /* row by row */
+    uint8_t band;
+    bool seen; /* project_point() is true, and the pixel is in the picture */
+} point_place;
+
+/* Those of many markers, several at a time. */
+void project_points(const scene *s, const scene_marker *markers, size_t count, point_place *places);
+
 /* The band of a view depth. */
 unsigned project_band(const camera *c, double depth);
 

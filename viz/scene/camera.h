@@ -49,11 +49,16 @@ static inline double camera_dot(const double a[3], const double b[3])
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/* To unit coordinates: 2 (p - origin) / size - half. */
+/* To unit coordinates: 2 (p - origin) / size - half; and on one axis. */
+static inline double camera_unit_on(const camera *c, int axis, double at)
+{
+    return 2 * ((at * c->scale - c->origin[axis]) / c->size) - c->half[axis];
+}
+
 static inline void camera_unit(const camera *c, const double position[3], double result[3])
 {
     for (int i = 0; i < 3; i++)
-        result[i] = 2 * ((position[i] * c->scale - c->origin[i]) / c->size) - c->half[i];
+        result[i] = camera_unit_on(c, i, position[i]);
 }
 
 /* To camera coordinates: right, up, and depth along forward, from the eye; unit lengths. */
