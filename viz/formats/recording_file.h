@@ -28,7 +28,7 @@
 void recording_write(FILE *out, const view *v, uint64_t every);
 
 /* Read that of a folder: its view and its frame interval (--every). Options that are missing are off. False,
- * with file, line and reason, when it is not a recording. */
+ * with file, line and reason, when it is not a recording. Cost: O(size); memory as session_read() takes. */
 bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error);
 
 /* The same of a text in memory; `name` is for errors. */

@@ -36,7 +36,8 @@ typedef struct session_file {
 bool session_read(const char *path, session_file *out, octreel_error *error);
 
 /* The same for text in memory. `name` is for errors; `folder` is where files of points are looked for, "" the current
- * one. */
+ * one. Null: of a recording, which lists its points; other files and samples are refused, so that nothing but the text
+ * is read, and decides about memory. */
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
                    octreel_error *error);
 

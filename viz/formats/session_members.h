@@ -48,7 +48,7 @@ typedef struct session_values {
 
 /* A session that is being read: the context of its json_reader. */
 typedef struct session_loader {
-    const char *folder;    /* of files of points */
+    const char *folder;    /* of files of points; null: neither those nor samples are read */
     session_header header; /* its queries and shapes are in the lists below */
     uint64_t tick;         /* of the object at hand; OCTREE_EVERY_TICK in the header */
     bool ends;             /* the header says after how many ticks */

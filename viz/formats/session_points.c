@@ -145,12 +145,21 @@ static void note_values(session_loader *s, const char *name)
         snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, decided, *decided && *beyond ? "; " : "", beyond);
 }
 
+/* What a recording's text names would be read, or made, by whoever looks at it. */
+static bool check_elsewhere(json_reader *r, const json_place *at)
+{
+    const session_loader *s = r->context;
+    return s->folder || json_fail(r, at, "a recording lists its points, and names no others");
+}
+
 /* Read it, unless that is done. */
 static bool load_file(json_reader *r, const json_t *value, const json_place *at)
 {
     session_loader *s = r->context;
     if (s->points.count > 0)
         return true;
+    if (!check_elsewhere(r, at))
+        return false;
     char *path = path_in_folder(s->folder, json_string_value(value));
     if (!path)
         return json_fail(r, at, "out of memory");
@@ -239,7 +248,7 @@ static bool read_sample(json_reader *r, json_t *value, const json_place *at)
 {
     session_loader *s = r->context;
     octree_sampled wanted = {.points.seed = 1, .by_points = true, .known = true};
-    if (!json_read_members(r, value, at, sample_members, &wanted))
+    if (!check_elsewhere(r, at) || !json_read_members(r, value, at, sample_members, &wanted))
         return false;
     s->header.session.sampled = wanted;
     const size_t count = (size_t)wanted.points.count;

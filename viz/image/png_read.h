@@ -12,7 +12,8 @@
  * bits a sample only where 8 cannot hold them. What is transparent is laid over white; gamma and colour profiles
  * change no pixel (image.color_space tells them apart). Refused are irregular files, files that are cut short or fail a
  * checksum, sides beyond IMAGE_MAX_SIDE, and more pixels than the file's size can encode: memory stays within 8 bytes a
- * pixel, and within 8300 times the file's size. On failure the image is zeroed. */
+ * pixel, and within 8300 times the file's size, beside what libpng needs for a row and a chunk, of 8 MB at most. On
+ * failure the image is zeroed. */
 bool image_read_png(const char *path, image *image, octreel_error *error);
 
 /* The same over a given background. */

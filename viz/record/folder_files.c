@@ -158,17 +158,15 @@ static bool read_session(const char *folder, const char *name, bool live, sessio
                          octreel_error *error)
 {
     char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, name);
-    char *inside = path_join(folder, ""); /* where files of points would be */
     size_t size;
-    bool ok = (path && inside) || error_no_memory(error);
+    bool ok = path || error_no_memory(error);
     ok = ok && (file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason));
     while (ok && live && size > 0 && bytes[size - 1] != '\n')
         size--;
     if (ok)
         *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
-    ok = ok && session_parse(path, inside, bytes, size, file, error);
+    ok = ok && session_parse(path, NULL, bytes, size, file, error);
     free(bytes);
-    free(inside);
     free(path);
     return ok;
 }
@@ -203,13 +201,18 @@ static const char *text_of(const json_t *object, const char *key)
 
 char *who_drew(const char *folder, char *text, size_t size)
 {
-    char *path = path_join(folder, "renderer.json");
-    json_t *object = path ? json_load_file(path, 0, NULL) : NULL;
+    enum { LARGEST = 1 << 16 }; /* of those that are written a hundredth */
+    char reason[FILE_REASON], *path = path_join(folder, "renderer.json");
+    uint64_t bytes = 0;
+    FILE *file = path ? file_open(path, &bytes, reason) : NULL;
+    json_t *object = file && bytes <= LARGEST ? json_loadf(file, 0, NULL) : NULL;
     const renderer_info info = {.context = text_of(object, "context"),
                                 .renderer = text_of(object, "renderer"),
                                 .version = text_of(object, "version")};
     who_draws(&info, text, size);
     json_decref(object);
+    if (file)
+        fclose(file);
     free(path);
     return text;
 }

@@ -2,6 +2,7 @@
 /* test_verify_damage.c - verifying: no byte of a recording can change unnoticed, and none does harm. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "recordings.h"
 #include "verified.h"
@@ -82,15 +83,47 @@ static void no_change_of_the_view_or_of_who_drew_does_harm(void **state)
     assert_changes(&folder, "renderer.json", false);
 }
 
+/* Opening a pipe would wait for ever. */
+static void who_drew_is_read_from_a_small_file_alone(void **state)
+{
+    const place folder = film_tiny(*state), about = place_below(folder.path, "renderer.json");
+    enum { LARGE = 1 << 22 };
+    char *large = malloc(LARGE);
+    assert_non_null(large);
+    memset(large, '[', LARGE);
+    file_write(about.path, large, LARGE);
+    free(large);
+    assert_false(is_noticed(&folder));
+    assert_int_equal(remove(about.path), 0);
+    assert_int_equal(mkfifo(about.path, 0600), 0);
+    assert_false(is_noticed(&folder));
+}
+
+/* A recording from elsewhere must not have files read that are none of its own, nor have points made without end. */
+static void points_from_elsewhere_are_refused(void **state)
+{
+    static const char *const points[] = {"{\"file\": \"../points.xyz\"}",
+                                         "{\"sample\": \"uniform\", \"count\": 100000000}"};
+    const place folder = film_tiny(*state);
+    file_write_text(place_in(*state, "points.xyz").path, "1 2 3\n");
+    for (int world = 0; world < 2; world++)
+        for (size_t i = 0; i < 2; i++) {
+            char text[300];
+            snprintf(text, sizeof text, "{\"octreel\": \"session\", \"version\": 1, %s\"points\": %s}\n",
+                     world ? "\"world\": {\"min\": [0, 0, 0], \"max\": [9, 9, 9]}, " : "", points[i]);
+            file_write_text(place_below(folder.path, "session.json").path, text);
+            assert_not_verified(&folder, "a recording lists its points, and names no others");
+        }
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(every_change_of_a_line_is_noticed),
-        IN_FOLDER(every_change_of_the_session_is_noticed),
-        IN_FOLDER(every_change_of_a_frame_is_noticed),
-        IN_FOLDER(no_change_of_the_view_or_of_who_drew_does_harm),
+        IN_FOLDER(every_change_of_a_line_is_noticed),        IN_FOLDER(every_change_of_the_session_is_noticed),
+        IN_FOLDER(every_change_of_a_frame_is_noticed),       IN_FOLDER(no_change_of_the_view_or_of_who_drew_does_harm),
+        IN_FOLDER(who_drew_is_read_from_a_small_file_alone), IN_FOLDER(points_from_elsewhere_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

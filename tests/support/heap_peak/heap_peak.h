@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* heap_peak.h - the most memory at one time: of a test that is linked with HEAP_PEAK_OPTIONS of tests/CMakeLists.txt,
- * which lead malloc, calloc, realloc and free of the program, though not of shared libraries, through here.
+/* heap_peak.h - the most memory at one time, of a test that is linked with octreel_heap_peak: malloc, calloc, realloc
+ * and free of the program lead through here, and with glibc and without sanitizers those of shared libraries too.
  */
 #ifndef HEAP_PEAK_H
 #define HEAP_PEAK_H
