@@ -94,6 +94,10 @@ static inline octree_status check_inside(const octree *tree, const double positi
 bool take_lists(batch *b);
 void batch_end(batch *b);
 
+/* Whether no two points of the batch have one id: then no change depends on another, but where a leaf is full. False
+ * when there is no memory. */
+bool ids_differ(const batch *b, bool *differ);
+
 /* Told the leaf of some items, and its depth; or null where there is none. */
 typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 

@@ -2,7 +2,7 @@
 /* bulk.c - many points inserted, removed or moved at once: their statuses, and what leaves and arrives. */
 #include "batch.h"
 #include "float_rules.h"
-#include "tasks.h"
+#include "few.h"
 
 #include <string.h>
 
@@ -15,6 +15,66 @@ static octree_status finish(batch *b, octree_status status, size_t *done)
         *done = b->done;
     batch_end(b);
     return status;
+}
+
+/* ---- Ids ---------------------------------------------------------------------------------------------------- */
+
+/* Ids that lie so close together have a bit each. */
+static bool are_dense(const batch *b, uint64_t least, uint64_t most)
+{
+    return most - least < 64 * (uint64_t)b->count;
+}
+
+static bool bits_differ(const batch *b, uint64_t least, uint64_t *bits)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        const uint64_t at = b->points[i].id - least, bit = UINT64_C(1) << at % 64;
+        if (bits[at / 64] & bit)
+            return false;
+        bits[at / 64] |= bit;
+    }
+    return true;
+}
+
+/* Open addressing with linear probing. */
+static bool hashes_differ(const batch *b, uint32_t *table, size_t slots)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        const uint64_t id = b->points[i].id;
+        size_t slot = (size_t)(id ^ (id >> 32) * UINT64_C(0x9e3779b97f4a7c15)) & (slots - 1);
+        for (; table[slot]; slot = (slot + 1) & (slots - 1))
+            if (b->points[table[slot] - 1].id == id)
+                return false;
+        table[slot] = (uint32_t)(i + 1);
+    }
+    return true;
+}
+
+bool ids_differ(const batch *b, bool *differ)
+{
+    uint64_t least = UINT64_MAX, most = 0;
+    *differ = true;
+    for (size_t i = 0; i < b->count; i++) {
+        const uint64_t id = b->points[i].id;
+        *differ &= i == 0 || id > most; /* so far they ascend */
+        least = id < least ? id : least;
+        most = id > most ? id : most;
+    }
+    if (*differ)
+        return true;
+    size_t slots = 64;
+    while (slots < 2 * b->count)
+        slots *= 2;
+    const bool dense = are_dense(b, least, most);
+    const size_t size = dense ? ((size_t)(most - least) / 64 + 1) * sizeof(uint64_t) : slots * sizeof(uint32_t);
+    arena *memory = &b->tree->store.memory;
+    void *table = arena_take(memory, size);
+    if (!table)
+        return false;
+    memset(table, 0, size);
+    *differ = dense ? bits_differ(b, least, table) : hashes_differ(b, table, slots);
+    arena_give(memory, table, size);
+    return true;
 }
 
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
@@ -34,8 +94,8 @@ static octree_status insert_valid(batch *b)
     return status;
 }
 
-static octree_status insert_all(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                                size_t *inserted)
+octree_status insert_sorted(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                            size_t *inserted)
 {
     batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses, .inserts = true};
     octree_status status = batch_begin(&b);
@@ -44,87 +104,13 @@ static octree_status insert_all(octree *tree, const octree_point *points, size_t
     return finish(&b, status, inserted);
 }
 
-/* Of a few points hardly two meet in one leaf, and sorting them gains nothing: those that find room in their leaf are
- * inserted one by one, and the others, whose leaves were full and are so at the end, at once. */
-typedef struct few {
-    octree_point *full;
-    octree_status *statuses; /* of all, and then of those */
-    size_t full_count, inserted;
-} few;
-
-static octree_status insert_singly(octree *tree, const octree_point *points, size_t count, few *f)
-{
-    octree_status status = OCTREE_OK;
-    for (size_t i = 0; i < count; i++) {
-        status = check_position(tree, points[i].position);
-        const bool valid = status == OCTREE_OK;
-        if (valid)
-            status = insert_point(tree, &points[i], false);
-        f->statuses[i] = status;
-        if (status == OCTREE_NO_MEMORY)
-            return status;
-        if (status == OCTREE_FULL)
-            f->full[f->full_count++] = points[i];
-        f->inserted += status == OCTREE_OK;
-    }
-    return OCTREE_OK;
-}
-
-static void undo_insertions(octree *tree, const octree_point *points, few *f, uint64_t version)
-{
-    for (size_t i = 0; f->inserted > 0; i++)
-        if (f->statuses[i] == OCTREE_OK) {
-            octree_remove(tree, points[i].position, points[i].id);
-            f->inserted--;
-        }
-    tree->version = version;
-}
-
-static octree_status insert_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                                size_t *inserted)
-{
-    arena *memory = &tree->store.memory;
-    const uint64_t version = tree->version;
-    few f = {.full = arena_take(memory, (count + 1) * sizeof *points),
-             .statuses = arena_take(memory, (2 * count + 1) * sizeof *statuses)};
-    size_t more = 0;
-    octree_status status = OCTREE_NO_MEMORY;
-    if (f.full && f.statuses)
-        status = insert_singly(tree, points, count, &f);
-    if (status == OCTREE_OK && f.full_count > 0)
-        status = insert_all(tree, f.full, f.full_count, f.statuses + count, &more);
-    if (status != OCTREE_OK)
-        undo_insertions(tree, points, &f, version);
-    for (size_t i = 0, full = 0; status == OCTREE_OK && statuses && i < count; i++)
-        statuses[i] = f.statuses[i] == OCTREE_FULL ? f.statuses[count + full++] : f.statuses[i];
-    if (status == OCTREE_OK && inserted)
-        *inserted = f.inserted + more;
-    arena_give(memory, f.full, (count + 1) * sizeof *points);
-    arena_give(memory, f.statuses, (2 * count + 1) * sizeof *statuses);
-    return status;
-}
-
-enum {
-    FEW = 20, /* as many times more points are stored than a few; */
-    FEW_OF_CACHED = 8,
-    CACHED =
-        300000 /* and fewer times more of so many points, which a processor's caches hold: there, sorting gains less */
-};
-
-static bool is_few(const octree *tree, size_t count)
-{
-    const uint32_t stored = tree->root.count;
-    return count > 0 && tasks_for(tree, count) == 1 && count < stored / (stored < CACHED ? FEW_OF_CACHED : FEW) &&
-           count <= UINT32_MAX - stored;
-}
-
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted)
 {
     if (tree && change_log_is_on(&tree->changes))
         return change_log_batch(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
-    const bool singly = tree && points && is_few(tree, count) && float_mode_is_default();
-    const octree_status status = (singly ? insert_few : insert_all)(tree, points, count, statuses, inserted);
+    const bool few = tree && points && are_few(tree, count) && float_mode_is_default();
+    const octree_status status = (few ? insert_few : insert_sorted)(tree, points, count, statuses, inserted);
     if (status == OCTREE_OK)
         tune_if_due(tree);
     return status;
@@ -163,73 +149,19 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
     if (tree && change_log_is_on(&tree->changes))
         return change_log_batch(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
-    octree_status status = batch_begin(&b);
+    octree_status status = OCTREE_OK;
+    bool differ = false;
+    if (tree && points && are_few(tree, count) && float_mode_is_default() && !ids_differ(&b, &differ))
+        return OCTREE_NO_MEMORY;
+    if (differ)
+        return remove_few(tree, points, count, statuses, removed);
+    status = batch_begin(&b);
     if (status == OCTREE_OK)
         status = remove_valid(&b);
     return finish(&b, status, removed);
 }
 
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
-
-/* Ids that lie so close together have a bit each. */
-static bool are_dense(const batch *b, uint64_t least, uint64_t most)
-{
-    return most - least < 64 * (uint64_t)b->count;
-}
-
-static bool bits_differ(const batch *b, uint64_t least, uint64_t *bits)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        const uint64_t at = b->points[i].id - least, bit = UINT64_C(1) << at % 64;
-        if (bits[at / 64] & bit)
-            return false;
-        bits[at / 64] |= bit;
-    }
-    return true;
-}
-
-/* Open addressing with linear probing. */
-static bool hashes_differ(const batch *b, uint32_t *table, size_t slots)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        const uint64_t id = b->points[i].id;
-        size_t slot = (size_t)(id ^ (id >> 32) * UINT64_C(0x9e3779b97f4a7c15)) & (slots - 1);
-        for (; table[slot]; slot = (slot + 1) & (slots - 1))
-            if (b->points[table[slot] - 1].id == id)
-                return false;
-        table[slot] = (uint32_t)(i + 1);
-    }
-    return true;
-}
-
-/* Whether no two points of the batch have one id: then no move depends on another, but for those that meet a full
- * leaf. False when there is no memory. */
-static bool ids_differ(const batch *b, bool *differ)
-{
-    uint64_t least = UINT64_MAX, most = 0;
-    *differ = true;
-    for (size_t i = 0; i < b->count; i++) {
-        const uint64_t id = b->points[i].id;
-        *differ &= i == 0 || id > most; /* so far they ascend */
-        least = id < least ? id : least;
-        most = id > most ? id : most;
-    }
-    if (*differ)
-        return true;
-    size_t slots = 64;
-    while (slots < 2 * b->count)
-        slots *= 2;
-    const bool dense = are_dense(b, least, most);
-    const size_t size = dense ? ((size_t)(most - least) / 64 + 1) * sizeof(uint64_t) : slots * sizeof(uint32_t);
-    arena *memory = &b->tree->store.memory;
-    void *table = arena_take(memory, size);
-    if (!table)
-        return false;
-    memset(table, 0, size);
-    *differ = dense ? bits_differ(b, least, table) : hashes_differ(b, table, slots);
-    arena_give(memory, table, size);
-    return true;
-}
 
 static bool same_bits(const double a[3], const double b[3])
 {

@@ -158,11 +158,10 @@ static octree_status add_to_leaf(octree *tree, node *leaf, const octree_point *p
     return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
-octree_status insert_point(octree *tree, const octree_point *point, bool divides)
+octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides)
 {
     if (tree->root.count == UINT32_MAX)
         return OCTREE_TOO_MANY;
-    const uint64_t code = morton_code(tree->axes, point->position);
     path p = path_to(tree, code);
     node *end = path_end(&p);
     const bool is_leaf = end->octants == 0;
@@ -184,8 +183,8 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
-    const octree_status inserted =
-        insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id}, true);
+    const octree_status inserted = insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id},
+                                                morton_code(tree->axes, position), true);
     tune_if_due(tree);
     return inserted;
 }
@@ -210,8 +209,7 @@ static bool reserve_merge(octree *tree, const found_point *found, node *spare)
     return depth == found->path.depth || leaf_create(&tree->store, spare, found->path.nodes[depth]->count - 1);
 }
 
-/* Remove an empty leaf from its parent's group of children; the end of the group's block is freed. */
-static void drop_child(octree *tree, node *parent, node *child)
+void drop_child(octree *tree, node *parent, node *child)
 {
     node *group = children_of(parent);
     const unsigned children = bits_count8(parent->octants), index = (unsigned)(child - group);
@@ -272,7 +270,7 @@ static octree_status move_across(octree *tree, const found_point *found, const o
     node spare;
     if (!reserve_merge(tree, found, &spare))
         return OCTREE_NO_MEMORY;
-    const octree_status status = insert_point(tree, moved, true);
+    const octree_status status = insert_point(tree, moved, morton_code(tree->axes, moved->position), true);
     if (status != OCTREE_OK) {
         leaf_release(&tree->store, &spare);
         return status;

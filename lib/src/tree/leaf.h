@@ -77,7 +77,11 @@ static inline uint32_t leaf_find(const node *leaf, const double position[3], uin
     const octree_point *points = leaf_points(leaf);
     if (leaf->room == LEAF_HASHED)
         return leaf_find_hashed(leaf, position, id);
-    for (uint32_t i = 0; i < leaf->count; i++)
+    uint32_t i = 0;
+    while (i + 4 <= leaf->count && points[i].id != id && points[i + 1].id != id && points[i + 2].id != id &&
+           points[i + 3].id != id)
+        i += 4;
+    for (; i < leaf->count; i++)
         if (points[i].id == id && same_position(points[i].position, position))
             return i;
     return LEAF_NONE;

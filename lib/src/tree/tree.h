@@ -50,9 +50,12 @@ static inline bool fits_leaf(const octree *tree, size_t count)
 /* OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
 
-/* DUPLICATE, FULL, NO_MEMORY, TOO_MANY or OK, for a position that was checked. Unless it `divides`, a leaf that holds
- * as many points as the capacity is FULL: then removing the point again takes no memory. */
-octree_status insert_point(octree *tree, const octree_point *point, bool divides);
+/* DUPLICATE, FULL, NO_MEMORY, TOO_MANY or OK, for a position that was checked, and its code. Unless it `divides`, a
+ * leaf that holds as many points as the capacity is FULL: then removing the point again takes no memory. */
+octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides);
+
+/* Remove an empty leaf from its parent's group of children; the end of the group's block is freed. */
+void drop_child(octree *tree, node *parent, node *child);
 
 /* After points were inserted: choose the capacity if it is due. Without memory it stays as it is. */
 void tune_if_due(octree *tree);

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT */
+#include "few.h"
+#include "tasks.h"
+
+#include <string.h>
+
+enum {
+    FEW = 20, /* as many times more points are stored than a few; */
+    FEW_OF_CACHED = 8,
+    CACHED =
+        300000 /* and fewer times more of so many points, which a processor's caches hold: there, sorting gains less */
+};
+
+bool are_few(const octree *tree, size_t count)
+{
+    const uint32_t stored = tree->root.count;
+    return count > 0 && tasks_for(tree, count) == 1 && count < stored / (stored < CACHED ? FEW_OF_CACHED : FEW) &&
+           count <= UINT32_MAX - stored;
+}
+
+/* ---- Leaves of several points at once ----------------------------------------------------------------------- */
+
+enum { TOGETHER = 32 };
+
+/* Where some points lead: the nodes on their ways, and how deep those end. Of a position outside the world there is
+ * none. */
+typedef struct ways {
+    octree_status statuses[TOGETHER];
+    uint64_t codes[TOGETHER];
+    unsigned depths[TOGETHER];
+    node *nodes[OCTREE_MAX_DEPTH + 1][TOGETHER];
+} ways;
+
+static void find_codes(ways *w, const octree *tree, const octree_point *points, size_t count)
+{
+    morton_codes(tree->axes, points->position, sizeof *points / sizeof(double), count, w->codes);
+    for (size_t i = 0; i < count; i++) {
+        w->statuses[i] = w->codes[i] == MORTON_UNSURE ? check_position(tree, points[i].position) : OCTREE_OK;
+        if (w->codes[i] == MORTON_UNSURE && w->statuses[i] == OCTREE_OK)
+            w->codes[i] = morton_code(tree->axes, points[i].position);
+    }
+}
+
+/* All ways go down a level at a time, so that the memory of the next one is loaded for all at once. */
+static void find_ways(ways *w, octree *tree, const octree_point *points, size_t count)
+{
+    size_t going = 0, left[TOGETHER];
+    find_codes(w, tree, points, count);
+    for (size_t i = 0; i < count; i++)
+        if (w->statuses[i] == OCTREE_OK) {
+            w->nodes[0][i] = &tree->root;
+            left[going++] = i;
+        }
+    for (unsigned depth = 0; going > 0; depth++) {
+        size_t next = 0;
+        for (size_t k = 0; k < going; k++) {
+            const size_t i = left[k];
+            const node *n = w->nodes[depth][i];
+            node *child = n->octants ? child_at(n, morton_octant(w->codes[i], depth)) : NULL;
+            if (!child) {
+                w->depths[i] = depth;
+                continue;
+            }
+            w->nodes[depth + 1][i] = child;
+            left[next++] = i;
+            if (child->octants)
+                prefetch(child->below);
+            else
+                leaf_prefetch(child);
+        }
+        going = next;
+    }
+}
+
+/* ---- Inserting ---------------------------------------------------------------------------------------------- */
+
+typedef struct insertions {
+    octree_point *full;
+    octree_status *statuses; /* of all, and then of those */
+    const octree_point *points;
+    size_t full_count, inserted;
+} insertions;
+
+/* Into the leaf that a way ends at. No node moves, so that other ways stay as they are. */
+static octree_status insert_on_way(octree *tree, const octree_point *point, const ways *w, size_t i)
+{
+    node *leaf = w->nodes[w->depths[i]][i];
+    if (tree->root.count == UINT32_MAX)
+        return OCTREE_TOO_MANY;
+    if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
+        return OCTREE_DUPLICATE;
+    if (!fits_leaf(tree, (size_t)leaf->count + 1))
+        return OCTREE_FULL;
+    if (!leaf_append(&tree->store, leaf, point))
+        return OCTREE_NO_MEMORY;
+    for (unsigned depth = 0; depth < w->depths[i]; depth++)
+        w->nodes[depth][i]->count++;
+    return OCTREE_OK;
+}
+
+/* A point whose way ends at an inner node adds a leaf there, which moves nodes: until the next ways are found, others
+ * are inserted as single ones are. */
+static octree_status insert_some(octree *tree, const octree_point *points, size_t count, insertions *f)
+{
+    ways w;
+    bool moved = false;
+    const size_t first = (size_t)(points - f->points);
+    find_ways(&w, tree, points, count);
+    for (size_t i = 0; i < count; i++) {
+        octree_status status = w.statuses[i];
+        const bool on_way = status == OCTREE_OK && !moved && !w.nodes[w.depths[i]][i]->octants;
+        if (on_way)
+            status = insert_on_way(tree, &points[i], &w, i);
+        else if (status == OCTREE_OK)
+            status = insert_point(tree, &points[i], w.codes[i], false);
+        moved = moved || !on_way;
+        f->statuses[first + i] = status;
+        if (status == OCTREE_NO_MEMORY)
+            return status;
+        if (status == OCTREE_FULL)
+            f->full[f->full_count++] = points[i];
+        f->inserted += status == OCTREE_OK;
+    }
+    return OCTREE_OK;
+}
+
+static void undo_insertions(octree *tree, const octree_point *points, insertions *f, uint64_t version)
+{
+    for (size_t i = 0; f->inserted > 0; i++)
+        if (f->statuses[i] == OCTREE_OK) {
+            octree_remove(tree, points[i].position, points[i].id);
+            f->inserted--;
+        }
+    tree->version = version;
+}
+
+octree_status insert_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                         size_t *inserted)
+{
+    arena *memory = &tree->store.memory;
+    const uint64_t version = tree->version;
+    insertions f = {.points = points,
+                    .full = arena_take(memory, (count + 1) * sizeof *points),
+                    .statuses = arena_take(memory, (2 * count + 1) * sizeof *statuses)};
+    size_t more = 0;
+    octree_status status = f.full && f.statuses ? OCTREE_OK : OCTREE_NO_MEMORY;
+    for (size_t i = 0; status == OCTREE_OK && i < count; i += TOGETHER)
+        status = insert_some(tree, points + i, count - i < TOGETHER ? count - i : TOGETHER, &f);
+    tree->version = version + f.inserted;
+    if (status == OCTREE_OK && f.full_count > 0)
+        status = insert_sorted(tree, f.full, f.full_count, f.statuses + count, &more);
+    if (status != OCTREE_OK)
+        undo_insertions(tree, points, &f, version);
+    for (size_t i = 0, full = 0; status == OCTREE_OK && statuses && i < count; i++)
+        statuses[i] = f.statuses[i] == OCTREE_FULL ? f.statuses[count + full++] : f.statuses[i];
+    if (status == OCTREE_OK && inserted)
+        *inserted = f.inserted + more;
+    arena_give(memory, f.full, (count + 1) * sizeof *points);
+    arena_give(memory, f.statuses, (2 * count + 1) * sizeof *statuses);
+    return status;
+}
+
+/* ---- Removing ----------------------------------------------------------------------------------------------- */
+
+/* A point that is found, and its leaf: no node is moved or freed before the last is removed. */
+typedef struct removal {
+    node *leaf, *parent; /* null: the leaf is the root */
+    uint32_t place, index;
+} removal;
+
+/* A node that becomes a leaf when all are removed. */
+typedef struct merging {
+    node *at;
+    node made; /* empty, with room for what stays */
+} merging;
+
+typedef struct removals {
+    octree *tree;
+    const octree_point *points;
+    octree_status *statuses; /* the caller's; may be null */
+    removal *found;
+    size_t count;
+    list mergings;
+} removals;
+
+/* The counts of inner nodes are at once what they will be. */
+static void find_some(removals *r, size_t first, size_t count)
+{
+    ways w;
+    find_ways(&w, r->tree, r->points + first, count);
+    for (size_t i = 0; i < count; i++) {
+        octree_status status = w.statuses[i];
+        const octree_point *point = &r->points[first + i];
+        node *end = status == OCTREE_OK ? w.nodes[w.depths[i]][i] : NULL;
+        const uint32_t index = end && !end->octants ? leaf_find(end, point->position, point->id) : LEAF_NONE;
+        if (index != LEAF_NONE) {
+            node *parent = w.depths[i] ? w.nodes[w.depths[i] - 1][i] : NULL;
+            r->found[r->count++] = (removal){end, parent, (uint32_t)(first + i), index};
+            for (unsigned depth = 0; depth < w.depths[i]; depth++)
+                w.nodes[depth][i]->count--;
+        } else if (status == OCTREE_OK) {
+            status = OCTREE_NOT_FOUND;
+        }
+        if (r->statuses)
+            r->statuses[first + i] = status;
+    }
+}
+
+static path path_of(const removals *r, const removal *found)
+{
+    return path_to(r->tree, morton_code(r->tree->axes, r->points[found->place].position));
+}
+
+/* Make the leaf for the highest node on the way to a point that fits one; an inner node's room says that it has one. */
+static bool plan_merging(removals *r, const removal *found)
+{
+    store *s = &r->tree->store;
+    const path p = path_of(r, found);
+    merging m = {.at = p.nodes[0]};
+    for (unsigned depth = 0; !fits_leaf(r->tree, m.at->count);)
+        m.at = p.nodes[++depth];
+    if (m.at->room)
+        return true;
+    if (!leaf_create(s, &m.made, m.at->count))
+        return false;
+    if (!list_push(&s->memory, &r->mergings, &m, sizeof m)) {
+        leaf_release(s, &m.made);
+        return false;
+    }
+    m.at->room = 1;
+    return true;
+}
+
+static bool plan_mergings(removals *r)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < r->count; i++)
+        if (r->found[i].parent && fits_leaf(r->tree, r->found[i].parent->count))
+            ok = plan_merging(r, &r->found[i]);
+    return ok;
+}
+
+static void undo_removals(removals *r)
+{
+    const merging *mergings = r->mergings.items;
+    for (size_t i = 0; i < r->mergings.count; i++) {
+        mergings[i].at->room = 0;
+        leaf_release(&r->tree->store, &mergings[i].made);
+    }
+    for (size_t i = 0; i < r->count; i++) {
+        const path p = path_of(r, &r->found[i]);
+        for (unsigned depth = 0; depth < p.depth; depth++)
+            p.nodes[depth]->count++;
+    }
+}
+
+/* Take the points out of their leaves. Returns in how many empty leaves that ended; those come first in `found` then.
+ */
+static size_t take_points(removals *r)
+{
+    size_t emptied = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        removal *it = &r->found[i];
+        const octree_point *point = &r->points[it->place], *at = &leaf_points(it->leaf)[it->index];
+        if (it->index >= it->leaf->count || at->id != point->id || !same_position(at->position, point->position))
+            it->index = leaf_find(it->leaf, point->position, point->id); /* another one's removal moved it */
+        leaf_remove(&r->tree->store, it->leaf, it->index);
+        if (it->leaf->count == 0)
+            r->found[emptied++] = *it;
+    }
+    return emptied;
+}
+
+/* Cannot fail. */
+static void carry_out_removals(removals *r)
+{
+    octree *tree = r->tree;
+    const size_t emptied = take_points(r);
+    merging *mergings = r->mergings.items;
+    for (size_t i = 0; i < r->mergings.count; i++) {
+        node_gather(&mergings[i].made, mergings[i].at, NULL);
+        node_release(&tree->store, mergings[i].at);
+        *mergings[i].at = mergings[i].made;
+    }
+    for (size_t i = 0; i < emptied; i++) {
+        const path p = path_of(r, &r->found[i]);
+        if (p.depth > 0 && path_end(&p)->count == 0)
+            drop_child(tree, p.nodes[p.depth - 1], path_end(&p));
+    }
+    if (r->count > 0)
+        tree->version++;
+}
+
+octree_status remove_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                         size_t *removed)
+{
+    arena *memory = &tree->store.memory;
+    removals r = {.tree = tree, .points = points, .statuses = statuses};
+    r.found = arena_take(memory, count * sizeof *r.found);
+    if (!r.found)
+        return OCTREE_NO_MEMORY;
+    for (size_t i = 0; i < count; i += TOGETHER)
+        find_some(&r, i, count - i < TOGETHER ? count - i : TOGETHER);
+    const bool ok = plan_mergings(&r);
+    if (ok)
+        carry_out_removals(&r);
+    else
+        undo_removals(&r);
+    if (ok && removed)
+        *removed = r.count;
+    arena_give(memory, r.found, count * sizeof *r.found);
+    list_release(memory, &r.mergings, sizeof(merging));
+    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
