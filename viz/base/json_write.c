@@ -4,6 +4,7 @@
 #include "text.h"
 
 #include <math.h>
+#include <string.h>
 
 static void break_line(json_writer *writer)
 {
@@ -60,6 +61,42 @@ static void write_word(json_writer *writer, const char *word)
     separate(writer);
     fputs(word, writer->out);
     writer->comma = true;
+}
+
+/* Numbers are gathered, because a stream takes long for few characters at a time. */
+typedef struct gathered {
+    char text[8 * NUMBER_TEXT];
+    size_t size;
+} gathered;
+
+static void gather(gathered *g, const char *text, size_t size)
+{
+    memcpy(g->text + g->size, text, size);
+    g->size += size;
+}
+
+static void gather_separator(gathered *g, json_writer *writer)
+{
+    if (writer->comma)
+        gather(g, ", ", writer->newline ? 1 : 2);
+    if (writer->newline)
+        gather(g, "\n", 1);
+    writer->comma = true;
+    writer->newline = false;
+}
+
+static void gather_number(gathered *g, double value)
+{
+    if (isfinite(value))
+        g->size += number_print(value, g->text + g->size);
+    else
+        gather(g, "null", 4);
+}
+
+static void write_gathered(json_writer *writer, gathered *g)
+{
+    fwrite(g->text, 1, g->size, writer->out);
+    g->size = 0;
 }
 
 /* ---- Strings ------------------------------------------------------------------------------------------------ */
@@ -126,23 +163,30 @@ void json_write_string(json_writer *writer, const char *text)
 
 void json_write_number(json_writer *writer, double value)
 {
-    char text[NUMBER_TEXT];
-    if (!isfinite(value)) {
-        json_write_null(writer);
-        return;
+    json_write_elements(writer, &value, 1);
+}
+
+void json_write_elements(json_writer *writer, const double *values, size_t count)
+{
+    gathered g = {.size = 0};
+    for (size_t i = 0; i < count; i++) {
+        gather_separator(&g, writer);
+        gather_number(&g, values[i]);
+        if (i + 1 == count || g.size > sizeof g.text - 2 * NUMBER_TEXT)
+            write_gathered(writer, &g);
     }
-    number_print(value, text);
-    write_word(writer, text);
 }
 
 void json_write_integer(json_writer *writer, uint64_t value)
 {
-    char text[24], *at = text + sizeof text - 1;
-    *at = 0;
+    gathered g = {.size = 0};
+    char text[24], *at = text + sizeof text;
     do
         *--at = (char)('0' + value % 10);
     while (value /= 10);
-    write_word(writer, at);
+    gather_separator(&g, writer);
+    gather(&g, at, (size_t)(text + sizeof text - at));
+    write_gathered(writer, &g);
 }
 
 void json_write_bool(json_writer *writer, bool value)
@@ -158,8 +202,7 @@ void json_write_null(json_writer *writer)
 void json_write_numbers(json_writer *writer, const double *values, size_t count)
 {
     json_write_begin_array(writer);
-    for (size_t i = 0; i < count; i++)
-        json_write_number(writer, values[i]);
+    json_write_elements(writer, values, count);
     json_write_end_array(writer);
 }
 

@@ -290,8 +290,7 @@ static void write_point(json_writer *w, const octree_body *body)
         return;
     }
     json_write_begin_array(w);
-    for (int axis = 0; axis < 3; axis++)
-        json_write_number(w, body->position[axis]);
+    json_write_elements(w, body->position, 3);
     json_write_integer(w, body->id);
     session_write_columns(w, body->id);
     json_write_end_array(w);

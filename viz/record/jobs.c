@@ -67,14 +67,31 @@ typedef struct job {
     pid_t pid;
     int pipe; /* both ways: in the job its own end, in the process that started it the other */
     const film_options *options;
+    uint64_t session; /* the digest of the session's file: all that a job is told, once that is written */
+    bool told;
 } job;
+
+/* Wait until the job is told the session's digest, or stopped before. */
+static void wait_for_session(job *self)
+{
+    if (!self->told && !pipe_read(self->pipe, &self->session, sizeof self->session))
+        _exit(EXIT_SUCCESS);
+    self->told = true;
+}
+
+static void learn_session(uint64_t *digest, void *context)
+{
+    job *self = context;
+    wait_for_session(self);
+    *digest = self->session;
+}
 
 /* Until the caller of the recording says so, or the process that started the job stops it or dies. */
 static bool job_keeps_going(void *context)
 {
     const job *self = context;
     const film_options *options = self->options;
-    return (!options->keep_going || options->keep_going(options->context)) && !pipe_poll(self->pipe, 0);
+    return (!options->keep_going || options->keep_going(options->context)) && !(self->told && pipe_poll(self->pipe, 0));
 }
 
 /* Sleep until the process that started the job has died, and die with it: the frame in hand has nobody who wants it.
@@ -102,7 +119,8 @@ static void begin_watch(job *self)
 
 static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
-    const job *self = context;
+    job *self = context;
+    wait_for_session(self); /* nobody reads before */
     return write_message(self->pipe, (message){.step = *step}, step->line, step->size) ||
            error_set(error, "nobody collects the ticks");
 }
@@ -114,10 +132,9 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
     setenv("LP_NUM_THREADS", "0", 0); /* the other cores have jobs of their own */
     draw_context_tell(NULL);          /* the process that started it does */
     begin_watch(self);
-    bool ok = recording_film(r, p, &error);
-    if (ok && !pipe_read(self->pipe, &p->session_digest, sizeof p->session_digest))
-        _exit(EXIT_SUCCESS);
-    ok = ok && playback_run(p, share, write_step, job_keeps_going, self, &error);
+    p->learn_session = learn_session; /* the first frame is drawn meanwhile */
+    p->learn_context = self;
+    const bool ok = recording_film(r, p, &error) && playback_run(p, share, write_step, job_keeps_going, self, &error);
     if (!ok)
         write_message(self->pipe, (message){.failed = true}, &error, sizeof error);
     _exit(ok ? EXIT_SUCCESS : EXIT_FAILURE);
@@ -147,12 +164,12 @@ static bool start_job(job_pool *pool, playback *p, octreel_error *error)
             close(pool->jobs[i].pipe); /* a pipe ends when all copies of its other end are closed */
         share.index = pool->count;
         share.count = pool->wanted;
-        run_job(&(job){0, ends[1], r->options}, r, p, &share);
+        run_job(&(job){.pipe = ends[1], .options = r->options}, r, p, &share);
     }
     const int reason = errno;
     close(ends[1]);
     if (pid > 0) {
-        pool->jobs[pool->count++] = (job){pid, ends[0], r->options};
+        pool->jobs[pool->count++] = (job){.pid = pid, .pipe = ends[0], .options = r->options};
         return true;
     }
     close(ends[0]);

@@ -68,15 +68,25 @@ bool playback_scene(playback *p, octreel_error *error)
     return tick_scene_build(&p->scene, &p->view, p->game, &p->heat, p->values) || error_no_memory(error);
 }
 
+static uint64_t session_of(playback *p)
+{
+    if (p->learn_session)
+        p->learn_session(&p->session_digest, p->learn_context);
+    p->learn_session = NULL;
+    return p->session_digest;
+}
+
 static bool draw_frame(playback *p, frame_origin *origin, octreel_error *error)
 {
     octreel_error unlike;
     const playback_target *target = &p->target;
+    origin->session = target->frames == FRAMES_KEEP ? session_of(p) : 0;
     if (target->frames == FRAMES_KEEP && frame_check(target->folder, origin, &unlike))
         return true;
     if (!picture_draw(&p->picture, &p->scene, error))
         return false;
     origin->left_out = renderer_left_out(p->picture.renderer);
+    origin->session = session_of(p);
     return target->frames == FRAMES_SHOW || frame_write(target->folder, &p->picture.frame, origin, error);
 }
 
@@ -85,7 +95,7 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     if (!playback_scene(p, error))
         return false;
     p->extras.scene_digest = scene_digest(&p->scene);
-    frame_origin origin = {.tick = step->tick, .session = p->session_digest, .scene = p->extras.scene_digest};
+    frame_origin origin = {.tick = step->tick, .scene = p->extras.scene_digest};
     const bool done = draw_frame(p, &origin, error);
     step->left_out = origin.left_out;
     step->over_budget = scene_left_out_beyond(&p->scene.tally);

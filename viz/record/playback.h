@@ -38,7 +38,9 @@ typedef struct playback {
     heat heat;                  /* of all ticks that were played, filmed or not; where the view shows it */
     scene scene;
     playback_target target;
-    uint64_t session_digest; /* of session.json, for the frames that are written; set by the caller */
+    uint64_t session_digest; /* of session.json, for the frames that are written; set by the caller, */
+    void (*learn_session)(uint64_t *digest, void *context); /* or by this before the first is written; may be null */
+    void *learn_context;
     picture picture;
     tick_extras extras;
     char *line;
