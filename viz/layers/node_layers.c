@@ -142,6 +142,8 @@ static void drop_level(tree_walk *w)
             s->boxes.items[kept++] = *box;
     }
     s->boxes.count = kept;
+    if (w->kept)
+        kept_tree_forget_runs(w->kept);
     s->tally.nodes -= w->at_depth[w->deepest];
     s->tally.beyond += w->at_depth[w->deepest];
     w->at_depth[w->deepest--] = 0;
@@ -201,7 +203,11 @@ static void show_node(tree_walk *w, const octree_node *node)
 static void add_kept(tree_walk *w, const kept_subtree *kept)
 {
     scene *s = w->scene;
+    const size_t first_marker = s->markers.count, first_box = s->boxes.count;
+    digest_run run = {.power = 1};
     scene_add_markers(s, kept->markers, kept->marker_count);
+    if (s->markers.count - first_marker == kept->run.end)
+        kept_tree_add_run(&w->kept->marker_runs, first_marker, kept->run);
     s->tally.points += kept->marker_count;
     s->tally.thinned += kept->thinned;
     w->looser += kept->looser;
@@ -210,7 +216,12 @@ static void add_kept(tree_walk *w, const kept_subtree *kept)
         const bool shown = show_box(w, &node->box, true);
         s->tally.small += shown ? 0 : node->count;
         i += shown ? 1 : node->count;
+        run.sum = shown ? run.sum * DIGEST_BASE + node->digest : run.sum;
+        run.power *= shown ? DIGEST_BASE : 1;
+        run.end += shown;
     }
+    if (s->boxes.count - first_box == run.end)
+        kept_tree_add_run(&w->kept->box_runs, first_box, run);
     fit_points(w);
 }
 

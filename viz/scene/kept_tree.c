@@ -21,8 +21,14 @@ void kept_tree_end(kept_tree *k)
     k->before.count = k->met = 0;
 }
 
+void kept_tree_forget_runs(kept_tree *k)
+{
+    k->box_runs.count = k->marker_runs.count = 0;
+}
+
 void kept_tree_clear(kept_tree *k)
 {
+    kept_tree_forget_runs(k);
     for (size_t i = 0; i < k->now.count; i++)
         free(k->now.items[i].nodes);
     k->now.count = 0;
@@ -37,6 +43,8 @@ void kept_tree_release(kept_tree *k)
     free(k->before.items);
     free(k->touched);
     free(k->nodes);
+    free(k->box_runs.items);
+    free(k->marker_runs.items);
     memset(k, 0, sizeof *k);
 }
 
@@ -148,6 +156,7 @@ bool kept_tree_begin(kept_tree *k, const octree *tree, const kept_look *look)
     k->look = *look;
     if (!worth)
         return false;
+    k->names = digest_names_make();
     const kept_list before = k->before;
     k->before = k->now;
     k->now = before;
@@ -184,7 +193,7 @@ bool kept_tree_add_node(kept_tree *k, const scene_box *box)
     if (!nodes)
         return false;
     k->nodes = nodes;
-    nodes[k->open.node_count++] = (kept_node){.box = *box, .count = 1};
+    nodes[k->open.node_count++] = (kept_node){.box = *box, .digest = digest_box(&k->names, box), .count = 1};
     return true;
 }
 
@@ -207,6 +216,28 @@ static void count_nodes(kept_subtree *of)
     }
 }
 
+static digest_run run_of(const digest_names *names, const scene_marker *markers, size_t count)
+{
+    digest_run run = {.end = count, .power = 1};
+    for (size_t i = 0; i < count; i++) {
+        run.sum = run.sum * DIGEST_BASE + digest_marker(names, &markers[i]);
+        run.power *= DIGEST_BASE;
+    }
+    return run;
+}
+
+/* Without memory the run is digested anew. */
+void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run)
+{
+    digest_run *items = run.end > 0 ? array_reserve(runs->items, runs->count + 1, &runs->room, sizeof *items) : NULL;
+    if (!items)
+        return;
+    runs->items = items;
+    run.first += first;
+    run.end += first;
+    items[runs->count++] = run;
+}
+
 bool kept_tree_close(kept_tree *k, const scene *s)
 {
     kept_subtree made = k->open;
@@ -222,6 +253,7 @@ bool kept_tree_close(kept_tree *k, const scene *s)
     memcpy(made.nodes, k->nodes, nodes);
     memcpy(made.markers, s->markers.items + k->first_marker, markers);
     count_nodes(&made);
+    made.run = run_of(&k->names, made.markers, made.marker_count);
     items[k->now.count++] = made;
     return true;
 }

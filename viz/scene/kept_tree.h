@@ -5,7 +5,7 @@
 #ifndef SCENE_KEPT_TREE_H
 #define SCENE_KEPT_TREE_H
 
-#include "scene.h"
+#include "scene_digest.h"
 
 /* Kept are the subtrees of so many points or fewer whose parents have more, and leaves. */
 #define KEPT_POINTS 128
@@ -23,7 +23,8 @@ typedef struct kept_look {
 
 typedef struct kept_node {
     scene_box box;
-    uint32_t count; /* nodes of its subtree, itself included */
+    uint64_t digest; /* of the box */
+    uint32_t count;  /* nodes of its subtree, itself included */
 } kept_node;
 
 typedef struct kept_subtree {
@@ -31,6 +32,7 @@ typedef struct kept_subtree {
     kept_node *nodes; /* from its root down, in the order of a walk; one block with the markers */
     scene_marker *markers;
     uint32_t node_count, marker_count;
+    digest_run run;   /* of the markers, from 0 on */
     uint32_t thinned; /* points that the sieve drops; */
     uint32_t looser;  /* and those that one with a bit less keeps */
 } kept_subtree;
@@ -54,6 +56,8 @@ typedef struct kept_tree {
     kept_subtree open; /* being collected, where it has an address */
     kept_node *nodes;  /* of it */
     size_t node_room, first_marker;
+    digest_names names;
+    digest_runs box_runs, marker_runs; /* what is known of the scene's digest */
 } kept_tree;
 
 void kept_tree_clear(kept_tree *k);
@@ -75,6 +79,10 @@ bool kept_tree_close(kept_tree *k, const scene *s);
 
 /* Whether one is being collected that a node belongs to. */
 bool kept_tree_collects(const kept_tree *k, const octree_node *node);
+
+/* What is known of the digest of the scene's last elements: `run` is of those from `first` on. */
+void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run);
+void kept_tree_forget_runs(kept_tree *k);
 
 /* After the walk. */
 void kept_tree_end(kept_tree *k);

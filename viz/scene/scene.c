@@ -3,7 +3,6 @@
 #include "array.h"
 #include "kept_tree.h"
 #include "layer.h"
-#include "octree/digest.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,6 +16,8 @@ void scene_clear(scene *s)
     s->refused = 0;
     s->out_of_memory = s->has_closeup = false;
     s->times = 0;
+    if (s->kept)
+        kept_tree_forget_runs(s->kept);
 }
 
 void scene_release(scene *s)
@@ -209,139 +210,4 @@ scene_head scene_head_of(const scene *s, scene_element element)
     scene_head head;
     memcpy(&head, (const char *)arrays[element.kind] + element.index * sizes[element.kind], sizeof head);
     return head;
-}
-
-/* ---- The digest --------------------------------------------------------------------------------------------- */
-
-static uint64_t digest_doubles(uint64_t digest, const double *values, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        digest = octree_digest_double(digest, values[i]);
-    return digest;
-}
-
-/* Layers and roles enter a digest as hashes of their names, so that adding one does not change the digests of scenes
- * without it. */
-typedef struct digest_names {
-    uint64_t layers[LAYER_ALL], roles[ROLE_OWN + 1];
-} digest_names;
-
-static uint64_t hash_name(const char *what, const char *name)
-{
-    return octree_digest_bytes(octree_digest_bytes(OCTREE_DIGEST_START, what, strlen(what)), name, strlen(name));
-}
-
-static digest_names hash_names(void)
-{
-    digest_names n;
-    for (int i = 0; i < LAYER_ALL; i++)
-        n.layers[i] = hash_name("layer ", layer_rows[i].name);
-    for (int i = 0; i <= ROLE_OWN; i++)
-        n.roles[i] = hash_name("role ", theme_role_name((theme_role)i));
-    return n;
-}
-
-static uint64_t digest_style(const digest_names *n, uint64_t id, scene_style style, unsigned extra)
-{
-    const uint64_t how = (uint64_t)style.stroke | (uint64_t)style.width << 8 | (uint64_t)extra << 16;
-    const uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
-    return octree_digest_word(digest, n->layers[style.layer] + n->roles[style.role] + how);
-}
-
-/* Where points are painted, how. */
-static uint64_t digest_painting(const scene *s, uint64_t digest)
-{
-    if (!view_paints_points(&s->view))
-        return digest;
-    digest = octree_digest_word(digest, hash_name("color ", view_point_color_name(s->view.point_color)));
-    digest = octree_digest_word(digest, hash_name("shade ", view_shade_name(s->view.shade)));
-    return octree_digest_double(digest, s->spacing);
-}
-
-static uint64_t digest_lettering(uint64_t digest, const lettering *l)
-{
-    return octree_digest_word(digest, (uint64_t)l->face << 32 | (uint64_t)(uint32_t)l->multiple);
-}
-
-static uint64_t digest_view(const scene *s)
-{
-    const camera *c = &s->camera;
-    uint64_t digest = OCTREE_DIGEST_START;
-    digest = octree_digest_word(digest, (uint64_t)s->view.width << 32 | (uint64_t)s->view.height);
-    digest = octree_digest_word(digest, (uint64_t)s->unit);
-    digest = digest_lettering(digest, &s->text);
-    digest = digest_lettering(digest, &s->title);
-    digest = digest_doubles(digest, c->origin, 3);
-    digest = digest_doubles(digest, c->half, 3);
-    digest = digest_doubles(digest, (double[]){c->scale, c->size}, 2);
-    digest = digest_doubles(digest, c->right, 3);
-    digest = digest_doubles(digest, c->up, 3);
-    digest = digest_doubles(digest, c->forward, 3);
-    digest = digest_doubles(digest, c->eye, 3);
-    digest = digest_doubles(digest, (double[]){c->perspective, c->zoom, c->near, c->near_depth, c->far_depth}, 5);
-    return digest_painting(s, digest_doubles(digest, c->middle, 2));
-}
-
-static uint64_t digest_box(const digest_names *n, const scene_box *box)
-{
-    const uint64_t digest = digest_style(n, box->id, box->style, box->depth);
-    return digest_doubles(digest_doubles(digest, box->box.min, 3), box->box.max, 3);
-}
-
-static uint64_t digest_segment(const digest_names *n, const scene_segment *segment)
-{
-    const uint64_t digest = digest_style(n, segment->id, segment->style, segment->in_picture);
-    return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
-}
-
-/* 0 where an element has no colour of its own. */
-static unsigned word_of(theme_color color)
-{
-    return (unsigned)color.r << 16 | (unsigned)color.g << 8 | color.b;
-}
-
-static uint64_t digest_marker(const digest_names *n, const scene_marker *marker)
-{
-    const unsigned extra = marker->shape | word_of(marker->color) << 8;
-    return digest_doubles(digest_style(n, marker->id, marker->style, extra), marker->at, 3);
-}
-
-static uint64_t digest_label(const digest_names *n, const scene_label *label)
-{
-    uint64_t digest = digest_style(n, label->id, label->style, label->in_world);
-    digest = digest_doubles(digest, label->at, 3);
-    return octree_digest_bytes(digest, label->text, strlen(label->text));
-}
-
-static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
-{
-    uint64_t digest = digest_style(n, panel->id, panel->style, word_of(panel->color));
-    digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
-    return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
-}
-
-/* The elements' digests are the coefficients of a polynomial, so that their order counts. Each is computed
- * independently, so that a processor can work on several at once. */
-#define DIGEST_ALL(digest, array, digest_one)                                                                          \
-    do {                                                                                                               \
-        uint64_t sum = 0;                                                                                              \
-        for (size_t i = 0; i < (array).count; i++)                                                                     \
-            sum = sum * UINT64_C(0x9e3779b97f4a7c15) + digest_one(&names, &(array).items[i]);                          \
-        digest = octree_digest_word(octree_digest_word(digest, (array).count), sum);                                   \
-    } while (0)
-
-uint64_t scene_digest(const scene *s)
-{
-    const digest_names names = hash_names();
-    uint64_t digest = digest_view(s);
-    DIGEST_ALL(digest, s->boxes, digest_box);
-    DIGEST_ALL(digest, s->segments, digest_segment);
-    DIGEST_ALL(digest, s->markers, digest_marker);
-    DIGEST_ALL(digest, s->labels, digest_label);
-    DIGEST_ALL(digest, s->panels, digest_panel);
-    if (!s->has_closeup)
-        return digest;
-    digest =
-        octree_digest_word(digest, (uint64_t)(uint32_t)s->closeup->place[0] << 32 | (uint32_t)s->closeup->place[1]);
-    return octree_digest_word(digest, scene_digest(s->closeup));
 }
