@@ -62,9 +62,17 @@ static bool keep_side(double a[3], double b[3], int axis, double side, double bo
     return true;
 }
 
-/* Clip a projected piece to the picture and its margin. False when nothing is left. */
+static bool is_in_picture(const view *v, const double pixel[2])
+{
+    return pixel[0] >= -CLIP_MARGIN && pixel[0] <= v->width + CLIP_MARGIN && pixel[1] >= -CLIP_MARGIN &&
+           pixel[1] <= v->height + CLIP_MARGIN;
+}
+
+/* Clip a projected piece to the picture and its margin, where most are. False when nothing is left. */
 static bool clip_to_picture(const view *v, piece *p)
 {
+    if (is_in_picture(v, p->from) && is_in_picture(v, p->to))
+        return true;
     double a[3] = {p->from[0], p->from[1], 0}, b[3] = {p->to[0], p->to[1], 0};
     const double size[2] = {v->width, v->height};
     for (int axis = 0; axis < 2; axis++)
