@@ -72,7 +72,7 @@ int exact_sign(exact_sum *sum)
         carry = (digit - sum->digits[i]) / (INT64_C(1) << 32);
         any |= sum->digits[i] != 0;
     }
-    return carry < 0 ? -1 : any || carry > 0;
+    return carry < 0 ? -1 : any; /* no carry is above 0: the last digit that a product uses has 23 bits to spare */
 }
 
 double exact_step_down(double value)

@@ -372,7 +372,7 @@ static octree_status note_move(octree_game *game, const motion *m, size_t i)
 }
 
 /* The moves from the first edit on of bodies that are there, each once: of one that comes again the next run tells. */
-static void collect_run(const octree_game *game, const octree_edit *edits, size_t count, uint32_t *seen, uint32_t run,
+static void collect_run(const octree_game *game, const octree_edit *edits, size_t count, size_t *seen, size_t run,
                         motion *m)
 {
     m->count = 0;
@@ -403,12 +403,12 @@ static octree_status make_run(octree_game *game, motion *m)
 static octree_status apply_moves(octree_game *game, const octree_edit *edits, size_t count)
 {
     motion m = {0};
-    const size_t size = (game->bodies.items.count + 1) * sizeof(uint32_t);
-    uint32_t *seen = count <= UINT32_MAX ? arena_take(&game->memory, size) : NULL; /* the last run that moved a body */
+    const size_t size = (game->bodies.items.count + 1) * sizeof(size_t);
+    size_t *seen = arena_take(&game->memory, size); /* the last run that moved a body */
     octree_status status = seen && motion_take(&m, &game->memory, count) ? OCTREE_OK : OCTREE_NO_MEMORY;
     if (seen)
         memset(seen, 0, size);
-    for (uint32_t run = 1; status == OCTREE_OK && count > 0; run++) {
+    for (size_t run = 1; status == OCTREE_OK && count > 0; run++) {
         collect_run(game, edits, count, seen, run, &m);
         if (m.count > 0)
             status = make_run(game, &m);

@@ -211,18 +211,16 @@ static octree_box reach_of(const octree_foreign_node *leaf)
     return box;
 }
 
-static octree_status hold_by_boxes(octree_game *game, holding_search *search)
+static void hold_by_boxes(octree_game *game, holding_search *search)
 {
     const octree_foreign_place *places = places_of(&game->foreign);
-    octree_status status = OCTREE_OK;
-    for (size_t i = 0; status == OCTREE_OK && search->lost > 0 && i < game->foreign.places.count; i++) {
+    for (size_t i = 0; search->lost > 0 && i < game->foreign.places.count; i++) {
         if (!holds_by_box(&places[i]))
             continue;
         const octree_box box = reach_of(places[i].node);
         search->leaf = places[i].node;
-        status = octree_range(game->tree, &box, hold_point, search);
+        octree_range(game->tree, &box, hold_point, search); /* such a box is not refused */
     }
-    return status;
 }
 
 static int compare_ids(const void *a, const void *b)
@@ -260,10 +258,8 @@ static octree_status find_lost_points(octree_game *game)
             return OCTREE_NO_MEMORY;
         search.lost += !held;
     }
-    octree_status status = search.lost ? hold_by_boxes(game, &search) : OCTREE_OK;
-    if (status == OCTREE_OK && search.lost && !accuse_lost(game))
-        status = OCTREE_NO_MEMORY;
-    return status;
+    hold_by_boxes(game, &search);
+    return search.lost == 0 || accuse_lost(game) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */

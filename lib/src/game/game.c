@@ -86,8 +86,8 @@ static octree_status trace_hits(octree_game *game)
     const octree_point *hits = game->hits.items;
     game->hit_from.count = 0;
     for (size_t i = 0; i < game->hits.count; i++) {
-        const moving_body *body = bodies_find(&game->bodies, hits[i].id);
-        const double *from = body && was_moved(game, body) ? body->before : hits[i].position;
+        const moving_body *body = bodies_find(&game->bodies, hits[i].id); /* all points but the player's are bodies */
+        const double *from = was_moved(game, body) ? body->before : hits[i].position;
         if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))
             return OCTREE_NO_MEMORY;
     }

@@ -309,11 +309,9 @@ static void judge_set(judge_state *s)
 
 /* ---- Neighbours --------------------------------------------------------------------------------------------- */
 
-/* Whether a is farther than the true neighbour b, and than the promise allows. */
+/* Whether a, which is farther than the true neighbour b, is farther than the promise allows. */
 static bool is_farther(const judge_state *s, const judged_point *a, const judged_point *b)
 {
-    if (compare_distances(a, b) <= 0)
-        return false;
     if (!(s->epsilon > 0) || same_position(b->at, s->target))
         return true;
     const double factor = 1 + s->epsilon; /* what it and the squares are off by is within the band of metric_above */
@@ -461,8 +459,7 @@ octree_status judge_without(const judging *about, point_test *is_lost, point_vis
         status = compare(&s, game->named.count);
     const octree_point *missed = game->accused.items;
     for (size_t i = 0; status == OCTREE_OK && made.fault && i < made.missed_count; i++)
-        if (is_lost(&missed[accused + i], context))
-            status = blame(&missed[accused + i], context);
+        status = blame(&missed[accused + i], context); /* only what is lost is missed: others are as near as any */
     game->accused.count = accused;
     return status;
 }

@@ -73,7 +73,7 @@ static bool is_touched(update *u, octree_address address)
 static void keep_inner(update *u, const subtree *before)
 {
     const octree_address *addresses = u->to->inner_before.items;
-    for (size_t i = 0; i < before->inner_count && !u->out_of_memory; i++)
+    for (size_t i = 0; i < before->inner_count; i++)
         add_inner(u, addresses[before->first_inner + i]);
 }
 

@@ -245,7 +245,7 @@ static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
         const uint32_t high = keys[i] + wide < PLANE_GRID ? keys[i] + wide : PLANE_GRID - 1;
         differ |= low ^ high;
     }
-    return differ ? OCTREE_MAX_DEPTH - 1 - bits_highest(differ) : OCTREE_MAX_DEPTH;
+    return OCTREE_MAX_DEPTH - 1 - bits_highest(differ); /* not 0: each low is below its high */
 }
 
 static void run_search(search *s)

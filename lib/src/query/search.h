@@ -38,7 +38,8 @@ static inline bool is_trusted(octree_mode mode, double square)
     return mode == OCTREE_FAST && square < HUGE_VAL;
 }
 
-/* Is a point with this scaled square within a radius, whose scaled square is given too? */
+/* Is a point with this scaled square within a radius, whose scaled square is given too? Surely farther ones were left
+ * out before. */
 static inline bool is_within(const metric *m, octree_mode mode, const octree_point *point, double square, double radius,
                              double radius_square)
 {
@@ -46,7 +47,7 @@ static inline bool is_within(const metric *m, octree_mode mode, const octree_poi
         return square <= radius_square;
     if (square < metric_below(radius_square))
         return true;
-    return !(square > metric_above(radius_square)) && metric_compare_radius(m->target, point->position, radius) <= 0;
+    return metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
 /* A visitor that leaves out the pair that collides with the others. */

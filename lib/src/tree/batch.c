@@ -9,6 +9,7 @@
 /* Arrays with an item for each point. */
 static morton_item *take_items(const batch *b, size_t arrays)
 {
+    /* unreachable: where size_t has 64 bits, for a batch has at most UINT32_MAX points */
     if (b->count >= SIZE_MAX / arrays / sizeof(morton_item) - 1)
         return NULL;
     return arena_take(&b->tree->store.memory, arrays * (b->count + 1) * sizeof(morton_item));

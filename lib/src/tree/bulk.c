@@ -176,12 +176,10 @@ static void move_found(batch *b, node *leaf, unsigned depth, morton_item *item, 
     const uint64_t code = morton_code(b->tree->axes, to), unlike = code ^ item->code;
     if (leaf->room != LEAF_HASHED && unlike >> 3 * (OCTREE_MAX_DEPTH - depth) == 0 &&
         same_bits(stored->position, b->points[item->place].position)) {
-        if (b->may_be_stored) {
-            const uint32_t taken = leaf_find(leaf, to, stored->id);
-            if (taken != LEAF_NONE && taken != index) {
-                set_status(b, item, OCTREE_DUPLICATE);
-                return;
-            }
+        const uint32_t taken = leaf_find(leaf, to, stored->id);
+        if (taken != LEAF_NONE && taken != index) {
+            set_status(b, item, OCTREE_DUPLICATE);
+            return;
         }
         memcpy(stored->position, to, sizeof stored->position);
         item->index = index;

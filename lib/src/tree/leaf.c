@@ -182,6 +182,7 @@ bool leaf_append(store *s, node *leaf, const octree_point *point)
 {
     if (leaf->count == room_of(leaf)) {
         /* A hashed leaf doubles, so that copying is linear in the number of insertions. */
+        /* unreachable: by tests, for it takes 2^31 points in one leaf, 64 GiB */
         const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
         if (!change_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
             return false;

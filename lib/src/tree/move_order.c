@@ -209,6 +209,7 @@ static bool crowds(const batch *b, const node *leaf, cell c, span arriving)
     const size_t moved = lower_bound(b->valid, first + (UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - c.depth))) - start;
     const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
     arena *memory = &b->store->memory;
+    /* unreachable: where size_t has 64 bits, for leaves and batches have at most UINT32_MAX points */
     morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(memory, room) : NULL;
     if (!all)
         return true;

@@ -78,7 +78,7 @@ static uint32_t key_search(const axis *a, double x)
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess(a, x);
-    if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess >= 0 && guess < (double)PLANE_GRID))
+    if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID)) /* it is not below 0 */
         return key_search(a, x);
     uint32_t key = (uint32_t)guess;
     const double fraction = guess - (double)key;
@@ -257,8 +257,6 @@ cell morton_cell(uint64_t code, unsigned depth)
 
 bool cell_divisible(const axis axes[3], cell c)
 {
-    if (c.depth >= OCTREE_MAX_DEPTH)
-        return false;
     const uint32_t half = cell_size(c.depth + 1);
     for (int i = 0; i < 3; i++) {
         const double middle = plane_at(&axes[i], c.low[i] + half);

@@ -117,7 +117,8 @@ static inline cell cell_child(cell parent, unsigned octant)
 
 octree_box cell_bounds(const axis axes[3], cell c);
 
-/* True when at least one of the cell's three planes lies strictly inside it: some octants would differ. */
+/* True when at least one of the cell's three planes lies strictly inside it: some octants would differ. Precondition:
+ * depth < OCTREE_MAX_DEPTH. */
 bool cell_divisible(const axis axes[3], cell c);
 
 /* The Morton code of three keys: 63 bits, x in the highest of each three. */

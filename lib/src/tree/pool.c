@@ -366,7 +366,7 @@ void *list_append(arena *memory, list *l, size_t item_size)
 {
     if (l->count == l->room) {
         const size_t room = l->room ? 2 * l->room : 16;
-        void *items = room <= SIZE_MAX / item_size ? arena_take(memory, room * item_size) : NULL;
+        void *items = arena_take(memory, room * item_size); /* no overflow: no allocation is larger than PTRDIFF_MAX */
         if (!items)
             return NULL;
         if (l->count)

@@ -179,6 +179,7 @@ static bool build_children(batch *b, cell c, span items, node *made)
 static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
+    /* unreachable: where size_t has 64 bits, for leaves and batches have at most UINT32_MAX points */
     morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(&b->store->memory, room) : NULL;
     if (!all)
         return false;
@@ -245,7 +246,7 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
     const size_t count = old->count - leaving.count + arriving.count;
     if (!fits_leaf(b->tree, count))
         return divide_leaf(b, old, c, leaving, arriving, made);
-    if (old->room != LEAF_HASHED && count > 0 && count <= old->room)
+    if (old->room != LEAF_HASHED && count <= old->room)
         return plan_edit(b, old, leaving, arriving, made);
     return remake_leaf(b, old, leaving, arriving, made);
 }
@@ -282,7 +283,7 @@ static bool merge(batch *b, const node *old, cell c, span leaving, span arriving
 /* Let a child have a successor. False when there is no memory; nothing is allocated then. */
 bool plan_patch(batch *b, node *at, const node *made)
 {
-    if (at->below == made->below && at->count == made->count && at->octants == made->octants && at->room == made->room)
+    if (at->below == made->below && at->count == made->count) /* then their octants and room are the same */
         return true;
     const patch p = {at, *made};
     if (list_push(&b->store->memory, &b->patches, &p, sizeof p))

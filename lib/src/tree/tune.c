@@ -90,6 +90,7 @@ static const octree_point *target_of(const sample *s, size_t i)
 static octree_status measure_ranges(sample *s, const octree *trial, size_t hits, octree_neighbor *room)
 {
     octree_status status = OCTREE_OK;
+    /* unreachable: a search of a tree that was made refuses nothing: its target is a point */
     for (size_t i = 0; status == OCTREE_OK && i < TARGETS; i++) {
         size_t found = 0;
         status = octree_nearest_k(trial, target_of(s, i)->position, hits, NULL, room, &found);

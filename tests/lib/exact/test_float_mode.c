@@ -42,6 +42,8 @@ static uint64_t ask_everything(octree *tree, octree_game *game)
     double samples[2][3];
     size_t count;
     bool found;
+    octree_stats stats;
+    const octree_query query = {.kind = OCTREE_QUERY_NEAREST};
     const octree_status said[] = {
         octree_create(&def, &other),
         octree_insert(tree, there, 2),
@@ -66,6 +68,8 @@ static uint64_t ask_everything(octree *tree, octree_game *game)
         octree_walk(tree, look, NULL),
         octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &box, 2, samples),
         octree_game_step(game, 'w'),
+        octree_game_ask(game, &query, 1),
+        octree_statistics(tree, &stats),
     };
     uint64_t statuses = 0;
     for (size_t i = 0; i < sizeof said / sizeof said[0]; i++)
@@ -79,6 +83,8 @@ static void assert_refused(set_mode *set)
 {
     octree *tree = make_tree(cube(-1000, 1000), 2, 21, OCTREE_GROW);
     assert_int_equal(octree_insert(tree, here, 1), OCTREE_OK);
+    for (uint64_t id = 10; id < 40; id++) /* so many that one more is inserted singly */
+        assert_int_equal(octree_insert(tree, (double[3]){-100, (double)id, 0}, id), OCTREE_OK);
     const octree_session session = octree_session_default();
     octree_game *game;
     assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);

@@ -336,6 +336,11 @@ static void create_refuses_bad_trees_ids_options_and_orders(void **state)
     session.edit_count = 2;
     assert_int_equal(status_of(&session), OCTREE_BAD_ORDER);
     session.edits = odd;
+    static const octree_edit first[] = {{.tick = 0}};
+    session.edits = first;
+    session.edit_count = 1;
+    assert_int_equal(status_of(&session), OCTREE_BAD_ORDER); /* tick 0 is what there is before any edit */
+    session.edits = odd;
     session.edit_count = 1;
     assert_int_equal(status_of(&session), OCTREE_BAD_OPTION);
     session = small_session(NULL, 0);
@@ -391,6 +396,31 @@ static void create_refuses_arrays_that_are_null(void **state)
     session = small_session(NULL, 0);
     session.query_count = 1;
     assert_int_equal(status_of(&session), OCTREE_NULL_ARGUMENT);
+    session = small_session(NULL, 0);
+    session.foreign_count = 1;
+    assert_int_equal(status_of(&session), OCTREE_NULL_ARGUMENT);
+}
+
+static void more_bodies_than_memory_can_be_are_refused(void **state)
+{
+    (void)state;
+    static const octree_body one = {.id = 1};
+    const octree_session session = small_session(&one, SIZE_MAX);
+    assert_int_equal(status_of(&session), OCTREE_NO_MEMORY);
+}
+
+static void q_quits_when_it_is_played(void **state)
+{
+    (void)state;
+    octree_session session = small_session(NULL, 0);
+    session.ticks = 5;
+    octree_game *game = start_game(&session);
+    assert_false(octree_game_over(game));
+    assert_int_equal(octree_game_step(game, 'q'), OCTREE_OK);
+    assert_true(octree_game_over(game));
+    assert_int_equal(octree_game_tick(game)->number, 0);
+    assert_int_equal(octree_game_advance(game), OCTREE_NOT_FOUND);
+    octree_game_destroy(game);
 }
 
 static void each_event_has_a_name(void **state)
@@ -424,6 +454,8 @@ int main(void)
         cmocka_unit_test(create_refuses_bad_trees_ids_options_and_orders),
         cmocka_unit_test(create_refuses_queries_that_no_tick_can_answer),
         cmocka_unit_test(create_refuses_arrays_that_are_null),
+        cmocka_unit_test(more_bodies_than_memory_can_be_are_refused),
+        cmocka_unit_test(q_quits_when_it_is_played),
         cmocka_unit_test(each_event_has_a_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -160,11 +160,40 @@ static void nodes_that_are_no_tree_are_refused(void **state)
     nodes[NEAR_LEFT].parent = 7;
     nodes[LEFT].parent = 8;
     assert_refused(nodes, NODES, OCTREE_BAD_PARENT, LEFT);
+    assert_int_equal(octree_foreign_check(&(octree_foreign_tree){.nodes = nodes, .node_count = 0}, NULL), OCTREE_OK);
     const octree_foreign_tree twice[] = {{.tick = 3}, {.tick = 3}};
     const octree_session session = session_of(twice, 2);
     octree_game *game;
     assert_int_equal(octree_game_create(&session, &game), OCTREE_BAD_ORDER);
     assert_int_equal(octree_foreign_check(NULL, NULL), OCTREE_NULL_ARGUMENT);
+}
+
+static void a_depth_that_a_program_tells_is_taken(void **state)
+{
+    (void)state;
+    octree_foreign_node nodes[NODES];
+    memcpy(nodes, right_nodes, sizeof nodes);
+    nodes[LEFT].has_depth = true;
+    nodes[LEFT].depth = 4;
+    const uint64_t digest = tick_with(right_nodes, NODES, NULL)->foreign.digest;
+    const octree_foreign_state *f = &tick_with(nodes, NODES, NULL)->foreign;
+    assert_true(f->nodes[ROOT].depth == 0 && f->nodes[LEFT].depth == 4 && f->nodes[RIGHT].depth == 1);
+    assert_true(f->nodes[FAR_LEFT].depth == 5 && f->depth == 5);
+    assert_true(f->digest != digest);
+}
+
+static void more_kinds_than_there_is_room_for_are_the_last(void **state)
+{
+    (void)state;
+    octree_foreign_node nodes[OCTREE_NODE_KINDS + 2];
+    for (size_t i = 0; i < OCTREE_NODE_KINDS + 2; i++) {
+        nodes[i] = (octree_foreign_node){.id = i, X_BOX(-10, 10)};
+        nodes[i].kind[0] = (char)('a' + i);
+    }
+    const octree_foreign_state *f = &tick_with(nodes, OCTREE_NODE_KINDS + 2, NULL)->foreign;
+    assert_int_equal(f->kind_count, OCTREE_NODE_KINDS);
+    for (size_t i = 0; i < OCTREE_NODE_KINDS + 2; i++)
+        assert_int_equal(f->nodes[i].kind, i < OCTREE_NODE_KINDS ? i : OCTREE_NODE_KINDS - 1);
 }
 
 static void a_long_chain_of_nodes_is_a_tree(void **state)
@@ -263,6 +292,13 @@ static void boxes_of_floats_are_compared_in_floats(void **state)
     game = start_game(&session);
     assert_faultless(octree_game_tick(game));
     octree_game_destroy(game);
+    nodes[1] = (octree_foreign_node){.id = 2, UNDER(1), .box = {{next_up(0.1f), 0, 0}, {9, 0, 0}}}; /* by its box */
+    nodes[0].has_points = false;
+    nodes[1].precision = OCTREE_FLOATS;
+    nodes[1].box.min[0] = nextafterf(0.1f, 1);
+    game = start_game(&session);
+    assert_fault(octree_game_tick(game), OCTREE_NODE_LOST_POINT, 0, 1); /* though it is near enough to be looked at */
+    octree_game_destroy(game);
     nodes[0].has_points = nodes[1].has_points = false; /* held by the box alone */
     nodes[1].box.min[0] = 0.1f;
     nodes[1].precision = OCTREE_FLOATS;
@@ -314,6 +350,7 @@ static void a_node_that_was_pruned_with_a_point_of_the_answer_is_found(void **st
     assert_fault(right_tick(ASK(RANGE, PRUNED(7, 8, 3))), pruned, 3, 2); /* the first from the point up */
     assert_faultless(right_tick(ASK(RANGE, .met = {IDS(3), IDS(7)})));
     assert_faultless(right_tick(ASK(RANGE, .met = {IDS(7), IDS(7)})));
+    assert_faultless(right_tick(ASK(RANGE, .met = {[OCTREE_MET_PRUNED] = IDS(7), [OCTREE_MET_HIT] = IDS(7)})));
 #define NEAR(x, many) .kind = OCTREE_QUERY_KNEAREST, .target = {x, 0, 0}, .k = (many)
     assert_faultless(right_tick(ASK(NEAR(0.5, 1), PRUNED(7))));
     assert_fault(right_tick(ASK(NEAR(0.5, 1), PRUNED(60))), pruned, 60, 3);
@@ -327,6 +364,9 @@ static void a_node_that_was_pruned_with_a_point_of_the_answer_is_found(void **st
     assert_fault(right_tick(ASK(NEAR(1, 1), .epsilon = 1.9, PRUNED(60))), pruned, 60, 3);
     assert_faultless(right_tick(ASK(NEAR(1, 1), .epsilon = 2, PRUNED(60))));
     assert_int_equal(octree_game_tick(last_game)->answers[0].neighbors[0].point.id, 3);
+    assert_fault(right_tick(ASK(NEAR(1, 1), .epsilon = 1.9, .precision = OCTREE_FLOATS, PRUNED(60))), pruned, 60, 3);
+    assert_faultless(right_tick(ASK(NEAR(1, 1), .epsilon = 2, .precision = OCTREE_FLOATS, PRUNED(60))));
+    assert_faultless(right_tick(ASK(NEAR(1, 1), .epsilon = DBL_MAX / 2, PRUNED(60)))); /* any other is allowed */
 }
 
 static void a_point_that_is_held_elsewhere_too_may_be_pruned(void **state)
@@ -342,6 +382,33 @@ static void a_point_that_is_held_elsewhere_too_may_be_pruned(void **state)
     nodes[RIGHT].has_points = false;
     assert_fault(tick_with(nodes, NODES, ASK(RANGE, PRUNED(60))), OCTREE_NODE_PRUNED_POINT, 60, 3);
     assert_faultless(tick_with(nodes, NODES, ASK(RANGE, PRUNED(8))));
+    /* Those whose boxes do not hold it have no part in it. */
+    nodes[FAR_LEFT].has_points = nodes[NEAR_LEFT].has_points = false;
+    assert_fault(tick_with(nodes, NODES, ASK(RANGE, PRUNED(3, 8))), OCTREE_NODE_PRUNED_POINT, 3, 2);
+    nodes[FAR_LEFT].box.max[0] = -1; /* both have it */
+    assert_faultless(tick_with(nodes, NODES, ASK(RANGE, PRUNED(3))));
+}
+
+/* It is in no node of the program's. */
+static void the_player_is_held_against_nobody(void **state)
+{
+    (void)state;
+    const octree_foreign_tree tree = {.nodes = right_nodes, .node_count = NODES};
+    const octree_query query = {.kind = OCTREE_QUERY_RANGE, .box = {{-1, -1, 8}, {1, 1, 10}}, PRUNED(50)};
+    octree_session session = session_of(&tree, 1);
+    session.queries = &query;
+    session.query_count = 1;
+    octree_game *game = start_game(&session);
+    assert_int_equal(octree_game_tick(game)->answers[0].count, 1);
+    assert_faultless(octree_game_tick(game));
+    octree_game_destroy(game);
+    session.player.kind = OCTREE_PLAYER_BODY;
+    session.player.id = 1;
+    const octree_query about_it = {.kind = OCTREE_QUERY_RANGE, .box = {{-9, -1, -1}, {-7, 1, 1}}, PRUNED(8)};
+    session.queries = &about_it;
+    game = start_game(&session);
+    assert_fault(octree_game_tick(game), OCTREE_NODE_PRUNED_POINT, 8, 1);
+    octree_game_destroy(game);
 }
 
 static void a_point_that_moves_is_judged_where_it_is(void **state)
@@ -447,6 +514,8 @@ int main(void)
         cmocka_unit_test(a_tree_that_is_right_is_told_and_not_accused),
         cmocka_unit_test(nodes_hold_until_others_replace_them),
         cmocka_unit_test(nodes_that_are_no_tree_are_refused),
+        cmocka_unit_test(a_depth_that_a_program_tells_is_taken),
+        cmocka_unit_test(more_kinds_than_there_is_room_for_are_the_last),
         cmocka_unit_test(a_long_chain_of_nodes_is_a_tree),
         cmocka_unit_test(each_fault_of_a_node_is_found),
         cmocka_unit_test(repeated_points_are_told_by_node_and_then_by_point),
@@ -455,6 +524,7 @@ int main(void)
         cmocka_unit_test(how_queries_met_nodes_is_told),
         cmocka_unit_test(a_node_that_was_pruned_with_a_point_of_the_answer_is_found),
         cmocka_unit_test(a_point_that_is_held_elsewhere_too_may_be_pruned),
+        cmocka_unit_test(the_player_is_held_against_nobody),
         cmocka_unit_test(a_point_that_moves_is_judged_where_it_is),
         cmocka_unit_test(faults_are_listed_up_to_a_number_and_all_counted),
         cmocka_unit_test(nodes_are_given_as_they_come_too),

@@ -56,6 +56,8 @@ static void every_fault_has_its_reason(void **state)
     (void)state;
     octree_judgement j = judge_one(three, IDS(6, 1, 99, 77));
     assert_true(j.fault == OCTREE_FAULT_UNKNOWN && j.fault_id == 77);
+    j = judge_one(three, IDS(6, 1, 77, 99));
+    assert_true(j.fault == OCTREE_FAULT_UNKNOWN && j.fault_id == 77);
     j = judge_one(three, IDS(6, 1, 1));
     assert_true(j.fault == OCTREE_FAULT_DUPLICATE && j.fault_id == 1 && j.missed_count == 1 && j.missed[0].id == 2);
     j = judge_one(three, IDS(6, 1));
@@ -80,6 +82,10 @@ static void every_fault_has_its_reason(void **state)
     j = judge_one(box, NULL, 0);
     assert_true(j.fault == OCTREE_FAULT_MISSED && j.missed_count == 4);
     octree_query q = three;
+    q.k = 0;
+    j = judge_one(q, IDS(1));
+    assert_true(j.fault == OCTREE_FAULT_COUNT && j.extra_count == 1 && j.extra[0].id == 1 && j.expected == 0);
+    q = three;
     q.skip = OCTREE_SKIP_COINCIDENT;
     j = judge_one(q, IDS(6, 1, 2));
     assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == 6);
@@ -88,6 +94,26 @@ static void every_fault_has_its_reason(void **state)
     q.skip = OCTREE_SKIP_NONE;
     j = judge_one(q, IDS(PLAYER, 4, 2));
     assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == PLAYER);
+}
+
+static void a_promise_about_a_box_without_ends_is_held_to_it(void **state)
+{
+    (void)state;
+    octree_query q = box;
+    q.epsilon = 1;
+    q.box.min[0] = -INFINITY;
+    q.box.max[1] = INFINITY;
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 5)).fault, OCTREE_FAULT_EXTRA);
+    q.box.max[0] = -INFINITY;
+    assert_int_equal(judge_one(q, NULL, 0).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(q, IDS(4)).fault, OCTREE_FAULT_EXTRA);
+    q = box;
+    q.box.min[0] = 0.5;
+    q.epsilon = 2.5;
+    assert_int_equal(judge_one(q, IDS(1, 3)).fault, OCTREE_FAULT_NONE);
+    q.epsilon = next_down(2.5);
+    assert_int_equal(judge_one(q, IDS(1, 3)).fault, OCTREE_FAULT_EXTRA);
 }
 
 /* Judged by the truth, whose own answer has no epsilon then. */
@@ -143,6 +169,52 @@ static void answers_that_cannot_be_judged_are_refused(void **state)
     assert_int_equal(octree_query_check(&q), OCTREE_OK);
 }
 
+/* Ids of the bodies of a game with this query, judged in floats. */
+static octree_judgement judge_floats(const octree_body *bodies, size_t count, octree_query q, const uint64_t *ids,
+                                     size_t id_count)
+{
+    q.answered = true;
+    q.answer = ids;
+    q.answer_count = id_count;
+    q.precision = OCTREE_FLOATS;
+    const octree_session session = {.tree = define(cube(-10, 10), 2, 21, OCTREE_GROW),
+                                    .player.kind = OCTREE_PLAYER_NONE,
+                                    .bodies = bodies,
+                                    .body_count = count,
+                                    .queries = &q,
+                                    .query_count = 1};
+    octree_game *game;
+    assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
+    const octree_judgement made = octree_game_tick(game)->answers[0].judgement;
+    octree_game_destroy(game);
+    return made;
+}
+
+/* What is beside the target in doubles is on it in floats, and left out: then the nearest are farther than they seemed.
+ * Point 3 is beyond the first ball, and nearly so. */
+static void floats_that_coincide_are_left_out(void **state)
+{
+    (void)state;
+    const octree_body near[] = {{.id = 1, .position = {1e-50, 0, 0}},
+                                {.id = 2, .position = {0, 1e-50, 0}},
+                                {.id = 3, .position = {2e-6, 0, 0}},
+                                {.id = 4, .position = {7, 0, 0}}};
+    octree_query q = {.kind = OCTREE_QUERY_KNEAREST, .k = 1, .skip = OCTREE_SKIP_COINCIDENT};
+    octree_judgement j = judge_floats(near, 4, q, IDS(3));
+    assert_true(j.fault == OCTREE_FAULT_NONE && j.expected == 1);
+    j = judge_floats(near, 4, q, IDS(1));
+    assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == 1);
+    q.k = 3; /* of which there are two */
+    j = judge_floats(near, 4, q, IDS(3, 4));
+    assert_true(j.fault == OCTREE_FAULT_NONE && j.expected == 2);
+    q.k = 9; /* more than there are points */
+    assert_int_equal(judge_floats(near, 4, q, IDS(3, 4)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_floats(near, 4, q, IDS(4)).fault, OCTREE_FAULT_COUNT);
+    const octree_body twins[] = {{.id = 1}, {.id = 2}, {.id = 3}, {.id = 4, .position = {7, 0, 0}}};
+    q.k = 2; /* one is there, and it is not known how far others are */
+    assert_int_equal(judge_floats(twins, 4, q, IDS(4)).fault, OCTREE_FAULT_NONE);
+}
+
 /* Floats end long before doubles do. */
 static void floats_are_judged_in_worlds_beyond_them(void **state)
 {
@@ -188,6 +260,34 @@ static void floats_are_judged_in_worlds_beyond_them(void **state)
     octree_game_destroy(game);
 }
 
+/* The sum of radius and epsilon is beyond doubles. */
+static void a_promise_beyond_doubles_is_held_to_it(void **state)
+{
+    (void)state;
+    const octree_body far = {.id = 3, .position = {-1e308, 1e308, 1e308}};
+    const uint64_t named = 3;
+    octree_query q = {.kind = OCTREE_QUERY_RADIUS,
+                      .radius = 1e308,
+                      .epsilon = 1.7e308,
+                      .answered = true,
+                      .answer = &named,
+                      .answer_count = 1};
+    const octree_session session = {.tree = define(cube(-1.5e308, 1.5e308), 2, 21, OCTREE_GROW),
+                                    .player.kind = OCTREE_PLAYER_NONE,
+                                    .bodies = &far,
+                                    .body_count = 1,
+                                    .queries = &q,
+                                    .query_count = 1};
+    for (int i = 0; i < 2; i++) {
+        octree_game *game;
+        assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
+        assert_int_equal(octree_game_tick(game)->answers[0].judgement.fault,
+                         i ? OCTREE_FAULT_EXTRA : OCTREE_FAULT_NONE);
+        octree_game_destroy(game);
+        q.epsilon = 1e307;
+    }
+}
+
 static void names_are_those_of_files(void **state)
 {
     (void)state;
@@ -211,10 +311,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ties_are_right_in_any_order),
         cmocka_unit_test(every_fault_has_its_reason),
+        cmocka_unit_test(a_promise_about_a_box_without_ends_is_held_to_it),
         cmocka_unit_test(a_promise_with_epsilon_is_held_to_it),
         cmocka_unit_test(what_judges_has_no_epsilon),
         cmocka_unit_test(answers_that_cannot_be_judged_are_refused),
+        cmocka_unit_test(floats_that_coincide_are_left_out),
         cmocka_unit_test(floats_are_judged_in_worlds_beyond_them),
+        cmocka_unit_test(a_promise_beyond_doubles_is_held_to_it),
         cmocka_unit_test(names_are_those_of_files),
     };
     return cmocka_run_group_tests(tests, NULL, forget_game);

@@ -85,6 +85,7 @@ static void shapes_that_cannot_be_shown_are_refused(void **state)
         {{1, OCTREE_SHAPE_LABEL, {0, 0, 0}, {0}, "\xc3\xa9"}, OCTREE_BAD_TEXT},
         {{1, OCTREE_SHAPE_LABEL, {0, 0, 0}, {0}, ""}, OCTREE_BAD_TEXT}, /* filled below: it does not end */
         {{1, OCTREE_SHAPE_KINDS, {0, 0, 0}, {0}, ""}, OCTREE_BAD_OPTION},
+        {{1, OCTREE_SHAPE_LABEL, {0, 0, 0}, {0}, "delete\x7f"}, OCTREE_BAD_TEXT},
     };
     memset(rows[7].shape.text, 'x', sizeof rows[7].shape.text);
     octree_session session = small_session(NULL, 0);
@@ -108,12 +109,21 @@ static void shapes_that_cannot_be_shown_are_refused(void **state)
     octree_game_destroy(live);
 }
 
+static void each_kind_has_a_name(void **state)
+{
+    (void)state;
+    assert_string_equal(octree_shape_name(OCTREE_SHAPE_BOX), "box");
+    assert_string_equal(octree_shape_name(OCTREE_SHAPE_LABEL), "label");
+    assert_null(octree_shape_name(OCTREE_SHAPE_KINDS));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_tick_has_its_shapes_and_then_those_of_every_tick),
         cmocka_unit_test(a_shape_meets_nothing),
         cmocka_unit_test(shapes_that_cannot_be_shown_are_refused),
+        cmocka_unit_test(each_kind_has_a_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,8 +88,9 @@ static void every_point_lies_in_the_box_even_in_extreme_ones(void **state)
         {{-DBL_MAX, -1e200, 5e-324}, {DBL_MAX, 1e200, 1e-310}},
         {{1e15, 1, -5e-324}, {1e15 + 1, 1 + 0x1p-52, 5e-324}},
         {{-DBL_MAX, 0, 1e308}, {-1e308, 5e-324, DBL_MAX}},
+        {{5e-324, 5e-324, 5e-324}, {1.5e-323, 1e-323, 2e-323}}, /* whose halves are rounded */
     };
-    for (size_t b = 0; b < 4; b++)
+    for (size_t b = 0; b < 5; b++)
         for (int kind = 0; kind < OCTREE_SAMPLE_KINDS; kind++) {
             assert_int_equal(octree_sample((octree_sample_kind)kind, b, &boxes[b], some, points), OCTREE_OK);
             for (size_t i = 0; i < some; i++)

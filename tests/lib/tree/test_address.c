@@ -26,6 +26,18 @@ static void an_address_lists_its_octants_from_the_root_down(void **state)
     assert_string_equal(octree_address_format(address, text), "0/3/7");
 }
 
+static void what_is_no_address_has_depth_zero_and_no_octants(void **state)
+{
+    (void)state;
+    octree_address address;
+    assert_int_equal(octree_address_depth(0), 0);
+    assert_int_equal(octree_address_octant(0, 0), 0);
+    assert_int_equal(octree_address_octant(OCTREE_ROOT, 0), 0);
+    assert_int_equal(octree_address_octant(017, 1), 0);
+    assert_false(octree_address_parse(NULL, &address));
+    assert_false(octree_address_parse("0", NULL));
+}
+
 static void text_and_address_are_inverse(void **state)
 {
     (void)state;
@@ -100,6 +112,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_root_is_one_and_has_depth_zero),
         cmocka_unit_test(an_address_lists_its_octants_from_the_root_down),
+        cmocka_unit_test(what_is_no_address_has_depth_zero_and_no_octants),
         cmocka_unit_test(text_and_address_are_inverse),
         cmocka_unit_test(parse_takes_both_names_of_the_root),
         cmocka_unit_test(parse_refuses_what_is_no_address),

@@ -358,6 +358,9 @@ static void null_is_refused_by_what_looks_at_a_tree(void **state)
     assert_int_equal(octree_count(NULL), 0);
     assert_true(octree_version(NULL) == 0);
     assert_true(octree_digest(NULL) == 0);
+    assert_string_equal(octree_check(NULL, NULL), "there is no tree");
+    const octree_def none = octree_definition(NULL), def = octree_def_default();
+    assert_true(none.leaf_capacity == def.leaf_capacity && none.max_depth == def.max_depth);
     octree_destroy(tree);
 }
 
@@ -376,6 +379,33 @@ static void null_is_refused_by_games_and_samples(void **state)
     octree_game_destroy(NULL);
     assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, NULL, 1, position), OCTREE_NULL_ARGUMENT);
     assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &box, 1, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_sample(OCTREE_SAMPLE_UNIFORM, 1, &box, 0, NULL), OCTREE_OK);
+    octree_sample_kind kind;
+    assert_false(octree_sample_parse(NULL, &kind));
+    assert_false(octree_sample_parse("uniform", NULL));
+}
+
+static void null_has_nothing_that_could_be_asked_of_a_game(void **state)
+{
+    (void)state;
+    const octree_session session = octree_session_default();
+    octree_game *game;
+    octree_point point;
+    assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
+    assert_false(octree_game_find(NULL, 1, &point));
+    assert_false(octree_game_find(game, 1, NULL));
+    assert_true(octree_game_over(NULL));
+    assert_null(octree_game_tick(NULL));
+    assert_null(octree_game_tree(NULL));
+    assert_null(octree_game_session(NULL));
+    assert_true(octree_session_length(NULL) == 0);
+    assert_null(octree_session_gap(NULL, 0));
+    assert_int_equal(octree_input_check(NULL), OCTREE_NULL_ARGUMENT);
+    octree_answer answer = {.count = 3};
+    octree_answer_release(NULL, &answer);
+    octree_answer_release(octree_game_tree(game), NULL);
+    assert_int_equal(answer.count, 3);
+    octree_game_destroy(game);
 }
 
 static void each_status_has_its_own_name_and_sentence(void **state)
@@ -417,6 +447,7 @@ int main(void)
         cmocka_unit_test(points_are_ordered_by_id_then_position),
         cmocka_unit_test(null_is_refused_by_what_looks_at_a_tree),
         cmocka_unit_test(null_is_refused_by_games_and_samples),
+        cmocka_unit_test(null_has_nothing_that_could_be_asked_of_a_game),
         cmocka_unit_test(each_status_has_its_own_name_and_sentence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
