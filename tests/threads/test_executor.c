@@ -2,6 +2,10 @@
 /* test_executor.c - nodes, statuses, answers, digests and memory are the same for any number of threads and any order
  * of tasks. The library's sources once more, which divide work at a few points; and again with ThreadSanitizer.
  */
+#define same_position same_position_of_tree /* fixture.h has one of that name */
+#include "tree.h"
+#undef same_position
+
 #include "broken_tree.h"
 #include "counting_allocator.h"
 #include "executors.h"
@@ -184,6 +188,15 @@ static void the_first_broken_node_is_named_by_any_number_of_threads(void **state
         break_tree(trees_of[i], s.points[20].position, nowhere);
         said[i] = octree_check(trees_of[i], &where[i]);
         assert_non_null(said[i]);
+        for (size_t point = 0; point < 20; point++) /* in most threads' shares */
+            break_tree(trees_of[i], s.points[50 * point + 25].position, nowhere);
+        octree_address first;
+        assert_non_null(octree_check(trees_of[i], &first));
+        assert_true(first <= where[i] || octree_address_depth(first) != octree_address_depth(where[i]));
+        trees_of[i]->root.count++;
+        assert_string_equal(octree_check(trees_of[i], &first), "a node's count is not the sum of its children's");
+        assert_true(first == OCTREE_ROOT);
+        trees_of[i]->root.count--;
         octree_destroy(trees_of[i]);
     }
     assert_string_equal(said[0], said[1]);

@@ -299,6 +299,45 @@ static void null_is_refused_but_for_how_and_found(void **state)
     assert_false(found);
     assert_int_equal(octree_nearest_batch(tree, targets, 1, NULL, &nearest, NULL), OCTREE_OK);
     assert_int_equal(nearest.point.id, 7);
+    assert_int_equal(octree_nearest_batch(tree, NULL, 0, NULL, NULL, NULL), OCTREE_OK);
+#if SIZE_MAX > UINT32_MAX
+    assert_int_equal(octree_nearest_batch(tree, targets, (size_t)UINT32_MAX + 1, NULL, &nearest, NULL),
+                     OCTREE_TOO_MANY);
+#endif
+    octree_destroy(tree);
+}
+
+static void count_trace(octree_address node, octree_touch touch, void *context)
+{
+    (void)node;
+    ((size_t *)context)[touch]++;
+}
+
+/* The tracer is called by one thread, in the order of the tree. */
+static void a_batch_is_traced_as_its_searches_are(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_GROW);
+    double targets[20][3];
+    size_t singly[8] = {0}, together[8] = {0};
+    uint64_t random = 3;
+    for (uint64_t id = 0; id < 20; id++) {
+        for (int axis = 0; axis < 3; axis++)
+            targets[id][axis] = random_between(&random, -1, 1);
+        assert_int_equal(octree_insert(tree, targets[id], id), OCTREE_OK);
+    }
+    octree_search how = {.skip = OCTREE_SKIP_COINCIDENT, .trace = count_trace, .trace_context = together};
+    octree_neighbor neighbors[20];
+    size_t found;
+    assert_int_equal(octree_nearest_batch(tree, (const double(*)[3])targets, 20, &how, neighbors, NULL), OCTREE_OK);
+    how.trace_context = singly;
+    for (size_t i = 0; i < 20; i++) {
+        octree_neighbor one;
+        assert_int_equal(octree_nearest_k(tree, targets[i], 1, &how, &one, &found), OCTREE_OK);
+        assert_int_equal(one.point.id, neighbors[i].point.id);
+    }
+    assert_true(singly[OCTREE_TOUCH_VISITED] > 0);
+    assert_memory_equal(singly, together, sizeof singly);
     octree_destroy(tree);
 }
 
@@ -367,6 +406,7 @@ int main(void)
         cmocka_unit_test(a_target_that_is_not_finite_leaves_everything_untouched),
         cmocka_unit_test(bad_options_are_refused_as_by_a_single_search),
         cmocka_unit_test(null_is_refused_but_for_how_and_found),
+        cmocka_unit_test(a_batch_is_traced_as_its_searches_are),
         cmocka_unit_test(a_failed_allocation_leaves_everything_untouched),
         cmocka_unit_test(a_batch_takes_32_bytes_a_target_and_gives_them_back),
     };

@@ -184,6 +184,47 @@ static void nodes_are_the_same_after_removals(void **state)
     destroy_twins(&t);
 }
 
+/* Worlds that are subnormal on some axes alone: answers are those of a scan. */
+static void worlds_may_be_subnormal_on_some_axes(void **state)
+{
+    (void)state;
+    for (int axes = 1; axes < 7; axes++) {
+        octree_box world;
+        for (int axis = 0; axis < 3; axis++) {
+            world.max[axis] = axes >> axis & 1 ? 1e-309 : 1e-300;
+            world.min[axis] = -world.max[axis];
+        }
+        octree *tree = make_tree(world, 4, 21, OCTREE_GROW);
+        brute all = {0};
+        uint64_t random = (uint64_t)axes;
+        for (uint64_t id = 0; id < 300; id++) {
+            double at[3];
+            for (int axis = 0; axis < 3; axis++)
+                at[axis] = random_between(&random, world.min[axis], world.max[axis]);
+            assert_int_equal(octree_insert(tree, at, id), OCTREE_OK);
+            brute_insert(&all, at, id);
+        }
+        assert_valid(tree);
+        octree_box half = world;
+        half.min[axes % 3] = 0;
+        brute found = {0}, expected = {0};
+        assert_int_equal(octree_range(tree, &half, brute_collect, &found), OCTREE_OK);
+        for (size_t i = 0; i < all.count; i++)
+            if (box_holds(&half, all.points[i].position))
+                brute_collect(&all.points[i], &expected);
+        assert_true(found.count > 100 && brute_equal(&found, &expected));
+        for (size_t i = 0; i < all.count; i++) {
+            octree_neighbor nearest;
+            assert_int_equal(octree_nearest(tree, all.points[i].position, OCTREE_SKIP_NONE, 0, &nearest), OCTREE_OK);
+            assert_int_equal(nearest.point.id, all.points[i].id);
+        }
+        brute_free(&found);
+        brute_free(&expected);
+        brute_free(&all);
+        octree_destroy(tree);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -191,6 +232,7 @@ int main(void)
         cmocka_unit_test(neighbors_are_the_same_at_the_same_cost),
         cmocka_unit_test(targets_far_outside_have_the_same_neighbors),
         cmocka_unit_test(nodes_are_the_same_after_removals),
+        cmocka_unit_test(worlds_may_be_subnormal_on_some_axes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

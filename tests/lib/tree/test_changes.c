@@ -310,6 +310,68 @@ static void a_log_without_memory_stands_in_no_ones_way(void **state)
     assert_true(unknown >= 1 && unknown < 12);
 }
 
+static void what_is_refused_as_null_is_no_change(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_GROW);
+    follower f = {.name = 1};
+    const double at[3] = {0};
+    assert_false(follow(&f, tree));
+    assert_int_equal(octree_insert(tree, NULL, 1), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_remove(tree, NULL, 1), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_move(tree, NULL, 1, at), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_move(tree, at, 1, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_insert_many(tree, NULL, 1, NULL, NULL), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_remove_many(tree, NULL, 0, NULL, NULL), OCTREE_OK);
+    assert_true(follow(&f, tree));
+    assert_int_equal(f.changes, 0);
+    brute_free(&f.copy);
+    octree_destroy(tree);
+}
+
+enum { LARGE = 2000 };
+
+/* Of which a tree of so few remembers half. */
+static void too_large_a_batch_is_not_known(void **state)
+{
+    (void)state;
+    static octree_point points[LARGE];
+    for (uint64_t i = 0; i < LARGE; i++)
+        points[i] = (octree_point){{(double)i / LARGE, 0, 0}, i};
+    octree *tree = make_tree(cube(-1, 1), 4, 21, OCTREE_GROW);
+    follower f = {.name = 1};
+    follow(&f, tree);
+    assert_int_equal(octree_insert_many(tree, points, LARGE, NULL, NULL), OCTREE_OK);
+    assert_false(follow(&f, tree));
+    for (size_t first = 0; first < LARGE; first += LARGE / 2) /* the second of these is too much amid itself */
+        assert_int_equal(octree_remove_many(tree, points + first, 700, NULL, NULL), OCTREE_OK);
+    assert_false(follow(&f, tree));
+    assert_true(follow(&f, tree));
+    brute_free(&f.copy);
+    octree_destroy(tree);
+}
+
+/* A batch is noted in copies, the first two allocations that it makes. */
+static void a_batch_without_memory_for_its_note_is_made_all_the_same(void **state)
+{
+    (void)state;
+    for (size_t n = 0; n < 3; n++) {
+        counting_allocator counts = {0};
+        octree *tree = make_counted_tree(&counts, cube(-1, 1), 64, 5, OCTREE_GROW);
+        const octree_point points[2] = {{{0, 0, 0}, 1}, {{0.5, 0, 0}, 2}};
+        follower f = {.name = 1};
+        follow(&f, tree);
+        counting_allocator_fail_at(&counts, n);
+        assert_int_equal(octree_insert_many(tree, points, 2, NULL, NULL), n < 2 ? OCTREE_OK : OCTREE_NO_MEMORY);
+        counting_allocator_heal(&counts);
+        assert_int_equal(octree_count(tree), n < 2 ? 2 : 0);
+        assert_int_equal(follow(&f, tree), n == 2);
+        brute_free(&f.copy);
+        octree_destroy(tree);
+        assert_all_returned(&counts);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -320,6 +382,9 @@ int main(void)
         cmocka_unit_test(a_mark_of_another_tree_knows_nothing),
         cmocka_unit_test(too_many_changes_are_not_known),
         cmocka_unit_test(a_log_without_memory_stands_in_no_ones_way),
+        cmocka_unit_test(what_is_refused_as_null_is_no_change),
+        cmocka_unit_test(too_large_a_batch_is_not_known),
+        cmocka_unit_test(a_batch_without_memory_for_its_note_is_made_all_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@ static size_t memory_of(const octree *tree)
     return stats.memory;
 }
 
-typedef enum change_kind { INSERT_MANY, REMOVE_MANY, REWORLD } change_kind;
+typedef enum change_kind { INSERT_MANY, REMOVE_MANY, MOVE_MANY, REWORLD } change_kind;
 
 /* A tree to begin with, and a change to it. */
 typedef struct attempt {
@@ -26,7 +26,7 @@ typedef struct attempt {
     octree_full_leaf full_leaf;
     size_t stored; /* of the rows, inserted one by one before */
     change_kind kind;
-    size_t from, count; /* the rows to insert or to remove */
+    size_t from, count; /* the rows to insert, to remove or to move */
     bool own_statuses;  /* null is passed for the caller's */
 } attempt;
 
@@ -46,6 +46,12 @@ static const attempt attempts[] = {
     {"remove all", 3, 21, OCTREE_GROW, rows, REMOVE_MANY, 0, rows, false},
     {"remove from one leaf", 1000, 21, OCTREE_GROW, rows, REMOVE_MANY, 100, 200, false},
     {"remove what is absent", 3, 21, OCTREE_REFUSE, 100, REMOVE_MANY, 200, 200, false},
+    {"a few points one by one, of which one opens a block", 100, 21, OCTREE_GROW, 380, INSERT_MANY, 360, 40, true},
+    {"remove so that a large leaf is made", 100, 21, OCTREE_GROW, rows, REMOVE_MANY, 0, 310, true},
+    {"move a few", 1, 21, OCTREE_GROW, 380, MOVE_MANY, 10, 9, false},
+    {"move a few with repetitions", 4, 21, OCTREE_GROW, 380, MOVE_MANY, 10, 30, true},
+    {"move within a large leaf", 1000, 21, OCTREE_GROW, 380, MOVE_MANY, 10, 9, true},
+    {"move all", 2, 21, OCTREE_GROW, rows, MOVE_MANY, 0, rows, false},
     {"reworld", 2, 21, OCTREE_GROW, rows, REWORLD, 0, 0, false},
     {"reworld one leaf", 1000, 21, OCTREE_REFUSE, rows, REWORLD, 0, 0, false},
     {"reworld an empty tree", 2, 21, OCTREE_REFUSE, 0, REWORLD, 0, 0, false},
@@ -80,8 +86,15 @@ static octree_status try(const attempt *a, octree *tree, const octree_point *poi
     static const octree_box larger = {{-3, -2, -1}, {1, 2, 5}};
     octree_status statuses[rows];
     size_t done;
+    double to[rows][3];
     if (a->kind == REWORLD)
         return octree_reworld(tree, &larger);
+    for (size_t i = 0; i < a->count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            to[i][axis] = -points[a->from + i].position[axis];
+    if (a->kind == MOVE_MANY)
+        return octree_move_many(tree, points + a->from, (const double(*)[3])to, a->count,
+                                a->own_statuses ? NULL : statuses, &done);
     return (a->kind == INSERT_MANY ? octree_insert_many : octree_remove_many)(tree, points + a->from, a->count,
                                                                               a->own_statuses ? NULL : statuses, &done);
 }
@@ -112,7 +125,8 @@ static bool fails_without_a_trace(const attempt *a, const octree_point *points, 
         assert_memory_equal(&after, &world, sizeof world);
         assert_int_equal(try(a, tree, points), OCTREE_OK); /* with memory again it is as if nothing had been */
     }
-    assert_true(octree_digest(tree) == expected);
+    if (octree_digest(tree) != expected)
+        fail_msg("%s: other contents after failure %d", a->name, (int)n);
     octree_destroy(tree);
     assert_all_returned(&counts);
     return failed;
@@ -143,6 +157,44 @@ static void changes_of_many_survive_the_failure_of_each_allocation(void **state)
             if (n == 0 && attempts[i].count > 0)
                 fail_msg("%s took no memory", attempts[i].name);
         }
+}
+
+/* So many move that the tree is built anew; two points have one id, and one of them moves to where the other is. */
+static void a_move_that_builds_anew_leaves_no_trace_of_its_failure(void **state)
+{
+    (void)state;
+    enum { MOVED = 60 };
+    octree_point points[100], from[MOVED];
+    double to[MOVED][3];
+    for (size_t i = 0; i < 100; i++)
+        points[i] = (octree_point){{(double)i / 100, 0.5, -0.5}, i};
+    points[99].id = 7;
+    for (size_t i = 0; i < MOVED; i++) {
+        from[i] = points[i];
+        for (int axis = 0; axis < 3; axis++)
+            to[i][axis] = i == 7 ? points[99].position[axis] : -points[i].position[axis];
+    }
+    octree_status status = OCTREE_NO_MEMORY;
+    size_t failed = 0;
+    for (; status == OCTREE_NO_MEMORY; failed++) {
+        counting_allocator counts = {0};
+        octree_status statuses[MOVED];
+        size_t moved = 0;
+        octree *tree = make_counted_tree(&counts, cube(-1, 1), 2, 21, OCTREE_GROW);
+        assert_int_equal(octree_insert_many(tree, points, 100, NULL, NULL), OCTREE_OK);
+        const uint64_t digest = octree_digest(tree);
+        counting_allocator_fail_at(&counts, failed);
+        status = octree_move_many(tree, from, (const double(*)[3])to, MOVED, statuses, &moved);
+        counting_allocator_heal(&counts);
+        assert_valid(tree);
+        assert_true(status == OCTREE_OK || octree_digest(tree) == digest);
+        for (size_t i = 0; status == OCTREE_OK && i < MOVED; i++)
+            assert_int_equal(statuses[i], i == 7 ? OCTREE_DUPLICATE : OCTREE_OK);
+        assert_int_equal(moved, status == OCTREE_OK ? MOVED - 1 : 0);
+        octree_destroy(tree);
+        assert_all_returned(&counts);
+    }
+    assert_true(failed > 5);
 }
 
 static void many_failures_on_one_tree_do_not_add_up(void **state)
@@ -340,6 +392,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(changes_of_many_survive_the_failure_of_each_allocation),
+        cmocka_unit_test(a_move_that_builds_anew_leaves_no_trace_of_its_failure),
         cmocka_unit_test(many_failures_on_one_tree_do_not_add_up),
         cmocka_unit_test(a_million_points_take_at_most_48_bytes_each),
         cmocka_unit_test(batches_and_a_new_world_keep_memory_linear),

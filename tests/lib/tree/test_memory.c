@@ -125,6 +125,68 @@ static void changes_survive_the_failure_of_each_allocation(void **state)
     assert_true(survived > 0);
 }
 
+/* Memory ends after some changes, while blocks that were taken before are not yet full: whichever change is the first
+ * that needs more does nothing. */
+static void changes_are_whole_when_memory_ends(void **state)
+{
+    (void)state;
+    size_t failed[3] = {0};
+    for (uint64_t seed = 0; seed < 300; seed++) {
+        uint64_t random = seed, id = 0;
+        counting_allocator counts = {0};
+        const size_t capacity = seed % 3 == 0 ? 70 : 1 + seed % 4; /* more than 64 in a leaf are a block of their own */
+        octree *tree = make_counted_tree(&counts, cube(-1, 1), capacity, 1 + seed % 11, OCTREE_GROW);
+        brute all = {0};
+        change c = {.kind = CHANGE_INSERT};
+        for (; id < 100 + seed; id++) {
+            c = random_change(&random, &all, id);
+            assert_int_equal(apply(tree, &c), OCTREE_OK);
+        }
+        counts.fail_from = counts.calls;
+        counts.fail_until = SIZE_MAX;
+        octree_status status = OCTREE_OK;
+        uint64_t digest = 0, version = 0;
+        for (; status == OCTREE_OK && id < 2000; id++) {
+            digest = octree_digest(tree);
+            version = octree_version(tree);
+            c = random_change(&random, &all, id);
+            status = apply(tree, &c);
+        }
+        assert_int_equal(status, OCTREE_NO_MEMORY);
+        assert_true(octree_digest(tree) == digest && octree_version(tree) == version);
+        assert_valid(tree);
+        failed[c.kind]++;
+        counting_allocator_heal(&counts);
+        assert_int_equal(apply(tree, &c), OCTREE_OK);
+        assert_valid(tree);
+        assert_int_equal(octree_count(tree), all.count);
+        brute_free(&all);
+        octree_destroy(tree);
+        assert_all_returned(&counts);
+    }
+    assert_true(failed[CHANGE_INSERT] > 9 && failed[CHANGE_REMOVE] > 0 && failed[CHANGE_MOVE] > 9);
+}
+
+static void a_large_leaf_is_emptied_without_memory(void **state)
+{
+    (void)state;
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 1, 2, OCTREE_GROW);
+    const double here[3] = {0.5, 0.5, 0.5}, there[3] = {-0.5, -0.5, -0.5};
+    for (uint64_t id = 0; id < 200; id++)
+        assert_int_equal(octree_insert(tree, here, id), OCTREE_OK);
+    assert_int_equal(octree_insert(tree, there, 1), OCTREE_OK);
+    assert_int_equal(octree_insert(tree, there, 2), OCTREE_OK);
+    counts.fail_from = counts.calls;
+    counts.fail_until = SIZE_MAX;
+    for (uint64_t id = 0; id < 200; id++)
+        assert_int_equal(octree_remove(tree, here, id), OCTREE_OK);
+    assert_int_equal(octree_count(tree), 2);
+    assert_valid(tree);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+}
+
 static void a_hashed_leaf_of_equal_points_survives_failures_as_well(void **state)
 {
     (void)state;
@@ -267,6 +329,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(create_survives_the_failure_of_each_allocation),
         cmocka_unit_test(changes_survive_the_failure_of_each_allocation),
+        cmocka_unit_test(changes_are_whole_when_memory_ends),
+        cmocka_unit_test(a_large_leaf_is_emptied_without_memory),
         cmocka_unit_test(a_hashed_leaf_of_equal_points_survives_failures_as_well),
         cmocka_unit_test(a_tree_without_any_more_memory_still_answers),
         cmocka_unit_test(clear_gives_the_memory_back),

@@ -168,6 +168,10 @@ static void a_million_uniform_points_take_less_than_a_hundred_bytes_each(void **
         assert_true(octree_insert(tree, at, id) == OCTREE_OK);
     }
     assert_true(counts.bytes < 100 * (size_t)million);
+    const octree_point few[] = {{{0, 0, 0}, million}, {{0.5, 0, 0}, million + 1}, {{0, 0, 0}, million}};
+    size_t inserted;
+    assert_int_equal(octree_insert_many(tree, few, 3, NULL, &inserted), OCTREE_OK); /* one by one */
+    assert_true(inserted == 2 && octree_count(tree) == million + 2);
     octree_destroy(tree);
     assert_all_returned(&counts);
 }

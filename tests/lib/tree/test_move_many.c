@@ -376,6 +376,33 @@ static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t c
     return failed;
 }
 
+static void moves_of_what_is_absent_leave_a_tree_as_it_was(void **state)
+{
+    (void)state;
+    enum { STORED = 200 };
+    octree_point points[STORED];
+    double to[STORED][3];
+    octree *tree = make_tree(cube(-1, 1), 2, 21, OCTREE_GROW);
+    for (uint64_t i = 0; i < STORED; i++) {
+        points[i] = (octree_point){{(double)i / STORED, 0, 0}, i};
+        memset(to[i], 0, sizeof to[i]);
+    }
+    assert_int_equal(octree_insert_many(tree, points, STORED, NULL, NULL), OCTREE_OK);
+    const uint64_t digest = octree_digest(tree), version = octree_version(tree);
+    for (size_t count = 10; count <= STORED; count += STORED - 10) { /* a few, and so many that it may be built anew */
+        octree_status statuses[STORED];
+        size_t moved = 77;
+        for (size_t i = 0; i < STORED; i++)
+            points[i].id = STORED + i;
+        assert_int_equal(octree_move_many(tree, points, (const double(*)[3])to, count, statuses, &moved), OCTREE_OK);
+        assert_int_equal(moved, 0);
+        for (size_t i = 0; i < count; i++)
+            assert_int_equal(statuses[i], OCTREE_NOT_FOUND);
+        assert_true(octree_digest(tree) == digest && octree_version(tree) == version);
+    }
+    octree_destroy(tree);
+}
+
 static void moves_survive_the_failure_of_each_allocation(void **state)
 {
     (void)state;
@@ -401,6 +428,7 @@ int main(void)
         cmocka_unit_test(a_full_leaf_is_met_in_the_order_given),
         cmocka_unit_test(a_pair_moves_on_within_one_batch),
         cmocka_unit_test(null_and_endless_arrays_are_refused),
+        cmocka_unit_test(moves_of_what_is_absent_leave_a_tree_as_it_was),
         cmocka_unit_test(moves_survive_the_failure_of_each_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -218,6 +218,23 @@ static void an_automatic_tree_is_tuned_when_it_is_built_and_keeps_to_its_last_mi
     brute_free(&all);
 }
 
+/* Of more points than are looked at, some cells are left out; and the mix may name one thing alone. */
+static void a_large_tree_is_tuned_by_a_sample(void **state)
+{
+    (void)state;
+    enum { LARGE = 80000 };
+    const octree_box world = cube(-1, 1);
+    brute all = {0};
+    brute_sample(&all, OCTREE_SAMPLE_UNIFORM, 9, &world, LARGE);
+    octree *tree = make_tree(world, 4, 21, OCTREE_GROW);
+    assert_int_equal(octree_insert_many(tree, all.points, LARGE, NULL, NULL), OCTREE_OK);
+    assert_int_equal(octree_tune(tree, &(octree_mix){.ranges = 1, .hits = 10}), OCTREE_OK);
+    assert_int_equal(octree_count(tree), LARGE);
+    assert_valid(tree);
+    octree_destroy(tree);
+    brute_free(&all);
+}
+
 static void without_memory_the_tree_stays_as_it_was(void **state)
 {
     (void)state;
@@ -280,6 +297,7 @@ int main(void)
         cmocka_unit_test(equal_points_can_be_tuned),
         cmocka_unit_test(an_automatic_tree_is_tuned_as_it_grows),
         cmocka_unit_test(an_automatic_tree_is_tuned_when_it_is_built_and_keeps_to_its_last_mix),
+        cmocka_unit_test(a_large_tree_is_tuned_by_a_sample),
         cmocka_unit_test(without_memory_the_tree_stays_as_it_was),
         cmocka_unit_test(an_insertion_succeeds_though_there_is_no_memory_to_tune),
     };
