@@ -197,10 +197,30 @@ static void the_first_broken_node_is_named_by_any_number_of_threads(void **state
         assert_string_equal(octree_check(trees_of[i], &first), "a node's count is not the sum of its children's");
         assert_true(first == OCTREE_ROOT);
         trees_of[i]->root.count--;
+        node *large = child_at(&trees_of[i]->root, 7); /* which is broken above the leaves that are shared out */
+        child_at(large, 7)->count++;
+        assert_non_null(octree_check(trees_of[i], &first));
+        assert_int_equal(octree_address_octant(first, 0), 0);
+        child_at(large, 7)->count--;
         octree_destroy(trees_of[i]);
     }
     assert_string_equal(said[0], said[1]);
     assert_true(where[0] == where[1]);
+}
+
+static void a_leaf_takes_memory_for_its_points_and_has_a_limit(void **state)
+{
+    (void)state;
+    counting_allocator counts = {0};
+    octree *tree = make(OCTREE_GROW, 4, (octree_executor){0}, &counts);
+    const size_t bytes = counts.bytes;
+    node leaf;
+    assert_true(leaf_create(&tree->store, &leaf, 0));
+    assert_null(leaf.below);
+    assert_false(leaf_create(&tree->store, &leaf, UINT32_MAX));
+    assert_int_equal(counts.bytes, bytes);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
 }
 
 /* One of the steps with the n-th allocation failing. False when it needed fewer. */
@@ -250,6 +270,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_threads_does_the_same),
         cmocka_unit_test(the_first_broken_node_is_named_by_any_number_of_threads),
+        cmocka_unit_test(a_leaf_takes_memory_for_its_points_and_has_a_limit),
         cmocka_unit_test(any_order_of_tasks_does_the_same),
         cmocka_unit_test(tasks_that_are_left_out_run_on_the_calling_thread),
         cmocka_unit_test(threads_of_another_floating_point_mode_change_no_answer),

@@ -224,6 +224,7 @@ static octree_status collect_nearest(judge_state *s, double slack)
         truth->count = 0;
         radius = radius < DBL_MAX ? radius : DBL_MAX;
         const octree_status status = collect_ball(s, radius, slack);
+        /* unreachable: a search of such a ball is not refused */
         if (status != OCTREE_OK || s->failed)
             return status;
         sort(truth, compare_ranks);

@@ -34,7 +34,6 @@ static uint32_t home_slot(const octree_point *points, const double position[3], 
 
 static octree_point *hashed_create(arena *memory, uint32_t room)
 {
-    /* unreachable: by tests, for it takes 2^31 points in one leaf, 64 GiB */
     if (room > HASHED_MAX_ROOM)
         return NULL;
     uint64_t slots = 64;

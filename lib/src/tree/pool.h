@@ -27,6 +27,7 @@ typedef struct arena {
 
 static inline void arena_lock(arena *a)
 {
+    /* unreachable: but by chance, when two threads ask at once */
     while (atomic_flag_test_and_set_explicit(&a->busy, memory_order_acquire))
         ;
 }

@@ -80,17 +80,19 @@ static void random_position(uint64_t *random, double at[3])
         at[axis] = crowded ? 0.5 : (double)random_below(random, 4097) / 2048 - 1;
 }
 
+static change random_insertion(uint64_t *random, brute *all, uint64_t id)
+{
+    change c = {.kind = CHANGE_INSERT, .point.id = id};
+    random_position(random, c.point.position);
+    brute_insert(all, c.point.position, id);
+    return c;
+}
+
 static change random_change(uint64_t *random, brute *all, uint64_t id)
 {
     change c = {.kind = (change_kind)random_below(random, 3)};
-    if (all->count == 0 || random_below(random, 3) == 0)
-        c.kind = CHANGE_INSERT;
-    if (c.kind == CHANGE_INSERT) {
-        random_position(random, c.point.position);
-        c.point.id = id;
-        brute_insert(all, c.point.position, id);
-        return c;
-    }
+    if (all->count == 0 || random_below(random, 3) == 0 || c.kind == CHANGE_INSERT)
+        return random_insertion(random, all, id);
     c.point = all->points[random_below(random, all->count)];
     random_position(random, c.to);
     assert_true(brute_remove(all, c.point.position, c.point.id));
@@ -149,7 +151,7 @@ static void changes_are_whole_when_memory_ends(void **state)
         for (; status == OCTREE_OK && id < 2000; id++) {
             digest = octree_digest(tree);
             version = octree_version(tree);
-            c = random_change(&random, &all, id);
+            c = seed % 2 ? random_insertion(&random, &all, id) : random_change(&random, &all, id);
             status = apply(tree, &c);
         }
         assert_int_equal(status, OCTREE_NO_MEMORY);
@@ -165,6 +167,22 @@ static void changes_are_whole_when_memory_ends(void **state)
         assert_all_returned(&counts);
     }
     assert_true(failed[CHANGE_INSERT] > 9 && failed[CHANGE_REMOVE] > 0 && failed[CHANGE_MOVE] > 9);
+}
+
+static void equal_points_that_fill_a_leaf_stay_without_memory(void **state)
+{
+    (void)state;
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 70, 3, OCTREE_GROW);
+    const double here[3] = {0.5, 0.5, 0.5};
+    for (uint64_t id = 0; id < 70; id++)
+        assert_int_equal(octree_insert(tree, here, id), OCTREE_OK);
+    counting_allocator_fail_at(&counts, 0); /* that of a leaf of 71 */
+    assert_int_equal(octree_insert(tree, here, 70), OCTREE_NO_MEMORY);
+    assert_int_equal(octree_count(tree), 70);
+    assert_valid(tree);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
 }
 
 static void a_large_leaf_is_emptied_without_memory(void **state)
@@ -330,6 +348,7 @@ int main(void)
         cmocka_unit_test(create_survives_the_failure_of_each_allocation),
         cmocka_unit_test(changes_survive_the_failure_of_each_allocation),
         cmocka_unit_test(changes_are_whole_when_memory_ends),
+        cmocka_unit_test(equal_points_that_fill_a_leaf_stay_without_memory),
         cmocka_unit_test(a_large_leaf_is_emptied_without_memory),
         cmocka_unit_test(a_hashed_leaf_of_equal_points_survives_failures_as_well),
         cmocka_unit_test(a_tree_without_any_more_memory_still_answers),

@@ -229,6 +229,7 @@ static void a_large_tree_is_tuned_by_a_sample(void **state)
     octree *tree = make_tree(world, 4, 21, OCTREE_GROW);
     assert_int_equal(octree_insert_many(tree, all.points, LARGE, NULL, NULL), OCTREE_OK);
     assert_int_equal(octree_tune(tree, &(octree_mix){.ranges = 1, .hits = 10}), OCTREE_OK);
+    assert_int_equal(octree_tune(tree, &(octree_mix){.nearest = 1, .k = 1}), OCTREE_OK);
     assert_int_equal(octree_count(tree), LARGE);
     assert_valid(tree);
     octree_destroy(tree);
