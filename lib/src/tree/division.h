@@ -42,6 +42,7 @@ typedef struct division {
     size_t grain;                     /* a job has at most so many items */
     list jobs;                        /* in the order in which their nodes are met */
     size_t next;                      /* of them */
+    bool ready;                       /* they are done */
     size_t starts[TASKS_AT_MOST + 1]; /* those of each task */
     part parts[TASKS_AT_MOST];
 } division;

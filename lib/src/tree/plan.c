@@ -82,6 +82,7 @@ static void drop_jobs(batch *b)
         node_release_unshared(b->store, &jobs[d->next].made, jobs[d->next].old ? jobs[d->next].old : &none);
     list_release(&b->store->memory, &d->jobs, sizeof(job));
     d->next = 0;
+    d->ready = false;
 }
 
 /* False when there is no memory; nothing is left of the jobs then. */
@@ -102,6 +103,7 @@ static bool run_jobs(batch *b)
     bool ok = true;
     for (size_t i = 0; i < d->jobs.count; i++)
         ok = ok && jobs[i].ok;
+    d->ready = ok;
     if (!ok)
         drop_jobs(b);
     return ok;
@@ -109,7 +111,7 @@ static bool run_jobs(batch *b)
 
 bool is_job(const batch *b, size_t count)
 {
-    return b->division && count <= b->division->grain;
+    return b->division && b->division->ready && count <= b->division->grain;
 }
 
 bool take_job(batch *b, node *made)
@@ -127,12 +129,15 @@ bool build_divided(batch *b, cell c, span items, node *made)
     division *d = b->division;
     const list jobs = d->jobs;
     const size_t next = d->next;
+    const bool ready = d->ready;
     d->jobs = (list){0};
     d->next = 0;
+    d->ready = false;
     bool ok = gather_builds(b, c, items) && run_jobs(b) && build_node(b, c, items, made);
     drop_jobs(b);
     d->jobs = jobs;
     d->next = next;
+    d->ready = ready;
     return ok;
 }
 

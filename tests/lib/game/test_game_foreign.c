@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_game_foreign.c - the nodes of a program's own tree: which are a tree, which are in force, and each thing that
  * can be wrong with them by itself; and that nothing is held against a tree that is right. */
-#include "counting_allocator.h"
 #include "fixture.h"
 #include "game_fixture.h"
 
@@ -466,30 +465,6 @@ static void nodes_are_given_as_they_come_too(void **state)
     octree_game_destroy(game);
 }
 
-static void running_out_of_memory_loses_nothing(void **state)
-{
-    (void)state;
-    const octree_foreign_tree trees[] = {{.tick = 0, .nodes = right_nodes, .node_count = NODES},
-                                         {.tick = 1, .nodes = right_nodes, .node_count = 3}};
-    const octree_query query = {.tick = OCTREE_EVERY_TICK, NEAR(1, 3), PRUNED(60, 7), .skip = OCTREE_SKIP_COINCIDENT};
-    octree_session session = session_of(trees, 2);
-    session.queries = &query;
-    session.query_count = 1;
-    octree_status status = OCTREE_NO_MEMORY;
-    for (size_t n = 0; status != OCTREE_OK; n++) {
-        counting_allocator counts = {0};
-        octree_game *game;
-        session.tree.allocator = counting_allocator_use(&counts);
-        counting_allocator_fail_at(&counts, n);
-        status = octree_game_create(&session, &game);
-        if (status == OCTREE_OK)
-            status = octree_game_step(game, '.');
-        assert_true(status == OCTREE_OK || status == OCTREE_NO_MEMORY);
-        octree_game_destroy(game);
-        assert_int_equal(counts.bytes, 0);
-    }
-}
-
 static void names_are_those_of_files(void **state)
 {
     (void)state;
@@ -529,7 +504,6 @@ int main(void)
         cmocka_unit_test(a_point_that_moves_is_judged_where_it_is),
         cmocka_unit_test(faults_are_listed_up_to_a_number_and_all_counted),
         cmocka_unit_test(nodes_are_given_as_they_come_too),
-        cmocka_unit_test(running_out_of_memory_loses_nothing),
         cmocka_unit_test(names_are_those_of_files),
     };
     return cmocka_run_group_tests(tests, NULL, end);

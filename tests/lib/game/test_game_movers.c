@@ -2,6 +2,7 @@
 /* test_game_movers.c - the bodies that a tick says move: which, where from, and how they go on. */
 #include "fixture.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -274,6 +275,33 @@ static void many_bodies_move_as_one_by_one(void **state)
     octree_game_destroy(game);
 }
 
+/* The extent of the first world overflows; in the others rounding leaves it by an ulp. */
+static void a_reflected_body_stays_in_the_world_to_the_last_bit(void **state)
+{
+    (void)state;
+    const struct {
+        double min, max, from, velocity, to;
+    } rows[] = {{-1.2e308, 1.2e308, 1e308, 1e308, 4e307},
+                {5e-324, DBL_MAX, 1e308, -1e308, 5e-324},
+                {-0.4, 0.18, 0.18, 5.551115123125783e-17, 0.18},
+                {-0.7, 0.05, 0.05, 6.938893903907228e-18, 0.05}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const octree_body body = {.id = 1, .position = {rows[i].from, 0.01, 0.01}, .velocity = {rows[i].velocity}};
+        octree_session session = small_session(&body, 1);
+        session.player.kind = OCTREE_PLAYER_NONE;
+        session.tree.world.min[0] = rows[i].min;
+        session.tree.world.max[0] = rows[i].max;
+        octree_game *game = start_game(&session);
+        octree_point point;
+        play_key(game, '.');
+        assert_true(octree_game_find(game, 1, &point));
+        if (!(fabs(point.position[0] - rows[i].to) <= 1e-12 * fabs(rows[i].to)))
+            fail_msg("row %d: %.17g", (int)i, point.position[0]);
+        assert_true(rows[i].min <= point.position[0] && point.position[0] <= rows[i].max);
+        octree_game_destroy(game);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +315,7 @@ int main(void)
         cmocka_unit_test(a_body_that_its_leaf_refuses_is_told_where_it_stays),
         cmocka_unit_test(the_fastest_body_is_known_from_the_start),
         cmocka_unit_test(many_bodies_move_as_one_by_one),
+        cmocka_unit_test(a_reflected_body_stays_in_the_world_to_the_last_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
