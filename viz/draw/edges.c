@@ -132,20 +132,23 @@ static int compare_stretches(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-/* Most lines have few stretches, nearly in order. */
+/* A tree's boxes come in Morton order: then the stretches of a line, however many, are in order but for those of the
+ * cells about one place, and few are moved far. */
 static void sort_stretches(stretch *line, size_t count)
 {
-    enum { FEW = 24 };
-    if (count > FEW) {
-        qsort(line, count, sizeof *line, compare_stretches);
-        return;
-    }
+    enum { MOVES_OF_EACH = 16 };
+    size_t left = MOVES_OF_EACH * count;
     for (size_t i = 1; i < count; i++) {
         const stretch it = line[i];
         size_t at = i;
         for (; at > 0 && compare_stretches(&line[at - 1], &it) > 0; at--)
             line[at] = line[at - 1];
         line[at] = it;
+        if (i - at > left) {
+            qsort(line, count, sizeof *line, compare_stretches);
+            return;
+        }
+        left -= i - at;
     }
 }
 

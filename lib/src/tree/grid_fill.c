@@ -69,7 +69,7 @@ bool grid_choose(batch *b, size_t total)
         uint32_t *counts = arena_take(&b->store->memory, size);
         if (!counts)
             return false;
-        const size_t crowded = count_crowded(b, depth, counts, 2 * room * b->count / total / SAMPLE_STEP + 1);
+        const size_t crowded = count_crowded(b, depth, counts, 2 * room * b->count / (total * SAMPLE_STEP) + 2);
         arena_give(&b->store->memory, counts, size);
         if (crowded <= b->count / SAMPLE_STEP / 8)
             b->grid = depth;

@@ -186,6 +186,30 @@ static void the_order_of_the_boxes_does_not_matter(void **state)
     edges_release(&other);
 }
 
+/* A row of boxes of three colours, in an order that is nowhere near that of the row. */
+static void a_long_line_is_merged_whatever_the_order(void **state)
+{
+    (void)state;
+    enum { ROW = 300 };
+    edge_list first = {0}, other = {0};
+    uint64_t random = 1;
+    scene s = {.view = view_default()};
+    for (uint64_t i = 0; i < ROW; i++) {
+        const double at = (double)i;
+        scene_box box = {.id = i + 1, .depth = 2, .box = {{at, 0, 0}, {at + 1, 1, 1}}, .style = kinds[0]};
+        box.style.role = (uint8_t)(ROLE_NODE + i % 3);
+        scene_add_box(&s, box);
+    }
+    assert_true(edges_merge(&first, &s, 0, LAYER_DIAGRAM + 1));
+    assert_int_equal(first.now.count, 4 * ROW + 4 * (ROW + 1));
+    shuffle(&s, &random);
+    assert_true(edges_merge(&other, &s, 0, LAYER_DIAGRAM + 1));
+    assert_same_edges(&first, &other);
+    scene_release(&s);
+    edges_release(&first);
+    edges_release(&other);
+}
+
 /* Change one box a little, or none, or leave the last one out. */
 static void change_boxes(scene *s, uint64_t *random)
 {
@@ -368,6 +392,7 @@ int main(void)
         cmocka_unit_test(every_stretch_is_covered_once_in_the_colour_of_the_shallowest_box),
         cmocka_unit_test(no_two_edges_of_one_look_and_depth_meet_end_to_end),
         cmocka_unit_test(the_order_of_the_boxes_does_not_matter),
+        cmocka_unit_test(a_long_line_is_merged_whatever_the_order),
         cmocka_unit_test(what_was_merged_before_leaves_no_trace),
         cmocka_unit_test(boxes_that_come_and_go_leave_no_trace),
         cmocka_unit_test(layers_one_by_one_have_the_edges_of_all_together),
