@@ -143,6 +143,29 @@ static void numbers_are_shortest_and_never_other_than_json(void **state)
     close_page(&page, "18446744073709551615");
 }
 
+/* The longest there are, more than are gathered at once, on lines of their own or not. */
+static void many_numbers_are_written_as_one_by_one(void **state)
+{
+    enum { COUNT = 40 };
+    static const char number[] = "-2.2250738585072014e-308";
+    double values[COUNT];
+    char expected[COUNT * (sizeof number + 1) + 8] = "[\n";
+    page page;
+    (void)state;
+    for (size_t i = 0; i < COUNT; i++) {
+        values[i] = -DBL_MIN;
+        strcat(strcat(expected, i > 0 ? ", " : ""), number);
+    }
+    open_page(&page);
+    json_write_begin_array(&page.writer);
+    json_write_newline(&page.writer);
+    json_write_elements(&page.writer, values, COUNT);
+    json_write_newline(&page.writer);
+    json_write_integer(&page.writer, 7);
+    json_write_end_array(&page.writer);
+    close_page(&page, strcat(expected, ",\n7]"));
+}
+
 static void failed_stream_keeps_its_error(void **state)
 {
     char room[4];
@@ -220,6 +243,7 @@ int main(void)
         cmocka_unit_test(strings_are_escaped),
         cmocka_unit_test(utf8_passes_and_other_bytes_are_replaced),
         cmocka_unit_test(numbers_are_shortest_and_never_other_than_json),
+        cmocka_unit_test(many_numbers_are_written_as_one_by_one),
         cmocka_unit_test(failed_stream_keeps_its_error),
         cmocka_unit_test(places_are_named_and_found),
         cmocka_unit_test(place_that_is_not_there_is_that_above_it),
