@@ -347,7 +347,8 @@ static void a_node_that_was_pruned_with_a_point_of_the_answer_is_found(void **st
     assert_faultless(right_tick(ASK(RANGE, PRUNED(8))));
     assert_fault(right_tick(ASK(RANGE, PRUNED(8, 60))), pruned, 60, 3);
     assert_fault(right_tick(ASK(RANGE, PRUNED(7))), pruned, 7, 2);
-    assert_fault(right_tick(ASK(RANGE, PRUNED(7, 8, 3))), pruned, 3, 2); /* the first from the point up */
+    assert_int_equal(play_key(last_game, '.')->foreign.nodes[LEFT].faults, 0); /* it is the query's, of its tick */
+    assert_fault(right_tick(ASK(RANGE, PRUNED(7, 8, 3))), pruned, 3, 2);       /* the first from the point up */
     assert_faultless(right_tick(ASK(RANGE, .met = {IDS(3), IDS(7)})));
     assert_faultless(right_tick(ASK(RANGE, .met = {IDS(7), IDS(7)})));
     assert_faultless(right_tick(ASK(RANGE, .met = {[OCTREE_MET_PRUNED] = IDS(7), [OCTREE_MET_HIT] = IDS(7)})));

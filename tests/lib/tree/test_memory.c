@@ -53,6 +53,7 @@ static octree_status apply(octree *tree, const change *c)
  * leaves a trace. Returns the number of failures that were survived. */
 static size_t apply_under_failures(octree *tree, counting_allocator *counts, const change *c)
 {
+    const uint64_t before = octree_version(tree);
     size_t n = 0;
     for (;; n++) {
         uint64_t digest = octree_digest(tree), version = octree_version(tree);
@@ -69,6 +70,7 @@ static size_t apply_under_failures(octree *tree, counting_allocator *counts, con
         assert_int_equal(octree_count(tree), points);
         assert_valid(tree);
     }
+    assert_true(octree_version(tree) > before); /* it only grows */
     assert_valid(tree);
     return n;
 }
@@ -268,7 +270,9 @@ static void clear_gives_the_memory_back(void **state)
             assert_int_equal(octree_insert(tree, at, id), OCTREE_OK);
         }
         assert_true(counts.bytes > 20000 * sizeof(octree_point) / 2);
+        const uint64_t version = octree_version(tree);
         assert_int_equal(octree_clear(tree), OCTREE_OK);
+        assert_true(octree_version(tree) > version);
         assert_int_equal(memory_of(tree), counts.bytes);
         assert_true(counts.bytes <= empty + 4096);
     }

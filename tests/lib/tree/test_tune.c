@@ -218,6 +218,13 @@ static void an_automatic_tree_is_tuned_when_it_is_built_and_keeps_to_its_last_mi
     brute_free(&all);
 }
 
+static void the_default_mix_is_the_documented_one(void **state)
+{
+    (void)state;
+    const octree_mix mix = octree_mix_default();
+    assert_true(mix.changes == 1 && mix.nearest == 1 && mix.k == 1 && mix.ranges == 1 && mix.hits == 10);
+}
+
 /* Of more points than are looked at, some cells are left out; and the mix may name one thing alone. */
 static void a_large_tree_is_tuned_by_a_sample(void **state)
 {
@@ -298,6 +305,7 @@ int main(void)
         cmocka_unit_test(equal_points_can_be_tuned),
         cmocka_unit_test(an_automatic_tree_is_tuned_as_it_grows),
         cmocka_unit_test(an_automatic_tree_is_tuned_when_it_is_built_and_keeps_to_its_last_mix),
+        cmocka_unit_test(the_default_mix_is_the_documented_one),
         cmocka_unit_test(a_large_tree_is_tuned_by_a_sample),
         cmocka_unit_test(without_memory_the_tree_stays_as_it_was),
         cmocka_unit_test(an_insertion_succeeds_though_there_is_no_memory_to_tune),
