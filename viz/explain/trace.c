@@ -6,7 +6,6 @@
 #include "hash_map.h"
 #include "png_read.h"
 #include "text.h"
-#include "tick_scene.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -17,7 +16,7 @@
 void tracer_close(tracer *t)
 {
     for (int i = 0; i < 2; i++) {
-        heat_release(&t->heats[i]);
+        tick_history_release(&t->histories[i]);
         scene_release(&t->scenes[i]);
     }
     renderer_close(t->renderer);
@@ -27,7 +26,7 @@ void tracer_close(tracer *t)
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error)
 {
     for (int i = 0; i < 2; i++)
-        if ((sides[i].view.view.layers & VIEW_HEAT_LAYERS) && !heat_add_tick(&t->heats[i], games[i]))
+        if (!tick_history_add(&t->histories[i], &sides[i].view.view, games[i]))
             return error_no_memory(error);
     return true;
 }
@@ -239,7 +238,7 @@ bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const g
     if (a->width != b->width || a->height != b->height || view_samples(a) != view_samples(b) || *t->untraced)
         return true;
     for (int i = 0; i < 2; i++)
-        if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->heats[i],
+        if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->histories[i],
                               &sides[i].replay.session.values))
             return error_no_memory(error);
     const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, made, error);

@@ -5,10 +5,10 @@
 
 #include "diff.h"
 #include "pixel.h"
-#include "heat.h"
 #include "layer.h"
 #include "octree/game.h"
 #include "recorded.h"
+#include "tick_scene.h"
 
 #include <stdio.h>
 
@@ -32,7 +32,7 @@ typedef struct trace {
 
 /* Two games that are drawn while they are played. A zeroed one has not begun. */
 typedef struct tracer {
-    heat heats[2];
+    tick_history histories[2];
     scene scenes[2];
     renderer *renderer; /* opened for the first frame that is traced */
     char untraced[256]; /* a sentence: why nothing can be drawn; else "" */
@@ -40,7 +40,7 @@ typedef struct tracer {
 
 void tracer_close(tracer *t);
 
-/* To be called at each tick: heat adds up over ticks. */
+/* To be called at each tick: what its history holds adds up over ticks. */
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error);
 
 /* Trace the pair, compared with these options, of the tick at which the games are. Nothing is traced where a frame does

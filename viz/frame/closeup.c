@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* closeup.c - the layer of the close-up: a scene of its own in the direction of view of the world, with the player
- * always in its middle, and cut off as far before and behind it as beside it. In the picture stand its frame and the
- * rectangle that it shows, in itself a scale. Without a player it shows what is asked.
- *
- * The close-up follows the player step by step: kept still until the player leaves it, it would jump by as much as it
- * shows. */
+/* closeup.c - the layer of the close-up: a scene of its own in the direction of view of the world, with what it
+ * shows in its middle, and cut off as far before and behind it as beside it. In the picture stand its frame and the
+ * rectangle that it shows, in itself a scale. */
 #include "closeup.h"
-#include "array.h"
 #include "number.h"
 
 #include <float.h>
@@ -15,123 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define SMALL (32.0 / 720)  /* of the height of the picture: what appears larger needs no close-up, */
-#define WANTED (68.0 / 720) /* and a close-up makes it about so large */
-#define MOST_TIMES 1e6      /* as --zoom */
-
-/* ---- What it shows ------------------------------------------------------------------------------------------ */
-
-static void widen(octree_box *box, const double from[3], const double to[3])
-{
-    for (int i = 0; i < 3; i++) {
-        box->min[i] = fmin(box->min[i], from[i]);
-        box->max[i] = fmax(box->max[i], to[i]);
-    }
-}
-
-static const octree_box nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-static bool is_empty(const octree_box *box)
-{
-    return !(box->min[0] <= box->max[0]);
-}
-
-static void widen_by_ball(octree_box *box, const double center[3], double radius)
-{
-    double from[3], to[3];
-    for (int i = 0; i < 3; i++) {
-        from[i] = center[i] - radius;
-        to[i] = center[i] + radius;
-    }
-    widen(box, from, to);
-}
-
-/* What the session asks at tick 0, which is known at every tick. */
-static octree_box asked_first(const octree_session *session)
-{
-    octree_box box = nothing;
-    for (size_t i = 0; i < session->query_count; i++) {
-        const octree_query *query = &session->queries[i];
-        if (query->at_player || (query->tick != 0 && query->tick != OCTREE_EVERY_TICK))
-            continue;
-        if (query->kind == OCTREE_QUERY_RANGE)
-            widen(&box, query->box.min, query->box.max);
-        else
-            widen_by_ball(&box, query->target, query->kind == OCTREE_QUERY_RADIUS ? query->radius : 0);
-    }
-    return box;
-}
-
-/* What a tick asks; where that is nothing, what it splits and merges. */
-static octree_box happens(const layer_source *in)
-{
-    octree_box box = nothing;
-    const octree_tick *tick = in->tick;
-    for (size_t i = 0; i < tick->answer_count; i++) {
-        const octree_answer *answer = &tick->answers[i];
-        if (answer->kind == OCTREE_QUERY_RANGE)
-            widen(&box, answer->box.min, answer->box.max);
-        else
-            widen_by_ball(&box, answer->target, answer->kind == OCTREE_QUERY_RADIUS ? answer->radius : 0);
-    }
-    for (size_t i = 0; tick->answer_count == 0 && i < tick->split_count + tick->merge_count; i++) {
-        const bool splits = i < tick->split_count;
-        const octree_box cell =
-            octree_cell_box(&in->world, splits ? tick->splits[i] : tick->merges[i - tick->split_count]);
-        widen(&box, cell.min, cell.max);
-    }
-    return box;
-}
-
-/* Half the extent of what is to be seen: of the player's box, or of its step where that is longer, since a close-up is
- * of no use to one that leaves it at once. */
-static double reach_of(const octree_session *session)
-{
-    double reach = 0;
-    if (session->player.kind != OCTREE_PLAYER_NONE)
-        return fmax(session->player.box_size, session->player.step / 2);
-    const octree_box box = asked_first(session);
-    for (int i = 0; i < 3; i++)
-        reach = fmax(reach, box.max[i] / 2 - box.min[i] / 2);
-    return reach;
-}
-
-static void place_of(const layer_source *in, double place[3])
-{
-    const octree_box now = happens(in), first = asked_first(in->session);
-    if (in->session->player.kind != OCTREE_PLAYER_NONE)
-        memcpy(place, in->tick->player, sizeof in->tick->player);
-    else
-        scene_box_middle(is_empty(&now) ? &first : &now, place);
-    for (int i = 0; i < 3; i++) /* a box that is asked for may be infinite */
-        place[i] = fmin(fmax(place[i], in->world.min[i]), in->world.max[i]);
-}
-
-/* The greatest of 1, 2, 3, 4, 5, 6 and 8 times a power of ten that is at most `limit`, which is at least 1. */
-static double round_down(double limit)
-{
-    static const double steps[] = {8, 6, 5, 4, 3, 2, 1};
-    double power = 1;
-    while (power * 10 <= limit)
-        power *= 10;
-    for (size_t i = 0; i < sizeof steps / sizeof steps[0]; i++)
-        if (steps[i] * power <= limit)
-            return steps[i] * power;
-    return power;
-}
-
-/* The camera is that of tick 0, since an orbit does not show everything at the same size at every tick. */
-double closeup_times(const scene *s, const layer_source *in)
-{
-    const view *v = &s->view;
-    scene with = {.view = *v, .unit = s->unit, .text = s->text, .has_closeup = true};
-    if (!v->closeup || !in->game || layout_closeup(v).width == 0)
-        return 0;
-    const camera c = camera_make(v, layout_camera(&with), &in->world, in->session->player.position, 0);
-    const double part = 2 * reach_of(in->session) / camera_pixel_length(&c) / view_height_in_wide(v);
-    return part > 0 && part < SMALL ? round_down(fmin(WANTED / part, MOST_TIMES)) : 0;
-}
 
 /* ---- Its scene ---------------------------------------------------------------------------------------------- */
 
@@ -168,17 +47,15 @@ static uint64_t part_of_budget(const view *v, double pixels)
     return v->budget && part < 1 ? 1 : (uint64_t)part;
 }
 
-bool closeup_begin(scene *s, const layer_source *in, double times, layer_source *close)
+bool closeup_begin(scene *s, const layer_source *in, const closeup_course *course, layer_source *close)
 {
     const camera_window w = layout_closeup(&s->view);
     s->closeup = s->closeup ? s->closeup : calloc(1, sizeof *s->closeup);
     if (!s->closeup)
         return false;
     scene *c = s->closeup;
-    double place[3];
-    place_of(in, place);
     scene_clear(c);
-    c->times = times;
+    c->times = course->times;
     c->unit = s->unit;
     c->text = s->text;
     c->place[0] = (int)w.x;
@@ -189,7 +66,7 @@ bool closeup_begin(scene *s, const layer_source *in, double times, layer_source 
     c->view.diagram = DIAGRAM_NONE;
     c->view.budget = part_of_budget(&s->view, w.width * w.height);
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
-    c->camera = camera_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
+    c->camera = camera_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, course->place, course->times);
     const octree_box region = region_of(&c->camera, &c->view);
     narrow(&c->view.filter, &region);
     *close = *in;

@@ -1,17 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* closeup.h - what is around the player, larger, in a part of the picture. */
+/* closeup.h - what is small in a picture, larger, in a part of it. */
 #ifndef FRAME_CLOSEUP_H
 #define FRAME_CLOSEUP_H
 
+#include "closeup_course.h"
 #include "layer_type.h"
 
-/* How many times as large a close-up of these shows them, a round number; 0 where there is none: the view wants none,
- * the picture is too small, there is nothing to look at, or it is large enough already. It depends on the session and
- * the view alone, and so is the same at every tick. */
-double closeup_times(const scene *s, const layer_source *in);
-
-/* Begin the close-up of a scene whose camera is set: s->closeup is empty, with a view and a camera of its own. False
- * when there is no memory. `close` becomes what it is filled from. */
-bool closeup_begin(scene *s, const layer_source *in, double times, layer_source *close);
+/* Begin the close-up of a scene whose camera is set: s->closeup is empty, with a view and a camera of its own, at the
+ * place of its course. False when there is no memory. `close` becomes what it is filled from. */
+bool closeup_begin(scene *s, const layer_source *in, const closeup_course *course, layer_source *close);
 
 #endif

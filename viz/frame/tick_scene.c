@@ -63,10 +63,10 @@ static void add_layers(scene *s, const layer_source *in)
 }
 
 /* The close-up is a scene of the same layers. */
-static void add_closeup(scene *s, const layer_source *in, double times)
+static void add_closeup(scene *s, const layer_source *in, const closeup_course *course)
 {
     layer_source close;
-    if (!closeup_begin(s, in, times, &close)) {
+    if (!closeup_begin(s, in, course, &close)) {
         s->out_of_memory = true;
         return;
     }
@@ -75,39 +75,60 @@ static void add_closeup(scene *s, const layer_source *in, double times)
 }
 
 /* Under DIAGRAM_ONLY the panel is the only other layer. */
-static bool build(scene *s, layer_source *in, const double player[3])
+static bool build(scene *s, layer_source *in, const double player[3], closeup_course course)
 {
     const view *v = in->view;
     scene_clear(s);
     scene_set_view(s, v);
     if (v->diagram == DIAGRAM_ONLY)
         s->view.layers &= 1u << LAYER_TEXT;
-    const double times = closeup_times(s, in);
-    s->has_closeup = times > 0;
+    if (!(course.times > 0))
+        closeup_follow(&course, in);
+    s->has_closeup = course.times > 0;
     s->camera = camera_make(v, layout_camera(s), &in->world, player, in->tick ? in->tick->number : 0);
     if (view_shows(v, LAYER_BROKEN))
         in->broken = octree_check(in->tree, &in->broken_at);
     if (s->has_closeup)
-        add_closeup(s, in, times);
+        add_closeup(s, in, &course);
     s->has_closeup = s->has_closeup && !s->out_of_memory;
     add_layers(s, in);
     return !s->out_of_memory;
 }
 
-bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h, const point_values *values)
+static layer_source source_of(const view *v, const octree_game *game)
 {
     const octree_tick *tick = octree_game_tick(game);
-    layer_source in = {.view = v,
-                       .tree = octree_game_tree(game),
-                       .world = octree_game_session(game)->tree.world,
-                       .answers = tick->answers,
-                       .answer_count = tick->answer_count,
-                       .game = game,
-                       .session = octree_game_session(game),
-                       .tick = tick,
-                       .heat = h,
-                       .values = values};
-    return build(s, &in, tick->player);
+    return (layer_source){.view = v,
+                          .tree = octree_game_tree(game),
+                          .world = octree_game_session(game)->tree.world,
+                          .answers = tick->answers,
+                          .answer_count = tick->answer_count,
+                          .game = game,
+                          .session = octree_game_session(game),
+                          .tick = tick};
+}
+
+void tick_history_release(tick_history *h)
+{
+    heat_release(&h->heat);
+}
+
+bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
+{
+    const layer_source in = source_of(v, game);
+    if (in.tick->gap)
+        return true;
+    closeup_follow(&h->closeup, &in);
+    return !(v->layers & VIEW_HEAT_LAYERS) || heat_add_tick(&h->heat, game);
+}
+
+bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,
+                      const point_values *values)
+{
+    layer_source in = source_of(v, game);
+    in.heat = h ? &h->heat : NULL;
+    in.values = values;
+    return build(s, &in, in.tick->player, h ? h->closeup : (closeup_course){0});
 }
 
 bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *about)
@@ -122,5 +143,5 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .asked = about->node};
     double center[3]; /* what the camera follows without a player */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
-    return build(s, &in, center);
+    return build(s, &in, center, (closeup_course){0});
 }

@@ -3,14 +3,28 @@
 #ifndef FRAME_TICK_SCENE_H
 #define FRAME_TICK_SCENE_H
 
+#include "closeup_course.h"
 #include "heat.h"
 #include "octree/game.h"
 #include "point_values.h"
 #include "scene.h"
 
-/* Fill a scene with the last tick of a game, as seen by a view. h is the heat up to this tick; null leaves the heat
- * layers empty. The values of points may be null. False when there is no memory. */
-bool tick_scene_build(scene *s, const view *v, const octree_game *game, const heat *h, const point_values *values);
+/* What the ticks up to one leave behind for its scene. All zero: before tick 0. */
+typedef struct tick_history {
+    heat heat; /* where the view shows it */
+    closeup_course closeup;
+} tick_history;
+
+void tick_history_release(tick_history *h);
+
+/* Add the game's last tick, unless it is a gap. False when there is no memory. */
+bool tick_history_add(tick_history *h, const view *v, const octree_game *game);
+
+/* Fill a scene with the last tick of a game, as seen by a view. h is the history up to this tick, or up to the one
+ * before; null stands for none, which leaves the heat layers empty. The values of points may be null. False when there
+ * is no memory. */
+bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,
+                      const point_values *values);
 
 /* What is shown of a tree in addition to its nodes and points. */
 typedef struct tree_subject {

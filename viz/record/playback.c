@@ -2,19 +2,16 @@
 /* playback.c - a session played: each of its ticks becomes a scene, a frame and a line of ticks.jsonl. */
 #include "playback.h"
 #include "frame_file.h"
-#include "layer.h"
 #include "text.h"
-#include "tick_scene.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
 /* ---- Played ------------------------------------------------------------------------------------------------- */
 
-static bool add_heat(playback *p, octreel_error *error)
+static bool add_history(playback *p, octreel_error *error)
 {
-    const bool known = !octree_game_tick(p->game)->gap;
-    return !(known && p->view.layers & VIEW_HEAT_LAYERS) || heat_add_tick(&p->heat, p->game) || error_no_memory(error);
+    return tick_history_add(&p->history, &p->view, p->game) || error_no_memory(error);
 }
 
 bool playback_open(playback *p, const octree_session *session, const point_values *values, const view *v,
@@ -24,13 +21,13 @@ bool playback_open(playback *p, const octree_session *session, const point_value
     const octree_status status = octree_game_create(session, &p->game);
     if (status != OCTREE_OK)
         return error_set(error, "the session cannot be played: %s", octree_status_text(status));
-    return add_heat(p, error) && picture_fit(&p->view, octree_game_tree(p->game), values, error);
+    return picture_fit(&p->view, octree_game_tree(p->game), values, error) && add_history(p, error);
 }
 
 void playback_close(playback *p)
 {
     octree_game_destroy(p->game);
-    heat_release(&p->heat);
+    tick_history_release(&p->history);
     picture_close(&p->picture);
     scene_release(&p->scene);
     free(p->line);
@@ -42,7 +39,7 @@ static bool end_tick(playback *p, octree_status status, octreel_error *error)
     if (status != OCTREE_OK)
         return error_set(error, "tick %" PRIu64 " cannot be played: %s", octree_game_tick(p->game)->number,
                          octree_status_text(status));
-    return add_heat(p, error);
+    return add_history(p, error);
 }
 
 bool playback_advance(playback *p, octreel_error *error)
@@ -65,7 +62,7 @@ bool playback_film(playback *p, const playback_target *target, octreel_error *er
 
 bool playback_scene(playback *p, octreel_error *error)
 {
-    return tick_scene_build(&p->scene, &p->view, p->game, &p->heat, p->values) || error_no_memory(error);
+    return tick_scene_build(&p->scene, &p->view, p->game, &p->history, p->values) || error_no_memory(error);
 }
 
 static uint64_t session_of(playback *p)

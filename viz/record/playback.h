@@ -11,10 +11,10 @@
 #ifndef RECORD_PLAYBACK_H
 #define RECORD_PLAYBACK_H
 
-#include "heat.h"
 #include "picture.h"
 #include "point_values.h"
 #include "scene.h"
+#include "tick_scene.h"
 #include "ticks_write.h"
 
 typedef enum playback_frames {
@@ -35,7 +35,7 @@ typedef struct playback {
     view view; /* fitted to tick 0 */
     octree_game *game;
     const point_values *values; /* of the session's points; may be null */
-    heat heat;                  /* of all ticks that were played, filmed or not; where the view shows it */
+    tick_history history;       /* of all ticks that were played, filmed or not */
     scene scene;
     playback_target target;
     uint64_t session_digest; /* of session.json, for the frames that are written; set by the caller, */

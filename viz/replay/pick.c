@@ -125,7 +125,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
             .kind = element.kind,
             .in_closeup = element.in_closeup,
             .layer = layer_rows[scene_head_of(s, element).style.layer].name,
-            .subject = describe_element(from->game, &from->heat, s, element),
+            .subject = describe_element(from->game, &from->history.heat, s, element),
         };
     }
     draw_touches_release(&touches);

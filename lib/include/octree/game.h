@@ -326,6 +326,9 @@ typedef struct octree_tick {
     octree_cost hit_cost;           /* of the collision test; swept, bodies that moved are points compared one by one */
     const octree_refusal *refusals; /* in the order they happened */
     size_t refusal_count;
+    size_t edit_count;            /* the edits of the tick, those that were refused too */
+    octree_box edited;            /* around where these put bodies; min above max where they only remove some. Read
+                                     where there are any */
     const octree_address *splits; /* inner now and not at the tick before; in pre-order, none at tick 0 */
     size_t split_count;
     const octree_address *merges; /* inner at the tick before and not now; in pre-order */

@@ -349,11 +349,27 @@ static void begin_tick(octree_game *game, char key)
     game->tick.number++;
     game->tick.key = key;
     game->tick.events = 0;
+    game->tick.edit_count = 0;
     foreign_begin_tick(game);
+}
+
+static void note_edits(octree_tick *tick, const octree_input *input)
+{
+    octree_box *box = &tick->edited;
+    tick->edit_count = input->edit_count;
+    *box = (octree_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < input->edit_count; i++) {
+        const double *to = input->edits[i].body.position;
+        for (int axis = 0; axis < 3 && input->edits[i].kind != OCTREE_EDIT_REMOVE; axis++) {
+            box->min[axis] = fmin(box->min[axis], to[axis]);
+            box->max[axis] = fmax(box->max[axis], to[axis]);
+        }
+    }
 }
 
 static octree_status play_changes(octree_game *game, const octree_input *input)
 {
+    note_edits(&game->tick, input);
     octree_status status = game_apply_edits(game, input);
     if (status == OCTREE_OK)
         status = game_move_bodies(game);

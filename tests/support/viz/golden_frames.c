@@ -254,7 +254,8 @@ static void break_game(const octree_game *game)
 }
 
 /* One frame is of the tree alone, and of a node in it. */
-static bool build_scene(scene *s, const golden_frame *frame, const view *v, const octree_game *game, const heat *h)
+static bool build_scene(scene *s, const golden_frame *frame, const view *v, const octree_game *game,
+                        const tick_history *h)
 {
     octree_address asked;
     octree_node node;
@@ -271,16 +272,16 @@ bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error)
     if (!golden_open(frame, &play, error))
         return false;
     octree_game *game = play.game;
-    heat h = {0};
-    bool ok = heat_add_tick(&h, game);
+    tick_history h = {0};
+    bool ok = tick_history_add(&h, &play.view, game);
     for (uint64_t tick = 0; tick < frame->tick; tick++) {
         octree_game_advance(game);
-        ok = ok && heat_add_tick(&h, game);
+        ok = ok && tick_history_add(&h, &play.view, game);
     }
     if (strcmp(frame->name, "broken") == 0)
         break_game(game);
     ok = (ok && build_scene(s, frame, &play.view, game, &h)) || error_set(error, "%s: there is no scene", frame->name);
-    heat_release(&h);
+    tick_history_release(&h);
     octree_game_destroy(game);
     return ok;
 }
