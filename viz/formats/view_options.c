@@ -448,7 +448,9 @@ static const view_option rows[] = {
      parse_choice, MEMBER("tree", &json_later_choice, tree), .member.names = tree_at, .words = tree_words_at},
     {"diagram", "WHERE", "diagram", "draw the tree as a tree, its root at the top (default none): one of", parse_choice,
      MEMBER("diagram", &json_later_choice, diagram), .member.names = diagram_at, .words = diagram_words_at},
-    {"no-closeup", NULL, NULL, "do not show what is around a player that appears small larger in a part of the picture",
+    {"no-closeup", NULL, NULL,
+     "do not show larger, in a part of the picture, what appears small in it: what is around the player; else what is "
+     "asked; else what a tick changes",
      parse_off, MEMBER("closeup", &json_bool, closeup), .noun = "close-up"},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",
      "only nodes that cut a plane, as in z=100, and the points of such leaves", parse_slice,

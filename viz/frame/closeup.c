@@ -47,7 +47,7 @@ static uint64_t part_of_budget(const view *v, double pixels)
     return v->budget && part < 1 ? 1 : (uint64_t)part;
 }
 
-bool closeup_begin(scene *s, const layer_source *in, const closeup_course *course, layer_source *close)
+bool closeup_begin(scene *s, const layer_source *in, const double place[3], double times, layer_source *close)
 {
     const camera_window w = layout_closeup(&s->view);
     s->closeup = s->closeup ? s->closeup : calloc(1, sizeof *s->closeup);
@@ -55,7 +55,7 @@ bool closeup_begin(scene *s, const layer_source *in, const closeup_course *cours
         return false;
     scene *c = s->closeup;
     scene_clear(c);
-    c->times = course->times;
+    c->times = times;
     c->unit = s->unit;
     c->text = s->text;
     c->place[0] = (int)w.x;
@@ -66,7 +66,7 @@ bool closeup_begin(scene *s, const layer_source *in, const closeup_course *cours
     c->view.diagram = DIAGRAM_NONE;
     c->view.budget = part_of_budget(&s->view, w.width * w.height);
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
-    c->camera = camera_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, course->place, course->times);
+    c->camera = camera_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
     const octree_box region = region_of(&c->camera, &c->view);
     narrow(&c->view.filter, &region);
     *close = *in;

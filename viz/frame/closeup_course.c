@@ -14,8 +14,8 @@
 #define SMALL (32.0 / 720)     /* what appears larger needs no close-up, */
 #define WANTED (68.0 / 720)    /* and a close-up makes it about so large, */
 #define STILL 0.4              /* or, where nothing moves, this part of itself. */
-#define SURROUNDED (8.0 / 720) /* A point that is asked for is shown with so much around it, or with its leaf, */
-#define CHANGED (31.0 / 720)   /* and one that is moved with so much: what is around it at other ticks is not known */
+#define SURROUNDED (8.0 / 720) /* Neighbours are shown with so much around them, or with their leaf, */
+#define CHANGED (31.0 / 720)   /* and what is moved with so much: what is around it at other ticks is not known */
 #define LEAF_PART 0.5          /* The part of a leaf that counts, which is then seen as a whole */
 #define MOST_TIMES 1e6         /* as --zoom */
 
@@ -137,49 +137,51 @@ static double round_down(double limit)
     return power;
 }
 
-/* Of what takes this part, to take another: 0 where it is large enough already, or nothing. */
-static double times_of(double part, double wanted)
-{
-    return part > 0 && part < SMALL ? round_down(fmin(wanted / part, MOST_TIMES)) : 0;
-}
-
-/* The part that a close-up shows. */
+/* The part that a close-up shows, which is as many times as large. */
 static double shown(const layer_source *in, const measure *m, double times)
 {
     const camera_window w = layout_closeup(in->view);
     return fmin(w.width, w.height) / m->height / times;
 }
 
-/* What is to be seen may be nearly a point, which alone says nothing. */
-static double part_with_leaf(const layer_source *in, const octree_box *seen, const measure *m)
+/* Of what has this reach; 0 where that is large enough already, or nothing. Where nothing moves it may fill the
+ * close-up. */
+static double times_of(double reach, const layer_source *in, const measure *m)
+{
+    const double part = part_of(m, reach), wanted = in->game ? WANTED : fmax(WANTED, STILL * shown(in, m, 1));
+    return part > 0 && part < SMALL ? round_down(fmin(wanted / part, MOST_TIMES)) : 0;
+}
+
+double closeup_times(const closeup_course *course, const layer_source *in)
+{
+    const measure m = measure_of(in);
+    return in->view->closeup && layout_closeup(in->view).width > 0 ? times_of(course->reach, in, &m) : 0;
+}
+
+/* Where neighbours are very near, they alone say nothing. */
+static double reach_with_leaf(const layer_source *in, const octree_box *seen, const measure *m)
 {
     double middle[3];
     octree_node leaf;
     scene_box_middle(seen, middle);
     const bool has_leaf = octree_locate(in->tree, middle, &leaf) == OCTREE_OK && leaf.leaf;
-    const double around = has_leaf ? LEAF_PART * part_of(m, reach_of(&leaf.box)) : INFINITY;
-    return fmax(part_of(m, reach_of(seen)), fmin(around, is_asked(in) ? SURROUNDED : CHANGED));
-}
-
-/* Nothing moves in the picture of a tree, and what is asked may fill a close-up. */
-static double times_of_seen(const layer_source *in, const octree_box *seen, const measure *m)
-{
-    return times_of(part_with_leaf(in, seen, m), in->game ? WANTED : STILL * shown(in, m, 1));
+    const double around = (is_asked(in) ? SURROUNDED : CHANGED) * m->height / 2 * m->pixel;
+    return fmax(reach_of(seen), fmin(has_leaf ? LEAF_PART * reach_of(&leaf.box) : INFINITY, around));
 }
 
 /* ---- Where -------------------------------------------------------------------------------------------------- */
 
-/* What is gathered for a close-up, which is times as large. */
+/* What is gathered for a close-up. */
 typedef struct gathering {
     const layer_source *in;
     measure m;
-    double most; /* nothing is taken in that takes a larger part */
-    double times;
+    double most;  /* nothing is taken in that takes a larger part */
+    double reach; /* of the first that is small; 0: there was none */
     octree_box group;
 } gathering;
 
-/* Take in what is seen together with what is there. The first that is small says how large. */
-static void take_in(gathering *g, const octree_box *more)
+/* What has no size of its own, which somebody asked for, is shown with its leaf. */
+static void take_in(gathering *g, const octree_box *more, bool is_sized)
 {
     octree_box both = g->group;
     const octree_box *world = &g->in->world;
@@ -188,37 +190,41 @@ static void take_in(gathering *g, const octree_box *more)
             return;
     if (!(part_of(&g->m, reach_of(more)) < g->most))
         return;
-    if (!(g->times > 0))
-        g->times = times_of_seen(g->in, more, &g->m);
+    const double own = is_sized && reach_of(more) > 0 ? reach_of(more) : reach_with_leaf(g->in, more, &g->m);
+    const double reach = g->reach > 0 ? g->reach : own;
+    const double times = times_of(reach, g->in, &g->m);
     widen(&both, more->min, more->max);
-    if (g->times > 0 && part_of(&g->m, reach_of(&both)) < shown(g->in, &g->m, g->times))
-        g->group = both;
+    if (!(times > 0 && part_of(&g->m, reach_of(&both)) < shown(g->in, &g->m, times)))
+        return;
+    g->reach = reach;
+    g->group = both;
 }
 
-static void gather(gathering *g)
+static void take_all(gathering *g)
 {
     octree_node node;
     octree_box box;
     const layer_source *in = g->in;
     if (in->asked && octree_node_at(in->tree, in->asked, &node) == OCTREE_OK)
-        take_in(g, &node.box);
+        take_in(g, &node.box, true);
     for (size_t i = 0; i < in->answer_count; i++) {
         box = box_of_answer(&in->answers[i]);
-        take_in(g, &box);
+        take_in(g, &box, !in->answers[i].neighbors);
     }
     if (!is_asked(in)) {
         box = box_of_changes(in);
-        take_in(g, &box);
+        take_in(g, &box, false);
     }
 }
 
-/* The size depends on the session and the view alone, and so is the same at every tick. A close-up is of no use to a
- * player that leaves it at once by its step. */
-static void follow_player(closeup_course *course, const layer_source *in, const measure *m)
+/* Those that are small come first. */
+static gathering gather(const closeup_course *course, const layer_source *in)
 {
-    const octree_player *player = &in->session->player;
-    course->times = times_of(part_of(m, fmax(player->box_size, player->step / 2)), WANTED);
-    memcpy(course->place, in->tick->player, sizeof course->place);
+    gathering g = {in, measure_of(in), SMALL, course->reach, nothing};
+    take_all(&g);
+    g.most = INFINITY;
+    take_all(&g);
+    return g;
 }
 
 /* Whether a close-up at a place shows it all. */
@@ -227,30 +233,34 @@ static bool is_within(const gathering *g, const double place[3])
     double reach = 0;
     for (int i = 0; i < 3; i++)
         reach = fmax(reach, fmax(g->group.max[i] - place[i], place[i] - g->group.min[i]));
-    return part_of(&g->m, reach) < shown(g->in, &g->m, g->times);
+    return part_of(&g->m, reach) < shown(g->in, &g->m, times_of(g->reach, g->in, &g->m));
 }
 
-/* What is asked is followed as a player is. Changes are here and there, and one at which a close-up is need not move
+/* What is asked is followed as a player is. Changes are here and there, and those that a close-up shows need not move
  * it. */
-static void follow_seen(closeup_course *course, const layer_source *in, const measure *m)
+static void follow_seen(closeup_course *course, const layer_source *in)
 {
-    gathering g = {in, *m, SMALL, course->times, nothing};
-    gather(&g);
-    g.most = INFINITY;
-    gather(&g);
-    if (is_empty(&g.group) || (course->times > 0 && !is_asked(in) && is_within(&g, course->place)))
+    const gathering g = gather(course, in);
+    if (is_empty(&g.group) || (course->reach > 0 && !is_asked(in) && is_within(&g, course->place)))
         return;
-    course->times = g.times;
+    course->reach = g.reach;
     scene_box_middle(&g.group, course->place);
     for (int i = 0; i < 3; i++)
         course->place[i] = fmin(fmax(course->place[i], in->world.min[i]), in->world.max[i]);
 }
 
+/* A close-up is of no use to a player that leaves it at once by its step. */
+static void follow_player(closeup_course *course, const layer_source *in)
+{
+    const octree_player *player = &in->session->player;
+    course->reach = fmax(player->box_size, player->step / 2);
+    memcpy(course->place, in->tick->player, sizeof course->place);
+}
+
 void closeup_follow(closeup_course *course, const layer_source *in)
 {
-    if (!in->view->closeup || layout_closeup(in->view).width == 0)
-        return;
-    const measure m = measure_of(in);
-    const bool has_player = in->session && in->session->player.kind != OCTREE_PLAYER_NONE;
-    (has_player ? follow_player : follow_seen)(course, in, &m);
+    if (in->session && in->session->player.kind != OCTREE_PLAYER_NONE)
+        follow_player(course, in);
+    else if (layout_closeup(in->view).width > 0)
+        follow_seen(course, in);
 }

@@ -63,10 +63,10 @@ static void add_layers(scene *s, const layer_source *in)
 }
 
 /* The close-up is a scene of the same layers. */
-static void add_closeup(scene *s, const layer_source *in, const closeup_course *course)
+static void add_closeup(scene *s, const layer_source *in, const double place[3], double times)
 {
     layer_source close;
-    if (!closeup_begin(s, in, course, &close)) {
+    if (!closeup_begin(s, in, place, times, &close)) {
         s->out_of_memory = true;
         return;
     }
@@ -82,14 +82,15 @@ static bool build(scene *s, layer_source *in, const double player[3], closeup_co
     scene_set_view(s, v);
     if (v->diagram == DIAGRAM_ONLY)
         s->view.layers &= 1u << LAYER_TEXT;
-    if (!(course.times > 0))
+    if (!(course.reach > 0))
         closeup_follow(&course, in);
-    s->has_closeup = course.times > 0;
+    const double times = closeup_times(&course, in);
+    s->has_closeup = times > 0;
     s->camera = camera_make(v, layout_camera(s), &in->world, player, in->tick ? in->tick->number : 0);
     if (view_shows(v, LAYER_BROKEN))
         in->broken = octree_check(in->tree, &in->broken_at);
     if (s->has_closeup)
-        add_closeup(s, in, &course);
+        add_closeup(s, in, course.place, times);
     s->has_closeup = s->has_closeup && !s->out_of_memory;
     add_layers(s, in);
     return !s->out_of_memory;

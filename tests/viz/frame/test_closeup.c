@@ -198,39 +198,6 @@ static void it_has_what_is_around_the_player_and_nothing_else(void **state)
     free(positions);
 }
 
-/* Without a player it shows what is asked, at whatever tick it is asked. */
-static void without_a_player_it_shows_what_is_asked(void **state)
-{
-    (void)state;
-    octree_query queries[2] = {
-        {.tick = 0, .kind = OCTREE_QUERY_RADIUS, .target = {500, 0, 0}, .radius = 20},
-        {.tick = 1, .kind = OCTREE_QUERY_RADIUS, .target = {-500, 100, 0}, .radius = 20},
-    };
-    octree_session session = octree_session_default();
-    session.player = (octree_player){.kind = OCTREE_PLAYER_NONE};
-    session.keys = NULL;
-    session.ticks = 3;
-    session.queries = queries;
-    session.query_count = 2;
-    octree_game *game = open_game(&session);
-    scene s = {.refused = 0};
-    const view v = view_default();
-    static const double expected[][3] = {{500, 0, 0}, {-500, 100, 0}, {500, 0, 0}};
-    for (int tick = 0; tick < 3; tick++) {
-        build_tick(&s, &v, game);
-        assert_true(s.has_closeup);
-        for (int i = 0; i < 3; i++)
-            assert_true(s.closeup->camera.center[i] == expected[tick][i]);
-        play_tick(game);
-    }
-    scene_release(&s);
-    octree_game_destroy(game);
-    queries[0].radius = 700;
-    assert_false(has_closeup(&session, &v));
-    session.query_count = 0;
-    assert_false(has_closeup(&session, &v));
-}
-
 /* The rectangle of what it shows is seen in the picture at any scale. */
 static void what_it_shows_is_outlined_however_small(void **state)
 {
@@ -345,7 +312,6 @@ int main(void)
         cmocka_unit_test(what_is_large_or_not_wanted_has_none),
         cmocka_unit_test(it_has_a_place_of_its_own),
         cmocka_unit_test(it_has_what_is_around_the_player_and_nothing_else),
-        cmocka_unit_test(without_a_player_it_shows_what_is_asked),
         cmocka_unit_test(what_it_shows_is_outlined_however_small),
         cmocka_unit_test(it_is_the_same_at_every_scale),
         cmocka_unit_test(every_world_has_a_close_up_of_finite_numbers),
