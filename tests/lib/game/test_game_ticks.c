@@ -59,6 +59,24 @@ static void trace(const octree_session *session, const octree_tick *tick, const 
     }
 }
 
+/* The edits of the tick, and the box around where they put bodies. */
+static void check_edits(const octree_tick *tick, const octree_session *session)
+{
+    size_t count = 0;
+    octree_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = 0; i < session->edit_count; i++) {
+        const octree_edit *edit = &session->edits[i];
+        count += edit->tick == tick->number;
+        for (int axis = 0; edit->tick == tick->number && edit->kind != OCTREE_EDIT_REMOVE && axis < 3; axis++) {
+            const double at = edit->body.position[axis];
+            box.min[axis] = at < box.min[axis] ? at : box.min[axis];
+            box.max[axis] = at > box.max[axis] ? at : box.max[axis];
+        }
+    }
+    assert_int_equal(tick->edit_count, count);
+    assert_true(count == 0 || (same_position(tick->edited.min, box.min) && same_position(tick->edited.max, box.max)));
+}
+
 static bool is_met(const octree_tick *tick, double size, const double from[3], const double at[3])
 {
     return tick->swept ? brute_touches(tick->from, tick->attempt, size, from, at)
@@ -202,6 +220,7 @@ static void check_tick(const octree_game *game, last_tick *last)
     check_player(tick, session, last->steps);
     assert_splits_and_merges(tick, tree, &last->nodes);
     check_hits(tick, session, &last->points, &all);
+    check_edits(tick, session);
     check_answers(tick, session, &all);
     brute_free(&last->points);
     last->points = all;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "explain.h"
+#include "explained.h"
 #include "fixture.h"
 #include "frame_file.h"
 #include "galleries.h"
@@ -229,6 +230,30 @@ static void other_shapes_are_told(void **state)
     comparison_release(&made);
 }
 
+/* A close-up at a tick that asks nothing is where an earlier tick has left it. */
+static void what_a_close_up_shows_is_traced_where_it_stays(void **state)
+{
+    const octree_query query = {.tick = 1, .kind = OCTREE_QUERY_RADIUS, .target = {500, 500, 500}, .radius = 20};
+    const octree_shape shape = {.tick = 3, .kind = OCTREE_SHAPE_POINT, .at = {500, 500, 500}};
+    octree_session session = octree_session_default();
+    session.player = (octree_player){.kind = OCTREE_PLAYER_NONE};
+    session.keys = NULL;
+    session.ticks = 3;
+    session.queries = &query;
+    session.query_count = 1;
+    film_options options = small_film("");
+    options.view.width = 640;
+    options.view.height = 360;
+    const place a = film_in(*state, "a", &session, &options);
+    session.shapes = &shape;
+    session.shape_count = 1;
+    const place b = film_in(*state, "b", &session, &options);
+    comparison_of made = assert_traced(&a, &b, NULL);
+    assert_adds_up(&made);
+    assert_true(trace_of(&made, 3)->pixels > 2 * 9); /* the mark is in the close-up, too */
+    comparison_release(&made);
+}
+
 /* ---- What is not traced -------------------------------------------------------------------------------------- */
 
 static void frames_of_unlike_sizes_are_not_traced(void **state)
@@ -253,6 +278,7 @@ int main(void)
         TEST(every_layer_has_words),
         TEST(other_velocities_are_told),
         TEST(other_shapes_are_told),
+        TEST(what_a_close_up_shows_is_traced_where_it_stays),
         TEST(frames_of_unlike_sizes_are_not_traced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
