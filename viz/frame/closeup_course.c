@@ -31,8 +31,8 @@ static bool is_empty(const octree_box *box)
 static void widen(octree_box *box, const double from[3], const double to[3])
 {
     for (int i = 0; i < 3; i++) {
-        box->min[i] = fmin(box->min[i], from[i]);
-        box->max[i] = fmax(box->max[i], to[i]);
+        box->min[i] = from[i] < box->min[i] ? from[i] : box->min[i];
+        box->max[i] = to[i] > box->max[i] ? to[i] : box->max[i];
     }
 }
 

@@ -6,6 +6,7 @@
 #include "session.h"
 #include "sweep.h"
 
+#include <math.h>
 #include <string.h>
 
 const char *octree_event_name(octree_event event)
@@ -361,8 +362,8 @@ static void note_edits(octree_tick *tick, const octree_input *input)
     for (size_t i = 0; i < input->edit_count; i++) {
         const double *to = input->edits[i].body.position;
         for (int axis = 0; axis < 3 && input->edits[i].kind != OCTREE_EDIT_REMOVE; axis++) {
-            box->min[axis] = fmin(box->min[axis], to[axis]);
-            box->max[axis] = fmax(box->max[axis], to[axis]);
+            box->min[axis] = to[axis] < box->min[axis] ? to[axis] : box->min[axis];
+            box->max[axis] = to[axis] > box->max[axis] ? to[axis] : box->max[axis];
         }
     }
 }
