@@ -121,7 +121,8 @@ void edited_files_write(const edited_files *files, const char *folder)
     check(mkdir(folder, 0777) == 0);
     for (size_t i = 0; i < files->count; i++) {
         const char *path = path_of(folder, files->files[i].name);
-        if (access(path, F_OK) != 0) /* else two are of one name now */
+        struct stat status;
+        if (lstat(path, &status) != 0) /* else two are of one name now */
             write_file(files, &files->files[i], path);
     }
 }
