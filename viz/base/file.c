@@ -85,14 +85,25 @@ const char *file_output_title(const char *path)
 
 /* ---- Written whole or not at all ---------------------------------------------------------------------------- */
 
+#define PART ".part"
+
 static bool is_there_but_no_file(const char *path)
 {
     struct stat status;
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-static bool open_writer(file_writer *file, const char *path, const char *ending, const char *mode, octreel_error *error)
+/* "<path><ending>", made anew: one that is there could be a pipe, or a link to something elsewhere. Null with errno. */
+static FILE *open_part(const char *part, bool anew)
 {
+    if (anew)
+        remove(part);
+    return fopen(part, "wbx");
+}
+
+static bool open_writer(file_writer *file, const char *path, const char *ending, bool direct, octreel_error *error)
+{
+    const bool is_apart = strcmp(ending, PART) != 0;
     const size_t size = strlen(path) + strlen(ending) + 1;
     *file = (file_writer){.path = path};
     if (file_is_standard(path)) {
@@ -102,8 +113,9 @@ static bool open_writer(file_writer *file, const char *path, const char *ending,
     file->temp = malloc(size);
     if (!file->temp)
         return error_no_memory(error);
-    snprintf(file->temp, size, "%s%s", path, is_there_but_no_file(path) ? "" : ending);
-    file->stream = fopen(file->temp, mode);
+    direct = direct && is_there_but_no_file(path);
+    snprintf(file->temp, size, "%s%s", path, direct ? "" : ending);
+    file->stream = direct ? fopen(path, "wb") : open_part(file->temp, !is_apart);
     if (file->stream)
         return true;
     const int reason = errno;
@@ -115,7 +127,12 @@ static bool open_writer(file_writer *file, const char *path, const char *ending,
 
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
 {
-    return open_writer(file, path, ".part", "wb", error);
+    return open_writer(file, path, PART, true, error);
+}
+
+bool file_writer_open_replacing(file_writer *file, const char *path, octreel_error *error)
+{
+    return open_writer(file, path, PART, false, error);
 }
 
 /* Two names are hardly alike, and where they are the file of the other is left alone. */
@@ -127,8 +144,8 @@ bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *
         char ending[48];
         struct timespec now;
         clock_gettime(CLOCK_REALTIME, &now);
-        snprintf(ending, sizeof ending, ".%lx.part", (unsigned long)now.tv_nsec);
-        ok = open_writer(file, path, ending, is_there_but_no_file(path) ? "wb" : "wbx", error);
+        snprintf(ending, sizeof ending, ".%lx" PART, (unsigned long)now.tv_nsec);
+        ok = open_writer(file, path, ending, false, error);
     }
     return ok;
 }
@@ -200,12 +217,12 @@ static bool copy_by(writer_opener *open_file, bool lasting, const char *from, co
 
 bool file_copy_to(const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open, false, from, to, error);
+    return copy_by(file_writer_open_replacing, false, from, to, error);
 }
 
 bool file_copy_lasting(const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open, true, from, to, error);
+    return copy_by(file_writer_open_replacing, true, from, to, error);
 }
 
 bool file_copy_apart(const char *from, const char *to, octreel_error *error)

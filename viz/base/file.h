@@ -64,6 +64,10 @@ typedef struct file_writer {
 
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
 
+/* The same of a file in a folder that others may have made: nothing is written to a pipe, a device or a link that is
+ * there, since the one would wait for a reader and the others lie elsewhere; it is replaced. */
+bool file_writer_open_replacing(file_writer *file, const char *path, octreel_error *error);
+
 /* The same by way of a file that nobody else writes at the same time. */
 bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *error);
 bool file_writer_close(file_writer *file, octreel_error *error);
@@ -71,7 +75,7 @@ bool file_writer_close(file_writer *file, octreel_error *error);
 /* Leave the path as it was before; always false, so that a caller can return it. */
 bool file_writer_abandon(file_writer *file);
 
-/* Copy a regular file, a block at a time, by way of "<to>.part" and a rename. */
+/* Copy a regular file, a block at a time, by way of "<to>.part" and a rename, whatever was there. */
 bool file_copy_to(const char *from, const char *to, octreel_error *error);
 
 /* The same of what shall last (`lasting`). */

@@ -82,7 +82,7 @@ static bool take_over(const accepting *a, diff_side *now, const diff_pair *pair,
 static bool write_file(const diff_side *now, octreel_error *error)
 {
     file_writer file;
-    if (!file_writer_open(&file, now->path, error))
+    if (!file_writer_open_replacing(&file, now->path, error))
         return false;
     file.lasting = true;
     const bool written =

@@ -110,7 +110,7 @@ bool folder_write(const char *folder, const char *name, const char *bytes, size_
 {
     char *path = path_join(folder, name);
     file_writer file;
-    bool ok = path ? file_writer_open(&file, path, error) : error_no_memory(error);
+    bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok) {
         fwrite(bytes, 1, size, file.stream); /* file_writer_close tells */
         ok = file_writer_close(&file, error);

@@ -158,10 +158,11 @@ static bool join_lines(joining *j, const chunk *c, FILE *stream, bool *stopped, 
 static bool join_chunk(joining *j, const chunk *c, bool *stopped, octreel_error *error)
 {
     char *path = path_join(j->options->folder, c->name);
-    FILE *stream = path ? fopen(path, "rb") : NULL;
+    char reason[FILE_REASON] = "cannot be read: out of memory";
+    FILE *stream = path ? file_open(path, NULL, reason) : NULL;
     free(path);
     if (!stream)
-        return error_set(error, "%s/%s: cannot be read: %s", j->options->folder, c->name, strerror(errno));
+        return error_set(error, "%s/%s: %s", j->options->folder, c->name, reason);
     const bool ok = join_lines(j, c, stream, stopped, error);
     fclose(stream);
     return ok;
@@ -183,7 +184,7 @@ static bool join_all(joining *j, bool *stopped, octreel_error *error)
 static bool write_ticks(joining *j, octreel_error *error)
 {
     char *path = path_join(j->options->folder, "ticks.jsonl");
-    bool stopped = false, ok = path ? file_writer_open(&j->ticks, path, error) : error_no_memory(error);
+    bool stopped = false, ok = path ? file_writer_open_replacing(&j->ticks, path, error) : error_no_memory(error);
     if (ok) {
         ok = join_all(j, &stopped, error);
         if (ok && !stopped)

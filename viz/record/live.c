@@ -66,7 +66,8 @@ static bool open_session(live_recording *live, octreel_error *error)
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
-    live->stream = fopen(live->path, "w+b");
+    remove(live->path); /* a pipe would wait, and a link lead elsewhere */
+    live->stream = fopen(live->path, "w+bx");
     return live->stream || fail_to_write(live, error);
 }
 
@@ -136,7 +137,7 @@ static bool write_session(live_recording *live, uint64_t ticks, const char *path
 {
     file_writer file;
     const octree_session header = end_header(live, ticks);
-    if (!file_writer_open(&file, path, error))
+    if (!file_writer_open_replacing(&file, path, error))
         return false;
     session_write_header(&header, live->options.values, file.stream);
     return copy_ticks(live, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);

@@ -181,14 +181,16 @@ static bool add_ticks(FILE *page, const char *path, octreel_error *error)
     char *line = NULL;
     size_t room = 0;
     ssize_t size;
+    char reason[FILE_REASON];
+    FILE *ticks = file_open(path, NULL, reason);
+    if (!ticks)
+        return error_set(error, "%s: %s", path, reason);
     bool ok = true;
-    FILE *ticks = fopen(path, "rb");
-    for (uintmax_t number = 1; ticks && ok && (size = getline(&line, &room, ticks)) > 0 && line[size - 1] == '\n';)
+    for (uintmax_t number = 1; ok && (size = getline(&line, &room, ticks)) > 0 && line[size - 1] == '\n';)
         ok = page_add(page, path, number++, line, (size_t)size, error);
-    if (!ticks || ferror(ticks))
+    if (ferror(ticks))
         ok = error_set(error, "%s: cannot be read: %s", path, strerror(errno));
-    if (ticks)
-        fclose(ticks);
+    fclose(ticks);
     free(line);
     return ok;
 }
@@ -197,9 +199,10 @@ static bool add_ticks(FILE *page, const char *path, octreel_error *error)
 static bool copy_session(FILE *page, const char *path, octreel_error *error)
 {
     char piece[1 << 14];
-    FILE *in = fopen(path, "rb");
+    char reason[FILE_REASON];
+    FILE *in = file_open(path, NULL, reason);
     if (!in)
-        return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+        return error_set(error, "%s: %s", path, reason);
     for (size_t size; (size = fread(piece, 1, sizeof piece, in)) > 0;)
         put_escaped(page, piece, size);
     const bool ok = !ferror(in) || error_set(error, "%s: cannot be read: %s", path, strerror(errno));
@@ -234,7 +237,7 @@ bool page_write(const char *folder, octreel_error *error)
 {
     char *path = path_join(folder, "index.html");
     file_writer file;
-    bool ok = path ? file_writer_open(&file, path, error) : error_no_memory(error);
+    bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok)
         ok = write_page(folder, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
     free(path);

@@ -29,7 +29,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     *log = (tick_log){.path = path_join(folder, name)};
     if (!log->path)
         return error_no_memory(error);
-    const int file = open(log->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int file = open(log->path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0 ? fail_to_write(log, error, "") : begin(log, file, keep, error))
         return true;
     if (file >= 0)

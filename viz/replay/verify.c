@@ -152,9 +152,10 @@ static void find_frame(verifying *v, const char *sentence, uint64_t tick, bool d
 /* A file that cannot be read for its permissions or the disk is trouble, not a difference. */
 static bool check_readable(const char *path, octreel_error *error)
 {
-    FILE *file = fopen(path, "rb");
+    char reason[FILE_REASON];
+    FILE *file = file_open(path, NULL, reason);
     if (!file)
-        return error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+        return error_set(error, "%s: %s", path, reason);
     fclose(file);
     return true;
 }

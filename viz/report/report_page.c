@@ -267,7 +267,7 @@ bool diff_report_page(const diff_report *report, octreel_error *error)
 {
     char *path = path_join(report->evidence->folder, EVIDENCE_PAGE);
     file_writer file;
-    bool ok = path ? file_writer_open(&file, path, error) : error_no_memory(error);
+    bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok) {
         page p = {.report = report, .out = file.stream};
         choose_pairs(&p);
