@@ -97,7 +97,7 @@ static bool is_there_but_no_file(const char *path)
 static FILE *open_part(const char *part, bool anew)
 {
     if (anew)
-        remove(part);
+        unlink(part);
     return fopen(part, "wbx");
 }
 

@@ -11,6 +11,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <sys/types.h>
 
 struct live_recording {
@@ -66,7 +67,7 @@ static bool open_session(live_recording *live, octreel_error *error)
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
-    remove(live->path); /* a pipe would wait, and a link lead elsewhere */
+    unlink(live->path); /* a pipe would wait, and a link lead elsewhere */
     live->stream = fopen(live->path, "w+bx");
     return live->stream || fail_to_write(live, error);
 }

@@ -250,8 +250,10 @@ bool kept_tree_close(kept_tree *k, const scene *s)
     if (!made.nodes)
         return false;
     made.markers = (scene_marker *)(made.nodes + made.node_count);
-    memcpy(made.nodes, k->nodes, nodes);
-    memcpy(made.markers, s->markers.items + k->first_marker, markers);
+    if (nodes > 0)
+        memcpy(made.nodes, k->nodes, nodes);
+    if (markers > 0)
+        memcpy(made.markers, s->markers.items + k->first_marker, markers);
     count_nodes(&made);
     made.run = run_of(&k->names, made.markers, made.marker_count);
     items[k->now.count++] = made;

@@ -28,19 +28,20 @@ void OURS(free)(void *memory);
 
 void heap_peak_begin(void)
 {
-    before = most = bytes;
+    before = atomic_load(&bytes);
+    atomic_store(&most, before);
 }
 
 size_t heap_peak(void)
 {
-    return (size_t)(most - before);
+    return (size_t)(atomic_load(&most) - before);
 }
 
 static void *count(void *memory)
 {
-    const ptrdiff_t now = bytes += (ptrdiff_t)malloc_usable_size(memory);
-    if (now > most)
-        most = now;
+    const ptrdiff_t more = (ptrdiff_t)malloc_usable_size(memory), now = atomic_fetch_add(&bytes, more) + more;
+    if (now > atomic_load(&most))
+        atomic_store(&most, now);
     return memory;
 }
 
@@ -58,12 +59,12 @@ void *OURS(realloc)(void *memory, size_t size)
 {
     const ptrdiff_t old = (ptrdiff_t)malloc_usable_size(memory);
     void *grown = REAL(realloc)(memory, size);
-    bytes -= grown ? old : 0;
+    atomic_fetch_sub(&bytes, grown ? old : 0);
     return grown ? count(grown) : NULL;
 }
 
 void OURS(free)(void *memory)
 {
-    bytes -= (ptrdiff_t)malloc_usable_size(memory);
+    atomic_fetch_sub(&bytes, (ptrdiff_t)malloc_usable_size(memory));
     REAL(free)(memory);
 }

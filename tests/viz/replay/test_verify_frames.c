@@ -108,7 +108,7 @@ static void frame_that_may_not_be_read_is_trouble(void **state)
         assert_int_equal(seteuid(0), 0);
     assert_false(verified);
     assert_non_null(strstr(error.text, frame.path));
-    assert_non_null(strstr(error.text, ": cannot be read: Permission denied"));
+    assert_non_null(strstr(error.text, ": cannot be opened: Permission denied"));
 }
 
 static void frame_that_was_cut_is_found_wherever(void **state)
