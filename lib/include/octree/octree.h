@@ -186,15 +186,15 @@ octree_status octree_move(octree *tree, const double from[3], uint64_t id, const
  * of octree_insert one after the other: where a leaf refuses, the first in input order are taken. statuses[i] (may be
  * null) receives what octree_insert would have returned for points[i], and *inserted (may be null) the number of OKs.
  * Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are undefined.
- * Cost: that of single insertions, with some dozens of leaves loaded at once, where fewer than a twentieth of the
- * stored points arrive, an eighth of less than 300,000; of more O(count + points of the leaves touched), and some fifty
- * bytes a point while it runs. A bulk build is twice as fast where points are spread evenly and their ids ascend. */
+ * Cost: that of single insertions, some dozens of leaves loaded at once, where fewer than a twentieth of the stored
+ * points arrive, an eighth of less than 300,000; of more O(count + points of the leaves touched), half of that where
+ * points are spread evenly and their ids ascend, and some fifty bytes a point while it runs. */
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted);
 
-/* Remove many points at once. statuses[i] (may be null) receives what octree_remove would have returned
- * for points[i], and *removed (may be null) the number of OKs. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is
- * then unchanged, and the statuses are undefined. Cost: as octree_insert_many. */
+/* Remove many points at once. statuses[i] (may be null) receives what octree_remove would have returned for points[i],
+ * and *removed (may be null) the number of OKs. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged,
+ * and the statuses are undefined. Cost: as octree_insert_many. */
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed);
 
