@@ -96,8 +96,8 @@ static bool is_there_but_no_file(const char *path)
 /* "<path><ending>", made anew: one that is there could be a pipe, or a link to something elsewhere. Null with errno. */
 static FILE *open_part(const char *part, bool anew)
 {
-    if (anew)
-        unlink(part);
+    if (anew && unlink(part) != 0 && errno != ENOENT)
+        return NULL;
     return fopen(part, "wbx");
 }
 

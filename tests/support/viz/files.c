@@ -3,10 +3,12 @@
 #include "files.h"
 
 #include <dirent.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "fixture.h"
@@ -22,6 +24,15 @@ place place_below(const char *folder, const char *name)
 place place_in(const temp_folder *folder, const char *name)
 {
     return place_below(folder->name, name);
+}
+
+void disk_has_room_for(size_t bytes)
+{
+    struct rlimit limit;
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    limit.rlim_cur = bytes < SIZE_MAX ? bytes : limit.rlim_max;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
 }
 
 bool file_exists(const char *path)

@@ -22,6 +22,10 @@ place place_below(const char *folder, const char *name);
 /* A teardown for temp_folder_make: removes folders in the folder too, with all they hold. */
 int nested_folder_remove(void **state);
 
+/* From now on no file that this process writes can grow beyond so many bytes: a disk that is full. SIZE_MAX ends that.
+ * What does not fit fails with "File too large". */
+void disk_has_room_for(size_t bytes);
+
 /* Whether there is anything of this name. */
 bool file_exists(const char *path);
 
