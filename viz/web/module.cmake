@@ -80,10 +80,12 @@ endforeach()
 file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/web/module.c exports REGEX "^[a-z].* \\**web_[a-z_]+\\(")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS web/module.c) # for its exports
 list(TRANSFORM exports REPLACE "^[^(]*[ *](web_[a-z_]+)\\(.*" "-Wl,--export=\\1")
+# Without -O, which would have clang run wasm-opt where that is installed: it refuses what the stripped module does not
+# say it uses.
 add_custom_command(OUTPUT ${wasm_folder}/octreel.wasm DEPENDS ${wasm_objects} VERBATIM
-                   COMMAND ${WASM_CLANG} ${wasm_target} -O2 -mexec-model=reactor ${wasm_objects} -Wl,--gc-sections
-                           -Wl,--strip-all -Wl,-z,stack-size=1048576 ${exports} -Wl,--export=web_used
-                           -o ${wasm_folder}/octreel.wasm)
+                   COMMAND ${WASM_CLANG} ${wasm_target} -mexec-model=reactor ${wasm_objects} -Wl,--gc-sections
+                           -Wl,--strip-all,--compress-relocations -Wl,-z,stack-size=1048576 ${exports}
+                           -Wl,--export=web_used -o ${wasm_folder}/octreel.wasm)
 set(PAGE_MODULE ${wasm_folder}/octreel.wasm.letters)
 set(pack ${CMAKE_CURRENT_SOURCE_DIR}/web/pack_module)
 add_custom_command(OUTPUT ${PAGE_MODULE} DEPENDS ${wasm_folder}/octreel.wasm ${pack} VERBATIM
