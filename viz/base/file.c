@@ -42,7 +42,7 @@ bool folder_has(const char *folder, const char *name)
     return length >= 0 && (size_t)length < sizeof path && stat(path, &status) == 0;
 }
 
-/* ---- Standard input and output ------------------------------------------------------------------------------ */
+/* ---- Locks -------------------------------------------------------------------------------------------------- */
 
 bool file_lock(int file)
 {
@@ -67,6 +67,8 @@ int file_lock_folder_of(const char *path)
     free(parent);
     return folder;
 }
+
+/* ---- Standard input and output ------------------------------------------------------------------------------ */
 
 bool file_is_standard(const char *path)
 {
@@ -93,29 +95,37 @@ static bool is_there_but_no_file(const char *path)
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-/* "<path><ending>", made anew: one that is there could be a pipe, or a link to something elsewhere. Null with errno. */
-static FILE *open_part(const char *part, bool anew)
+/* How the bytes come to be at a path. */
+typedef enum writing {
+    WRITE_OUTPUT,    /* through what is there and is no regular file; else as the next */
+    WRITE_REPLACING, /* by way of a part that is made anew: one that is there could be a pipe, or a link elsewhere */
+    WRITE_APART      /* by way of a part that is not there yet */
+} writing;
+
+static FILE *open_stream(const char *name, bool is_part, writing how)
 {
-    if (anew && unlink(part) != 0 && errno != ENOENT)
+    if (!is_part)
+        return fopen(name, "wb");
+    if (how != WRITE_APART && unlink(name) != 0 && errno != ENOENT)
         return NULL;
-    return fopen(part, "wbx");
+    return fopen(name, "wbx");
 }
 
-static bool open_writer(file_writer *file, const char *path, const char *ending, bool direct, octreel_error *error)
+/* By way of "<path><ending>". Where it fails, errno says why. */
+static bool open_writer(file_writer *file, const char *path, const char *ending, writing how, octreel_error *error)
 {
-    const bool is_apart = strcmp(ending, PART) != 0;
-    const size_t size = strlen(path) + strlen(ending) + 1;
     *file = (file_writer){.path = path};
     if (file_is_standard(path)) {
         file->stream = stdout;
         return true;
     }
+    const bool is_part = how != WRITE_OUTPUT || !is_there_but_no_file(path);
+    const size_t size = strlen(path) + strlen(ending) + 1;
     file->temp = malloc(size);
     if (!file->temp)
         return error_no_memory(error);
-    direct = direct && is_there_but_no_file(path);
-    snprintf(file->temp, size, "%s%s", path, direct ? "" : ending);
-    file->stream = direct ? fopen(path, "wb") : open_part(file->temp, !is_apart);
+    snprintf(file->temp, size, "%s%s", path, is_part ? ending : "");
+    file->stream = open_stream(file->temp, is_part, how);
     if (file->stream)
         return true;
     const int reason = errno;
@@ -127,12 +137,12 @@ static bool open_writer(file_writer *file, const char *path, const char *ending,
 
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
 {
-    return open_writer(file, path, PART, true, error);
+    return open_writer(file, path, PART, WRITE_OUTPUT, error);
 }
 
 bool file_writer_open_replacing(file_writer *file, const char *path, octreel_error *error)
 {
-    return open_writer(file, path, PART, false, error);
+    return open_writer(file, path, PART, WRITE_REPLACING, error);
 }
 
 /* Two names are hardly alike, and where they are the file of the other is left alone. */
@@ -145,7 +155,7 @@ bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *
         struct timespec now;
         clock_gettime(CLOCK_REALTIME, &now);
         snprintf(ending, sizeof ending, ".%lx" PART, (unsigned long)now.tv_nsec);
-        ok = open_writer(file, path, ending, false, error);
+        ok = open_writer(file, path, ending, WRITE_APART, error);
     }
     return ok;
 }

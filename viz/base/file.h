@@ -52,9 +52,8 @@ bool file_read_watched(const char *path, file_progress *progress, void *context,
 /* The same, unwatched. */
 bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON]);
 
-/* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. An
- * existing path that is not a regular file, such as a pipe, is written directly. Standard output is neither closed nor
- * flushed: who ends the program tells what could not be written. */
+/* A file that is written by way of "<path>.part" and a rename: there whole, or not at all. Standard output is neither
+ * closed nor flushed: who ends the program tells what could not be written. */
 typedef struct file_writer {
     FILE *stream;
     const char *path;
@@ -62,6 +61,7 @@ typedef struct file_writer {
     bool lasting; /* to be set after it is opened: a power cut, too, leaves the old file or the new one, whole */
 } file_writer;
 
+/* What is there and is not a regular file, such as a pipe, is written directly. */
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
 
 /* The same of a file in a folder that others may have made: nothing is written to a pipe, a device or a link that is

@@ -19,8 +19,7 @@ typedef struct accept_options {
     acceptance_words words; /* reason null: it is not said */
     const char *store;      /* where pictures are put; null: nowhere */
     bool variant;           /* digests of before stay accepted, too */
-
-    bool json; /* what was done is said as one JSON object, which lists all frames that it was done to */
+    bool json;              /* what was done is said as one JSON object, which lists all frames that it was done to */
 } accept_options;
 
 /* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is; but

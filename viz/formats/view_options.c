@@ -434,8 +434,7 @@ static const view_option rows[] = {
      .noun = "colouring"},
     {"color-points", "MODE", "point colour",
      "what the colour of a point tells (default plain; inspect: file where the cloud has colours, leaf where it has "
-     "more "
-     "points than the picture pixels, else height): one of",
+     "more points than the picture pixels, else height): one of",
      parse_point_color, MEMBER("color_points", &json_later_choice, point_color), .member.names = point_color_at,
      .words = point_color_words_at, .noun = "colouring of points"},
     {"shade", "MODE", "shade",

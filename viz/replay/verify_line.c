@@ -5,27 +5,22 @@
 #include "json_read.h"
 #include "text.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
 bool lines_open(line_reader *reader, const char *folder, octreel_error *error)
 {
-    struct stat status;
-    char *path = path_join(folder, "ticks.jsonl");
+    char reason[FILE_REASON], *path = path_join(folder, "ticks.jsonl");
     *reader = (line_reader){0};
     if (!path)
         return error_no_memory(error);
-    /* Opening a pipe would wait for its other end. */
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        error_set(error, "%s: is not a regular file", path);
-    else if (!(reader->stream = fopen(path, "rb")))
-        error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
+    reader->stream = file_open(path, NULL, reason);
+    if (!reader->stream)
+        error_set(error, "%s: %s", path, reason);
     free(path);
     return reader->stream;
 }

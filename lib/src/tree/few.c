@@ -5,10 +5,9 @@
 #include <string.h>
 
 enum {
-    FEW = 20, /* as many times more points are stored than a few; */
-    FEW_OF_CACHED = 8,
-    CACHED =
-        300000 /* and fewer times more of so many points, which a processor's caches hold: there, sorting gains less */
+    CACHED = 300000,   /* as many points are held by a processor's caches: there, sorting gains less */
+    FEW = 20,          /* as many times more points are stored than a few */
+    FEW_OF_CACHED = 8, /* the same where those that are stored are cached */
 };
 
 bool are_few(const octree *tree, size_t count)
