@@ -30,6 +30,8 @@ enum { MOST = 100000, MOST_FINDINGS = 10, VERDICT = 20 /* bytes that hold it, of
 static const char PREPARE[] =
     "unset CI && mkdir given && cd given && "
     "printf '0 0 0\\n1 2 3\\n4 5 6\\n7 1 2\\n' >points.xyz && "
+    "printf 'ply\\nformat ascii 1.0\\nelement vertex 2\\nproperty float x\\nproperty float y\\nproperty float z\\n"
+    "property uchar classification\\nend_header\\n0 0 0 2\\n1 2 3 6\\n' >classes.ply && "
     "\"$octreel\" record --keys wdn " SMALL " --jobs 1 -o film && "
     "\"$octreel\" record --keys wds " SMALL " --jobs 1 -o other && "
     "\"$octreel\" record --keys wdn " SMALL " --jobs 1 --ticks 0:2 -o chunks && "
@@ -58,6 +60,7 @@ static const struct {
     {"verify-json", "verify --json film"},
     {"inspect", "inspect points.xyz " SMALL " -o tree.png"},
     {"inspect-json", "inspect points.xyz " SMALL " --json -o tree.png"},
+    {"inspect-classes", "inspect classes.ply --json"},
     {"diff", "diff film other"},
     {"diff-reports", "diff film other --json --junit diff.xml --markdown diff.md -o evidence"},
     {"digest", "digest other -o new.digests"},

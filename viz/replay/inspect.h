@@ -17,6 +17,7 @@ typedef struct inspection {
     size_t refused;          /* points refused by a full leaf, under OCTREE_REFUSE */
     size_t outside;          /* points outside the world */
     point_values values;     /* of the cloud, by the ids of the tree */
+    size_t *classes;         /* points of each class that there can be; null: none has one */
     unsigned color_full;     /* as in cloud.h */
     const char *decided;
     size_t beyond[POINT_VALUE_KINDS];
@@ -43,6 +44,9 @@ void inspect_print_node(const octree_node *node, const char *name, bool json, FI
 void inspect_print_numbers(const double *values, size_t count, FILE *out);
 void inspect_print_point(const octree_point *point, const double *distance, FILE *out);
 void inspect_write_point(json_writer *w, const octree_point *point, const double *distance);
+
+/* Count the points of each class. False when there is no memory. */
+bool inspect_count_classes(inspection *i);
 
 /* What the points have beside their positions: a line or two; and as a member of an object. Nothing where they have
  * nothing. */

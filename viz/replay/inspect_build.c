@@ -132,6 +132,15 @@ static octree_status insert_all(cloud *c, const octree_def *def, inspect_progres
     return status;
 }
 
+static void take_values(cloud *c, inspection *result)
+{
+    result->values = c->values;
+    c->values = (point_values){0};
+    result->color_full = c->color_full;
+    result->decided = c->decided;
+    memcpy(result->beyond, c->beyond, sizeof c->beyond);
+}
+
 bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, void *context, inspection *result,
                    octreel_error *error)
 {
@@ -142,13 +151,11 @@ bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, 
     if (status == OCTREE_OK)
         status = insert_all(c, def, progress, context, result);
     if (status == OCTREE_OK) {
-        result->values = c->values;
-        c->values = (point_values){0};
-        result->color_full = c->color_full;
-        result->decided = c->decided;
-        memcpy(result->beyond, c->beyond, sizeof c->beyond);
-        return true;
+        take_values(c, result);
+        status = inspect_count_classes(result) ? OCTREE_OK : OCTREE_NO_MEMORY;
     }
+    if (status == OCTREE_OK)
+        return true;
     inspect_release(result);
     return error_set(error, "the tree cannot be made: %s", octree_status_text(status));
 }
@@ -158,4 +165,6 @@ void inspect_release(inspection *i)
     octree_destroy(i->tree);
     i->tree = NULL;
     point_values_release(&i->values);
+    free(i->classes);
+    i->classes = NULL;
 }

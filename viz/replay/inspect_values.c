@@ -13,7 +13,6 @@ enum { CLASSES = UINT16_MAX + 1, CLASSES_LISTED = 16 };
 typedef struct value_summary {
     size_t counts[POINT_VALUE_KINDS]; /* points that have one */
     float least, most;                /* intensities */
-    size_t *classes;                  /* points of each of CLASSES; null: no memory, or there are none */
 } value_summary;
 
 static void count_intensity(value_summary *s, float intensity)
@@ -27,16 +26,24 @@ static void count_intensity(value_summary *s, float intensity)
 
 static value_summary sum_up(const point_values *v)
 {
-    value_summary s = {.classes = v->classes ? calloc(CLASSES, sizeof *s.classes) : NULL};
+    value_summary s = {0};
     for (size_t row = 0; row < v->count; row++) {
         for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
             s.counts[kind] += point_values_has(v, row, (point_value_kind)kind);
         if (point_values_has(v, row, POINT_INTENSITY))
             count_intensity(&s, v->intensities[row]);
-        if (s.classes && point_values_has(v, row, POINT_CLASS))
-            s.classes[v->classes[row]]++;
     }
     return s;
+}
+
+bool inspect_count_classes(inspection *i)
+{
+    const point_values *v = &i->values;
+    i->classes = v->classes ? calloc(CLASSES, sizeof *i->classes) : NULL;
+    for (size_t row = 0; i->classes && row < v->count; row++)
+        if (point_values_has(v, row, POINT_CLASS))
+            i->classes[v->classes[row]]++;
+    return i->classes || !v->classes;
 }
 
 static void print_classes(const size_t *classes, FILE *out)
@@ -60,10 +67,8 @@ static void print_kind(const inspection *i, const value_summary *s, point_value_
     else if (kind == POINT_INTENSITY)
         fprintf(out, "intensity %s to %s", number_text((double)s->least, 6, least),
                 number_text((double)s->most, 6, most));
-    else if (s->classes)
-        print_classes(s->classes, out);
     else
-        fputs("classes", out);
+        print_classes(i->classes, out);
     if (s->counts[kind] < i->points)
         fprintf(out, " of %zu point%s", s->counts[kind], plural(s->counts[kind]));
 }
@@ -86,18 +91,17 @@ void inspect_print_values(const inspection *i, FILE *out)
         fprintf(out, "  columns   %s\n", i->decided);
     if (*cloud_beyond_text(i->beyond, beyond))
         fprintf(out, "  but       %s\n", beyond);
-    free(s.classes);
 }
 
-static void write_classes(const value_summary *s, json_writer *w)
+static void write_classes(const size_t *classes, json_writer *w)
 {
     json_member_begin_array(w, "classes");
-    for (int i = 0; s->classes && i < CLASSES; i++) {
-        if (s->classes[i] == 0)
+    for (int i = 0; i < CLASSES; i++) {
+        if (classes[i] == 0)
             continue;
         json_write_begin_object(w);
         json_member_integer(w, "class", (uint64_t)i);
-        json_member_integer(w, "points", s->classes[i]);
+        json_member_integer(w, "points", classes[i]);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -127,7 +131,7 @@ void inspect_write_values(const inspection *i, json_writer *w)
     if (s.counts[POINT_CLASS]) {
         json_member_begin_object(w, "class");
         json_member_integer(w, "points", s.counts[POINT_CLASS]);
-        write_classes(&s, w);
+        write_classes(i->classes, w);
         json_write_end_object(w);
     }
     if (i->decided)
@@ -135,5 +139,4 @@ void inspect_write_values(const inspection *i, json_writer *w)
     if (*cloud_beyond_text(i->beyond, beyond))
         json_member_text(w, "left_out", beyond);
     json_write_end_object(w);
-    free(s.classes);
 }
