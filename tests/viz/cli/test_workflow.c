@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_workflow.c - the workflow of this project: its lines are run as they stand there, on a machine where what
+/* test_workflow.c - the workflows of this project: their lines are run as they stand there, on a machine where what
  * installs, builds and tests only writes down that it was called. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,21 +12,22 @@
 #include "yaml.h"
 
 #define WORKFLOW OCTREEL_ROOT "/.github/workflows/ci.yml"
+#define HUNT OCTREEL_ROOT "/.github/workflows/hunt.yml"
 #define ACTIONS OCTREEL_ROOT "/.github/actions"
 
 typedef struct machine {
     void *folder; /* a temp_folder */
-    json_t *jobs;
-    char *done; /* a line for each call */
+    json_t *jobs; /* of both workflows */
+    char *done;   /* a line for each call */
 } machine;
 
 /* Programs that are made up. octreel is one, and where something is built. */
 static const char fakes[] =
-    "for name in apt-cache apt-get cmake ctest dpkg-query lintian octreel setup; do\n"
+    "for name in apt-cache apt-get cmake ctest dpkg-query hunt lintian octreel octreel-failure-campaign setup; do\n"
     "    printf '#!/bin/sh\\necho \"%s $*\" >>\"%s/done\"\\n' $name \"$PWD\" >bin/$name\n"
     "    chmod +x bin/$name\n"
     "done\n"
-    "printf 'mkdir -p build/bin\\ncp \"%s/bin/octreel\" build/bin\\n' \"$PWD\" >>bin/setup\n"
+    "printf 'mkdir -p build/bin\\ncp \"%s/bin/octreel\"* build/bin\\n' \"$PWD\" >>bin/setup\n"
     "printf 'for a; do case $a in --markdown=*) echo same >\"${a#*=}\" ;; esac; done\\n' >>bin/octreel\n"
     "printf 'echo install ok installed\\n' >>bin/dpkg-query\n";
 
@@ -36,9 +37,11 @@ static int prepare_machine(void **state)
     *state = m;
     if (m == NULL || temp_folder_make(&m->folder) != 0)
         return -1;
-    json_t *workflow = yaml_read_file(WORKFLOW);
+    json_t *workflow = yaml_read_file(WORKFLOW), *hunt = yaml_read_file(HUNT);
     m->jobs = json_incref(json_object_get(workflow, "jobs"));
+    assert_int_equal(json_object_update_missing(m->jobs, json_object_get(hunt, "jobs")), 0);
     json_decref(workflow);
+    json_decref(hunt);
     const shell_word root = shell_quote(OCTREEL_ROOT);
     file_write_text(place_in(m->folder, "fakes").path, fakes);
     command_result result = run_script("cd %s && mkdir -p bin viz tests && cp -R %s/viz/setup %s/viz/demo viz && "
@@ -76,6 +79,7 @@ static void run_job(machine *m, const char *name, const char *key, const char *v
     workflow w;
     workflow_open(&w, m->folder, ACTIONS);
     workflow_set(&w, "strategy.job-index", "0");
+    workflow_set(&w, "github.run_id", "1");
     snprintf(expression, sizeof expression, "matrix.%s", key);
     workflow_set(&w, expression, value);
     remove(place_in(m->folder, "done").path);
@@ -154,6 +158,32 @@ static void packages_are_made_and_judged_and_installed(void **state)
     assert_called(m, "octreel record ");
 }
 
+/* Each fuzzer has a job. */
+static void each_fuzzer_hunts_and_each_failure_is_tried(void **state)
+{
+    machine *m = *state;
+    char all[512] = "", line[128];
+    size_t i;
+    const json_t *name, *strategy = json_object_get(json_object_get(m->jobs, "fuzz"), "strategy");
+    fake_setup(m);
+    command_result made =
+        run_script("cd %s && mkdir tests/fuzz && mv bin/hunt tests/fuzz", ((temp_folder *)m->folder)->name);
+    assert_done(&made);
+    command_release(&made);
+    json_array_foreach(json_object_get(json_object_get(strategy, "matrix"), "fuzzer"), i, name)
+    {
+        run_job(m, "fuzz", "fuzzer", json_string_value(name));
+        snprintf(line, sizeof line, "hunt --minutes 300 %s\n", json_string_value(name));
+        assert_called(m, line);
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s.c\n", json_string_value(name));
+    }
+    command_result there = run_script("cd %s/tests/fuzz && ls fuzz_*.c", shell_quote(OCTREEL_ROOT).text);
+    assert_string_equal(there.out, all);
+    command_release(&there);
+    run_job(m, "failures", "none", "");
+    assert_called(m, "octreel-failure-campaign");
+}
+
 /* What somebody names comes to a shell in variables, and no job may do more than read. */
 static void steps_hold_no_expressions_in_their_lines(void **state)
 {
@@ -172,11 +202,13 @@ static void steps_hold_no_expressions_in_their_lines(void **state)
         }
     }
     json_decref(action);
-    json_t *workflow = yaml_read_file(WORKFLOW);
-    const json_t *permissions = json_object_get(workflow, "permissions");
-    assert_int_equal(json_object_size(permissions), 1);
-    assert_string_equal(json_string_value(json_object_get(permissions, "contents")), "read");
-    json_decref(workflow);
+    for (int hunt = 0; hunt < 2; hunt++) {
+        json_t *workflow = yaml_read_file(hunt ? HUNT : WORKFLOW);
+        const json_t *permissions = json_object_get(workflow, "permissions");
+        assert_int_equal(json_object_size(permissions), 1);
+        assert_string_equal(json_string_value(json_object_get(permissions, "contents")), "read");
+        json_decref(workflow);
+    }
 }
 
 /* PyYAML takes every scalar for a text here. */
@@ -209,6 +241,7 @@ static void files_are_read_as_others_read_them(void **state)
     assert_done(&result);
     command_release(&result);
     assert_others_read_the_same(m, WORKFLOW);
+    assert_others_read_the_same(m, HUNT);
     assert_others_read_the_same(m, ACTIONS "/diff/action.yml");
     assert_others_read_the_same(m, job.path);
 }
@@ -222,6 +255,7 @@ int main(void)
         ON_MACHINE(each_part_of_all_tests_is_a_job),
         ON_MACHINE(page_is_filmed_and_compared),
         ON_MACHINE(packages_are_made_and_judged_and_installed),
+        ON_MACHINE(each_fuzzer_hunts_and_each_failure_is_tried),
         ON_MACHINE(steps_hold_no_expressions_in_their_lines),
         ON_MACHINE(files_are_read_as_others_read_them),
     };
