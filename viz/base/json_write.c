@@ -9,7 +9,7 @@
 static void break_line(json_writer *writer)
 {
     if (writer->newline)
-        putc('\n', writer->out);
+        putc_unlocked('\n', writer->out);
     writer->newline = false;
 }
 
@@ -17,7 +17,9 @@ static void break_line(json_writer *writer)
 static void separate(json_writer *writer)
 {
     if (writer->comma)
-        fputs(writer->newline ? "," : ", ", writer->out);
+        putc_unlocked(',', writer->out);
+    if (writer->comma && !writer->newline)
+        putc_unlocked(' ', writer->out);
     writer->comma = false;
     break_line(writer);
 }
@@ -25,13 +27,13 @@ static void separate(json_writer *writer)
 static void begin(json_writer *writer, char bracket)
 {
     separate(writer);
-    putc(bracket, writer->out);
+    putc_unlocked(bracket, writer->out);
 }
 
 static void end(json_writer *writer, char bracket)
 {
     break_line(writer);
-    putc(bracket, writer->out);
+    putc_unlocked(bracket, writer->out);
     writer->comma = true;
 }
 
@@ -125,7 +127,7 @@ static size_t count_plain(const unsigned char *at)
 static void write_quoted(FILE *out, const char *text)
 {
     const unsigned char *at = (const unsigned char *)text;
-    putc('"', out);
+    putc_unlocked('"', out);
     while (*at) {
         const size_t plain = count_plain(at);
         fwrite(at, 1, plain, out);
@@ -142,7 +144,7 @@ static void write_quoted(FILE *out, const char *text)
             fputs(UTF8_REPLACEMENT, out);
         at += length > 0 ? length : 1;
     }
-    putc('"', out);
+    putc_unlocked('"', out);
 }
 
 void json_write_key(json_writer *writer, const char *key)
@@ -266,7 +268,7 @@ void json_write_newline(json_writer *writer)
 
 void json_write_end_line(json_writer *writer)
 {
-    putc('\n', writer->out);
+    putc_unlocked('\n', writer->out);
     writer->comma = false;
     writer->newline = false;
 }

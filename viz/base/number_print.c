@@ -11,112 +11,83 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The digits of a number, "d.ddd..." times a power of ten. */
-typedef struct printed {
-    char digits[DBL_DECIMAL_DIG];
-    int count, exponent;
-    bool negative;
-} printed;
-
-/* As %g does where it needs no exponent. */
-static size_t write_digits(const printed *d, char text[NUMBER_TEXT])
-{
-    int count = d->count;
-    char *to = text;
-    while (count > 1 && d->digits[count - 1] == '0')
-        count--;
-    const int before = d->exponent < 0 ? 0 : d->exponent + 1;
-    if (d->negative)
-        *to++ = '-';
-    if (before == 0)
-        *to++ = '0';
-    for (int i = 0; i < before; i++)
-        *to++ = i < count ? d->digits[i] : '0';
-    if (count > before)
-        *to++ = '.';
-    for (int i = -1; before == 0 && i > d->exponent; i--)
-        *to++ = '0';
-    for (int i = before; i < count; i++)
-        *to++ = d->digits[i];
-    *to = 0;
-    return (size_t)(to - text);
-}
-
-/* One more in the last place. */
-static void round_up(printed *d)
-{
-    int at = d->count - 1;
-    for (; at >= 0 && d->digits[at] == '9'; at--)
-        d->digits[at] = '0';
-    if (at >= 0) {
-        d->digits[at]++;
-        return;
-    }
-    d->digits[0] = '1'; /* 9.99 became 10.0 */
-    d->exponent++;
-}
-
 /* ---- By integers -------------------------------------------------------------------------------------------- */
 
 enum {
     FEWEST_DIGITS = 15, /* any so many survive a double */
-    FRACTION_BITS = 60, /* a fixed point, below which four bits are free for a digit */
+    HALF_BITS = 30,     /* of a fraction, so that a half takes nine digits at a time in 64 bits */
+    FRACTION_BITS = 2 * HALF_BITS,
+    MOST_AT_ONCE = 9,
 };
 
 #define FRACTION_ONE (UINT64_C(1) << FRACTION_BITS)
+#define HALF_MASK ((UINT64_C(1) << HALF_BITS) - 1)
 
 /* From the first on, half of a number's last bit is above the last of the fraction's; up to the other, the 15th digit
  * lies after the point. */
 #define SMALLEST_PLAIN 0x1p-7
 #define LARGEST_PLAIN 1e14
 
-/* A number between them, exactly: the digits that were taken so far, and what they leave. */
+static const uint64_t powers[] = {UINT64_C(1),
+                                  UINT64_C(10),
+                                  UINT64_C(100),
+                                  UINT64_C(1000),
+                                  UINT64_C(10000),
+                                  UINT64_C(100000),
+                                  UINT64_C(1000000),
+                                  UINT64_C(10000000),
+                                  UINT64_C(100000000),
+                                  UINT64_C(1000000000),
+                                  UINT64_C(10000000000),
+                                  UINT64_C(100000000000),
+                                  UINT64_C(1000000000000),
+                                  UINT64_C(10000000000000),
+                                  UINT64_C(100000000000000)};
+
+/* A number between them, exactly: the digits that were taken so far, as one number, and what they leave. */
 typedef struct expansion {
-    printed taken;
+    uint64_t digits;
+    int count;          /* of them that are significant, */
+    int places;         /* and that stand after the point */
     uint64_t rest;      /* of the last digit's unit, in parts of FRACTION_ONE */
     uint64_t half_last; /* half of what the number's last bit is worth, in the same */
     bool even;          /* that bit is not set: halfway reads as this number */
 } expansion;
 
-static expansion expand(double value)
+static expansion expand(double magnitude)
 {
     uint64_t bits;
-    const double magnitude = fabs(value);
     memcpy(&bits, &magnitude, sizeof bits);
     const int exponent = (int)(bits >> (DBL_MANT_DIG - 1)) - (DBL_MAX_EXP - 1);
-    uint64_t whole = (uint64_t)magnitude;
-    expansion x = {.taken = {.negative = value < 0, .exponent = -1},
+    const uint64_t whole = (uint64_t)magnitude;
+    expansion x = {.digits = whole,
                    .rest = (uint64_t)((magnitude - (double)whole) * (double)FRACTION_ONE),
                    .half_last = UINT64_C(1) << (exponent + FRACTION_BITS - DBL_MANT_DIG),
                    .even = bits % 2 == 0};
-    char digits[20];
-    int count = 0;
-    for (; whole > 0; whole /= 10)
-        digits[count++] = (char)('0' + whole % 10);
-    x.taken.exponent += count;
-    while (count > 0)
-        x.taken.digits[x.taken.count++] = digits[--count];
+    if (whole == 0)
+        x.count = magnitude < 0.01 ? -2 : magnitude < 0.1 ? -1 : 0; /* zeros after the point are not significant */
+    else
+        while (x.count < FEWEST_DIGITS && powers[x.count] <= whole)
+            x.count++;
     return x;
 }
 
-/* Take the next digit after the point; zeros before the first are not significant. */
-static void take_digit(expansion *x)
+/* Take the next digits after the point. */
+static void take_digits(expansion *x, int count)
 {
-    x->rest *= 10;
-    x->half_last *= 10;
-    const unsigned digit = (unsigned)(x->rest >> FRACTION_BITS);
-    x->rest &= FRACTION_ONE - 1;
-    if (x->taken.count == 0 && digit == 0)
-        x->taken.exponent--;
-    else
-        x->taken.digits[x->taken.count++] = (char)('0' + digit);
+    const uint64_t power = powers[count], low = (x->rest & HALF_MASK) * power,
+                   high = (x->rest >> HALF_BITS) * power + (low >> HALF_BITS);
+    x->rest = (high & HALF_MASK) << HALF_BITS | (low & HALF_MASK);
+    x->half_last *= power;
+    x->digits = x->digits * power + (high >> HALF_BITS);
+    x->count += count;
+    x->places += count;
 }
 
 /* Whether what was taken is rounded up; halfway to the even digit, as printf does. */
 static bool goes_up(const expansion *x)
 {
-    const bool odd = (x->taken.digits[x->taken.count - 1] - '0') % 2 != 0;
-    return x->rest > FRACTION_ONE / 2 || (x->rest == FRACTION_ONE / 2 && odd);
+    return x->rest > FRACTION_ONE / 2 || (x->rest == FRACTION_ONE / 2 && x->digits % 2 != 0);
 }
 
 /* Whether what was taken, rounded, reads back: it is no farther off than half the last bit. It does not
@@ -127,24 +98,60 @@ static bool reads_back(const expansion *x)
     return off < x->half_last || (off == x->half_last && x->even);
 }
 
-/* False for numbers that are too large or too small for it. */
-static bool print_exactly(double value, printed *shortest)
+/* As few digits as do, without zeros at their end. */
+static expansion shorten(double magnitude)
 {
-    if (value == 0) {
-        *shortest = (printed){.digits = "0", .count = 1, .negative = signbit(value)};
-        return true;
+    expansion x = expand(magnitude);
+    while (x.count < FEWEST_DIGITS) {
+        const int left = FEWEST_DIGITS - x.count;
+        take_digits(&x, left < MOST_AT_ONCE ? left : MOST_AT_ONCE);
     }
-    if (!(fabs(value) >= SMALLEST_PLAIN && fabs(value) < LARGEST_PLAIN))
-        return false;
-    expansion x = expand(value);
-    while (x.taken.count < FEWEST_DIGITS)
-        take_digit(&x);
-    while (x.taken.count < DBL_DECIMAL_DIG && !reads_back(&x))
-        take_digit(&x);
-    *shortest = x.taken;
-    if (goes_up(&x))
-        round_up(shortest);
-    return true;
+    while (x.count < DBL_DECIMAL_DIG && !reads_back(&x))
+        take_digits(&x, 1);
+    x.digits += goes_up(&x);
+    for (; x.places > 0 && x.digits % 10 == 0; x.places--)
+        x.digits /= 10;
+    return x;
+}
+
+/* The last so many digits, which end at `end`, two by two. Returns where they begin. */
+static char *put_digits(char *end, uint64_t *digits, int count)
+{
+    static const char pairs[] = "00010203040506070809101112131415161718192021222324252627282930313233343536373839"
+                                "40414243444546474849505152535455565758596061626364656667686970717273747576777879"
+                                "8081828384858687888990919293949596979899";
+    for (; count > 1; count -= 2, *digits /= 100)
+        memcpy(end -= 2, pairs + *digits % 100 * 2, 2);
+    if (count > 0) {
+        *--end = (char)('0' + *digits % 10);
+        *digits /= 10;
+    }
+    return end;
+}
+
+/* As %g does where it needs no exponent. 0 for numbers that are too large or too small for it. */
+static size_t print_exactly(double value, char text[NUMBER_TEXT])
+{
+    expansion x = {.digits = 0};
+    const double magnitude = fabs(value);
+    if (value != 0 && !(magnitude >= SMALLEST_PLAIN && magnitude < LARGEST_PLAIN))
+        return 0;
+    if (value != 0)
+        x = shorten(magnitude);
+    char room[NUMBER_TEXT], *const end = room + sizeof room, *at = end;
+    if (x.places > 0) {
+        at = put_digits(at, &x.digits, x.places);
+        *--at = '.';
+    }
+    do
+        at = put_digits(at, &x.digits, 1);
+    while (x.digits > 0);
+    if (signbit(value))
+        *--at = '-';
+    const size_t size = (size_t)(end - at);
+    memcpy(text, at, size);
+    text[size] = 0;
+    return size;
 }
 
 /* ---- By printf ---------------------------------------------------------------------------------------------- */
@@ -163,9 +170,9 @@ static size_t restore_point(char *text)
 
 size_t number_print(double value, char text[NUMBER_TEXT])
 {
-    printed shortest;
-    if (print_exactly(value, &shortest))
-        return write_digits(&shortest, text);
+    const size_t size = print_exactly(value, text);
+    if (size > 0)
+        return size;
     for (int digits = FEWEST_DIGITS; digits < DBL_DECIMAL_DIG; digits++) {
         snprintf(text, NUMBER_TEXT, "%.*g", digits, value);
         if (strtod(text, NULL) == value)

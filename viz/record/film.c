@@ -5,10 +5,12 @@
 #include "frame_file.h"
 #include "image_digest.h"
 #include "jobs.h"
+#include "parallel.h"
 #include "png_write.h"
 #include "recording.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 
 /* A process takes as long to start as some ten small frames take to be filmed. */
 #define FRAMES_WORTH_A_JOB 16
@@ -65,6 +67,38 @@ film_start film_count_start(const octree_session *session, const octree_tick *ti
     return start;
 }
 
+/* What a session needs before its first tick, where it is large: both take about as long. */
+enum { OPEN_PLAYBACK, MAKE_BYTES, PREPARATIONS };
+
+typedef struct preparation {
+    recording *recording;
+    playback *playback;
+    bool done[PREPARATIONS];
+    octreel_error errors[PREPARATIONS];
+} preparation;
+
+static void prepare_part(size_t part, void *context)
+{
+    preparation *to = context;
+    recording *r = to->recording;
+    const film_options *o = r->options;
+    to->done[part] = part == OPEN_PLAYBACK
+                         ? playback_open(to->playback, r->session, o->values, &o->view, &to->errors[part])
+                         : make_session_bytes(r->session, o->values, &r->bytes, &to->errors[part]);
+}
+
+static bool prepare(recording *r, playback *p, octreel_error *error)
+{
+    preparation to = {.recording = r, .playback = p};
+    parallel_for(PREPARATIONS, prepare_part, &to);
+    for (int part = 0; part < PREPARATIONS; part++)
+        if (!to.done[part]) {
+            *error = to.errors[part];
+            return false;
+        }
+    return true;
+}
+
 bool film_session(const octree_session *session, const film_options *options, film_summary *summary,
                   octreel_error *error)
 {
@@ -76,11 +110,12 @@ bool film_session(const octree_session *session, const film_options *options, fi
     summary->total = r.share.last - r.share.first;
     const uint64_t frames = count_frames(&r.share, options->every);
     const unsigned jobs = options->jobs < frames ? options->jobs : (unsigned)frames;
-    bool ok = playback_open(&p, session, options->values, &options->view, error);
+    bool ok = prepare(&r, &p, error);
     if (ok)
         summary->start = film_count_start(session, octree_game_tick(p.game));
     ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_alone(&r, &p, error));
     playback_close(&p);
+    free(r.bytes.bytes);
     return ok;
 }
 

@@ -2,7 +2,6 @@
 /* recording.c - a recording while it is made, by one process or several. */
 #include "recording.h"
 #include "page.h"
-#include "folder_files.h"
 
 #include <stdlib.h>
 
@@ -28,14 +27,13 @@ bool recording_film(const recording *r, playback *p, octreel_error *error)
 /* What is known of a recording before its first tick. */
 typedef struct beginning {
     const view *view;
-    renderer_info info;    /* where there are frames */
-    session_bytes session; /* no bytes: it is not known yet */
+    renderer_info info; /* where there are frames */
 } beginning;
 
 static bool write_files(const recording *r, const folder_place *place, const beginning *b, octreel_error *error)
 {
     return write_recording_file(place, b->view, r->options->every, error) &&
-           (!b->session.bytes || write_session_file(place, &b->session, error)) &&
+           (!r->bytes.bytes || write_session_file(place, &r->bytes, error)) &&
            (r->options->every == 0 || write_renderer_file(place, &b->info, error));
 }
 
@@ -86,21 +84,19 @@ static bool begin_shared(recording *r, const beginning *b, octreel_error *error)
     const folder_place dry_run = {.folder = o->folder, .dry_run = true},
                        place = {.folder = o->folder, .writer = chunk_name(r->share.first, r->share.last, writer)};
     return folder_make(o->folder, error) && (o->resume || check_new_chunk(r, error)) &&
-           write_files(r, &dry_run, b, error) &&
-           check_resumable(o->folder, b->session.digest, ticks, o->every, error) && write_files(r, &place, b, error) &&
-           open_log(r, error);
+           write_files(r, &dry_run, b, error) && check_resumable(o->folder, r->bytes.digest, ticks, o->every, error) &&
+           write_files(r, &place, b, error) && open_log(r, error);
 }
 
 bool recording_begin(recording *r, playback *p, octreel_error *error)
 {
     beginning b = {.view = &p->view};
-    if (r->session && !make_session_bytes(r->session, r->options->values, &b.session, error))
-        return false;
     if (r->options->every > 0)
         b.info = renderer_about(p->picture.renderer);
-    p->session_digest = b.session.digest;
+    p->session_digest = r->bytes.digest;
     const bool begun = (is_chunk(r) || r->options->resume ? begin_shared : begin_alone)(r, &b, error);
-    free(b.session.bytes);
+    free(r->bytes.bytes);
+    r->bytes.bytes = NULL;
     return begun;
 }
 

@@ -5,6 +5,7 @@
 #define RECORD_RECORDING_H
 
 #include "film_options.h"
+#include "folder_files.h"
 #include "playback.h"
 #include "replacement.h"
 #include "tick_log.h"
@@ -13,7 +14,8 @@ typedef struct recording {
     const film_options *options;
     film_summary *summary;
     film_share share;              /* the ticks that there are to record */
-    const octree_session *session; /* null where it is not known yet */
+    const octree_session *session; /* null where it is not known yet, */
+    session_bytes bytes;           /* without bytes then */
     tick_log log;
     replacement replaced; /* until a tick is filmed */
 } recording;
@@ -22,7 +24,8 @@ typedef struct recording {
 bool recording_film(const recording *r, playback *p, octreel_error *error);
 
 /* Make the folder, with what is known before the first tick of that playback; a session that is not known yet is not
- * written. Sets p->session_digest. Where it fails nothing is left but what was there. */
+ * written, and of one that is the bytes are released. Sets p->session_digest. Where it fails nothing is left but what
+ * was there. */
 bool recording_begin(recording *r, playback *p, octreel_error *error);
 
 /* Add the next tick: a film_sink, whose context is the recording. */

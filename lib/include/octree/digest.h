@@ -34,13 +34,16 @@ static inline uint64_t octree_digest_double(uint64_t digest, double value)
 static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, size_t size)
 {
     const unsigned char *at = (const unsigned char *)bytes;
-    for (size_t i = 0; i < size; i += 8) {
-        uint64_t word = 0;
-        for (size_t j = 0; j < 8 && i + j < size; j++)
-            word |= (uint64_t)at[i + j] << (8 * j);
+    for (; size >= 8; at += 8, size -= 8) { /* one load, where the machine has that order */
+        const uint64_t word = (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
+                              (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 | (uint64_t)at[6] << 48 |
+                              (uint64_t)at[7] << 56;
         digest = octree_digest_word(digest, word);
     }
-    return digest;
+    uint64_t rest = 0;
+    for (size_t i = 0; i < size; i++)
+        rest |= (uint64_t)at[i] << (8 * i);
+    return size > 0 ? octree_digest_word(digest, rest) : digest;
 }
 
 /* Add bytes as words, then their number. */
