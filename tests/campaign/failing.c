@@ -3,9 +3,10 @@
  * thread from the n-th on.
  *
  * FAIL_MEMORY, FAIL_CALL or FAIL_THREAD is n, and FAIL_ERROR the errno of a call. What fails makes the file FAILED,
- * with the calls that led to it. An allocation or call is the program's own where the first code on the way to it that
- * is not of HELPERS is the program's: what the C library, libpng and jansson need for it counts, and what Mesa and the
- * loader of libraries need does not, which end a program where they please. A program that hangs is ended.
+ * with the calls that led to it. The file FAIL_SITES gets a line for each that is led to as none before it was, with
+ * its number. An allocation or call is the program's own where the first code on the way to it that is not of HELPERS
+ * is the program's: what the C library, libpng and jansson need for it counts, and what Mesa and the loader of
+ * libraries need does not, which end a program where they please. A program that hangs is ended.
  *
  * A stream whose transfer fails is given another file below it, which takes or gives nothing: what was written before
  * is there, what is still in its buffer is lost, and whoever closes it learns of it, as on a full disk.
@@ -31,7 +32,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { CALLS = 64, PAGES = 4096, PATIENCE = 60 /* seconds */ };
+enum { CALLS = 64, PAGES = 4096, SITES = 65536, SITE_CALLS = 8, PATIENCE = 60 /* seconds */ };
 
 static const char *const HELPERS[] = {"libc.", "libm.", "libpng", "libz.", "libjansson", "liblzf", "failing."};
 static const char *const OWN[] = {"octreel", "liboctree"}; /* how names of the program's own files begin */
@@ -47,7 +48,7 @@ typedef struct nth {
 
 static nth memory, call, thread = {.all_later = true};
 static int call_error = EIO;
-static const char *failed;
+static const char *failed, *sites;
 static bool ready;
 static _Thread_local bool inside;
 
@@ -115,6 +116,22 @@ static void note(void)
     close(file);
 }
 
+/* Of two sites whose hashes begin alike the second is missed. */
+static void note_site(unsigned long number)
+{
+    static atomic_bool known[SITES];
+    void *calls[SITE_CALLS];
+    uint64_t hash = 0;
+    const int count = backtrace(calls, SITE_CALLS);
+    for (int i = 0; i < count; i++)
+        hash = (hash ^ (uintptr_t)calls[i]) * UINT64_C(0x9e3779b97f4a7c15);
+    const int file = atomic_exchange(&known[hash >> 48], true) ? -1 : open(sites, O_WRONLY | O_CREAT | O_APPEND, 0666);
+    if (file < 0)
+        return;
+    dprintf(file, "%lu\n", number);
+    close(file);
+}
+
 /* `caller` null: whoever asks counts. */
 static bool fails(nth *what, const void *caller)
 {
@@ -125,6 +142,8 @@ static bool fails(nth *what, const void *caller)
     const bool now = number == what->at || (what->all_later && number > what->at);
     if (now)
         note();
+    else if (number > 0 && sites)
+        note_site(number);
     inside = false;
     if (now)
         errno = what == &call ? call_error : ENOMEM;
@@ -142,6 +161,7 @@ __attribute__((constructor)) static void prepare(void)
     void *calls[1];
     backtrace(calls, 1); /* it allocates once */
     failed = getenv("FAILED");
+    sites = getenv("FAIL_SITES");
     memory.at = read_number("FAIL_MEMORY");
     thread.at = read_number("FAIL_THREAD");
     call.at = read_number("FAIL_CALL");
@@ -149,6 +169,12 @@ __attribute__((constructor)) static void prepare(void)
         call_error = (int)read_number("FAIL_ERROR");
     alarm(PATIENCE);
     ready = true;
+}
+
+/* What comes is not the program's: tests/support/program/coverage_end.c calls it. */
+void failing_end(void)
+{
+    ready = false;
 }
 
 /* The function of that name that would be called without this file. */

@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <getopt.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,18 +89,23 @@ static const struct family {
 
 enum { FAMILIES = sizeof families / sizeof families[0] };
 
-/* Of the command line: of all that can fail, from the first on every so many-th. */
+/* Of the command line: of all that can fail, from the first on every so many-th; or of those that come by the same
+ * calls the first, by one error. */
 static struct {
     uint64_t first, every;
     const char *only, *of; /* command and family; null: all */
-} asked = {1, 1, NULL, NULL};
+    bool sites;
+} asked = {1, 1, NULL, NULL, false};
 
 static void read_options(int argc, char **argv)
 {
-    static const struct option known[] = {
-        {"first", required_argument, NULL, 'f'},   {"every", required_argument, NULL, 'e'},
-        {"command", required_argument, NULL, 'c'}, {"of", required_argument, NULL, 'o'},
-        {"help", no_argument, NULL, 'h'},          {0}};
+    static const struct option known[] = {{"first", required_argument, NULL, 'f'},
+                                          {"every", required_argument, NULL, 'e'},
+                                          {"command", required_argument, NULL, 'c'},
+                                          {"of", required_argument, NULL, 'o'},
+                                          {"sites", no_argument, NULL, 's'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
     for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
         switch (option) {
         case 'f':
@@ -114,10 +120,15 @@ static void read_options(int argc, char **argv)
         case 'o':
             asked.of = optarg;
             break;
+        case 's':
+            asked.sites = true;
+            break;
         case 'h':
-            puts("usage: octreel-failure-campaign [--of memory|calls] [--first N] [--every N] [--command NAME]\n"
+            puts("usage: octreel-failure-campaign [--of memory|calls] [--first N] [--every N | --sites] [--command "
+                 "NAME]\n"
                  "Fail the first, or N-th, allocation and call of the system of octreel's commands in turn, and of\n"
-                 "those behind it each, or each N-th. Exit status: 0 no findings, 1 findings, 2 trouble.");
+                 "those behind it each, or each N-th; or of those that come by the same calls one. Exit status: 0 no "
+                 "findings, 1 findings, 2 trouble.");
             for (size_t i = 0; i < COMMANDS; i++)
                 printf("  %-17s octreel %s\n", commands[i].name, commands[i].line);
             finish(EXIT_DONE);
@@ -130,14 +141,14 @@ static void read_options(int argc, char **argv)
 
 /* ---- One run --------------------------------------------------------------------------------------------------- */
 
-/* In "<folder>/run", a new copy of "<folder>/given", where the n-th of what the variable names fails; 0: nothing does.
- */
+/* In "<folder>/run", a new copy of "<folder>/given", where the n-th of what the variable names fails; 0: nothing does;
+ * ULONG_MAX: nor then, and "<folder>/sites" lists which is the first of its site. */
 static command_result run_one(const char *folder, const char *line, const char *variable, uint64_t n, int error)
 {
     return run_script(
-        "unset CI; cd %s && rm -rf run failed && cp -r given run && cd run && FAILED=../failed %s=%" PRIu64
+        "unset CI; cd %s && rm -rf run failed && cp -r given run && cd run && FAILED=../failed %s %s=%" PRIu64
         " FAIL_ERROR=%d LD_PRELOAD=../failing.so %s %s",
-        folder, variable, n, error, octreel_program(), line);
+        folder, n == ULONG_MAX ? "FAIL_SITES=../sites" : "", variable, n, error, octreel_program(), line);
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -268,6 +279,24 @@ static bool fail_one(const char *folder, size_t command, const struct family *fa
     return there;
 }
 
+/* Each site once, by one error after the other. Returns how many runs there were. */
+static size_t fail_sites(const char *folder, size_t command, const struct family *family, const command_result *without,
+                         size_t *findings)
+{
+    size_t runs = 0;
+    char path[600];
+    snprintf(path, sizeof path, "%s/sites", folder);
+    remove(path);
+    command_result counted = run_one(folder, commands[command].line, family->variable, ULONG_MAX, 0);
+    command_release(&counted);
+    char *sites = file_read(path, NULL), *end = sites;
+    for (uint64_t n; (n = strtoull(end, &end, 10)) > 0; runs++)
+        fail_one(folder, command, family, n, family->errors[(runs + command) % (size_t)family->error_count], without,
+                 findings);
+    free(sites);
+    return runs;
+}
+
 /* Returns how many were wrong. */
 static size_t fail_each(const char *folder, size_t command, const struct family *family)
 {
@@ -276,7 +305,9 @@ static size_t fail_each(const char *folder, size_t command, const struct family 
     const command_result kept = run_script("cd %s && rm -rf whole && mv run whole", folder);
     assert_int_equal(kept.status, 0);
     assert_true(without.status <= 1);
-    bool there = true;
+    bool there = !asked.sites;
+    if (asked.sites)
+        runs = fail_sites(folder, command, family, &without, &findings);
     for (uint64_t n = asked.first; n <= MOST && there; n += asked.every)
         for (int i = 0; i < family->error_count && there; i++, runs += there)
             there = fail_one(folder, command, family, n, family->errors[i], &without, &findings);

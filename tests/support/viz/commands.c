@@ -120,10 +120,13 @@ static bool leave_leaks(void)
 
 static bool set_limit(size_t bytes)
 {
-    const struct rlimit limit = {bytes, bytes};
+    struct rlimit limit;
     if (bytes == 0)
         return true;
     signal(SIGXFSZ, SIG_IGN); /* so that write() fails, as on a full disk */
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0)
+        return false;
+    limit.rlim_cur = bytes;
     return setrlimit(RLIMIT_FSIZE, &limit) == 0;
 }
 
